@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+# The builds of the plain C kernels, as listed in cpu/kernel.h: instruction set, lanes, precision,
+# arithmetic. Bundles wider than a register are there to compare bytes, not for speed, and are built at
+# -O1, which keeps gcc's compile time bounded.
+string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
+set(builds generic:1 generic:4 generic:8 generic:16)
+if(processor MATCHES "^(x86_64|amd64)$")
+    list(APPEND builds avx2:1 avx2:4 avx2:8 avx512:8 avx512:16)
+    target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
+endif()
+
+set(flags_generic "")
+set(flags_avx2 -mavx2 -mfma -mbmi2)
+set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma -mbmi2
+    -mprefer-vector-width=512)
+set(flags_strict -ffp-contract=off)
+set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
+set(wider_than_a_register generic:8:float generic:16:float generic:8:double generic:16:double
+    avx2:8:double avx512:16:double)
+
+foreach(build IN LISTS builds)
+    string(REPLACE ":" ";" parts ${build})
+    list(GET parts 0 set)
+    list(GET parts 1 lanes)
+    foreach(precision float double)
+        set(level -O3)
+        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE OR
+           CMAKE_BUILD_TYPE STREQUAL "Debug")
+            set(level -O1)
+        endif()
+        foreach(math strict fast)
+            set(name ${set}_${lanes}_${precision}_${math})
+            add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
+            target_compile_definitions(hedron_kernel_${name} PRIVATE
+                HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes}
+                HD_DOUBLE=$<STREQUAL:${precision},double>)
+            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_WARNINGS}
+                -Wno-unused-parameter -Wno-psabi -Wno-maybe-uninitialized ${level} ${flags_${set}} -fno-math-errno
+                -fno-trapping-math ${flags_${math}})
+            target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
+        endforeach()
+    endforeach()
+endforeach()

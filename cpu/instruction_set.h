@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* Which builds of the kernels this processor can run. */
+#ifndef HD_INSTRUCTION_SET_H
+#define HD_INSTRUCTION_SET_H
+
+#include "../src/backend.h"
+#include "kernel.h"
+
+typedef struct HdCpuBuild {
+    const char *instruction_set; /* "avx512", "avx2" or "generic" */
+    int lanes;
+    HdPrecision precision;
+    HdMath math;
+    HdCpuKernel *kernel;
+} HdCpuBuild;
+
+/* The best build with `lanes` lanes, one of 1, 4, 8 and 16; 0: as many as one register of the best
+   instruction set holds. There is always one. */
+const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math);
+
+const char *hd_cpu_best_instruction_set(void);
+
+/* The processor's name, for people. */
+void hd_cpu_name(char *name, int capacity);
+
+#endif

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "thread_pool.h"
+
+#include <fenv.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct HdThreadPool {
+    pthread_t *threads;
+    int thread_count;
+    pthread_mutex_t mutex;
+    pthread_cond_t work_given, work_done;
+    unsigned generation; /* counts the runs, so that a thread takes part in each once */
+    int busy;
+    bool ending;
+    atomic_int next;
+    int count;
+    void (*work)(void *context, int item);
+    void *context;
+};
+
+static void work_off(HdThreadPool *pool) {
+    for (;;) {
+        int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
+        if (item >= pool->count)
+            return;
+        pool->work(pool->context, item);
+    }
+}
+
+static void *thread_main(void *argument) {
+    HdThreadPool *pool = argument;
+    unsigned seen = 0;
+    /* The caller may have been started with denormals flushed to zero, which threads inherit. */
+    fesetenv(FE_DFL_ENV);
+    pthread_mutex_lock(&pool->mutex);
+    for (;;) {
+        while (!pool->ending && pool->generation == seen)
+            pthread_cond_wait(&pool->work_given, &pool->mutex);
+        if (pool->ending)
+            break;
+        seen = pool->generation;
+        pthread_mutex_unlock(&pool->mutex);
+        work_off(pool);
+        pthread_mutex_lock(&pool->mutex);
+        if (--pool->busy == 0)
+            pthread_cond_signal(&pool->work_done);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return NULL;
+}
+
+static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
+    pool->threads = calloc((size_t)threads, sizeof *pool->threads);
+    if (pool->threads == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
+    for (int i = 0; i < threads; i++) {
+        int code = pthread_create(&pool->threads[i], NULL, thread_main, pool);
+        if (code != 0)
+            return hd_fail(error, HD_FAILED, "cannot start thread %d of %d: %s", i + 1, threads,
+                           strerror(code));
+        pool->thread_count++;
+    }
+    return HD_OK;
+}
+
+HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) {
+    HdThreadPool *pool = calloc(1, sizeof *pool);
+    if (pool == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a pool of threads");
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->work_given, NULL);
+    pthread_cond_init(&pool->work_done, NULL);
+    HdStatus status = start_threads(pool, threads, error);
+    if (status != HD_OK)
+        hd_thread_pool_destroy(pool);
+    else
+        *out = pool;
+    return status;
+}
+
+void hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
+                        void *context) {
+    pthread_mutex_lock(&pool->mutex);
+    pool->count = count;
+    pool->work = work;
+    pool->context = context;
+    atomic_store(&pool->next, 0);
+    pool->busy = pool->thread_count;
+    pool->generation++;
+    pthread_cond_broadcast(&pool->work_given);
+    while (pool->busy > 0)
+        pthread_cond_wait(&pool->work_done, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+void hd_thread_pool_destroy(HdThreadPool *pool) {
+    if (pool == NULL)
+        return;
+    pthread_mutex_lock(&pool->mutex);
+    pool->ending = true;
+    pthread_cond_broadcast(&pool->work_given);
+    pthread_mutex_unlock(&pool->mutex);
+    for (int i = 0; i < pool->thread_count; i++)
+        pthread_join(pool->threads[i], NULL);
+    pthread_cond_destroy(&pool->work_done);
+    pthread_cond_destroy(&pool->work_given);
+    pthread_mutex_destroy(&pool->mutex);
+    free(pool->threads);
+    free(pool);
+}

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT */
+/* Direct light by Phong's model, and the coloured transmittance on its way. */
+#ifndef HD_LIGHTS_H
+#define HD_LIGHTS_H
+
+#include "surface.h"
+
+/* The lit points of a bundle. */
+typedef struct {
+    vint object;  /* what the points lie on */
+    vmask inside; /* light reaches the point from inside that solid */
+    vmask active;
+} LitPoints;
+
+/* Distances of the points to every plane of the scene, computed once for all lights. A point seen from
+   inside its own solid is inside, whatever rounding says. */
+FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
+                       vreal *heights) {
+    Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
+    for (int object = 0; object < header->object_count; object++) {
+        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
+        vmask own_inside = points->inside & eq_int(points->object, splat_int(object));
+        int first = objects[object].first_plane;
+        for (int k = first; k < first + objects[object].plane_count; k++) {
+            vreal height = plane_distance(planes + k, point);
+            heights[k] = pick(own_inside, lesser(height, splat(R(0.0))), height);
+        }
+    }
+}
+
+/* Lanes whose segment to the light crosses the floor. */
+FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_heights,
+                      const vreal *heights, const LitPoints *points) {
+    int first = objects[object].first_plane;
+    vreal zero = splat(R(0.0));
+    real light_height = light_heights[first];
+    if (light_height == R(0.0))
+        return mask_none();
+    vreal height = heights[first];
+    vmask blocked = light_height < R(0.0) ? lt(zero, height) : lt(height, zero);
+    blocked = blocked & ~eq_int(points->object, splat_int(object));
+    if (!any_lane(blocked))
+        return blocked;
+    vreal t = height / (height - splat(light_height));
+    for (int side = first + 1; side < first + 5; side++) {
+        vreal distance = multiply_add(t, splat(light_heights[side]) - heights[side], heights[side]);
+        blocked = blocked & le(distance, zero);
+    }
+    return blocked;
+}
+
+/* Multiplies `transmittance` by what one face lets through: its colour, or nothing at the rim. */
+FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_heights,
+                   const vreal *heights, vmask crossing, vreal t, Vec3 *transmittance) {
+    if (!any_lane(crossing))
+        return;
+    GLOBAL const Material *face = materials + solid->face_material;
+    vreal passes = splat(face->transmission);
+    if (solid->rim_depth > R(0.0)) {
+        TwoGreatest greatest = two_greatest();
+        for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++)
+            add_to_greatest(&greatest, multiply_add(t, splat(light_heights[k]) - heights[k], heights[k]));
+        passes = pick(lt(splat(-solid->rim_depth), greatest.second), splat(R(0.0)), passes);
+    }
+    Vec3 filtered = vec3_scale(*transmittance, passes);
+    filtered = vec3_mul(filtered, vec3_splat(face->colour[0], face->colour[1], face->colour[2]));
+    *transmittance = vec3_pick(crossing, filtered, *transmittance);
+}
+
+/* Lets the segments from the points to the light pass one solid. */
+FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const real *light_heights,
+                    const vreal *heights, const LitPoints *points, vmask lit, Vec3 *transmittance) {
+    GLOBAL const Object *solid = objects + object;
+    vmask own = eq_int(points->object, splat_int(object));
+    vmask own_inside = own & points->inside;
+    vmask candidates = lit & (~own | own_inside);
+    if (!any_lane(candidates))
+        return;
+    vreal zero = splat(R(0.0));
+    vreal entry = zero, exit = splat(R(1.0));
+    vmask entered = mask_none(), missed = mask_none();
+    int light_is_outside = 0;
+    for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
+        real light_height = light_heights[k];
+        vreal height = heights[k];
+        if (light_height < R(0.0)) {
+            vmask enters = lt(zero, height);
+            vreal t = height / (height - splat(light_height));
+            entry = pick(enters, greater(entry, t), entry);
+            entered = entered | enters;
+        } else {
+            vmask below = lt(height, zero) | own_inside;
+            missed = missed | ~below;
+            if (light_height > R(0.0)) {
+                vreal t = height / (height - splat(light_height));
+                exit = pick(below, lesser(exit, t), exit);
+                light_is_outside = 1;
+            }
+        }
+    }
+    vmask crossing = candidates & (own_inside | (~missed & lt(entry, exit)));
+    cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing & entered, entry,
+               transmittance);
+    if (light_is_outside)
+        cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing, exit, transmittance);
+}
+
+/* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. */
+FN vreal power(vreal x, vint n, int common) {
+    vreal result = splat(R(1.0));
+    if (common) {
+        for (int bits = common; bits; bits >>= 1) {
+            if (bits & 1)
+                result = result * x;
+            x = x * x;
+        }
+        return result;
+    }
+    for (vint bits = n; any_lane(~eq_int(bits, splat_int(0))); bits = bits >> 1) {
+        result = pick(eq_int(bits & 1, splat_int(1)), result * x, result);
+        x = x * x;
+    }
+    return result;
+}
+
+/* Radiance that the points send to the viewer by diffuse and specular reflection of all lights. Lights
+   are the outer loop and lanes the points, so that everything about a light is the same for a bundle.
+   `mirrored` is the viewing ray's mirror direction, unit. */
+FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points, Vec3 mirrored,
+                     vint *shadow_tests) {
+    Vec3 sum = vec3_zero();
+    vreal heights[PLANE_BOUND];
+    measure_planes(SCENE_ARGUMENTS surface, points, heights);
+    vreal zero = splat(R(0.0)), one = splat(R(1.0));
+    int same_object = all_same(points->object);
+    int common_power = all_same(surface->shininess) ? lane_int(&surface->shininess, 0) : 0;
+    for (int i = 0; i < header->light_count; i++) {
+        Vec3 position =
+            fetch_vector(light_offsets, points->object * header->light_count + i, same_object);
+        Vec3 to_light = vec3_sub(position, surface->point);
+        vreal cosine = vec3_dot(surface->normal, to_light);
+        vreal squared = vec3_dot(to_light, to_light);
+        vmask lit = points->active & lt(zero, cosine) & lt(zero, squared);
+        if (!any_lane(lit))
+            continue;
+        *shadow_tests = *shadow_tests - lit;
+        GLOBAL const real *light_heights = light_distances + i * header->plane_count;
+        for (int object = header->solid_count; object < header->object_count; object++)
+            lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_heights, heights, points);
+        Vec3 transmittance = vec3_splat(R(1.0), R(1.0), R(1.0));
+        for (int object = 0; object < header->solid_count; object++)
+            cross_solid(SCENE_ARGUMENTS object, light_heights, heights, points, lit,
+                        &transmittance);
+        GLOBAL const Light *light = lights + i;
+        vreal inverse = one / square_root(squared);
+        vreal falloff = one;
+        if (light->inverse_falloff_squared > R(0.0))
+            falloff = one / multiply_add(squared, splat(light->inverse_falloff_squared), one);
+        vreal towards_mirror = greater(vec3_dot(mirrored, to_light) * inverse, zero);
+        vreal specular = surface->specular * falloff *
+                         power(towards_mirror, surface->shininess, common_power);
+        vreal diffuse = surface->diffuse * falloff * (cosine * inverse);
+        Vec3 reflected = vec3_scale_add(surface->colour, diffuse, vec3(specular, specular, specular));
+        Vec3 arriving = vec3_mul(transmittance, vec3_splat(light->intensity[0], light->intensity[1],
+                                                           light->intensity[2]));
+        sum = vec3_pick(lit, vec3_add(sum, vec3_mul(arriving, reflected)), sum);
+    }
+    return sum;
+}
+
+#endif

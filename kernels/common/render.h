@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+/* A work item: from its number to the pixels it renders. */
+#ifndef HD_RENDER_H
+#define HD_RENDER_H
+
+#include "ray_tree.h"
+
+#ifndef HD_PIXELS_PER_ITEM
+#define HD_PIXELS_PER_ITEM HD_BLOCK_PIXELS
+#endif
+
+typedef struct {
+    int x, y;
+} Pixel;
+
+/* The pixel at a place of the order described at HD_BLOCK_SIDE. */
+FN Pixel pixel_at(GLOBAL const View *view, int place) {
+    int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int block = place / HD_BLOCK_PIXELS, z = place % HD_BLOCK_PIXELS;
+    Pixel pixel;
+    pixel.x = block % blocks_per_row * HD_BLOCK_SIDE + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
+    pixel.y = block / blocks_per_row * HD_BLOCK_SIDE + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+    return pixel;
+}
+
+FN int in_picture(GLOBAL const View *view, Pixel pixel) {
+    return pixel.x < view->width && pixel.y < view->height;
+}
+
+/* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel; returns the
+   lanes that hold one. */
+FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *direction) {
+    int n = view->samples_per_side;
+    vreal right = splat(R(0.0)), down = splat(R(0.0));
+    vint alive = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        int place = (first + lane) / (n * n), part = (first + lane) % (n * n);
+        if (place >= HD_PIXELS_PER_ITEM)
+            break;
+        Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
+        if (!in_picture(view, pixel))
+            continue;
+        set_lane_real(&right, lane, (real)(2 * (pixel.x * n + part % n) + 1 - view->width * n));
+        set_lane_real(&down, lane, (real)(2 * (pixel.y * n + part / n) + 1 - view->height * n));
+        set_lane_int(&alive, lane, -1);
+    }
+    Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
+    Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
+    sum = vec3_scale_add(axis, down, sum);
+    axis = vec3_splat(view->right[0], view->right[1], view->right[2]);
+    *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
+    return alive;
+}
+
+FN Sample empty_sample(void) {
+    Sample sample;
+    sample.rays = sample.shadow_tests = sample.clamps = splat_int(0);
+    sample.r = sample.g = sample.b = truncate_to_fix(splat(R(0.0)));
+    return sample;
+}
+
+FN void store_pixels(GLOBAL const View *view, int item, const fixed64 *sums, GLOBAL float *pixels) {
+    real samples = (real)(view->samples_per_side * view->samples_per_side);
+    for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
+        Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
+        if (!in_picture(view, pixel))
+            continue;
+        GLOBAL float *rgb = pixels + ((uint64)pixel.y * (uint64)view->width + (uint64)pixel.x) * 3;
+        for (int channel = 0; channel < 3; channel++)
+            rgb[channel] =
+                (float)((real)sums[place * 3 + channel] * view->from_fixed / samples);
+    }
+}
+
+/* Renders the pixels of one item: three floats for each pixel, and what was counted. */
+FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
+    fixed64 sums[HD_PIXELS_PER_ITEM * 3];
+    for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
+        sums[i] = 0;
+    uint64 rays = 0, shadow_tests = 0, clamps = 0;
+    int per_pixel = view->samples_per_side * view->samples_per_side;
+    for (int first = 0; first < HD_PIXELS_PER_ITEM * per_pixel; first += HD_LANES) {
+        Vec3 direction;
+        vmask alive = sample_directions(view, item, first, &direction);
+        if (!any_lane(alive))
+            continue;
+        Sample sample = empty_sample();
+        trace(SCENE_ARGUMENTS direction, alive, &sample);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            int place = (first + lane) / per_pixel;
+            if (place >= HD_PIXELS_PER_ITEM)
+                break;
+            sums[place * 3] += lane_fix(&sample.r, lane) >> view->pixel_shift;
+            sums[place * 3 + 1] += lane_fix(&sample.g, lane) >> view->pixel_shift;
+            sums[place * 3 + 2] += lane_fix(&sample.b, lane) >> view->pixel_shift;
+            rays += (uint64)lane_int(&sample.rays, lane);
+            shadow_tests += (uint64)lane_int(&sample.shadow_tests, lane);
+            clamps += (uint64)lane_int(&sample.clamps, lane);
+        }
+    }
+    store_pixels(view, item, sums, pixels);
+    counts->rays = rays;
+    counts->shadow_tests = shadow_tests;
+    counts->clamps = clamps;
+    counts->unused = 0;
+}
+
+/* Adds up every `workers`-th count from number `worker` on. */
+FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int workers,
+                   GLOBAL RayCounts *sums) {
+    uint64 rays = 0, shadow_tests = 0, clamps = 0;
+    for (int i = worker; i < count; i += workers) {
+        rays += counts[i].rays;
+        shadow_tests += counts[i].shadow_tests;
+        clamps += counts[i].clamps;
+    }
+    sums[worker].rays = rays;
+    sums[worker].shadow_tests = shadow_tests;
+    sums[worker].clamps = clamps;
+    sums[worker].unused = 0;
+}
+
+#endif

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
+   (src/compile_scene.c), a backend copies them as they are.
+
+   Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that it
+   has no padding in float and in double. "Object" is a solid or, last of all, the floor. Geometry of an
+   object is relative to its own centre. Signed distances are positive outside. */
+#ifndef HD_SCENE_TABLES_H
+#define HD_SCENE_TABLES_H
+
+#include "dialect.h"
+
+typedef struct ALIGNED_16 {
+    real x, y, z, unused;
+} Vector;
+
+typedef struct ALIGNED_16 {
+    real background[3]; /* radiance */
+    real exposure;
+    int solid_count; /* the floor, if there is one, is object number solid_count */
+    int object_count;
+    int plane_count;
+    int light_count;
+} Header;
+
+/* A face's plane, n.x = distance, or one of the floor's: its own first, then four upright ones that
+   bound it. */
+typedef struct ALIGNED_16 {
+    real x, y, z, distance;
+} Plane;
+
+typedef struct ALIGNED_16 {
+    real rim_depth;  /* a point of a face lies on the rim when it is nearer than this to the plane of
+                        another face: the rim's width times the sine of the dihedral angle */
+    real disc_depth; /* likewise for the radius of the edge lights' discs */
+    real disc_radius_squared;
+    real edge_half_length;
+    real disc_radiance[3];
+    real unused;
+    int first_plane, plane_count;
+    int first_edge, edge_count;
+    int face_material, rim_material;
+    int lights_per_edge;
+    int textured;
+} Object;
+
+typedef struct ALIGNED_16 {
+    real middle[3], unused0;
+    real direction[3], unused1; /* unit */
+} Edge;
+
+typedef struct ALIGNED_16 {
+    real colour[3], ambient;
+    real mirror_tint[3], diffuse;
+    real specular, reflection, transmission, unused;
+    int shininess, unused_int[3];
+} Material;
+
+typedef struct ALIGNED_16 {
+    real intensity[3];
+    real inverse_falloff_squared; /* 1 / d0^2; 0: no falloff */
+} Light;
+
+/* Floor coordinates (a, b) of a point X: a = axis_a.X, b = axis_b.X. Texture coordinates (s, t) in the
+   unit square solve (a, b) = origin + s e + t f + s t g (inverse bilinear interpolation). */
+typedef struct ALIGNED_16 {
+    real axis_a[3], unused0;
+    real axis_b[3], unused1;
+    real origin[2], e[2];
+    real f[2], g[2];
+    real orientation, unused2[3]; /* +1 or -1: the sign of the map's determinant */
+    int texture_width, texture_height;
+    int unused_int[2];
+} FloorMap;
+
+/* One frame. The direction to the image point (i, j), counted in half sample steps from the middle of
+   the picture, is forward + i * right + j * down. */
+typedef struct ALIGNED_16 {
+    real forward[3], cutoff;
+    real right[3], to_fixed; /* 2^(fraction bits of a sample) */
+    real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
+    int width, height;
+    int samples_per_side;
+    int depth;
+    int pixel_shift; /* bits that a sample loses before it joins a pixel's sum */
+    int unused_int[3];
+} View;
+
+#define HD_ASSERT_SIZE(type, reals, ints)                                                         \
+    typedef char hd_size_of_##type##_is_as_documented                                             \
+        [sizeof(type) == (reals) * sizeof(real) + (ints) * 4 ? 1 : -1]
+HD_ASSERT_SIZE(Vector, 4, 0);
+HD_ASSERT_SIZE(Header, 4, 4);
+HD_ASSERT_SIZE(Plane, 4, 0);
+HD_ASSERT_SIZE(Object, 8, 8);
+HD_ASSERT_SIZE(Edge, 8, 0);
+HD_ASSERT_SIZE(Material, 12, 4);
+HD_ASSERT_SIZE(Light, 4, 0);
+HD_ASSERT_SIZE(FloorMap, 20, 4);
+HD_ASSERT_SIZE(View, 12, 8);
+
+/* The tables of a scene, in the order of the kernels' arguments:
+   light_offsets[object * light_count + light]   the light's position relative to the object
+   light_distances[light * plane_count + plane]  exactly 0 for an edge light and its own faces
+   object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
+   texels                                        two words each: r | g << 16, b */
+#define HD_SCENE_TABLES(X)                                                                        \
+    X(Header, header)                                                                             \
+    X(Object, objects)                                                                            \
+    X(Plane, planes)                                                                              \
+    X(Edge, edges)                                                                                \
+    X(Material, materials)                                                                        \
+    X(Light, lights)                                                                              \
+    X(Vector, light_offsets)                                                                      \
+    X(real, light_distances)                                                                      \
+    X(Vector, object_offsets)                                                                     \
+    X(FloorMap, floor_map)                                                                        \
+    X(uint, texels)
+
+/* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of `to`. */
+#define HD_FRAME_TABLES(X)                                                                        \
+    X(View, view)                                                                                 \
+    X(Vector, eye_offsets)
+
+#define HD_TABLE_INDEX(type, name) HD_TABLE_##name,
+enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
+enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
+
+/* What one work item counted. A ray is a closest-hit search of a live lane; a shadow test is a pair of
+   a lit point and a light it faces; a clamp is a contribution that was cut to 2^16. */
+typedef struct ALIGNED_16 {
+    uint64 rays, shadow_tests, clamps, unused;
+} RayCounts;
+
+/* The picture is cut into blocks of HD_BLOCK_SIDE x HD_BLOCK_SIDE pixels, row by row, and within a
+   block follows the Z order; a work item renders HD_PIXELS_PER_ITEM consecutive pixels of that order. */
+enum { HD_BLOCK_SIDE = 8, HD_BLOCK_PIXELS = 64 };
+
+#endif

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* What the rays met: normal, material, and the patterns on a face, its rim and its edge lights' discs. */
+#ifndef HD_SURFACE_H
+#define HD_SURFACE_H
+
+#include "intersection.h"
+#include "texture.h"
+
+typedef struct {
+    Vec3 point;  /* relative to the object that was hit */
+    Vec3 normal; /* unit, towards the viewer */
+    Vec3 colour, mirror_tint, emission;
+    vreal ambient, diffuse, specular, reflection, transmission;
+    vint shininess;
+} Surface;
+
+/* The two greatest numbers that were added. */
+typedef struct {
+    vreal first, second;
+} TwoGreatest;
+
+FN TwoGreatest two_greatest(void) {
+    TwoGreatest two;
+    two.first = two.second = splat(-REAL_LARGE);
+    return two;
+}
+
+FN void add_to_greatest(TwoGreatest *two, vreal a) {
+    two->second = greater(two->second, lesser(two->first, a));
+    two->first = greater(two->first, a);
+}
+
+FN void set_material(Surface *surface, vmask m, GLOBAL const Material *material) {
+    Vec3 colour = vec3_splat(material->colour[0], material->colour[1], material->colour[2]);
+    Vec3 tint =
+        vec3_splat(material->mirror_tint[0], material->mirror_tint[1], material->mirror_tint[2]);
+    surface->colour = vec3_pick(m, colour, surface->colour);
+    surface->mirror_tint = vec3_pick(m, tint, surface->mirror_tint);
+    surface->ambient = pick(m, splat(material->ambient), surface->ambient);
+    surface->diffuse = pick(m, splat(material->diffuse), surface->diffuse);
+    surface->specular = pick(m, splat(material->specular), surface->specular);
+    surface->reflection = pick(m, splat(material->reflection), surface->reflection);
+    surface->transmission = pick(m, splat(material->transmission), surface->transmission);
+    surface->shininess = pick_int(m, splat_int(material->shininess), surface->shininess);
+}
+
+/* A disc shows its own radiance and nothing else. */
+FN void set_disc(Surface *surface, vmask m, GLOBAL const Object *solid) {
+    Vec3 radiance =
+        vec3_splat(solid->disc_radiance[0], solid->disc_radiance[1], solid->disc_radiance[2]);
+    vreal zero = splat(R(0.0));
+    surface->emission = vec3_pick(m, radiance, surface->emission);
+    surface->ambient = pick(m, zero, surface->ambient);
+    surface->diffuse = pick(m, zero, surface->diffuse);
+    surface->specular = pick(m, zero, surface->specular);
+    surface->reflection = pick(m, zero, surface->reflection);
+    surface->transmission = pick(m, zero, surface->transmission);
+}
+
+/* Lanes whose point is within the radius of one of the solid's edge lights. */
+FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edges, Vec3 point) {
+    real count = (real)solid->lights_per_edge;
+    real spacing = R(2.0) * solid->edge_half_length / count;
+    vmask found = mask_none();
+    for (int e = solid->first_edge; e < solid->first_edge + solid->edge_count; e++) {
+        GLOBAL const Edge *edge = edges + e;
+        Vec3 direction = vec3_splat(edge->direction[0], edge->direction[1], edge->direction[2]);
+        Vec3 middle = vec3_splat(edge->middle[0], edge->middle[1], edge->middle[2]);
+        Vec3 offset = vec3_sub(point, middle);
+        vreal along = vec3_dot(offset, direction);
+        vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
+        cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
+        vreal light = (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
+        Vec3 distance = vec3_scale_add(direction, -light, offset);
+        found = found | lt(vec3_dot(distance, distance), splat(solid->disc_radius_squared));
+    }
+    return found;
+}
+
+FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
+    GLOBAL const Object *solid = objects + object;
+    TwoGreatest heights = two_greatest();
+    Vec3 normal = vec3_zero();
+    for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
+        GLOBAL const Plane *plane = planes + k;
+        vmask met = eq_int(hit->plane, splat_int(k));
+        normal = vec3_pick(met, vec3_splat(plane->x, plane->y, plane->z), normal);
+        add_to_greatest(&heights, plane_distance(plane, surface->point));
+    }
+    surface->normal =
+        vec3_pick(m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
+                  surface->normal);
+    set_material(surface, m, materials + solid->face_material);
+    vmask rim = m & lt(splat(-solid->rim_depth), heights.second);
+    if (any_lane(rim))
+        set_material(surface, rim, materials + solid->rim_material);
+    vmask near_edge = m & lt(splat(-solid->disc_depth), heights.second);
+    if (any_lane(near_edge))
+        set_disc(surface, near_edge & on_disc(solid, edges, surface->point), solid);
+}
+
+FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
+    GLOBAL const Object *floor = objects + object;
+    GLOBAL const Plane *plane = planes + floor->first_plane;
+    Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
+    surface->normal =
+        vec3_pick(m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
+                  surface->normal);
+    set_material(surface, m, materials + floor->face_material);
+    if (floor->textured) {
+        vreal s, t;
+        floor_coordinates(floor_map, surface->point, &s, &t);
+        Vec3 texel = sample_texture(floor_map, texels, s, t);
+        surface->colour = vec3_pick(m, vec3_mul(surface->colour, texel), surface->colour);
+    }
+}
+
+/* Describes the lanes of `struck`; the bundle is worked off object by object, so that a material is
+   read once for all lanes that met it. */
+FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit,
+                      vmask struck) {
+    Surface surface;
+    surface.point = surface.normal = surface.colour = vec3_zero();
+    surface.mirror_tint = surface.emission = vec3_zero();
+    surface.ambient = surface.diffuse = surface.specular = splat(R(0.0));
+    surface.reflection = surface.transmission = splat(R(0.0));
+    surface.shininess = splat_int(1);
+    vmask left = struck;
+    while (any_lane(left)) {
+        int object = lane_int(&hit->object, first_lane(left));
+        vmask m = left & eq_int(hit->object, splat_int(object));
+        left = left & ~m;
+        Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
+        surface.point =
+            vec3_pick(m, vec3_scale_add(ray->direction, hit->distance, origin), surface.point);
+        if (object < header->solid_count)
+            describe_solid(SCENE_ARGUMENTS object, m, hit, &surface);
+        else
+            describe_floor(SCENE_ARGUMENTS object, m, hit, &surface);
+    }
+    return surface;
+}
+
+#endif

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "atomic_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MAX_ATTEMPTS = 1000 };
+
+static HdStatus check_target(const char *path, HdError *error) {
+    struct stat found;
+    size_t length = strlen(path);
+    if (length == 0 || path[length - 1] == '/')
+        return hd_fail(error, HD_BAD_INPUT, "cannot write \"%s\": expected the name of a file",
+                       path);
+    if (length >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write \"%s\": the name has %zu bytes, expected fewer than %d", path,
+                       length, HD_MAX_PATH);
+    if (stat(path, &found) == 0 && !S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, "cannot write %s: it exists and is not a regular file",
+                       path);
+    return HD_OK;
+}
+
+/* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
+static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
+                               HdError *error) {
+    const char *slash = strrchr(path, '/');
+    int folder_length = slash == NULL ? 0 : (int)(slash - path) + 1;
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.200s.tmp-%ld-%d", folder_length, path,
+                          path + folder_length, (long)getpid(), attempt);
+    if (length < 0 || length >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
+                       path, length, HD_MAX_PATH);
+    return HD_OK;
+}
+
+HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
+                             HdError *error) {
+    HdStatus status = check_target(path, error);
+    if (status == HD_OK)
+        status = hd_path_make_parents(path, error);
+    /* A process id comes back after a crash, and containers that share a folder repeat them. */
+    for (int attempt = 0; status == HD_OK && attempt < MAX_ATTEMPTS; attempt++) {
+        status = temporary_name(path, attempt, temporary, error);
+        if (status != HD_OK)
+            break;
+        *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (*descriptor >= 0)
+            return HD_OK;
+        if (errno != EEXIST)
+            return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path,
+                           temporary, strerror(errno));
+    }
+    if (status != HD_OK)
+        return status;
+    return hd_fail(error, HD_FAILED, "cannot write %s: all %d temporary names up to %s are taken",
+                   path, MAX_ATTEMPTS, temporary);
+}
+
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
+    if (rename(temporary, path) == 0)
+        return HD_OK;
+    int reason = errno;
+    unlink(temporary);
+    return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", temporary, path,
+                   strerror(reason));
+}
+
+HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error) {
+    int descriptor = -1;
+    HdStatus status = hd_temporary_create(path, file->temporary, &descriptor, error);
+    if (status != HD_OK)
+        return status;
+    memcpy(file->path, path, strlen(path) + 1);
+    file->stream = fdopen(descriptor, "wb");
+    if (file->stream != NULL)
+        return HD_OK;
+    int reason = errno;
+    close(descriptor);
+    unlink(file->temporary);
+    return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
+}
+
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
+    /* The stream remembers a write that failed, but not why; closing may succeed after it. */
+    int reason = ferror(file->stream) ? EIO : 0;
+    if (fclose(file->stream) != 0)
+        reason = errno;
+    file->stream = NULL;
+    if (reason == 0)
+        return hd_temporary_publish(file->temporary, file->path, error);
+    unlink(file->temporary);
+    return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
+}
+
+void hd_atomic_file_discard(HdAtomicFile *file) {
+    fclose(file->stream);
+    file->stream = NULL;
+    unlink(file->temporary);
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* Files that appear under their name only once they are complete. */
+#ifndef HD_ATOMIC_FILE_H
+#define HD_ATOMIC_FILE_H
+
+#include <stdio.h>
+
+#include "error.h"
+#include "paths.h"
+
+/* Makes missing folders and an empty file beside `path`, "NAME.tmp-PID-N", that no other process
+   uses. The caller closes the descriptor. A `path` that stands for a folder or a device is refused,
+   because renaming would replace it. */
+HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
+                             HdError *error);
+
+/* Renames the temporary file to its final name; removes it where that fails. */
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error);
+
+typedef struct HdAtomicFile {
+    FILE *stream; /* for the caller to write to */
+    char path[HD_MAX_PATH];
+    char temporary[HD_MAX_PATH];
+} HdAtomicFile;
+
+HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error);
+
+/* Closes the file and gives it its final name. On failure, a write that failed earlier included,
+   the temporary file is gone and a file that was there before is untouched. */
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error);
+
+/* Closes and removes the temporary file. */
+void hd_atomic_file_discard(HdAtomicFile *file);
+
+#endif

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+/* The registry of backends, and the checks that every backend relies on. */
+#include "backend.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../kernels/common/scene_tables.h"
+
+extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
+
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
+                                                        &hd_backend_c};
+
+struct HdRenderer {
+    const HdBackend *backend;
+    void *state; /* of the backend */
+    HdRenderOptions options;
+    bool has_scene;
+};
+
+enum { HD_MAX_THREADS = 1024 };
+
+const HdBackend *hd_backend_find(const char *name) {
+    for (int i = 0; i < HD_BACKEND_COUNT; i++)
+        if (strcmp(hd_backends[i]->name, name) == 0)
+            return hd_backends[i];
+    return NULL;
+}
+
+static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
+    int lanes = options->lanes;
+    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
+        return hd_fail(error, HD_BAD_INPUT, "the number of lanes must be 1, 4, 8 or 16, not %d",
+                       lanes);
+    if (options->threads < 0 || options->threads > HD_MAX_THREADS)
+        return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
+                       (int)HD_MAX_THREADS, options->threads);
+    if (options->precision != HD_FLOAT && options->precision != HD_DOUBLE_PRECISION)
+        return hd_fail(error, HD_BAD_INPUT, "unknown precision %d", (int)options->precision);
+    if (options->math != HD_MATH_STRICT && options->math != HD_MATH_FAST)
+        return hd_fail(error, HD_BAD_INPUT, "unknown arithmetic %d", (int)options->math);
+    return HD_OK;
+}
+
+static HdStatus check_abilities(const HdDevice *device, const HdRenderOptions *options,
+                                HdError *error) {
+    if (options->precision == HD_DOUBLE_PRECISION && !device->has_double)
+        return hd_fail(error, HD_UNAVAILABLE, "%s: %s has no double precision",
+                       device->backend->name, device->name);
+    if (options->math == HD_MATH_STRICT && device->not_strict[0])
+        return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do strict arithmetic: %s",
+                       device->backend->name, device->name, device->not_strict);
+    return HD_OK;
+}
+
+HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
+                          const HdRenderOptions *options, HdError *error) {
+    *renderer = NULL;
+    HdStatus status = check_options(options, error);
+    if (status == HD_OK)
+        status = check_abilities(device, options, error);
+    if (status != HD_OK)
+        return status;
+    HdRenderer *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return hd_fail(error, HD_FAILED, "out of memory");
+    opened->backend = device->backend;
+    opened->options = *options;
+    status = opened->backend->open(device, options, &opened->state, error);
+    if (status != HD_OK) {
+        free(opened);
+        return status;
+    }
+    *renderer = opened;
+    return HD_OK;
+}
+
+static HdStatus check_tables(const HdTable *table, int count, int expected, const char *what,
+                             HdError *error) {
+    if (count != expected)
+        return hd_fail(error, HD_BAD_INPUT, "a %s has %d tables, not %d", what, expected, count);
+    for (int i = 0; i < count; i++)
+        if (table[i].bytes > 0 && !table[i].data)
+            return hd_fail(error, HD_BAD_INPUT, "table %d of the %s has %zu bytes and no data", i,
+                           what, table[i].bytes);
+    return HD_OK;
+}
+
+static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precision, const char *what,
+                                HdError *error) {
+    if (precision != renderer->options.precision)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the tables of the %s are not in the precision of the renderer", what);
+    return HD_OK;
+}
+
+HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+    HdStatus status =
+        check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
+    if (status == HD_OK)
+        status = check_precision(renderer, tables->precision, "scene", error);
+    if (status == HD_OK && (tables->plane_count < 0 || tables->depth < 0))
+        status = hd_fail(error, HD_BAD_INPUT, "a scene cannot have %d planes and the depth %d",
+                         tables->plane_count, tables->depth);
+    if (status != HD_OK)
+        return status;
+    renderer->has_scene = false;
+    status = renderer->backend->upload(renderer->state, tables, error);
+    renderer->has_scene = status == HD_OK;
+    return status;
+}
+
+/* Kernels count work items and the values of a picture in int, whole blocks at a time. */
+static HdStatus check_size(int width, int height, HdError *error) {
+    if (width < 1 || height < 1 || width > HD_MAX_IMAGE_SIDE || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "a frame of %d x %d pixels is not possible: 1 to %d",
+                       width, height, (int)HD_MAX_IMAGE_SIDE);
+    int64_t columns = (width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t rows = (height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t limit = INT_MAX / 3 / HD_BLOCK_PIXELS;
+    if (columns * rows > limit)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels is too large: at most about %lld million pixels",
+                       width, height, (long long)(limit * HD_BLOCK_PIXELS / 1000000));
+    return HD_OK;
+}
+
+HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
+    if (!renderer->has_scene)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
+    HdStatus status =
+        check_tables(tables->table, tables->table_count, HD_FRAME_TABLE_COUNT, "frame", error);
+    if (status == HD_OK)
+        status = check_precision(renderer, tables->precision, "frame", error);
+    if (status == HD_OK)
+        status = check_size(tables->width, tables->height, error);
+    if (status != HD_OK)
+        return status;
+    if (!frame->rgb || frame->width != tables->width || frame->height != tables->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
+                       frame->height, tables->width, tables->height);
+    return renderer->backend->render(renderer->state, tables, frame, error);
+}
+
+void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
+    if (capacity < 1)
+        return;
+    text[0] = '\0';
+    renderer->backend->describe(renderer->state, text, capacity);
+}
+
+void hd_renderer_close(HdRenderer *renderer) {
+    if (!renderer)
+        return;
+    renderer->backend->close(renderer->state);
+    free(renderer);
+}

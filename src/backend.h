@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* Devices that render, behind one table of functions for each backend. */
+#ifndef HD_BACKEND_H
+#define HD_BACKEND_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "compiled_scene.h"
+#include "error.h"
+#include "frame.h"
+
+typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
+
+typedef struct HdRenderOptions {
+    int lanes;   /* 1, 4, 8 or 16; 0: what suits the device */
+    int threads; /* of the C backend; 0: one for each core */
+    HdPrecision precision;
+    HdMath math;
+} HdRenderOptions;
+
+typedef struct HdBackend HdBackend;
+
+typedef struct HdDevice {
+    const HdBackend *backend;
+    int index; /* within the backend */
+    char name[256];
+    char driver[256];        /* platform, driver and versions, for people */
+    bool is_cpu;             /* takes several lanes */
+    bool has_double;
+    char not_strict[256];    /* why the device cannot do strict arithmetic; empty: it can */
+} HdDevice;
+
+/* A backend. Arguments are checked before a function is called (backend.c); "must" marks what the
+   callers rely on. Renderers are opaque to everybody else. */
+struct HdBackend {
+    const char *name; /* as on the command line */
+
+    /* Must fill at most `capacity` devices, numbered from 0, and their count. With none it must
+       return HD_UNAVAILABLE and the reason: which library or driver is missing. */
+    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
+
+    /* Opens one device. Must fail with HD_UNAVAILABLE when the device cannot do what the options ask
+       (double, strict, lanes), naming what is missing. */
+    HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
+                     HdError *error);
+
+    /* Copies the tables to the device and builds the kernels for them. The tables need not outlive
+       the call. A later upload replaces an earlier one. */
+    HdStatus (*upload)(void *renderer, const HdSceneTables *tables, HdError *error);
+
+    /* Renders one frame of the uploaded scene and waits for it: fills every pixel, the counts and
+       trace_seconds of `frame`. */
+    HdStatus (*render)(void *renderer, const HdFrameTables *tables, HdFrame *frame, HdError *error);
+
+    /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
+    void (*describe)(const void *renderer, char *text, int capacity);
+
+    void (*close)(void *renderer);
+};
+
+enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
+
+/* All backends in the order of preference of "auto": cuda, opencl, c. */
+extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
+extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
+
+/* NULL where no backend has that name. */
+const HdBackend *hd_backend_find(const char *name);
+
+typedef struct HdRenderer HdRenderer;
+
+HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
+                          const HdRenderOptions *options, HdError *error);
+HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
+HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error);
+void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
+void hd_renderer_close(HdRenderer *renderer); /* NULL is allowed */
+
+#endif

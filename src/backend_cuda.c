@@ -1,0 +1,452 @@
+/* SPDX-License-Identifier: MIT */
+/* Renders on one NVIDIA device. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../kernels/common/scene_tables.h"
+#include "cuda_compile.h"
+#include "device_launch.h"
+
+extern const HdBackend hd_backend_cuda;
+
+enum { BLOCK_THREADS = 128, MIN_TABLE_BYTES = 16 };
+
+typedef struct Memory {
+    HdCuPointer pointer;
+    size_t bytes;
+} Memory;
+
+typedef struct Renderer {
+    HdCudaDriver driver;
+    char name[256];
+    HdCuDevice device;
+    int arch; /* 61 stands for sm_61 */
+    int launch_items;
+    HdNvrtc nvrtc;       /* from the first upload on */
+    HdKernelShape shape; /* of the module, if there is one */
+    HdCuContext context;
+    HdCuModule module;
+    HdCuFunction render, sum;
+    int registers, local_bytes; /* of `render` */
+    HdCuEvent start, end;
+    Memory scene[HD_SCENE_TABLE_COUNT];
+    Memory frame[HD_FRAME_TABLE_COUNT];
+    Memory pixels, counts, sums;
+} Renderer;
+
+static HdStatus check(const Renderer *renderer, HdCuResult code, const char *function,
+                      HdError *error) {
+    if (code == HD_CU_SUCCESS)
+        return HD_OK;
+    return hd_cuda_fail(&renderer->driver, function, code, error);
+}
+
+/* Calls a function of the driver: CALL(renderer, memory_free, cuMemFree, (pointer), error). */
+#define CALL(renderer, member, function, arguments, error)                                         \
+    check(renderer, (renderer)->driver.member arguments, #function, error)
+
+/* ---- devices ---- */
+
+static HdStatus query_arch(const HdCudaDriver *driver, HdCuDevice device, int *arch,
+                           HdError *error) {
+    int major = 0, minor = 0;
+    HdCuResult code = driver->device_attribute(&major, HD_CU_DEVICE_CAPABILITY_MAJOR, device);
+    if (code == HD_CU_SUCCESS)
+        code = driver->device_attribute(&minor, HD_CU_DEVICE_CAPABILITY_MINOR, device);
+    *arch = 10 * major + minor;
+    if (code != HD_CU_SUCCESS)
+        return hd_cuda_fail(driver, "cuDeviceGetAttribute", code, error);
+    return HD_OK;
+}
+
+static int query_driver_version(const HdCudaDriver *driver) {
+    int version = 0;
+    return driver->driver_version(&version) == HD_CU_SUCCESS ? version : 0;
+}
+
+static HdStatus describe_device(HdDevice *device, const HdCudaDriver *driver, int index,
+                                HdError *error) {
+    memset(device, 0, sizeof *device);
+    device->backend = &hd_backend_cuda;
+    device->index = index;
+    device->has_double = true;
+    HdCuDevice handle;
+    HdCuResult code = driver->device_get(&handle, index);
+    if (code != HD_CU_SUCCESS)
+        return hd_cuda_fail(driver, "cuDeviceGet", code, error);
+    code = driver->device_name(device->name, (int)sizeof device->name, handle);
+    if (code != HD_CU_SUCCESS)
+        return hd_cuda_fail(driver, "cuDeviceGetName", code, error);
+    int arch;
+    int version = query_driver_version(driver);
+    HdStatus status = query_arch(driver, handle, &arch, error);
+    snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
+             version / 1000, version % 1000 / 10);
+    return status;
+}
+
+static HdStatus count_devices(const HdCudaDriver *driver, int *count, HdError *error) {
+    *count = 0;
+    HdCuResult code = driver->device_count(count);
+    if (code != HD_CU_SUCCESS)
+        return hd_cuda_fail(driver, "cuDeviceGetCount", code, error);
+    if (*count < 1)
+        return hd_fail(error, HD_UNAVAILABLE, "cuda: the NVIDIA driver knows no device");
+    return HD_OK;
+}
+
+static HdStatus cuda_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
+    HdCudaDriver driver;
+    *count = 0;
+    HdStatus status = hd_cuda_load_driver(&driver, error);
+    int available = 0;
+    if (status == HD_OK)
+        status = count_devices(&driver, &available, error);
+    for (int i = 0; status == HD_OK && i < available && i < capacity; i++) {
+        status = describe_device(&devices[i], &driver, i, error);
+        *count = i + 1;
+    }
+    if (status != HD_OK)
+        *count = 0;
+    return status;
+}
+
+/* ---- open and close ---- */
+
+static HdStatus open_device(Renderer *renderer, int index, HdError *error) {
+    HdStatus status = hd_cuda_load_driver(&renderer->driver, error);
+    if (status != HD_OK)
+        return status;
+    status = CALL(renderer, device_get, cuDeviceGet, (&renderer->device, index), error);
+    if (status == HD_OK)
+        status = query_arch(&renderer->driver, renderer->device, &renderer->arch, error);
+    int units = 0;
+    if (status == HD_OK)
+        status = CALL(renderer, device_attribute, cuDeviceGetAttribute,
+                      (&units, HD_CU_DEVICE_MULTIPROCESSOR_COUNT, renderer->device), error);
+    renderer->launch_items = hd_gpu_launch_items(units);
+    return status;
+}
+
+/* The device's own context, which others in this process may share. Other threads may have made
+   another one current, so every function of the backend pushes it and pops it again. */
+static HdStatus retain_context(Renderer *renderer, HdError *error) {
+    HdCuContext context = NULL;
+    HdStatus status = CALL(renderer, context_retain, cuDevicePrimaryCtxRetain,
+                           (&context, renderer->device), error);
+    if (status == HD_OK)
+        renderer->context = context;
+    return status;
+}
+
+static HdStatus enter(const Renderer *renderer, HdError *error) {
+    return CALL(renderer, context_push, cuCtxPushCurrent, (renderer->context), error);
+}
+
+static void leave(const Renderer *renderer) {
+    HdCuContext popped;
+    renderer->driver.context_pop(&popped);
+}
+
+static HdStatus create_events(Renderer *renderer, HdError *error) {
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = CALL(renderer, event_create, cuEventCreate, (&renderer->start, 0), error);
+    if (status == HD_OK) /* to wait for it must not cost a core */
+        status = CALL(renderer, event_create, cuEventCreate,
+                      (&renderer->end, HD_CU_EVENT_BLOCKING_SYNC), error);
+    leave(renderer);
+    return status;
+}
+
+static void release(const Renderer *renderer, Memory *memory) {
+    if (memory->pointer)
+        renderer->driver.memory_free(memory->pointer);
+    *memory = (Memory){0};
+}
+
+static void unload_module(Renderer *renderer) {
+    if (renderer->module)
+        renderer->driver.module_unload(renderer->module);
+    renderer->module = NULL;
+}
+
+static void release_all(Renderer *renderer) {
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        release(renderer, &renderer->scene[i]);
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        release(renderer, &renderer->frame[i]);
+    release(renderer, &renderer->pixels);
+    release(renderer, &renderer->counts);
+    release(renderer, &renderer->sums);
+    unload_module(renderer);
+    if (renderer->start)
+        renderer->driver.event_destroy(renderer->start);
+    if (renderer->end)
+        renderer->driver.event_destroy(renderer->end);
+}
+
+static void cuda_close(void *state) {
+    Renderer *renderer = state;
+    if (renderer->context) {
+        if (renderer->driver.context_push(renderer->context) == HD_CU_SUCCESS) {
+            release_all(renderer);
+            leave(renderer);
+        }
+        renderer->driver.context_release(renderer->device);
+    }
+    hd_nvrtc_close(&renderer->nvrtc);
+    free(renderer);
+}
+
+static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options, void **state,
+                          HdError *error) {
+    if (options->lanes > 1)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "cuda: %s takes 1 lane, not %d; only CPU devices take several", device->name,
+                       options->lanes);
+    Renderer *renderer = calloc(1, sizeof *renderer);
+    if (!renderer)
+        return hd_fail(error, HD_FAILED, "out of memory");
+    snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
+    renderer->shape = (HdKernelShape){
+        .lanes = 1,
+        .pixels_per_item = 1,
+        .precision = options->precision,
+        .math = options->math,
+    };
+    HdStatus status = open_device(renderer, device->index, error);
+    if (status == HD_OK)
+        status = retain_context(renderer, error);
+    if (status == HD_OK)
+        status = create_events(renderer, error);
+    if (status != HD_OK) {
+        cuda_close(renderer);
+        return status;
+    }
+    *state = renderer;
+    return HD_OK;
+}
+
+/* ---- memory ---- */
+
+static HdStatus resize(Renderer *renderer, Memory *memory, size_t bytes, const char *what,
+                       HdError *error) {
+    if (memory->pointer && memory->bytes == bytes)
+        return HD_OK;
+    release(renderer, memory);
+    HdCuPointer pointer = 0;
+    HdCuResult code = renderer->driver.memory_alloc(&pointer, bytes);
+    if (code == HD_CU_SUCCESS) {
+        *memory = (Memory){pointer, bytes};
+        return HD_OK;
+    }
+    size_t available = 0, total = 0;
+    renderer->driver.memory_info(&available, &total);
+    return hd_fail(
+        error, HD_FAILED, "cuda: the %s need %zu bytes; %s has %zu free of %zu (cuMemAlloc: %s)",
+        what, bytes, renderer->name, available, total, hd_cuda_error_name(&renderer->driver, code));
+}
+
+static HdStatus copy_table(Renderer *renderer, Memory *memory, const HdTable *table,
+                           const char *what, HdError *error) {
+    size_t bytes = table->bytes < MIN_TABLE_BYTES ? MIN_TABLE_BYTES : table->bytes;
+    HdStatus status = resize(renderer, memory, bytes, what, error);
+    if (status != HD_OK || table->bytes == 0)
+        return status;
+    return CALL(renderer, copy_to_device, cuMemcpyHtoD,
+                (memory->pointer, table->data, table->bytes), error);
+}
+
+/* ---- upload ---- */
+
+static HdStatus get_function(Renderer *renderer, HdCuFunction *function, const char *name,
+                             HdError *error) {
+    return CALL(renderer, module_function, cuModuleGetFunction, (function, renderer->module, name),
+                error);
+}
+
+static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError *error) {
+    HdCuModule module = NULL;
+    HdCuResult result = renderer->driver.module_load(&module, code->cubin);
+    if (result != HD_CU_SUCCESS)
+        return hd_fail(error, HD_FAILED,
+                       "cuda: the driver does not load what NVRTC %d.%d compiled for sm_%d "
+                       "(cuModuleLoadData: %s)",
+                       renderer->nvrtc.major, renderer->nvrtc.minor, renderer->arch,
+                       hd_cuda_error_name(&renderer->driver, result));
+    renderer->module = module;
+    HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);
+    if (status == HD_OK)
+        status = get_function(renderer, &renderer->sum, "hedron_sum_counts", error);
+    if (status == HD_OK)
+        status = CALL(renderer, function_attribute, cuFuncGetAttribute,
+                      (&renderer->registers, HD_CU_FUNCTION_REGISTERS, renderer->render), error);
+    if (status == HD_OK)
+        status =
+            CALL(renderer, function_attribute, cuFuncGetAttribute,
+                 (&renderer->local_bytes, HD_CU_FUNCTION_LOCAL_BYTES, renderer->render), error);
+    if (status != HD_OK)
+        unload_module(renderer);
+    return status;
+}
+
+static HdStatus find_compiler(Renderer *renderer, HdError *error) {
+    if (renderer->nvrtc.library)
+        return HD_OK;
+    int driver_major = query_driver_version(&renderer->driver) / 1000;
+    return hd_nvrtc_open(&renderer->nvrtc, renderer->name, renderer->arch, driver_major, NULL,
+                         error);
+}
+
+static HdStatus build(Renderer *renderer, int plane_count, int depth, HdError *error) {
+    HdKernelShape *shape = &renderer->shape;
+    if (renderer->module && shape->plane_count == plane_count && shape->depth == depth)
+        return HD_OK;
+    unload_module(renderer);
+    shape->plane_count = plane_count;
+    shape->depth = depth;
+    HdCudaCode code;
+    HdStatus status = find_compiler(renderer, error);
+    if (status == HD_OK)
+        status = hd_cuda_compile(&code, &renderer->nvrtc, renderer->arch, shape, false, error);
+    if (status != HD_OK)
+        return status;
+    status = load_module(renderer, &code, error);
+    hd_cuda_code_free(&code);
+    return status;
+}
+
+static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {
+    Renderer *renderer = state;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = build(renderer, tables->plane_count, tables->depth, error);
+    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
+        status = copy_table(renderer, &renderer->scene[i], &tables->table[i], "tables of the scene",
+                            error);
+    leave(renderer);
+    return status;
+}
+
+/* ---- render ---- */
+
+static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int items,
+                        HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
+        status = copy_table(renderer, &renderer->frame[i], &tables->table[i], "tables of the frame",
+                            error);
+    size_t pixel_bytes = sizeof(float) * 3 * (size_t)tables->width * (size_t)tables->height;
+    if (status == HD_OK)
+        status = resize(renderer, &renderer->pixels, pixel_bytes, "pixels", error);
+    if (status == HD_OK)
+        status = resize(renderer, &renderer->counts, HD_COUNTS_BYTES * (size_t)items,
+                        "counts of the work items", error);
+    if (status == HD_OK)
+        status = resize(renderer, &renderer->sums, HD_COUNTS_BYTES * HD_SUM_WORKERS,
+                        "sums of the counts", error);
+    return status;
+}
+
+static HdStatus launch(const Renderer *renderer, HdCuFunction function, int threads,
+                       void **arguments, HdError *error) {
+    unsigned int blocks = ((unsigned int)threads + BLOCK_THREADS - 1) / BLOCK_THREADS;
+    return CALL(renderer, launch, cuLaunchKernel,
+                (function, blocks, 1, 1, BLOCK_THREADS, 1, 1, 0, NULL, arguments, NULL), error);
+}
+
+static HdStatus launch_render(Renderer *renderer, int items, HdError *error) {
+    int first, count;
+    void *arguments[HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 4];
+    int n = 0;
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        arguments[n++] = &renderer->scene[i].pointer;
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        arguments[n++] = &renderer->frame[i].pointer;
+    arguments[n++] = &first;
+    arguments[n++] = &count;
+    arguments[n++] = &renderer->pixels.pointer;
+    arguments[n++] = &renderer->counts.pointer;
+    HdStatus status = HD_OK;
+    for (first = 0; status == HD_OK && first < items; first += count) {
+        count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
+        status = launch(renderer, renderer->render, count, arguments, error);
+    }
+    return status;
+}
+
+static HdStatus launch_sum(Renderer *renderer, int items, HdError *error) {
+    void *arguments[] = {&renderer->counts.pointer, &items, &renderer->sums.pointer};
+    return launch(renderer, renderer->sum, HD_SUM_WORKERS, arguments, error);
+}
+
+static HdStatus trace(Renderer *renderer, int items, double *seconds, HdError *error) {
+    float milliseconds = 0.0f;
+    HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->start, NULL), error);
+    if (status == HD_OK)
+        status = launch_render(renderer, items, error);
+    if (status == HD_OK)
+        status = launch_sum(renderer, items, error);
+    if (status == HD_OK)
+        status = CALL(renderer, event_record, cuEventRecord, (renderer->end, NULL), error);
+    if (status == HD_OK)
+        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->end), error);
+    if (status == HD_OK)
+        status = CALL(renderer, event_elapsed, cuEventElapsedTime,
+                      (&milliseconds, renderer->start, renderer->end), error);
+    *seconds = 1e-3 * (double)milliseconds;
+    return status;
+}
+
+static HdStatus read_back(const Renderer *renderer, const Memory *memory, void *to,
+                          HdError *error) {
+    return CALL(renderer, copy_to_host, cuMemcpyDtoH, (to, memory->pointer, memory->bytes), error);
+}
+
+static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
+    Renderer *renderer = state;
+    int items =
+        hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
+    HdItemCounts sums[HD_SUM_WORKERS];
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = prepare(renderer, tables, items, error);
+    if (status == HD_OK)
+        status = trace(renderer, items, &frame->trace_seconds, error);
+    if (status == HD_OK)
+        status = read_back(renderer, &renderer->pixels, frame->rgb, error);
+    if (status == HD_OK)
+        status = read_back(renderer, &renderer->sums, sums, error);
+    if (status == HD_OK)
+        hd_frame_set_counts(frame, sums);
+    leave(renderer);
+    return status;
+}
+
+static void cuda_describe(const void *state, char *text, int capacity) {
+    const Renderer *renderer = state;
+    int length = snprintf(
+        text, (size_t)capacity, "sm_%d, 1 lane of %s, blocks of %d threads", renderer->arch,
+        renderer->shape.precision == HD_DOUBLE_PRECISION ? "double" : "float", (int)BLOCK_THREADS);
+    if (renderer->module && length > 0 && length < capacity)
+        snprintf(text + length, (size_t)(capacity - length),
+                 ", %d registers and %d bytes of local memory a thread, NVRTC %d.%d",
+                 renderer->registers, renderer->local_bytes, renderer->nvrtc.major,
+                 renderer->nvrtc.minor);
+}
+
+const HdBackend hd_backend_cuda = {
+    .name = "cuda",
+    .enumerate = cuda_enumerate,
+    .open = cuda_open,
+    .upload = cuda_upload,
+    .render = cuda_render,
+    .describe = cuda_describe,
+    .close = cuda_close,
+};

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* Private to the compilation of scenes: src/compile_tables.inc is built once for each precision. */
+#ifndef HD_COMPILE_TABLES_H
+#define HD_COMPILE_TABLES_H
+
+#include "compiled_scene.h"
+
+HdStatus hd_compile_scene_float(HdSceneTables *tables, const HdScene *scene, HdError *error);
+HdStatus hd_compile_scene_double(HdSceneTables *tables, const HdScene *scene, HdError *error);
+HdStatus hd_compile_frame_float(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                                HdError *error);
+HdStatus hd_compile_frame_double(HdFrameTables *tables, const HdScene *scene,
+                                 const HdCamera *camera, HdError *error);
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* A scene turned into the tables that kernels read (kernels/common/scene_tables.h). */
+#ifndef HD_COMPILED_SCENE_H
+#define HD_COMPILED_SCENE_H
+
+#include <stddef.h>
+
+#include "camera.h"
+#include "error.h"
+#include "scene.h"
+
+typedef enum HdPrecision { HD_FLOAT, HD_DOUBLE_PRECISION } HdPrecision;
+
+/* Bytes for a device, laid out as the kernels' structs. Empty tables are allowed. */
+typedef struct HdTable {
+    void *data;
+    size_t bytes;
+} HdTable;
+
+/* In the order of HD_SCENE_TABLES; the counts are those that kernels are specialised by. */
+typedef struct HdSceneTables {
+    HdTable table[16];
+    int table_count;
+    HdPrecision precision;
+    int plane_count;
+    int depth;
+} HdSceneTables;
+
+/* In the order of HD_FRAME_TABLES. */
+typedef struct HdFrameTables {
+    HdTable table[4];
+    int table_count;
+    int width, height;
+    HdPrecision precision;
+} HdFrameTables;
+
+/* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences of
+   centres are formed before they are rounded to the kernels' precision. */
+HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
+                          HdError *error);
+void hd_scene_tables_free(HdSceneTables *tables);
+
+/* The tables of one frame of the same scene. */
+HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                          HdPrecision precision, HdError *error);
+void hd_frame_tables_free(HdFrameTables *tables);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels, compiled to the machine code of one NVIDIA architecture. Needs no device. */
+#ifndef HD_CUDA_COMPILE_H
+#define HD_CUDA_COMPILE_H
+
+#include <stdbool.h>
+
+#include "kernel_source.h"
+#include "nvrtc_library.h"
+
+typedef struct HdCudaCode {
+    char *cubin; /* owned */
+    size_t size;
+    char *log; /* owned; what the compiler had to say, "" at least */
+} HdCudaCode;
+
+/* Compiles the embedded text for sm_`arch`. With `verbose` the log tells each kernel's registers
+   and spills. On failure the whole log is in the message and there is nothing to free. */
+HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, int arch,
+                         const HdKernelShape *shape, bool verbose, HdError *error);
+void hd_cuda_code_free(HdCudaCode *code);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* RTLD_NODELETE */
+#include "dynamic_library.h"
+
+#include <dlfcn.h>
+#include <string.h>
+
+/* Nothing is ever unloaded: NVIDIA's driver has threads of its own, and its compiler loses memory
+   each time it goes. */
+void *hd_library_open(const char *path) {
+    return dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
+
+void hd_library_close(void *library) {
+    if (library)
+        dlclose(library);
+}
+
+const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int count,
+                            void *functions) {
+    for (int i = 0; i < count; i++) {
+        void *address = dlsym(library, symbols[i].name);
+        if (!address)
+            return symbols[i].name;
+        /* POSIX has function pointers and void pointers alike; C does not let one be cast. */
+        memcpy((char *)functions + symbols[i].offset, &address, sizeof address);
+    }
+    return NULL;
+}

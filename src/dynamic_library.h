@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* Libraries that are looked for while the program runs. */
+#ifndef HD_DYNAMIC_LIBRARY_H
+#define HD_DYNAMIC_LIBRARY_H
+
+#include <stddef.h>
+
+/* Where a function's address goes within a struct of function pointers. */
+typedef struct HdLibrarySymbol {
+    const char *name;
+    size_t offset;
+} HdLibrarySymbol;
+
+/* NULL where there is no such library. `path` is a file, or a name that the loader looks for. */
+void *hd_library_open(const char *path);
+
+/* Gives the handle back; the library stays loaded. NULL is allowed. */
+void hd_library_close(void *library);
+
+/* Fills the struct at `functions`. Returns the first symbol that is missing, or NULL. */
+const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int count,
+                            void *functions);
+
+#endif

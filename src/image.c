@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "atomic_file.h"
+#include "image_files.h"
+
+/* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
+static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
+
+HdImageFormat hd_image_format(const char *path) {
+    size_t length = strlen(path);
+    bool png = length >= 4 && strcasecmp(path + length - 4, ".png") == 0;
+    return png ? HD_IMAGE_PNG : HD_IMAGE_DATA;
+}
+
+static HdStatus check_size(int width, int height, HdError *error) {
+    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "a picture of %d x %d pixels, expected 1..%d each",
+                       width, height, HD_MAX_IMAGE_SIDE);
+    return HD_OK;
+}
+
+HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error) {
+    *image = (HdImage8){0};
+    HdStatus status = check_size(width, height, error);
+    if (status != HD_OK)
+        return status;
+    image->rgba = calloc((size_t)width * (size_t)height, 4);
+    if (image->rgba == NULL)
+        return hd_fail(error, HD_FAILED, "not enough memory for a picture of %d x %d pixels", width,
+                       height);
+    image->width = width;
+    image->height = height;
+    return HD_OK;
+}
+
+void hd_image8_free(HdImage8 *image) {
+    free(image->rgba);
+    *image = (HdImage8){0};
+}
+
+HdStatus hd_image8_write(const HdImage8 *image, const char *path, HdError *error) {
+    HdAtomicFile file;
+    HdStatus status = check_size(image->width, image->height, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_open(&file, path, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_image_format(path) == HD_IMAGE_PNG
+                 ? hd_image_png_write(image, file.stream, path, error)
+                 : hd_image_data_write(image, file.stream, path, error);
+    if (status == HD_OK)
+        return hd_atomic_file_commit(&file, error);
+    hd_atomic_file_discard(&file);
+    return status;
+}
+
+HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
+                           HdError *error) {
+    if (width < 1 || width > HD_MAX_TEXTURE_SIDE || height < 1 || height > HD_MAX_TEXTURE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the texture %s has %lu x %lu pixels, expected 1..%d each", name,
+                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_SIDE);
+    texture->texels = calloc((size_t)width * (size_t)height, 3 * sizeof *texture->texels);
+    if (texture->texels == NULL)
+        return hd_fail(error, HD_FAILED, "not enough memory for the texture %s of %lu x %lu pixels",
+                       name, (unsigned long)width, (unsigned long)height);
+    texture->width = (int)width;
+    texture->height = (int)height;
+    return HD_OK;
+}
+
+void hd_texture_clear(HdTexture *texture) {
+    free(texture->texels);
+    *texture = (HdTexture){0};
+}
+
+HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                           const char *name, HdError *error) {
+    *texture = (HdTexture){0};
+    HdStatus status = hd_image_is_png(bytes, size)
+                          ? hd_image_png_decode(texture, bytes, size, name, error)
+                          : hd_image_data_decode(texture, bytes, size, name, error);
+    if (status != HD_OK)
+        hd_texture_clear(texture);
+    return status;
+}
+
+static HdStatus check_file(int descriptor, const char *path, size_t *size, HdError *error) {
+    struct stat found;
+    if (fstat(descriptor, &found) != 0)
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
+                       strerror(errno));
+    if (!S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: it is not a regular file",
+                       path);
+    if (found.st_size > MAX_TEXTURE_FILE || (uintmax_t)found.st_size >= SIZE_MAX)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot read the texture %s: it has %lld bytes, expected at most %lld", path,
+                       (long long)found.st_size, (long long)MAX_TEXTURE_FILE);
+    *size = (size_t)found.st_size;
+    return HD_OK;
+}
+
+static HdStatus read_exactly(int descriptor, unsigned char *bytes, size_t size, const char *path,
+                             HdError *error) {
+    size_t done = 0;
+    while (done < size) {
+        ssize_t count = read(descriptor, bytes + done, size - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
+                           strerror(errno));
+        if (count == 0)
+            return hd_fail(error, HD_BAD_INPUT,
+                           "cannot read the texture %s: it ended after %zu of %zu bytes", path,
+                           done, size);
+        done += (size_t)count;
+    }
+    return HD_OK;
+}
+
+static HdStatus read_file(int descriptor, const char *path, unsigned char **bytes, size_t *size,
+                          HdError *error) {
+    HdStatus status = check_file(descriptor, path, size, error);
+    if (status != HD_OK)
+        return status;
+    *bytes = malloc(*size + 1); /* an empty file is the decoder's to refuse */
+    if (*bytes == NULL)
+        return hd_fail(error, HD_FAILED, "not enough memory for the %zu bytes of the texture %s",
+                       *size, path);
+    return read_exactly(descriptor, *bytes, *size, path, error);
+}
+
+HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error) {
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    *texture = (HdTexture){0};
+    /* Not blocking, lest a named pipe stops the program before it is refused. */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
+                       strerror(errno));
+    HdStatus status = read_file(descriptor, path, &bytes, &size, error);
+    close(descriptor);
+    if (status == HD_OK)
+        status = hd_texture_decode(texture, bytes, size, path, error);
+    free(bytes);
+    return status;
+}

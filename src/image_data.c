@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/* The data format: int32 width, int32 height, then r g b a, little endian. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image_files.h"
+
+#include <errno.h>
+#include <string.h>
+
+enum { HEAD_SIZE = 8 };
+
+static void put_int32(unsigned char out[4], int value) {
+    uint32_t bits = (uint32_t)value;
+    for (int i = 0; i < 4; i++)
+        out[i] = (unsigned char)(bits >> (8 * i) & 0xff);
+}
+
+static int64_t get_int32(const unsigned char bytes[4]) {
+    uint32_t bits = 0;
+    for (int i = 0; i < 4; i++)
+        bits |= (uint32_t)bytes[i] << (8 * i);
+    return bits > INT32_MAX ? (int64_t)bits - (INT64_C(1) << 32) : (int64_t)bits;
+}
+
+HdStatus hd_image_data_write(const HdImage8 *image, FILE *stream, const char *path,
+                             HdError *error) {
+    unsigned char head[HEAD_SIZE];
+    size_t size = (size_t)image->width * (size_t)image->height * 4;
+    put_int32(head, image->width);
+    put_int32(head + 4, image->height);
+    if (fwrite(head, 1, HEAD_SIZE, stream) != HEAD_SIZE ||
+        fwrite(image->rgba, 1, size, stream) != size)
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
+    return HD_OK;
+}
+
+/* Anything that is not PNG arrives here, so that wrong sizes most often mean another format. */
+static HdStatus check_head(const unsigned char *bytes, size_t size, const char *name,
+                           HdError *error) {
+    if (size < HEAD_SIZE)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is neither PNG nor the data format: it has %zu bytes, expected at "
+                       "least %d",
+                       name, size, HEAD_SIZE);
+    int64_t width = get_int32(bytes), height = get_int32(bytes + 4);
+    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is neither PNG nor the data format: its first 8 bytes say %lld x %lld "
+                       "pixels, expected 1..%d each",
+                       name, (long long)width, (long long)height, HD_MAX_IMAGE_SIDE);
+    uint64_t expected = HEAD_SIZE + (uint64_t)width * (uint64_t)height * 4;
+    if (size != expected)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s has %zu bytes, expected %llu for %lld x %lld pixels in the data format",
+                       name, size, (unsigned long long)expected, (long long)width,
+                       (long long)height);
+    return HD_OK;
+}
+
+HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                              const char *name, HdError *error) {
+    HdStatus status = check_head(bytes, size, name, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_texture_create(texture, (uint32_t)get_int32(bytes), (uint32_t)get_int32(bytes + 4),
+                               name, error);
+    if (status != HD_OK)
+        return status;
+    const unsigned char *rgba = bytes + HEAD_SIZE;
+    size_t pixels = (size_t)texture->width * (size_t)texture->height;
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < 3; c++)
+            texture->texels[i * 3 + c] = (uint16_t)(rgba[i * 4 + c] * 257);
+    return HD_OK;
+}

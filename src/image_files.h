@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* The two formats behind image.h. */
+#ifndef HD_IMAGE_FILES_H
+#define HD_IMAGE_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "image.h"
+
+enum { HD_MAX_TEXTURE_SIDE = 16384 };
+
+/* Checks the size against HD_MAX_TEXTURE_SIDE and allocates the texels. */
+HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
+                           HdError *error);
+void hd_texture_clear(HdTexture *texture);
+
+/* Write to an open stream; `path` is for messages. */
+HdStatus hd_image_data_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error);
+HdStatus hd_image_png_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error);
+
+/* True where the bytes begin with PNG's signature. */
+bool hd_image_is_png(const unsigned char *bytes, size_t size);
+
+/* Decode into a cleared texture; on failure it may hold memory that the caller clears. */
+HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                              const char *name, HdError *error);
+HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                             const char *name, HdError *error);
+
+#endif

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image_files.h"
+
+#include <errno.h>
+#include <setjmp.h>
+#include <string.h>
+
+#include <png.h>
+
+/* Far above what a texture needs, far below what would hurt. */
+enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
+
+enum { SIGNATURE_SIZE = 8, SIZE_OFFSET = 16, SIZE_END = 24 };
+
+/* Everything that must outlive a jump out of libpng lives here, not in local variables. */
+typedef struct PngJob {
+    png_structp png;
+    png_infop info;
+    const unsigned char *bytes; /* the part not read yet */
+    size_t size;
+    FILE *stream;
+    char message[256];
+} PngJob;
+
+static void on_error(png_structp png, png_const_charp message) {
+    PngJob *job = png_get_error_ptr(png);
+    snprintf(job->message, sizeof job->message, "%s", message);
+    png_longjmp(png, 1);
+}
+
+/* libpng would print warnings. */
+static void on_warning(png_structp png, png_const_charp message) {
+    (void)png;
+    (void)message;
+}
+
+static void read_bytes(png_structp png, png_bytep out, size_t count) {
+    PngJob *job = png_get_io_ptr(png);
+    if (count > job->size)
+        png_error(png, "the file ends too early");
+    memcpy(out, job->bytes, count);
+    job->bytes += count;
+    job->size -= count;
+}
+
+static void write_bytes(png_structp png, png_bytep bytes, size_t count) {
+    PngJob *job = png_get_io_ptr(png);
+    if (fwrite(bytes, 1, count, job->stream) != count)
+        png_error(png, strerror(errno));
+}
+
+static void flush_nothing(png_structp png) {
+    (void)png;
+}
+
+bool hd_image_is_png(const unsigned char *bytes, size_t size) {
+    return size >= SIGNATURE_SIZE && png_sig_cmp(bytes, 0, SIGNATURE_SIZE) == 0;
+}
+
+/* libpng refuses large pictures too, but does not say how large they are. */
+static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, size_t size,
+                               const char *name, HdError *error) {
+    if (size < SIZE_END || memcmp(bytes + SIZE_OFFSET - 4, "IHDR", 4) != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot read %s: expected PNG's IHDR chunk after the signature", name);
+    return hd_texture_create(texture, png_get_uint_32(bytes + SIZE_OFFSET),
+                             png_get_uint_32(bytes + SIZE_OFFSET + 4), name, error);
+}
+
+static void limit_reading(png_structp png) {
+    png_set_user_limits(png, HD_MAX_TEXTURE_SIDE, HD_MAX_TEXTURE_SIDE);
+    png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);
+    png_set_chunk_cache_max(png, MAX_KEPT_CHUNKS);
+    /* Texts, profiles and gamma have no use here: skipped, they cannot do harm either. */
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+}
+
+/* Every kind of PNG becomes RGB with 16 bits. */
+static void convert_to_rgb16(png_structp png) {
+    png_set_expand_16(png);
+    png_set_strip_alpha(png);
+    png_set_gray_to_rgb(png);
+}
+
+/* Runs under setjmp. An interlaced picture passes over the same rows several times. */
+static void read_rows(PngJob *job, const HdTexture *texture) {
+    size_t row_size = (size_t)texture->width * 6;
+    png_set_read_fn(job->png, job, read_bytes);
+    limit_reading(job->png);
+    png_read_info(job->png, job->info);
+    convert_to_rgb16(job->png);
+    int passes = png_set_interlace_handling(job->png);
+    png_read_update_info(job->png, job->info);
+    if (png_get_rowbytes(job->png, job->info) != row_size)
+        png_error(job->png, "unexpected size of a row");
+    for (int pass = 0; pass < passes; pass++)
+        for (int y = 0; y < texture->height; y++)
+            png_read_row(job->png, (png_bytep)texture->texels + row_size * (size_t)y, NULL);
+    png_read_end(job->png, NULL);
+}
+
+static bool try_reading(PngJob *job, const HdTexture *texture) {
+    if (setjmp(png_jmpbuf(job->png)) != 0)
+        return false;
+    read_rows(job, texture);
+    return true;
+}
+
+/* PNG is big endian. */
+static void to_host_order(HdTexture *texture) {
+    size_t count = (size_t)texture->width * (size_t)texture->height * 3;
+    const unsigned char *bytes = (const unsigned char *)texture->texels;
+    for (size_t i = 0; i < count; i++)
+        texture->texels[i] = (uint16_t)(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+}
+
+HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                             const char *name, HdError *error) {
+    PngJob job = {.bytes = bytes, .size = size, .message = "out of memory"};
+    HdStatus status = create_texture(texture, bytes, size, name, error);
+    if (status != HD_OK)
+        return status;
+    job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    if (job.png != NULL)
+        job.info = png_create_info_struct(job.png);
+    bool done = job.info != NULL && try_reading(&job, texture);
+    png_destroy_read_struct(&job.png, &job.info, NULL);
+    if (!done)
+        return hd_fail(error, HD_BAD_INPUT, "cannot read %s as PNG: %s", name, job.message);
+    to_host_order(texture);
+    return HD_OK;
+}
+
+/* Runs under setjmp. Speed comes before size: frames are many and short-lived. */
+static void write_rows(PngJob *job, const HdImage8 *image) {
+    size_t row_size = (size_t)image->width * 4;
+    png_set_write_fn(job->png, job, write_bytes, flush_nothing);
+    png_set_compression_level(job->png, 1);
+    png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_IHDR(job->png, job->info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(job->png, job->info);
+    png_set_filler(job->png, 0, PNG_FILLER_AFTER); /* when writing: drops the fourth byte */
+    for (int y = 0; y < image->height; y++)
+        png_write_row(job->png, image->rgba + row_size * (size_t)y);
+    png_write_end(job->png, NULL);
+}
+
+static bool try_writing(PngJob *job, const HdImage8 *image) {
+    if (setjmp(png_jmpbuf(job->png)) != 0)
+        return false;
+    write_rows(job, image);
+    return true;
+}
+
+HdStatus hd_image_png_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error) {
+    PngJob job = {.stream = stream, .message = "out of memory"};
+    job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    if (job.png != NULL)
+        job.info = png_create_info_struct(job.png);
+    bool done = job.info != NULL && try_writing(&job, image);
+    png_destroy_write_struct(&job.png, &job.info);
+    if (!done)
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, job.message);
+    return HD_OK;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+#include "kernel_source.h"
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "../kernels/common/scene_tables.h"
+
+void hd_kernel_defines(const HdKernelShape *shape,
+                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]) {
+    const struct {
+        const char *name;
+        int value;
+    } list[HD_KERNEL_DEFINE_COUNT] = {
+        {"HD_LANES", shape->lanes},
+        {"HD_DOUBLE", shape->precision == HD_DOUBLE_PRECISION},
+        {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
+        {"HD_PLANE_COUNT", shape->plane_count},
+        {"HD_DEPTH", shape->depth},
+        {"HD_STRICT", shape->math == HD_MATH_STRICT},
+    };
+    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
+        snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
+}
+
+int hd_kernel_item_count(int width, int height, int pixels_per_item) {
+    int64_t columns = ((int64_t)width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t rows = ((int64_t)height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t items = columns * rows * (HD_BLOCK_PIXELS / pixels_per_item);
+    return items > INT_MAX ? INT_MAX : (int)items;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels' text, embedded in the program, and how it is specialised. */
+#ifndef HD_KERNEL_SOURCE_H
+#define HD_KERNEL_SOURCE_H
+
+#include <stddef.h>
+
+#include "backend.h"
+
+/* NUL-terminated, all #includes resolved, with #line directives. */
+extern const unsigned char hd_opencl_source[];
+extern const size_t hd_opencl_source_size; /* without the NUL */
+extern const unsigned char hd_cuda_source[];
+extern const size_t hd_cuda_source_size;
+
+/* What the text is specialised by. */
+typedef struct HdKernelShape {
+    int lanes;
+    int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
+    int plane_count;
+    int depth;
+    HdPrecision precision;
+    HdMath math;
+} HdKernelShape;
+
+enum { HD_KERNEL_DEFINE_COUNT = 6, HD_KERNEL_DEFINE_LENGTH = 40 };
+
+/* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
+   -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */
+void hd_kernel_defines(const HdKernelShape *shape,
+                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
+
+/* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and lower
+   border, times the items of a block. */
+int hd_kernel_item_count(int width, int height, int pixels_per_item);
+
+#endif

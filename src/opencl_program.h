@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels, compiled by an OpenCL driver. */
+#ifndef HD_OPENCL_PROGRAM_H
+#define HD_OPENCL_PROGRAM_H
+
+#include "kernel_source.h"
+#include "opencl_devices.h"
+
+typedef struct HdOpenclProgram {
+    cl_program program; /* NULL: there is none */
+    cl_kernel render, sum;
+} HdOpenclProgram;
+
+/* Compiles the embedded text. `name` is the device's, for messages. On failure the compiler's log
+   is in the message and there is nothing to free. */
+HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, cl_device_id device,
+                         const char *name, const HdKernelShape *shape, HdError *error);
+void hd_opencl_program_free(HdOpenclProgram *program);
+
+#endif

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "paths.h"
+
+#include <errno.h>
+#include <pwd.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+static HdStatus fail_too_long(const char *path, HdError *error) {
+    return hd_fail(error, HD_BAD_INPUT,
+                   "the file name \"%s\" is too long, expected fewer than %d bytes", path,
+                   HD_MAX_PATH);
+}
+
+static HdStatus join(const char *first, const char *second, char out[HD_MAX_PATH], HdError *error) {
+    size_t first_length = strlen(first), second_length = strlen(second);
+    if (first_length >= HD_MAX_PATH || second_length >= HD_MAX_PATH - first_length)
+        return fail_too_long(second, error);
+    memmove(out, first, first_length);
+    memmove(out + first_length, second, second_length + 1);
+    return HD_OK;
+}
+
+static HdStatus home_from_database(const char *rest, char out[HD_MAX_PATH], HdError *error) {
+    char buffer[16384];
+    struct passwd entry, *found = NULL;
+    int reason = getpwuid_r(getuid(), &entry, buffer, sizeof buffer, &found);
+    if (found == NULL || found->pw_dir == NULL || found->pw_dir[0] == '\0')
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot expand \"~%s\": HOME is not set and user %lu has no home folder%s%s",
+                       rest, (unsigned long)getuid(), reason != 0 ? ": " : "",
+                       reason != 0 ? strerror(reason) : "");
+    return join(found->pw_dir, rest, out, error);
+}
+
+HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *error) {
+    if (path[0] != '~' || (path[1] != '\0' && path[1] != '/'))
+        return join("", path, out, error);
+    const char *home = getenv("HOME");
+    if (home == NULL || home[0] == '\0')
+        return home_from_database(path + 1, out, error);
+    return join(home, path + 1, out, error);
+}
+
+static bool is_folder(const char *path) {
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+/* Making first and looking second leaves no gap for another process that makes the same folder. */
+static HdStatus make_folder(const char *folder, const char *path, HdError *error) {
+    if (mkdir(folder, 0777) == 0)
+        return HD_OK;
+    int reason = errno;
+    if (is_folder(folder))
+        return HD_OK;
+    return hd_fail(error, HD_FAILED, "cannot make the folder %s for %s: %s", folder, path,
+                   reason == EEXIST ? "a file has that name" : strerror(reason));
+}
+
+HdStatus hd_path_make_parents(const char *path, HdError *error) {
+    char folder[HD_MAX_PATH];
+    HdStatus status = join("", path, folder, error);
+    for (size_t i = 1; status == HD_OK && folder[0] != '\0' && folder[i] != '\0'; i++) {
+        if (folder[i] != '/' || folder[i - 1] == '/')
+            continue;
+        folder[i] = '\0';
+        status = make_folder(folder, path, error);
+        folder[i] = '/';
+    }
+    return status;
+}
+
+typedef enum Directive { DIRECTIVE_PERCENT, DIRECTIVE_NUMBER, DIRECTIVE_WRONG } Directive;
+
+/* `*text` stands at a percent sign and is moved past the directive. */
+static Directive read_directive(const char **text, int *digits) {
+    const char *p = *text + 1;
+    *digits = 1;
+    if (p[0] == '%') {
+        *text = p + 1;
+        return DIRECTIVE_PERCENT;
+    }
+    if (p[0] == '0' && p[1] >= '1' && p[1] <= '9') {
+        *digits = p[1] - '0';
+        p += 2;
+    }
+    if (p[0] != 'd')
+        return DIRECTIVE_WRONG;
+    *text = p + 1;
+    return DIRECTIVE_NUMBER;
+}
+
+bool hd_pattern_has_number(const char *path) {
+    while ((path = strchr(path, '%')) != NULL) {
+        int digits;
+        Directive directive = read_directive(&path, &digits);
+        if (directive == DIRECTIVE_NUMBER)
+            return true;
+        if (directive == DIRECTIVE_WRONG)
+            path++;
+    }
+    return false;
+}
+
+HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+    const char *text = pattern;
+    int numbers = 0, digits;
+    while ((text = strchr(text, '%')) != NULL) {
+        Directive directive = read_directive(&text, &digits);
+        if (directive == DIRECTIVE_WRONG)
+            return hd_fail(error, HD_BAD_INPUT,
+                           "the pattern \"%s\" has \"%.4s\", expected %%d, %%0Nd with N from 1 to "
+                           "9, or %%%% for a percent sign",
+                           pattern, text);
+        numbers += directive == DIRECTIVE_NUMBER;
+    }
+    if (numbers != 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d or %%0Nd",
+                       pattern, numbers);
+    return HD_OK;
+}
+
+/* Writes what stands for the directive or the character at `*text` and moves past it. */
+static void expand_next(const char **text, int frame, char piece[16]) {
+    int digits;
+    Directive directive = DIRECTIVE_PERCENT;
+    if (**text == '%')
+        directive = read_directive(text, &digits);
+    else
+        (*text)++;
+    if (directive == DIRECTIVE_NUMBER)
+        snprintf(piece, 16, "%0*d", digits, frame);
+    else
+        snprintf(piece, 16, "%c", (*text)[-1]);
+}
+
+HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
+    HdStatus status = hd_pattern_check(pattern, error);
+    if (status != HD_OK)
+        return status;
+    if (frame < 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
+    size_t length = 0;
+    for (const char *text = pattern; *text != '\0';) {
+        char piece[16];
+        expand_next(&text, frame, piece);
+        size_t piece_length = strlen(piece);
+        if (length + piece_length >= HD_MAX_PATH)
+            return fail_too_long(pattern, error);
+        memcpy(out + length, piece, piece_length);
+        length += piece_length;
+    }
+    out[length] = '\0';
+    return HD_OK;
+}

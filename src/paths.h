@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* Names of files: the home folder, missing folders, numbered sequences. */
+#ifndef HD_PATHS_H
+#define HD_PATHS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+
+enum { HD_MAX_PATH = 4096 };
+
+/* Copies `path` to `out`, a leading "~" or "~/" replaced by the home folder (HOME, else the user
+   database). "~name" is left as it is. */
+HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *error);
+
+/* Makes every missing folder above the file `path`. */
+HdStatus hd_path_make_parents(const char *path, HdError *error);
+
+/* True where `path` holds a frame number: "%d" or "%0Nd", N from 1 to 9. */
+bool hd_pattern_has_number(const char *path);
+
+/* Checks a pattern: exactly one "%d" or "%0Nd"; "%%" stands for a percent sign; anything else after a
+   percent sign is wrong. The pattern never reaches printf. */
+HdStatus hd_pattern_check(const char *pattern, HdError *error);
+
+/* Writes the name of one frame of a checked pattern. */
+HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error);
+
+#endif

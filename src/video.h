@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* A film made by FFmpeg's programs from raw frames. */
+#ifndef HD_VIDEO_H
+#define HD_VIDEO_H
+
+#include "error.h"
+#include "image.h"
+
+typedef struct HdVideo HdVideo;
+
+/* Finds FFmpeg ("ffmpeg" and "ffprobe" in PATH), makes missing folders, and starts FFmpeg without a
+   shell, writing to a temporary name beside `path` (".mp4": H.264, yuv420p, BT.709; an odd width or
+   height is padded by one pixel). Frames are 8-bit RGBA of one size.
+   HD_UNAVAILABLE where FFmpeg is missing. */
+HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
+                       int frames_per_second, HdError *error);
+
+/* Hands over one frame; blocks while FFmpeg is busy. An FFmpeg that ended early is an error that
+   quotes the end of what it said, never a signal. */
+HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error);
+
+/* Ends the film: waits for FFmpeg, checks its exit code, counts the frames of the file with ffprobe
+   against the frames added, renames the file to its final name. Frees `video` in every case; on
+   failure no file is left. */
+HdStatus hd_video_close(HdVideo *video, HdError *error);
+
+/* Stops FFmpeg, removes the temporary file, frees `video`. */
+void hd_video_abort(HdVideo *video);
+
+#endif

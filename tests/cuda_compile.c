@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/* Compiles the kernels for an NVIDIA architecture, without a device, and tells what they need of
+   it:
+
+       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--planes N] [--depth N] [--log]
+                    [--cubin FILE]
+
+   Exits 0 when they compile, 1 when they do not, 77 when no NVRTC here knows the architecture. */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/cuda_compile.h"
+
+enum { SKIPPED = 77, USAGE = 2 };
+
+typedef struct Options {
+    int arch;
+    const char *nvrtc, *cubin;
+    bool show_log;
+    HdKernelShape shape;
+} Options;
+
+static bool parse(Options *options, int argc, char **argv) {
+    /* Three solids, a floor, and the depth of the default scene. */
+    *options = (Options){
+        .shape = {.lanes = 1, .pixels_per_item = 1, .plane_count = 29, .depth = 6},
+    };
+    for (int i = 1; i < argc; i++) {
+        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        if (strcmp(argv[i], "--double") == 0)
+            options->shape.precision = HD_DOUBLE_PRECISION;
+        else if (strcmp(argv[i], "--fast") == 0)
+            options->shape.math = HD_MATH_FAST;
+        else if (strcmp(argv[i], "--log") == 0)
+            options->show_log = true;
+        else if (!value)
+            return false;
+        else if (strcmp(argv[i], "--arch") == 0)
+            options->arch = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--nvrtc") == 0)
+            options->nvrtc = argv[++i];
+        else if (strcmp(argv[i], "--planes") == 0)
+            options->shape.plane_count = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--depth") == 0)
+            options->shape.depth = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--cubin") == 0)
+            options->cubin = argv[++i];
+        else
+            return false;
+    }
+    return options->arch > 0;
+}
+
+/* The number before `unit` in a line of the assembler's report; -1: there is none. */
+static int number_before(const char *line, const char *end, const char *unit) {
+    const char *at = strstr(line, unit);
+    if (!at || at >= end)
+        return -1;
+    while (at > line && at[-1] == ' ')
+        at--;
+    const char *digits = at;
+    while (digits > line && digits[-1] >= '0' && digits[-1] <= '9')
+        digits--;
+    return digits < at ? atoi(digits) : -1;
+}
+
+typedef struct Usage {
+    int registers, stack, spill_stores, spill_loads;
+} Usage;
+
+/* The report names a kernel ("Compiling entry function 'X'"), then tells what it uses. */
+static Usage kernel_usage(const char *log, const char *kernel) {
+    Usage usage = {-1, -1, -1, -1};
+    char heading[80];
+    snprintf(heading, sizeof heading, "entry function '%s'", kernel);
+    const char *line = strstr(log, heading);
+    for (int i = 0; line && i < 6; i++) {
+        const char *end = strchr(line, '\n');
+        if (!end)
+            end = line + strlen(line);
+        if (i > 0 && strstr(line, "entry function") && strstr(line, "entry function") < end)
+            break;
+        int *const values[] = {&usage.registers, &usage.stack, &usage.spill_stores,
+                               &usage.spill_loads};
+        static const char *const units[] = {" registers", " bytes stack frame",
+                                            " bytes spill stores", " bytes spill loads"};
+        for (int k = 0; k < 4; k++)
+            if (*values[k] < 0)
+                *values[k] = number_before(line, end, units[k]);
+        line = *end ? end + 1 : NULL;
+    }
+    return usage;
+}
+
+static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCode *code) {
+    static const char *const kernels[] = {"hedron_render", "hedron_sum_counts"};
+    printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
+           nvrtc->minor, options->arch,
+           options->shape.precision == HD_DOUBLE_PRECISION ? "double" : "float",
+           options->shape.plane_count, options->shape.depth, code->size);
+    bool complete = true;
+    for (int i = 0; i < 2; i++) {
+        Usage usage = kernel_usage(code->log, kernels[i]);
+        printf("%s: %d registers, %d bytes of stack, spills of %d bytes stored and %d loaded\n",
+               kernels[i], usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);
+        complete = complete && usage.registers >= 0 && usage.stack >= 0;
+    }
+    if (!complete)
+        fprintf(stderr, "cuda_compile: the assembler's report is not as expected:\n%s\n",
+                code->log);
+    if (options->show_log)
+        printf("%s\n", code->log);
+    return complete;
+}
+
+static bool write_cubin(const char *path, const HdCudaCode *code) {
+    FILE *file = fopen(path, "wb");
+    bool ok = file && fwrite(code->cubin, 1, code->size, file) == code->size;
+    if (file && fclose(file) != 0)
+        ok = false;
+    if (!ok)
+        fprintf(stderr, "cuda_compile: cannot write %s\n", path);
+    return ok;
+}
+
+int main(int argc, char **argv) {
+    static HdError error;
+    Options options;
+    if (!parse(&options, argc, argv)) {
+        fprintf(stderr, "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
+                        "[--planes N] [--depth N] [--log] [--cubin FILE]\n");
+        return USAGE;
+    }
+    HdNvrtc nvrtc;
+    if (hd_nvrtc_open(&nvrtc, "this test", options.arch, 0, options.nvrtc, &error) != HD_OK) {
+        printf("skipped: %s\n", error.message);
+        return SKIPPED;
+    }
+    HdCudaCode code;
+    bool ok = hd_cuda_compile(&code, &nvrtc, options.arch, &options.shape, true, &error) == HD_OK;
+    if (!ok) {
+        fprintf(stderr, "%s\n", error.message);
+    } else {
+        ok = report(&options, &nvrtc, &code);
+        if (options.cubin)
+            ok = write_cubin(options.cubin, &code) && ok;
+        hd_cuda_code_free(&code);
+    }
+    hd_nvrtc_close(&nvrtc);
+    return ok ? 0 : 1;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* Compiles only if src/cuda_api.h declares what NVIDIA's headers declare. Built where a toolkit is
+   installed; there is nothing to run. */
+#include <cuda.h>
+#include <nvrtc.h>
+
+#include "../src/cuda_api.h"
+
+/* An enumeration is compatible with the integer type that the compiler gives it, so that ours
+ * match. */
+#define CHECK(member_type, symbol)                                                                 \
+    _Static_assert(_Generic(&symbol, member_type : 1, default : 0),                                \
+                   #symbol " is not declared as in NVIDIA's header");
+
+#define CHECK_DRIVER(member, symbol, parameters) CHECK(HdCuResult(*) parameters, symbol)
+HD_CUDA_FUNCTIONS(CHECK_DRIVER)
+
+#define CHECK_NVRTC(type, member, symbol, parameters) CHECK(type(*) parameters, symbol)
+HD_NVRTC_FUNCTIONS(CHECK_NVRTC)
+
+#define CHECK_VALUE(ours, theirs)                                                                  \
+    _Static_assert((int)(ours) == (int)(theirs), #ours " is not " #theirs);
+CHECK_VALUE(HD_CU_SUCCESS, CUDA_SUCCESS)
+CHECK_VALUE(HD_CU_ERROR_OUT_OF_MEMORY, CUDA_ERROR_OUT_OF_MEMORY)
+CHECK_VALUE(HD_CU_DEVICE_MULTIPROCESSOR_COUNT, CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT)
+CHECK_VALUE(HD_CU_DEVICE_CAPABILITY_MAJOR, CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR)
+CHECK_VALUE(HD_CU_DEVICE_CAPABILITY_MINOR, CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR)
+CHECK_VALUE(HD_CU_FUNCTION_LOCAL_BYTES, CU_FUNC_ATTRIBUTE_LOCAL_SIZE_BYTES)
+CHECK_VALUE(HD_CU_FUNCTION_REGISTERS, CU_FUNC_ATTRIBUTE_NUM_REGS)
+CHECK_VALUE(HD_CU_EVENT_BLOCKING_SYNC, CU_EVENT_BLOCKING_SYNC)
+CHECK_VALUE(sizeof(HdNvrtcResult), sizeof(nvrtcResult))
+CHECK_VALUE(0, NVRTC_SUCCESS)
+
+int main(void) {
+    return 0;
+}

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+
+#include "expect.h"
+#include "scene.h"
+
+/* A valid scene; each test spoils one value of it. */
+typedef struct Fixture {
+    HdScene scene;
+    HdSolid solids[2];
+    HdLight lights[2];
+} Fixture;
+
+static HdMaterial good_material(void) {
+    return (HdMaterial){.colour = {0.2, 0.5, 1.0},
+                        .mirror_tint = {1.0, 1.0, 1.0},
+                        .diffuse = 0.5,
+                        .specular = 0.3,
+                        .shininess = 64,
+                        .reflection = 0.7,
+                        .transmission = 0.3};
+}
+
+static HdSolid good_solid(HdSolidKind kind) {
+    return (HdSolid){.kind = kind,
+                     .centre = {1.0, 2.0, 3.0},
+                     .circumradius = 2.0,
+                     .face = good_material(),
+                     .rim_width = 0.08,
+                     .rim = good_material(),
+                     .lights = {.per_edge = 3,
+                                .intensity = {0.1, 0.1, 0.1},
+                                .falloff_distance = 2.0,
+                                .disc_radius = 0.04,
+                                .disc_radiance = {4.0, 4.0, 4.0}}};
+}
+
+static void make(Fixture *f) {
+    *f = (Fixture){.solids = {good_solid(HD_HEXAHEDRON), good_solid(HD_ICOSAHEDRON)},
+                   .lights = {{.position = {0.0, 0.0, 9.0}, .intensity = {1.0, 1.0, 1.0}},
+                              {.position = {1.0, 0.0, 9.0}, .intensity = {2.0, 0.0, 0.0}}}};
+    f->scene = (HdScene){
+        .frame_count = 100,
+        .eye = {.r0 = 7.0},
+        .target = {.r0 = 1.0},
+        .field_of_view_degrees = 90.0,
+        .width = 640,
+        .height = 480,
+        .samples_per_side = 4,
+        .depth = 6,
+        .exposure = 1.0,
+        .solid_count = 2,
+        .light_count = 2,
+        .floor = {
+            .present = true,
+            .corners = {{-5.0, -5.0, -1.0}, {-5.0, 5.0, -1.0}, {5.0, 5.0, -1.0}, {5.0, -5.0, -1.0}},
+            .material = good_material()}};
+    f->scene.solids = f->solids;
+    f->scene.lights = f->lights;
+}
+
+static void expect_accepted(const Fixture *f) {
+    static HdError error;
+    if (hd_scene_validate(&f->scene, &error) != HD_OK)
+        fail_msg("%s", error.message);
+}
+
+static void expect_rejected(const Fixture *f, const char *message) {
+    static HdError error;
+    error.message[0] = '\0';
+    const HdStatus status = hd_scene_validate(&f->scene, &error);
+    expect_contains(error.message, message);
+    assert_int_equal(status, HD_BAD_INPUT);
+    assert_int_equal(error.status, HD_BAD_INPUT);
+}
+
+#define ACCEPTED(change)                                                                           \
+    do {                                                                                           \
+        Fixture f;                                                                                 \
+        make(&f);                                                                                  \
+        change;                                                                                    \
+        expect_accepted(&f);                                                                       \
+    } while (0)
+
+#define REJECTED(change, message)                                                                  \
+    do {                                                                                           \
+        Fixture f;                                                                                 \
+        make(&f);                                                                                  \
+        change;                                                                                    \
+        expect_rejected(&f, message);                                                              \
+    } while (0)
+
+static const double not_a_number = (double)NAN;
+static const double infinite = (double)INFINITY;
+
+static void test_a_good_scene(void **state) {
+    (void)state;
+    ACCEPTED((void)0);
+    ACCEPTED(f.scene.solid_count = 0; f.scene.light_count = 0; f.scene.floor.present = false);
+}
+
+static void test_picture(void **state) {
+    (void)state;
+    REJECTED(f.scene.frame_count = 0, "frame count is 0, expected 1 to 10000000");
+    REJECTED(f.scene.frame_count = 10000001, "frame count is 10000001");
+    ACCEPTED(f.scene.frame_count = 10000000);
+    REJECTED(f.scene.width = 0, "width is 0, expected 1 to 65535");
+    REJECTED(f.scene.width = 65536, "width is 65536");
+    REJECTED(f.scene.height = -1, "height is -1, expected 1 to 65535");
+    REJECTED(f.scene.height = 65536, "height is 65536");
+    ACCEPTED(f.scene.width = f.scene.height = 65535; f.scene.samples_per_side = 64);
+    REJECTED(f.scene.samples_per_side = 0, "samples per side is 0, expected 1 to 64");
+    REJECTED(f.scene.samples_per_side = 65, "samples per side is 65");
+    REJECTED(f.scene.depth = -1, "depth is -1, expected 0 to 1000");
+    REJECTED(f.scene.depth = 1001, "depth is 1001");
+    ACCEPTED(f.scene.depth = 0);
+    ACCEPTED(f.scene.depth = 1000);
+}
+
+static void test_view_cutoff_exposure_background(void **state) {
+    (void)state;
+    REJECTED(f.scene.field_of_view_degrees = 0.0, "field of view is 0, expected more than 0");
+    REJECTED(f.scene.field_of_view_degrees = 179.5, "field of view is 179.5");
+    REJECTED(f.scene.field_of_view_degrees = not_a_number, "field of view is nan");
+    ACCEPTED(f.scene.field_of_view_degrees = 179.0);
+    REJECTED(f.scene.cutoff = -0.1, "cutoff is -0.1, expected at least 0");
+    REJECTED(f.scene.cutoff = 1.0, "cutoff is 1, expected at least 0 and less than 1");
+    REJECTED(f.scene.cutoff = not_a_number, "cutoff is");
+    ACCEPTED(f.scene.cutoff = 0.999);
+    REJECTED(f.scene.exposure = 0.0, "exposure is 0, expected more than 0");
+    REJECTED(f.scene.exposure = 1000001.0, "exposure is 1000001");
+    REJECTED(f.scene.exposure = not_a_number, "exposure is");
+    REJECTED(f.scene.exposure = infinite, "exposure is inf");
+    ACCEPTED(f.scene.exposure = 1e6);
+    REJECTED(f.scene.background.y = -1.0, "background's green is -1");
+    REJECTED(f.scene.background.z = infinite, "background's blue is inf");
+}
+
+static void test_paths(void **state) {
+    (void)state;
+    REJECTED(f.scene.eye.r0 = not_a_number, "eye: r0 is nan");
+    REJECTED(f.scene.eye.z0 = infinite, "eye: z0 is inf");
+    REJECTED(f.scene.eye.phi0 = -infinite, "eye: phi0 is -inf");
+    REJECTED(f.scene.eye.r_amplitude = 1e13, "eye: r amplitude is 10000000000000");
+    REJECTED(f.scene.eye.z_amplitude = infinite, "eye: z amplitude is inf");
+    REJECTED(f.scene.target.r_frequency = infinite, "target: r frequency is inf");
+    REJECTED(f.scene.target.z_frequency = infinite, "target: z frequency is inf");
+    REJECTED(f.scene.target.phi_frequency = infinite, "target: phi frequency is inf");
+    REJECTED(f.scene.target.r_phase = infinite, "target: r phase is inf");
+    REJECTED(f.scene.target.z_phase = infinite, "target: z phase is inf");
+}
+
+static void test_materials(void **state) {
+    (void)state;
+    REJECTED(f.solids[1].face.colour.x = 1.5,
+             "solid 2: colour's red is 1.5, expected a number from 0 to 1");
+    REJECTED(f.solids[0].face.colour.y = -0.5, "solid 1: colour's green is -0.5");
+    REJECTED(f.solids[0].face.colour.z = not_a_number, "solid 1: colour's blue is nan");
+    REJECTED(f.solids[0].face.mirror_tint.y = 2.0, "solid 1: mirror tint's green is 2");
+    REJECTED(f.solids[0].face.ambient = -1.0, "solid 1: ambient is -1");
+    REJECTED(f.solids[0].face.diffuse = infinite, "solid 1: diffuse is inf");
+    REJECTED(f.solids[0].face.specular = -0.1, "solid 1: specular is -0.1");
+    REJECTED(f.solids[0].face.shininess = 0, "solid 1: shininess is 0, expected 1 to 65536");
+    REJECTED(f.solids[0].face.shininess = 65537, "solid 1: shininess is 65537");
+    ACCEPTED(f.solids[0].face.shininess = 65536);
+    REJECTED(f.solids[0].face.reflection = -0.1, "solid 1: reflection is -0.1");
+    REJECTED(f.solids[0].face.transmission = 1.1, "solid 1: transmission is 1.1");
+    REJECTED(f.scene.floor.material.diffuse = -1.0, "floor: diffuse is -1");
+    REJECTED(f.solids[0].rim.shininess = 0, "solid 1: rim shininess is 0");
+    ACCEPTED(f.solids[0].rim.shininess = 0; f.solids[0].rim_width = 0.0);
+}
+
+static void test_reflection_and_transmission(void **state) {
+    (void)state;
+    REJECTED(f.solids[1].face.transmission = 0.6,
+             "solid 2: reflection + transmission is 1.3, expected at most 1");
+    REJECTED(f.scene.floor.material.reflection = 0.8, "floor: reflection + transmission is 1.1");
+    REJECTED(f.solids[0].face.reflection = 0.7000001, "solid 1: reflection + transmission is 1.0");
+    for (int tenths = 0; tenths <= 100; tenths++) {
+        Fixture f;
+        make(&f);
+        f.solids[0].face.reflection = tenths * 0.01;
+        f.solids[0].face.transmission = (100 - tenths) * 0.01;
+        expect_accepted(&f);
+    }
+    /* Decimal numbers whose sum in double is just above 1. */
+    ACCEPTED(f.solids[0].face.reflection = 0.7 + 1e-10);
+}
+
+static void test_solids(void **state) {
+    (void)state;
+    REJECTED(f.scene.solid_count = -1, "number of solids is -1, expected 0 to 256");
+    REJECTED(f.scene.solid_count = 257, "number of solids is 257");
+    REJECTED(f.solids[1].kind = HD_SOLID_KIND_COUNT, "solid 2: kind is 5, expected 0 to 4");
+    REJECTED(f.solids[0].centre.z = infinite, "solid 1: centre z is inf");
+    REJECTED(f.solids[0].circumradius = 0.0, "solid 1: radius is 0");
+    REJECTED(f.solids[0].circumradius = -1.0, "solid 1: radius is -1");
+    REJECTED(f.solids[0].circumradius = infinite, "solid 1: radius is inf");
+}
+
+static void test_rim(void **state) {
+    (void)state;
+    /* The cube's face is a square with the side 2 R / sqrt(3). */
+    const double cube = 2.0 / sqrt(3.0);
+    REJECTED(f.solids[0].rim_width = -0.1, "solid 1: rim width is -0.1");
+    REJECTED(f.solids[0].rim_width = not_a_number, "solid 1: rim width is nan");
+    REJECTED(f.solids[0].rim_width = cube + 1e-9, "solid 1: rim width is 1.1547");
+    ACCEPTED(f.solids[0].rim_width = cube - 1e-9);
+    /* The icosahedron's is a triangle with the side R / 0.95105651629515. */
+    const double triangle = 2.0 / 0.95105651629515357 / sqrt(12.0);
+    REJECTED(f.solids[1].rim_width = triangle + 1e-9, "solid 2: rim width is 0.607");
+    ACCEPTED(f.solids[1].rim_width = triangle - 1e-9);
+}
+
+static void test_edge_lights(void **state) {
+    (void)state;
+    REJECTED(f.solids[0].lights.per_edge = -1, "solid 1: number of lights per edge is -1");
+    REJECTED(f.solids[0].lights.intensity.x = -1.0, "solid 1: edge lights' intensity's red is -1");
+    REJECTED(f.solids[0].lights.falloff_distance = -1.0, "solid 1: falloff distance is -1");
+    ACCEPTED(f.solids[0].lights.falloff_distance = 0.0);
+    REJECTED(f.solids[0].lights.falloff_distance = not_a_number, "falloff distance is nan");
+    REJECTED(f.solids[0].lights.disc_radius = -0.1, "solid 1: edge lights' disc radius is -0.1");
+    REJECTED(f.solids[0].lights.disc_radiance.z = not_a_number,
+             "solid 1: edge lights' disc radiance's blue is nan");
+}
+
+static void test_lights(void **state) {
+    (void)state;
+    REJECTED(f.scene.light_count = -1, "number of lights is -1");
+    REJECTED(f.scene.light_count = 100001, "number of lights is 100001");
+    REJECTED(f.lights[1].position.x = infinite, "light 2: position x is inf");
+    REJECTED(f.lights[1].intensity.y = -1.0, "light 2: intensity's green is -1");
+    REJECTED(f.lights[0].falloff_distance = -1.0, "light 1: falloff distance is -1");
+}
+
+static void test_all_lights_together(void **state) {
+    (void)state;
+    /* 12 and 30 edges, 2 other lights: 12 * 8331 + 30 * 0 + 2 = 99974. */
+    ACCEPTED(f.solids[0].lights.per_edge = 8331; f.solids[1].lights.per_edge = 0);
+    REJECTED(f.solids[0].lights.per_edge = 8331;
+             f.solids[1].lights.per_edge = 1, "is 100004, expected at most 100000");
+    REJECTED(f.solids[0].lights.per_edge = 100000;
+             f.solids[1].lights.per_edge = 100000, "is 4200002, expected at most 100000");
+}
+
+static void set_corner(Fixture *f, int i, double x, double y, double z) {
+    f->scene.floor.corners[i] = hd_vec3(x, y, z);
+}
+
+static void test_floor(void **state) {
+    (void)state;
+    REJECTED(set_corner(&f, 2, 5.0, infinite, -1.0), "floor: corner 3 y is inf");
+    /* The diagonal is 14.1: 1e-5 of it is 1.4e-4. */
+    ACCEPTED(set_corner(&f, 2, 5.0, 5.0, -1.0002));
+    REJECTED(set_corner(&f, 2, 5.0, 5.0, -1.0004), "expected four corners in one plane");
+    REJECTED(set_corner(&f, 2, 5.0, 5.0, 3.0), "expected four corners in one plane");
+    REJECTED(set_corner(&f, 2, -4.0, -4.0, -1.0), "is not a convex corner");
+    /* Three corners on a line: a triangle. */
+    REJECTED(set_corner(&f, 2, 0.0, 0.0, -1.0), "floor: corner 3 is not a convex corner");
+    REJECTED(set_corner(&f, 1, -5.0, -5.0, -1.0), "not a convex corner");
+    REJECTED(set_corner(&f, 1, 5.0, 5.0, -1.0);
+             set_corner(&f, 2, -5.0, 5.0, -1.0),
+             "floor: its corners enclose no area or its sides cross");
+    REJECTED(for (int i = 0; i < 4; i++) set_corner(&f, i, i, 2.0 * i, -1.0),
+             "floor: its corners enclose no area");
+    REJECTED(for (int i = 0; i < 4; i++) set_corner(&f, i, 1.0, 1.0, 1.0),
+             "floor: its corners enclose no area");
+    ACCEPTED(for (int i = 0; i < 4; i++) set_corner(&f, i, 0.0, 0.0, 0.0);
+             f.scene.floor.present = false);
+}
+
+/* Crossed sides of unequal length leave an area, but no convex corner. */
+static void test_crossed_floor(void **state) {
+    (void)state;
+    REJECTED(set_corner(&f, 1, 9.0, 5.0, -1.0);
+             set_corner(&f, 2, -5.0, 5.0, -1.0), "is not a convex corner");
+}
+
+static void test_floor_both_ways_round_and_at_all_sizes(void **state) {
+    (void)state;
+    for (double size = 1e-9; size < 1e11; size *= 10.0) {
+        Fixture f;
+        make(&f);
+        for (int i = 0; i < 4; i++)
+            f.scene.floor.corners[i] = hd_scale(f.scene.floor.corners[i], size);
+        expect_accepted(&f);
+        const HdVec3 second = f.scene.floor.corners[1];
+        f.scene.floor.corners[1] = f.scene.floor.corners[3];
+        f.scene.floor.corners[3] = second;
+        expect_accepted(&f);
+    }
+}
+
+static void test_texture(void **state) {
+    (void)state;
+    ACCEPTED(f.scene.floor.texture.width = 2; f.scene.floor.texture.height = 3);
+    REJECTED(f.scene.floor.texture.width = -1, "floor: texture width is -1");
+    REJECTED(f.scene.floor.texture.width = 2, "floor: texture height is 0");
+    REJECTED(f.scene.floor.texture.width = 65536;
+             f.scene.floor.texture.height = 1, "floor: texture width is 65536");
+}
+
+static void test_free_clears(void **state) {
+    (void)state;
+    HdScene scene = {.solid_count = 1, .light_count = 1};
+    scene.solids = calloc(1, sizeof *scene.solids);
+    scene.lights = calloc(1, sizeof *scene.lights);
+    scene.floor.texture = (HdTexture){1, 1, calloc(3, sizeof(uint16_t))};
+    hd_scene_free(&scene);
+    assert_null(scene.solids);
+    assert_null(scene.lights);
+    assert_null(scene.floor.texture.texels);
+    assert_int_equal(scene.solid_count, 0);
+    hd_scene_free(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_good_scene),
+        cmocka_unit_test(test_picture),
+        cmocka_unit_test(test_view_cutoff_exposure_background),
+        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_reflection_and_transmission),
+        cmocka_unit_test(test_solids),
+        cmocka_unit_test(test_rim),
+        cmocka_unit_test(test_edge_lights),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_all_lights_together),
+        cmocka_unit_test(test_floor),
+        cmocka_unit_test(test_crossed_floor),
+        cmocka_unit_test(test_floor_both_ways_round_and_at_all_sizes),
+        cmocka_unit_test(test_texture),
+        cmocka_unit_test(test_free_clears),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

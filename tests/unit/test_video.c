@@ -1,0 +1,444 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <dirent.h>
+#include <errno.h>
+#include <ftw.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "video.h"
+
+static char folder[] = "/tmp/hedron-test-video-XXXXXX";
+static char *old_path;
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
+    (void)info;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+static int count_entries(const char *path) {
+    int count = 0;
+    DIR *entries = opendir(path);
+    assert_non_null(entries);
+    while (readdir(entries) != NULL)
+        count++;
+    closedir(entries);
+    return count - 2; /* "." and ".." */
+}
+
+static int make_test_folder(void **state) {
+    (void)state;
+    const char *path = getenv("PATH");
+    old_path = strdup(path == NULL ? "/usr/bin:/bin" : path);
+    return old_path == NULL || mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int remove_test_folder(void **state) {
+    (void)state;
+    free(old_path);
+    return chdir("/") != 0 || nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+/* Every test begins with an empty folder "out" and the true PATH. */
+static int set_up(void **state) {
+    (void)state;
+    setenv("PATH", old_path, 1);
+    nftw("out", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    nftw("bin", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    return mkdir("out", 0777) != 0 || mkdir("bin", 0777) != 0;
+}
+
+/* No test may leave a process or a descriptor behind. */
+static int tear_down(void **state) {
+    (void)state;
+    static int descriptors = 0;
+    setenv("PATH", old_path, 1);
+    if (waitpid(-1, NULL, WNOHANG) != -1 || errno != ECHILD) {
+        fprintf(stderr, "a process is left\n");
+        return 1;
+    }
+    if (access("/proc/self/fd", R_OK) != 0)
+        return 0;
+    int open_now = count_entries("/proc/self/fd");
+    if (descriptors == 0)
+        descriptors = open_now;
+    if (descriptors != open_now)
+        fprintf(stderr, "%d descriptors are open, expected %d\n", open_now, descriptors);
+    return descriptors != open_now;
+}
+
+static void need_ffmpeg(void) {
+    if (system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") != 0)
+        skip();
+}
+
+static void write_file(const char *path, const char *text, mode_t mode) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    assert_int_equal(chmod(path, mode), 0);
+}
+
+/* Puts a program first in PATH. $REAL is the PATH without it. */
+static void fake(const char *name, const char *script) {
+    char text[1000], path[100];
+    char *search = malloc(strlen(folder) + strlen(old_path) + 10);
+    assert_non_null(search);
+    snprintf(text, sizeof text, "#!/bin/sh\n%s\n", script);
+    snprintf(path, sizeof path, "bin/%s", name);
+    write_file(path, text, 0777);
+    sprintf(search, "%s/bin:%s", folder, old_path);
+    setenv("PATH", search, 1);
+    setenv("REAL", old_path, 1);
+    free(search);
+}
+
+static HdImage8 make_frame(int width, int height, const uint8_t colour[4]) {
+    HdError error = {0};
+    HdImage8 frame;
+    assert_int_equal(hd_image8_create(&frame, width, height, &error), HD_OK);
+    for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
+        memcpy(frame.rgba + i * 4, colour, 4);
+    return frame;
+}
+
+static const uint8_t RED[4] = {255, 0, 0, 255};
+
+/* Makes a film and ends it as a caller would, whatever happens. */
+static HdStatus make_film(const char *path, int width, int height, int frames, HdError *error) {
+    HdVideo *video = NULL;
+    HdStatus status = hd_video_open(&video, path, width, height, 25, error);
+    assert_true((status == HD_OK) == (video != NULL));
+    if (status != HD_OK)
+        return status;
+    HdImage8 frame = make_frame(width, height, RED);
+    for (int i = 0; i < frames && status == HD_OK; i++)
+        status = hd_video_add(video, &frame, error);
+    hd_image8_free(&frame);
+    if (status == HD_OK)
+        return hd_video_close(video, error);
+    hd_video_abort(video);
+    return status;
+}
+
+/* The film must fail, say why, and leave no file. */
+static void check_failure(int width, int height, int frames, HdStatus expected, const char *part) {
+    HdError error = {0};
+    assert_int_equal(make_film("out/film.mp4", width, height, frames, &error), expected);
+    assert_int_equal(error.status, expected);
+    if (strstr(error.message, part) == NULL)
+        fail_msg("\"%s\" lacks \"%s\"", error.message, part);
+    assert_int_equal(count_entries("out"), 0);
+}
+
+static void check_output(const char *command, const char *expected) {
+    char text[1000] = "";
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t size = fread(text, 1, sizeof text - 1, pipe);
+    text[size] = '\0';
+    assert_int_equal(pclose(pipe), 0);
+    assert_string_equal(text, expected);
+}
+
+static void films_have_all_frames(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    assert_int_equal(make_film("out/new/film.mp4", 64, 48, 7, &error), HD_OK);
+    assert_int_equal(count_entries("out/new"), 1);
+    check_output("ffprobe -v error -count_packets -show_entries stream=codec_name,width,height,"
+                 "pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,"
+                 "nb_read_packets -of default=nk=1:nw=1 out/new/film.mp4",
+                 "h264\n64\n48\nyuv420p\ntv\nbt709\nbt709\nbt709\n25/1\n7\n");
+}
+
+static void odd_sizes_are_padded(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    assert_int_equal(make_film("out/film.mp4", 33, 17, 2, &error), HD_OK);
+    check_output("ffprobe -v error -show_entries stream=width,height -of csv=p=0 out/film.mp4",
+                 "34,18\n");
+    assert_int_equal(make_film("out/tiny.mp4", 1, 1, 1, &error), HD_OK);
+    check_output("ffprobe -v error -show_entries stream=width,height -of csv=p=0 out/tiny.mp4",
+                 "2,2\n");
+}
+
+/* Red in BT.709 is 63, 102, 240; BT.601 would give 81, 90, 240. */
+static void colours_follow_bt709(void **state) {
+    (void)state;
+    HdError error = {0};
+    uint8_t planes[64 * 64 * 3 / 2];
+    need_ffmpeg();
+    assert_int_equal(make_film("out/film.mp4", 64, 64, 1, &error), HD_OK);
+    FILE *pipe = popen("ffmpeg -v error -i out/film.mp4 -f rawvideo -", "r");
+    assert_non_null(pipe);
+    assert_int_equal(fread(planes, 1, sizeof planes, pipe), sizeof planes);
+    assert_int_equal(pclose(pipe), 0);
+    assert_in_range(planes[64 * 32 + 32], 62, 64);
+    assert_in_range(planes[64 * 64 + 32 * 16 + 16], 101, 103);
+    assert_in_range(planes[64 * 64 + 32 * 32 + 32 * 16 + 16], 239, 241);
+}
+
+static void names_reach_ffmpeg_unchanged(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    assert_int_equal(make_film("out/a 'b' $c: %d; \"d\".mp4", 16, 16, 1, &error), HD_OK);
+    assert_int_equal(access("out/a 'b' $c: %d; \"d\".mp4", F_OK), 0);
+    assert_int_equal(chdir("out"), 0);
+    HdStatus first = make_film("-y", 16, 16, 1, &error);
+    HdStatus second = make_film("http:x", 16, 16, 1, &error);
+    assert_int_equal(chdir(".."), 0);
+    assert_int_equal(first, HD_OK);
+    assert_int_equal(second, HD_OK);
+    assert_int_equal(count_entries("out"), 3);
+}
+
+/* Later ones would have to fit into the first ones' room if nobody read them. */
+static void large_films_pass_through(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    assert_int_equal(make_film("out/film.mp4", 640, 480, 30, &error), HD_OK);
+    assert_int_equal(count_entries("out"), 1);
+}
+
+static void films_without_frames_fail(void **state) {
+    (void)state;
+    need_ffmpeg();
+    check_failure(16, 16, 0, HD_FAILED, "no frames");
+}
+
+static void aborted_films_leave_nothing(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    HdImage8 frame = make_frame(640, 480, RED);
+    need_ffmpeg();
+    write_file("out/film.mp4", "older", 0666);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
+    assert_int_equal(count_entries("out"), 2);
+    hd_video_abort(video);
+    assert_int_equal(count_entries("out"), 1);
+    check_output("cat out/film.mp4", "older");
+    hd_image8_free(&frame);
+}
+
+static void frames_of_another_size_are_refused(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    HdImage8 right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
+    need_ffmpeg();
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, 25, &error), HD_OK);
+    assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
+    assert_non_null(strstr(error.message, "16 x 32 pixels"));
+    assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
+    assert_int_equal(hd_video_close(video, &error), HD_OK);
+    hd_image8_free(&right);
+    hd_image8_free(&wrong);
+}
+
+static void wrong_settings_are_refused(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    check_failure(0, 16, 1, HD_BAD_INPUT, "0 x 16 pixels, expected 1..65535");
+    check_failure(16, 65536, 1, HD_BAD_INPUT, "16 x 65536 pixels, expected 1..65535");
+    assert_int_equal(hd_video_open(&video, "out/a", 16, 16, 0, &error), HD_BAD_INPUT);
+    assert_non_null(strstr(error.message, "0 frames a second"));
+}
+
+static void missing_programs_are_unavailable(void **state) {
+    (void)state;
+    char only_bin[100];
+    snprintf(only_bin, sizeof only_bin, "/nonexistent::%s/bin", folder);
+    setenv("PATH", only_bin, 1);
+    check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffmpeg\"");
+    write_file("bin/ffmpeg", "#!/bin/sh\nexit 0\n", 0777);
+    check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffprobe\"");
+    mkdir("bin/ffprobe", 0777);
+    check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffprobe\"");
+    rmdir("bin/ffprobe");
+    write_file("bin/ffprobe", "#!/bin/sh\nexit 0\n", 0777);
+    write_file("bin/ffmpeg", "#!/nonexistent/interpreter\n", 0777);
+    check_failure(16, 16, 1, HD_UNAVAILABLE, "cannot start");
+    write_file("bin/ffmpeg", "#!/bin/sh\nexit 0\n", 0666);
+    if (geteuid() != 0)
+        check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffmpeg\"");
+}
+
+static void an_early_end_is_an_error_not_a_signal(void **state) {
+    (void)state;
+    fake("ffprobe", "exit 0");
+    fake("ffmpeg", "echo first complaint >&2; echo last complaint >&2; exit 3");
+    check_failure(640, 480, 10, HD_FAILED, "(exit code 3)");
+    check_failure(640, 480, 10, HD_FAILED, "first complaint\nlast complaint");
+    fake("ffmpeg", "exit 0");
+    check_failure(640, 480, 10, HD_FAILED, "ended early (exit code 0)");
+    fake("ffmpeg", "kill -9 $$");
+    check_failure(640, 480, 10, HD_FAILED, "ended early (signal 9)");
+    fake("ffmpeg", "head -c 2000000 >/dev/null; exit 4");
+    check_failure(640, 480, 10, HD_FAILED, "frame 1 of out/film.mp4; it said: (nothing)");
+}
+
+static void failed_films_take_no_more_frames(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    HdImage8 frame = make_frame(640, 480, RED);
+    fake("ffprobe", "exit 0");
+    fake("ffmpeg", "exit 1");
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
+    assert_non_null(strstr(error.message, "takes no more frames"));
+    assert_int_equal(hd_video_close(video, &error), HD_FAILED);
+    assert_int_equal(count_entries("out"), 0);
+    hd_image8_free(&frame);
+}
+
+static void wrong_exit_codes_are_errors(void **state) {
+    (void)state;
+    fake("ffprobe", "echo 2");
+    fake("ffmpeg", "cat >/dev/null; echo no room >&2; exit 1");
+    check_failure(16, 16, 2, HD_FAILED, "(exit code 1); it said: no room");
+    fake("ffmpeg", "cat >/dev/null; kill -11 $$");
+    check_failure(16, 16, 2, HD_FAILED, "(signal 11)");
+}
+
+static void much_output_blocks_nothing(void **state) {
+    (void)state;
+    fake("ffprobe", "echo 2");
+    fake("ffmpeg", "yes something is wrong | head -n 50000 >&2; cat >/dev/null; "
+                   "yes something is wrong | head -n 50000 >&2; echo the end >&2; exit 1");
+    check_failure(640, 480, 2, HD_FAILED, "something is wrong\nthe end");
+}
+
+static void files_that_are_no_films_are_errors(void **state) {
+    (void)state;
+    need_ffmpeg();
+    fake("ffmpeg", "cat >/dev/null; exit 0");
+    check_failure(16, 16, 2, HD_FAILED, "ffprobe could not count the frames of out/film.mp4");
+    fake("ffmpeg", "(head -c 3072; cat >/dev/null) | PATH=$REAL ffmpeg \"$@\"");
+    check_failure(16, 16, 5, HD_FAILED, "wrote 3 frames to out/film.mp4, expected 5");
+    fake("ffmpeg", "cat >/dev/null; exit 0");
+    fake("ffprobe", "echo 2 or 3");
+    check_failure(16, 16, 2, HD_FAILED, "it said: 2 or 3");
+    fake("ffprobe", "echo 2; exit 1");
+    check_failure(16, 16, 2, HD_FAILED, "(exit code 1)");
+    fake("ffprobe", "exit 0");
+    check_failure(16, 16, 2, HD_FAILED, "it said: (nothing)");
+    remove("bin/ffprobe");
+    fake("ffprobe", "exec rm \"$0\"");
+    fake("ffmpeg", "cat >/dev/null; rm \"${0%ffmpeg}ffprobe\"");
+    check_failure(16, 16, 2, HD_UNAVAILABLE, "cannot start");
+}
+
+static void targets_in_the_way_are_errors(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    mkdir("out/folder", 0777);
+    write_file("out/file", "", 0666);
+    assert_int_equal(make_film("out/folder", 16, 16, 1, &error), HD_BAD_INPUT);
+    assert_int_equal(make_film("out/file/film.mp4", 16, 16, 1, &error), HD_FAILED);
+    assert_int_equal(count_entries("out"), 2);
+    assert_int_equal(count_entries("out/folder"), 0);
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+static void programs_that_hang_are_stopped(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    double start = now();
+    fake("ffprobe", "exit 0");
+    fake("ffmpeg", "sleep 60; exit 0");
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 64, 48, 25, &error), HD_OK);
+    hd_video_abort(video);
+    fake("ffmpeg", "exec <&-; sleep 60");
+    check_failure(640, 480, 10, HD_FAILED, "(signal 9)");
+    assert_true(now() - start < 30);
+}
+
+static void blocked_signals_do_not_reach_ffmpeg(void **state) {
+    (void)state;
+    sigset_t blocked, old;
+    fake("ffprobe", "echo 1");
+    fake("ffmpeg", "cat >/dev/null; kill -TERM $$; exit 0");
+    sigfillset(&blocked);
+    sigprocmask(SIG_BLOCK, &blocked, &old);
+    check_failure(16, 16, 1, HD_FAILED, "(signal 15)");
+    sigprocmask(SIG_SETMASK, &old, NULL);
+}
+
+/* Also closes the standard streams, whose numbers then go to the video's own descriptors. */
+static void closed_standard_streams_do_no_harm(void **state) {
+    (void)state;
+    int status = 0;
+    need_ffmpeg();
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        HdError error = {0};
+        for (int i = 0; i < 3; i++)
+            close(i);
+        _exit(make_film("out/film.mp4", 32, 16, 3, &error) == HD_OK ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    assert_int_equal(count_entries("out"), 1);
+}
+
+#define VIDEO_TEST(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        VIDEO_TEST(films_have_all_frames),
+        VIDEO_TEST(odd_sizes_are_padded),
+        VIDEO_TEST(colours_follow_bt709),
+        VIDEO_TEST(names_reach_ffmpeg_unchanged),
+        VIDEO_TEST(large_films_pass_through),
+        VIDEO_TEST(films_without_frames_fail),
+        VIDEO_TEST(aborted_films_leave_nothing),
+        VIDEO_TEST(frames_of_another_size_are_refused),
+        VIDEO_TEST(wrong_settings_are_refused),
+        VIDEO_TEST(missing_programs_are_unavailable),
+        VIDEO_TEST(an_early_end_is_an_error_not_a_signal),
+        VIDEO_TEST(failed_films_take_no_more_frames),
+        VIDEO_TEST(wrong_exit_codes_are_errors),
+        VIDEO_TEST(much_output_blocks_nothing),
+        VIDEO_TEST(files_that_are_no_films_are_errors),
+        VIDEO_TEST(targets_in_the_way_are_errors),
+        VIDEO_TEST(programs_that_hang_are_stopped),
+        VIDEO_TEST(blocked_signals_do_not_reach_ffmpeg),
+        VIDEO_TEST(closed_standard_streams_do_no_harm),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}
