@@ -27,6 +27,8 @@ typedef struct HdDevice {
     char name[256];
     char driver[256];        /* platform, driver and versions, for people */
     bool is_cpu;             /* takes several lanes */
+    int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
+    int clock_mhz;
     bool has_double;
     char not_strict[256];    /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;

@@ -48,16 +48,36 @@ static HdStatus check(const Renderer *renderer, HdCuResult code, const char *fun
 
 /* ---- devices ---- */
 
-static HdStatus query_arch(const HdCudaDriver *driver, HdCuDevice device, int *arch,
-                           HdError *error) {
-    int major = 0, minor = 0;
-    HdCuResult code = driver->device_attribute(&major, HD_CU_DEVICE_CAPABILITY_MAJOR, device);
-    if (code == HD_CU_SUCCESS)
-        code = driver->device_attribute(&minor, HD_CU_DEVICE_CAPABILITY_MINOR, device);
-    *arch = 10 * major + minor;
+static HdStatus query(const HdCudaDriver *driver, HdCuDevice device, HdCuAttribute attribute,
+                      int *value, HdError *error) {
+    *value = 0;
+    HdCuResult code = driver->device_attribute(value, attribute, device);
     if (code != HD_CU_SUCCESS)
         return hd_cuda_fail(driver, "cuDeviceGetAttribute", code, error);
     return HD_OK;
+}
+
+static HdStatus query_arch(const HdCudaDriver *driver, HdCuDevice device, int *arch,
+                           HdError *error) {
+    int minor;
+    HdStatus status = query(driver, device, HD_CU_DEVICE_CAPABILITY_MAJOR, arch, error);
+    if (status == HD_OK)
+        status = query(driver, device, HD_CU_DEVICE_CAPABILITY_MINOR, &minor, error);
+    if (status == HD_OK)
+        *arch = 10 * *arch + minor;
+    return status;
+}
+
+static HdStatus query_speed(const HdCudaDriver *driver, HdCuDevice handle, HdDevice *device,
+                            HdError *error) {
+    int khz;
+    HdStatus status =
+        query(driver, handle, HD_CU_DEVICE_MULTIPROCESSOR_COUNT, &device->compute_units, error);
+    if (status == HD_OK)
+        status = query(driver, handle, HD_CU_DEVICE_CLOCK_KHZ, &khz, error);
+    if (status == HD_OK)
+        device->clock_mhz = khz / 1000;
+    return status;
 }
 
 static int query_driver_version(const HdCudaDriver *driver) {
@@ -81,9 +101,13 @@ static HdStatus describe_device(HdDevice *device, const HdCudaDriver *driver, in
     int arch;
     int version = query_driver_version(driver);
     HdStatus status = query_arch(driver, handle, &arch, error);
+    if (status == HD_OK)
+        status = query_speed(driver, handle, device, error);
+    if (status != HD_OK)
+        return status;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
-    return status;
+    return HD_OK;
 }
 
 static HdStatus count_devices(const HdCudaDriver *driver, int *count, HdError *error) {
@@ -123,8 +147,8 @@ static HdStatus open_device(Renderer *renderer, int index, HdError *error) {
         status = query_arch(&renderer->driver, renderer->device, &renderer->arch, error);
     int units = 0;
     if (status == HD_OK)
-        status = CALL(renderer, device_attribute, cuDeviceGetAttribute,
-                      (&units, HD_CU_DEVICE_MULTIPROCESSOR_COUNT, renderer->device), error);
+        status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_MULTIPROCESSOR_COUNT,
+                       &units, error);
     renderer->launch_items = hd_gpu_launch_items(units);
     return status;
 }
@@ -273,9 +297,10 @@ static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError 
     HdCuResult result = renderer->driver.module_load(&module, code->cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
-                       "cuda: the driver does not load what NVRTC %d.%d compiled for sm_%d "
-                       "(cuModuleLoadData: %s)",
-                       renderer->nvrtc.major, renderer->nvrtc.minor, renderer->arch,
+                       "cuda: the driver, of CUDA %d, does not load what NVRTC %d.%d compiled for "
+                       "sm_%d (cuModuleLoadData: %s)",
+                       query_driver_version(&renderer->driver) / 1000, renderer->nvrtc.major,
+                       renderer->nvrtc.minor, renderer->arch,
                        hd_cuda_error_name(&renderer->driver, result));
     renderer->module = module;
     HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);

@@ -197,7 +197,7 @@ static HdStatus build(Renderer *renderer, int plane_count, int depth, HdError *e
     hd_opencl_program_free(&renderer->program);
     shape->plane_count = plane_count;
     shape->depth = depth;
-    HdStatus status = hd_opencl_build(&renderer->program, renderer->context, renderer->device.id,
+    HdStatus status = hd_opencl_build(&renderer->program, renderer->context, &renderer->device,
                                       renderer->name, shape, error);
     if (status == HD_OK)
         status = limit_local_size(renderer, error);

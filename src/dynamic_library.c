@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE /* RTLD_NODELETE */
+#define _GNU_SOURCE /* RTLD_NODELETE, dladdr */
 #include "dynamic_library.h"
 
 #include <dlfcn.h>
+#include <stdio.h>
 #include <string.h>
+
+enum { MAX_PATH = 4096 };
 
 /* Nothing is ever unloaded: NVIDIA's driver has threads of its own, and its compiler loses memory
    each time it goes. */
@@ -26,4 +29,18 @@ const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int c
         memcpy((char *)functions + symbols[i].offset, &address, sizeof address);
     }
     return NULL;
+}
+
+void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
+    Dl_info info;
+    void *address = dlsym(library, symbol);
+    if (!address || !dladdr(address, &info) || !info.dli_fname)
+        return NULL;
+    const char *slash = strrchr(info.dli_fname, '/');
+    if (!slash)
+        return NULL;
+    char path[MAX_PATH];
+    int length =
+        snprintf(path, sizeof path, "%.*s/%s", (int)(slash - info.dli_fname), info.dli_fname, name);
+    return length > 0 && length < MAX_PATH ? hd_library_open(path) : NULL;
 }

@@ -21,4 +21,8 @@ void hd_library_close(void *library);
 const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int count,
                             void *functions);
 
+/* Opens a library that lies in the same folder as `library`, which has the given symbol; NULL where
+   there is none. */
+void *hd_library_open_beside(void *library, const char *symbol, const char *name);
+
 #endif

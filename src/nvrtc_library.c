@@ -19,6 +19,15 @@ typedef struct Search {
     char found[512]; /* what was found and does not fit, for people */
 } Search;
 
+/* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which it
+   does not do when a sanitizer stands between. A library that is loaded already is found by its
+   name. */
+static void load_builtins(const HdNvrtc *nvrtc) {
+    char name[64];
+    snprintf(name, sizeof name, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
+    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
+}
+
 static bool load(HdNvrtc *nvrtc, const char *path) {
     *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
     if (!nvrtc->library)
@@ -129,15 +138,19 @@ static const char *package_for(int arch) {
         return "NVRTC 11 (of the CUDA toolkit 11)";
     if (arch < 75)
         return "NVRTC 12 (pip install nvidia-cuda-nvrtc-cu12)";
-    return "a newer NVRTC (pip install nvidia-cuda-nvrtc)";
+    return "a current NVRTC (pip install nvidia-cuda-nvrtc)";
 }
 
 static HdStatus fail(const Search *search, const char *device, const char *path, HdError *error) {
+    if (path && !search->found[0])
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "cuda: %s cannot be loaded as an NVRTC library, version 11.2 or newer",
+                       path);
     return hd_fail(error, HD_UNAVAILABLE,
-                   "cuda: no NVRTC library here compiles for %s (sm_%d); %s%s: %s; install %s, or "
+                   "cuda: no NVRTC library here compiles for %s (sm_%d); found: %s; install %s or "
                    "name its libnvrtc.so in HEDRON_NVRTC",
-                   device, search->arch, path ? "looked at " : "found", path ? path : "",
-                   search->found[0] ? search->found : "none", package_for(search->arch));
+                   device, search->arch, search->found[0] ? search->found : "none",
+                   package_for(search->arch));
 }
 
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
@@ -153,6 +166,7 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
     if (!search.has_best)
         return fail(&search, device, named, error);
     *nvrtc = search.best;
+    load_builtins(nvrtc);
     return HD_OK;
 }
 

@@ -104,6 +104,12 @@ static void find_strict_obstacles(cl_device_id device, char *reasons, size_t cap
                "no correctly rounded division and square root");
 }
 
+static bool has_extension(cl_device_id device, const char *name) {
+    char extensions[8192];
+    query_text(device, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
+    return strstr(extensions, name) != NULL;
+}
+
 static void describe_device(HdDevice *device, Entry entry, int index) {
     memset(device, 0, sizeof *device);
     device->backend = &hd_backend_opencl;
@@ -115,6 +121,8 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     query_text(entry.device, CL_DEVICE_NAME, device->name, sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "%s, %s, driver %s", platform, version, driver);
     device->is_cpu = query_ulong(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
+    device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
+    device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
 }
@@ -192,6 +200,7 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     *device = (HdOpenclDevice){
         .id = id,
         .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
+        .takes_register_limit = has_extension(id, "cl_nv_compiler_options"),
         .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
         .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
                          (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},

@@ -6,7 +6,8 @@
 
 enum { OPTIONS_LENGTH = 128 + HD_KERNEL_DEFINE_COUNT * (HD_KERNEL_DEFINE_LENGTH + 1) };
 
-static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *shape) {
+static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *shape,
+                          bool takes_register_limit) {
     char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
     hd_kernel_defines(shape, defines);
     int length = snprintf(options, OPTIONS_LENGTH, "-cl-std=CL1.2 %s",
@@ -14,6 +15,8 @@ static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *sha
                                                       : "-cl-fp32-correctly-rounded-divide-sqrt");
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
+    if (takes_register_limit) /* see REGISTER_LIMIT in cuda_compile.c */
+        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " -cl-nv-maxrregcount=64");
 }
 
 static HdStatus fail_with_log(cl_program program, cl_device_id device, const char *name,
@@ -38,7 +41,7 @@ static HdStatus create_kernel(cl_kernel *kernel, cl_program program, const char 
     return *kernel ? HD_OK : hd_opencl_fail(error, "clCreateKernel", code);
 }
 
-HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, cl_device_id device,
+HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
                          const char *name, const HdKernelShape *shape, HdError *error) {
     *program = (HdOpenclProgram){0};
     const char *text = (const char *)hd_opencl_source;
@@ -47,11 +50,11 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, cl_device
     if (!program->program)
         return hd_opencl_fail(error, "clCreateProgramWithSource", code);
     char options[OPTIONS_LENGTH];
-    write_options(options, shape);
+    write_options(options, shape, device->takes_register_limit);
     HdStatus status = HD_OK;
-    code = clBuildProgram(program->program, 1, &device, options, NULL, NULL);
+    code = clBuildProgram(program->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS)
-        status = fail_with_log(program->program, device, name, code, error);
+        status = fail_with_log(program->program, device->id, name, code, error);
     if (status == HD_OK)
         status = create_kernel(&program->render, program->program, "hedron_render", error);
     if (status == HD_OK)

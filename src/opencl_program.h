@@ -13,7 +13,7 @@ typedef struct HdOpenclProgram {
 
 /* Compiles the embedded text. `name` is the device's, for messages. On failure the compiler's log
    is in the message and there is nothing to free. */
-HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, cl_device_id device,
+HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
                          const char *name, const HdKernelShape *shape, HdError *error);
 void hd_opencl_program_free(HdOpenclProgram *program);
 

@@ -17,7 +17,7 @@
 #endif
 
 #define HD_PASTE_(a, b) a##b
-#define HD_PASTE(a, b) HD_PASTE_(a, b)
+#define HD_PASTE(a, b)  HD_PASTE_(a, b)
 
 /* ---- scalars: real, R(literal), uint, uint64, fixed64; address spaces; function qualifier ---- */
 
@@ -29,9 +29,9 @@
 #if HD_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
-#define FN static inline
-#define GLOBAL __global
-#define RESTRICT restrict
+#define FN         static inline
+#define GLOBAL     __global
+#define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef ulong uint64;
 typedef long fixed64;
@@ -40,7 +40,7 @@ typedef long fixed64;
 
 #define FN static __device__ __forceinline__
 #define GLOBAL
-#define RESTRICT __restrict__
+#define RESTRICT   __restrict__
 #define ALIGNED_16 __align__(16)
 typedef unsigned int uint;
 typedef unsigned long long uint64;
@@ -55,7 +55,7 @@ typedef long long fixed64;
 #endif
 #define FN static inline __attribute__((always_inline, unused))
 #define GLOBAL
-#define RESTRICT restrict
+#define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef uint32_t uint;
 typedef uint64_t uint64;
@@ -74,7 +74,8 @@ typedef float real;
 /* Larger than any distance of a scene; stands for "none" in searches of a minimum. */
 #define REAL_LARGE R(1e30)
 
-/* ---- bundles: vreal, vint (integers as wide as real), vmask (0 or -1, likewise), vfix (64 bits) */
+/* ---- bundles: vreal, vint (integers as wide as real), vmask (0 or -1, likewise), vfix (64 bits)
+ */
 
 #if HD_LANES == 1
 
@@ -83,41 +84,102 @@ typedef fixed64 vfix;
 typedef int vint;
 typedef int vmask;
 
-FN vreal splat(real a) { return a; }
-FN vint splat_int(int a) { return a; }
-FN vmask lt(vreal a, vreal b) { return a < b ? -1 : 0; }
-FN vmask le(vreal a, vreal b) { return a <= b ? -1 : 0; }
-FN vmask eq_int(vint a, vint b) { return a == b ? -1 : 0; }
-FN vmask lt_int(vint a, vint b) { return a < b ? -1 : 0; }
-FN vreal pick(vmask m, vreal a, vreal b) { return m ? a : b; }
-FN vint pick_int(vmask m, vint a, vint b) { return m ? a : b; }
-FN vfix pick_fix(vmask m, vfix a, vfix b) { return m ? a : b; }
-FN int any_lane(vmask m) { return m != 0; }
-FN real lane_real(const vreal *a, int lane) { (void)lane; return *a; }
-FN int lane_int(const vint *a, int lane) { (void)lane; return *a; }
-FN fixed64 lane_fix(const vfix *a, int lane) { (void)lane; return *a; }
-FN void set_lane_real(vreal *a, int lane, real value) { (void)lane; *a = value; }
-FN void set_lane_int(vint *a, int lane, int value) { (void)lane; *a = value; }
-FN vint to_int(vreal a) { return (int)a; }
-FN vreal to_real(vint a) { return (real)a; }
-FN vfix truncate_to_fix(vreal a) { return (vfix)a; }
+FN vreal splat(real a) {
+    return a;
+}
+FN vint splat_int(int a) {
+    return a;
+}
+FN vmask lt(vreal a, vreal b) {
+    return a < b ? -1 : 0;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b ? -1 : 0;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b ? -1 : 0;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b ? -1 : 0;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return m ? a : b;
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return m ? a : b;
+}
+FN vfix pick_fix(vmask m, vfix a, vfix b) {
+    return m ? a : b;
+}
+FN int any_lane(vmask m) {
+    return m != 0;
+}
+FN real lane_real(const vreal *a, int lane) {
+    (void)lane;
+    return *a;
+}
+FN int lane_int(const vint *a, int lane) {
+    (void)lane;
+    return *a;
+}
+FN fixed64 lane_fix(const vfix *a, int lane) {
+    (void)lane;
+    return *a;
+}
+FN void set_lane_real(vreal *a, int lane, real value) {
+    (void)lane;
+    *a = value;
+}
+FN void set_lane_int(vint *a, int lane, int value) {
+    (void)lane;
+    *a = value;
+}
+FN vint to_int(vreal a) {
+    return (int)a;
+}
+FN vreal to_real(vint a) {
+    return (real)a;
+}
+FN vfix truncate_to_fix(vreal a) {
+    return (vfix)a;
+}
 #if defined(__OPENCL_C_VERSION__)
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return fma(a, b, c); }
-FN vreal square_root(vreal a) { return sqrt(a); }
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return fma(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrt(a);
+}
 #elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
 #if HD_DOUBLE
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return __fma_rn(a, b, c); }
-FN vreal square_root(vreal a) { return sqrt(a); }
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __fma_rn(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrt(a);
+}
 #else
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return __fmaf_rn(a, b, c); }
-FN vreal square_root(vreal a) { return sqrtf(a); }
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __fmaf_rn(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrtf(a);
+}
 #endif
 #elif HD_DOUBLE
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return __builtin_fma(a, b, c); }
-FN vreal square_root(vreal a) { return __builtin_sqrt(a); }
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __builtin_fma(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return __builtin_sqrt(a);
+}
 #else
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return __builtin_fmaf(a, b, c); }
-FN vreal square_root(vreal a) { return __builtin_sqrtf(a); }
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __builtin_fmaf(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return __builtin_sqrtf(a);
+}
 #endif
 
 #elif defined(__OPENCL_C_VERSION__)
@@ -127,49 +189,89 @@ typedef HD_PASTE(double, HD_LANES) vreal;
 typedef HD_PASTE(long, HD_LANES) vint;
 typedef HD_PASTE(long, HD_LANES) vmask;
 typedef long lane_integer;
-#define HD_CONVERT_INT HD_PASTE(convert_long, HD_LANES)
+#define HD_CONVERT_INT  HD_PASTE(convert_long, HD_LANES)
 #define HD_CONVERT_REAL HD_PASTE(convert_double, HD_LANES)
 #else
 typedef HD_PASTE(float, HD_LANES) vreal;
 typedef HD_PASTE(int, HD_LANES) vint;
 typedef HD_PASTE(int, HD_LANES) vmask;
 typedef int lane_integer;
-#define HD_CONVERT_INT HD_PASTE(convert_int, HD_LANES)
+#define HD_CONVERT_INT  HD_PASTE(convert_int, HD_LANES)
 #define HD_CONVERT_REAL HD_PASTE(convert_float, HD_LANES)
 #endif
 typedef HD_PASTE(long, HD_LANES) vfix;
 #define HD_CONVERT_FIX HD_PASTE(convert_long, HD_LANES)
 
-FN vreal splat(real a) { return (vreal)(a); }
-FN vint splat_int(int a) { return (vint)(a); }
-FN vmask lt(vreal a, vreal b) { return a < b; }
-FN vmask le(vreal a, vreal b) { return a <= b; }
-FN vmask eq_int(vint a, vint b) { return a == b; }
-FN vmask lt_int(vint a, vint b) { return a < b; }
-FN vreal pick(vmask m, vreal a, vreal b) { return select(b, a, m); }
-FN vint pick_int(vmask m, vint a, vint b) { return select(b, a, m); }
-FN vfix pick_fix(vmask m, vfix a, vfix b) { return select(b, a, HD_CONVERT_FIX(m)); }
-FN int any_lane(vmask m) { return any(m); }
-FN real lane_real(const vreal *a, int lane) { return ((const real *)a)[lane]; }
-FN int lane_int(const vint *a, int lane) { return (int)((const lane_integer *)a)[lane]; }
-FN fixed64 lane_fix(const vfix *a, int lane) { return ((const fixed64 *)a)[lane]; }
-FN void set_lane_real(vreal *a, int lane, real value) { ((real *)a)[lane] = value; }
-FN void set_lane_int(vint *a, int lane, int value) { ((lane_integer *)a)[lane] = value; }
-FN vint to_int(vreal a) { return HD_CONVERT_INT(a); }
-FN vreal to_real(vint a) { return HD_CONVERT_REAL(a); }
-FN vfix truncate_to_fix(vreal a) { return HD_CONVERT_FIX(a); }
-FN vreal multiply_add(vreal a, vreal b, vreal c) { return fma(a, b, c); }
-FN vreal square_root(vreal a) { return sqrt(a); }
+FN vreal splat(real a) {
+    return (vreal)(a);
+}
+FN vint splat_int(int a) {
+    return (vint)(a);
+}
+FN vmask lt(vreal a, vreal b) {
+    return a < b;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return select(b, a, m);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return select(b, a, m);
+}
+FN vfix pick_fix(vmask m, vfix a, vfix b) {
+    return select(b, a, HD_CONVERT_FIX(m));
+}
+FN int any_lane(vmask m) {
+    return any(m);
+}
+FN real lane_real(const vreal *a, int lane) {
+    return ((const real *)a)[lane];
+}
+FN int lane_int(const vint *a, int lane) {
+    return (int)((const lane_integer *)a)[lane];
+}
+FN fixed64 lane_fix(const vfix *a, int lane) {
+    return ((const fixed64 *)a)[lane];
+}
+FN void set_lane_real(vreal *a, int lane, real value) {
+    ((real *)a)[lane] = value;
+}
+FN void set_lane_int(vint *a, int lane, int value) {
+    ((lane_integer *)a)[lane] = value;
+}
+FN vint to_int(vreal a) {
+    return HD_CONVERT_INT(a);
+}
+FN vreal to_real(vint a) {
+    return HD_CONVERT_REAL(a);
+}
+FN vfix truncate_to_fix(vreal a) {
+    return HD_CONVERT_FIX(a);
+}
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return fma(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrt(a);
+}
 
 #else /* C, with the vector extension of GCC and Clang */
 
 #if HD_DOUBLE
 typedef int64_t lane_integer;
-#define HD_FMA_SCALAR __builtin_fma
+#define HD_FMA_SCALAR  __builtin_fma
 #define HD_SQRT_SCALAR __builtin_sqrt
 #else
 typedef int32_t lane_integer;
-#define HD_FMA_SCALAR __builtin_fmaf
+#define HD_FMA_SCALAR  __builtin_fmaf
 #define HD_SQRT_SCALAR __builtin_sqrtf
 #endif
 typedef real vreal __attribute__((vector_size(HD_LANES * sizeof(real))));
@@ -177,26 +279,58 @@ typedef lane_integer vint __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef lane_integer vmask __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef int64_t vfix __attribute__((vector_size(HD_LANES * 8)));
 
-FN vreal splat(real a) { return a - (vreal){0}; }
-FN vint splat_int(int a) { return (lane_integer)a - (vint){0}; }
-FN vmask lt(vreal a, vreal b) { return a < b; }
-FN vmask le(vreal a, vreal b) { return a <= b; }
-FN vmask eq_int(vint a, vint b) { return a == b; }
-FN vmask lt_int(vint a, vint b) { return a < b; }
-FN vreal pick(vmask m, vreal a, vreal b) { return (vreal)((m & (vmask)a) | (~m & (vmask)b)); }
-FN vint pick_int(vmask m, vint a, vint b) { return (m & a) | (~m & b); }
+FN vreal splat(real a) {
+    return a - (vreal){0};
+}
+FN vint splat_int(int a) {
+    return (lane_integer)a - (vint){0};
+}
+FN vmask lt(vreal a, vreal b) {
+    return a < b;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (m & a) | (~m & b);
+}
 FN vfix pick_fix(vmask m, vfix a, vfix b) {
     vfix wide = __builtin_convertvector(m, vfix);
     return (wide & a) | (~wide & b);
 }
-FN real lane_real(const vreal *a, int lane) { return (*a)[lane]; }
-FN int lane_int(const vint *a, int lane) { return (int)(*a)[lane]; }
-FN fixed64 lane_fix(const vfix *a, int lane) { return (*a)[lane]; }
-FN void set_lane_real(vreal *a, int lane, real value) { (*a)[lane] = value; }
-FN void set_lane_int(vint *a, int lane, int value) { (*a)[lane] = value; }
-FN vint to_int(vreal a) { return __builtin_convertvector(a, vint); }
-FN vreal to_real(vint a) { return __builtin_convertvector(a, vreal); }
-FN vfix truncate_to_fix(vreal a) { return __builtin_convertvector(a, vfix); }
+FN real lane_real(const vreal *a, int lane) {
+    return (*a)[lane];
+}
+FN int lane_int(const vint *a, int lane) {
+    return (int)(*a)[lane];
+}
+FN fixed64 lane_fix(const vfix *a, int lane) {
+    return (*a)[lane];
+}
+FN void set_lane_real(vreal *a, int lane, real value) {
+    (*a)[lane] = value;
+}
+FN void set_lane_int(vint *a, int lane, int value) {
+    (*a)[lane] = value;
+}
+FN vint to_int(vreal a) {
+    return __builtin_convertvector(a, vint);
+}
+FN vreal to_real(vint a) {
+    return __builtin_convertvector(a, vreal);
+}
+FN vfix truncate_to_fix(vreal a) {
+    return __builtin_convertvector(a, vfix);
+}
 
 /* Neither compiler has these three for vectors: instructions where the width is the machine's, lane
    by lane elsewhere. */
@@ -205,35 +339,55 @@ FN vfix truncate_to_fix(vreal a) { return __builtin_convertvector(a, vfix); }
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 }
-FN vreal square_root(vreal a) { return (vreal)_mm512_sqrt_pd((__m512d)a); }
-FN int any_lane(vmask m) { return _mm512_movepi64_mask((__m512i)m) != 0; }
+FN vreal square_root(vreal a) {
+    return (vreal)_mm512_sqrt_pd((__m512d)a);
+}
+FN int any_lane(vmask m) {
+    return _mm512_movepi64_mask((__m512i)m) != 0;
+}
 #else
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
 }
-FN vreal square_root(vreal a) { return (vreal)_mm512_sqrt_ps((__m512)a); }
-FN int any_lane(vmask m) { return _mm512_movepi32_mask((__m512i)m) != 0; }
+FN vreal square_root(vreal a) {
+    return (vreal)_mm512_sqrt_ps((__m512)a);
+}
+FN int any_lane(vmask m) {
+    return _mm512_movepi32_mask((__m512i)m) != 0;
+}
 #endif
 #elif HD_LANES * (HD_DOUBLE + 1) == 8 && defined(__AVX2__) && defined(__FMA__)
 #if HD_DOUBLE
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
 }
-FN vreal square_root(vreal a) { return (vreal)_mm256_sqrt_pd((__m256d)a); }
-FN int any_lane(vmask m) { return _mm256_movemask_pd((__m256d)m) != 0; }
+FN vreal square_root(vreal a) {
+    return (vreal)_mm256_sqrt_pd((__m256d)a);
+}
+FN int any_lane(vmask m) {
+    return _mm256_movemask_pd((__m256d)m) != 0;
+}
 #else
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
 }
-FN vreal square_root(vreal a) { return (vreal)_mm256_sqrt_ps((__m256)a); }
-FN int any_lane(vmask m) { return _mm256_movemask_ps((__m256)m) != 0; }
+FN vreal square_root(vreal a) {
+    return (vreal)_mm256_sqrt_ps((__m256)a);
+}
+FN int any_lane(vmask m) {
+    return _mm256_movemask_ps((__m256)m) != 0;
+}
 #endif
 #elif HD_LANES * (HD_DOUBLE + 1) == 4 && defined(__AVX2__) && defined(__FMA__)
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
 }
-FN vreal square_root(vreal a) { return (vreal)_mm_sqrt_ps((__m128)a); }
-FN int any_lane(vmask m) { return _mm_movemask_ps((__m128)m) != 0; }
+FN vreal square_root(vreal a) {
+    return (vreal)_mm_sqrt_ps((__m128)a);
+}
+FN int any_lane(vmask m) {
+    return _mm_movemask_ps((__m128)m) != 0;
+}
 #else
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     vreal r;
@@ -259,13 +413,21 @@ FN int any_lane(vmask m) {
 
 /* ---- built from the above, the same for every backend ---- */
 
-/* The lesser and the greater as selects: vendors differ in what their min and max make of NaN and -0.
-   Where a is NaN, the result is b. */
-FN vreal lesser(vreal a, vreal b) { return pick(lt(a, b), a, b); }
-FN vreal greater(vreal a, vreal b) { return pick(lt(b, a), a, b); }
+/* The lesser and the greater as selects: vendors differ in what their min and max make of NaN and
+   -0. Where a is NaN, the result is b. */
+FN vreal lesser(vreal a, vreal b) {
+    return pick(lt(a, b), a, b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return pick(lt(b, a), a, b);
+}
 
-FN vmask mask_none(void) { return splat_int(0); }
-FN vmask mask_all(void) { return splat_int(-1); }
+FN vmask mask_none(void) {
+    return splat_int(0);
+}
+FN vmask mask_all(void) {
+    return splat_int(-1);
+}
 
 /* The number of the first lane whose mask is set; only for masks with any_lane(m). */
 FN int first_lane(vmask m) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Closest hit of a bundle of rays with the solids and the floor. There is no epsilon: a ray carries the
-   object it touched last and the side it runs on (docs/numerics.md). */
+/* Closest hit of a bundle of rays with the solids and the floor. There is no epsilon: a ray carries
+   the object it touched last and the side it runs on (docs/numerics.md). */
 #ifndef HD_INTERSECTION_H
 #define HD_INTERSECTION_H
 

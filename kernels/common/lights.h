@@ -12,8 +12,8 @@ typedef struct {
     vmask active;
 } LitPoints;
 
-/* Distances of the points to every plane of the scene, computed once for all lights. A point seen from
-   inside its own solid is inside, whatever rounding says. */
+/* Distances of the points to every plane of the scene, computed once for all lights. A point seen
+   from inside its own solid is inside, whatever rounding says. */
 FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                        vreal *heights) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
@@ -59,7 +59,8 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     if (solid->rim_depth > R(0.0)) {
         TwoGreatest greatest = two_greatest();
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++)
-            add_to_greatest(&greatest, multiply_add(t, splat(light_heights[k]) - heights[k], heights[k]));
+            add_to_greatest(&greatest,
+                            multiply_add(t, splat(light_heights[k]) - heights[k], heights[k]));
         passes = pick(lt(splat(-solid->rim_depth), greatest.second), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*transmittance, passes);
@@ -123,11 +124,11 @@ FN vreal power(vreal x, vint n, int common) {
     return result;
 }
 
-/* Radiance that the points send to the viewer by diffuse and specular reflection of all lights. Lights
-   are the outer loop and lanes the points, so that everything about a light is the same for a bundle.
-   `mirrored` is the viewing ray's mirror direction, unit. */
-FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points, Vec3 mirrored,
-                     vint *shadow_tests) {
+/* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
+   Lights are the outer loop and lanes the points, so that everything about a light is the same for
+   a bundle. `mirrored` is the viewing ray's mirror direction, unit. */
+FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
+                     Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
     vreal heights[PLANE_BOUND];
     measure_planes(SCENE_ARGUMENTS surface, points, heights);
@@ -157,10 +158,11 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (light->inverse_falloff_squared > R(0.0))
             falloff = one / multiply_add(squared, splat(light->inverse_falloff_squared), one);
         vreal towards_mirror = greater(vec3_dot(mirrored, to_light) * inverse, zero);
-        vreal specular = surface->specular * falloff *
-                         power(towards_mirror, surface->shininess, common_power);
+        vreal specular =
+            surface->specular * falloff * power(towards_mirror, surface->shininess, common_power);
         vreal diffuse = surface->diffuse * falloff * (cosine * inverse);
-        Vec3 reflected = vec3_scale_add(surface->colour, diffuse, vec3(specular, specular, specular));
+        Vec3 reflected =
+            vec3_scale_add(surface->colour, diffuse, vec3(specular, specular, specular));
         Vec3 arriving = vec3_mul(transmittance, vec3_splat(light->intensity[0], light->intensity[1],
                                                            light->intensity[2]));
         sum = vec3_pick(lit, vec3_add(sum, vec3_mul(arriving, reflected)), sum);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The whole tree of rays of one bundle of samples (Whitted 1980), depth first with an explicit stack. */
+/* The whole tree of rays of one bundle of samples (Whitted 1980), depth first with an explicit
+ * stack. */
 #ifndef HD_RAY_TREE_H
 #define HD_RAY_TREE_H
 
@@ -18,7 +19,8 @@ FN vfix contribution(vmask m, vreal radiance, vreal weight, real to_fixed, vint 
     vreal limit = splat(CONTRIBUTION_LIMIT);
     vmask over = m & lt(limit, radiance);
     *clamps = *clamps - over;
-    vreal clamped = pick(over, limit, pick(m & lt(splat(R(0.0)), radiance), radiance, splat(R(0.0))));
+    vreal clamped =
+        pick(over, limit, pick(m & lt(splat(R(0.0)), radiance), radiance, splat(R(0.0))));
     return truncate_to_fix(clamped * weight * to_fixed);
 }
 
@@ -29,8 +31,8 @@ FN void add_radiance(SCENE_PARAMETERS Sample *sample, vmask m, Vec3 radiance, Ve
     sample->b += contribution(m, radiance.z, weight.z, view->to_fixed, &sample->clamps);
 }
 
-/* Object numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes neither
-   hold a wrong number nor make a bundle look mixed. */
+/* Object numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes
+   neither hold a wrong number nor make a bundle look mixed. */
 FN vint spread_first(vint objects_hit, vmask m) {
     int filler = any_lane(m) ? lane_int(&objects_hit, first_lane(m)) : 0;
     return pick_int(m, objects_hit, splat_int(filler));
@@ -72,9 +74,9 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
                                                    &sample->shadow_tests));
     add_radiance(SCENE_ARGUMENTS sample, struck, radiance, ray->weight);
 
-    *mirror = next_ray(ray, &surface, hit, mirrored,
-                       vec3_scale(surface.mirror_tint, surface.reflection), points.inside,
-                       struck & lt(zero, surface.reflection), view->cutoff);
+    *mirror =
+        next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.mirror_tint, surface.reflection),
+                 points.inside, struck & lt(zero, surface.reflection), view->cutoff);
     *through = next_ray(ray, &surface, hit, ray->direction,
                         vec3_scale(surface.colour, surface.transmission), is_solid & hit->entering,
                         struck & lt(zero, surface.transmission), view->cutoff);
@@ -91,8 +93,8 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     return ray;
 }
 
-/* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray for
-   each level waits on the stack. */
+/* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
+   for each level waits on the stack. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Ray stack[LEVEL_BOUND];
     int stack_level[LEVEL_BOUND];

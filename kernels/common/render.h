@@ -67,8 +67,7 @@ FN void store_pixels(GLOBAL const View *view, int item, const fixed64 *sums, GLO
             continue;
         GLOBAL float *rgb = pixels + ((uint64)pixel.y * (uint64)view->width + (uint64)pixel.x) * 3;
         for (int channel = 0; channel < 3; channel++)
-            rgb[channel] =
-                (float)((real)sums[place * 3 + channel] * view->from_fixed / samples);
+            rgb[channel] = (float)((real)sums[place * 3 + channel] * view->from_fixed / samples);
     }
 }
 

@@ -6,12 +6,11 @@
 #include "scene_tables.h"
 
 #define HD_TABLE_PARAMETER(type, name) GLOBAL const type *RESTRICT name,
-#define HD_TABLE_ARGUMENT(type, name) name,
+#define HD_TABLE_ARGUMENT(type, name)  name,
 
 /* Both end with a comma: f(SCENE_PARAMETERS int x) is called as f(SCENE_ARGUMENTS 1). */
-#define SCENE_PARAMETERS                                                                          \
-    HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
-#define SCENE_ARGUMENTS HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
+#define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
+#define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
 /* Constants where the build is specialised for a scene, otherwise the scene's own numbers. */
 #ifdef HD_PLANE_COUNT

@@ -2,9 +2,9 @@
 /* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
    (src/compile_scene.c), a backend copies them as they are.
 
-   Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that it
-   has no padding in float and in double. "Object" is a solid or, last of all, the floor. Geometry of an
-   object is relative to its own centre. Signed distances are positive outside. */
+   Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
+   it has no padding in float and in double. "Object" is a solid or, last of all, the floor.
+   Geometry of an object is relative to its own centre. Signed distances are positive outside. */
 #ifndef HD_SCENE_TABLES_H
 #define HD_SCENE_TABLES_H
 
@@ -30,8 +30,8 @@ typedef struct ALIGNED_16 {
 } Plane;
 
 typedef struct ALIGNED_16 {
-    real rim_depth;  /* a point of a face lies on the rim when it is nearer than this to the plane of
-                        another face: the rim's width times the sine of the dihedral angle */
+    real rim_depth; /* a point of a face lies on the rim when it is nearer than this to the plane of
+                       another face: the rim's width times the sine of the dihedral angle */
     real disc_depth; /* likewise for the radius of the edge lights' discs */
     real disc_radius_squared;
     real edge_half_length;
@@ -61,8 +61,8 @@ typedef struct ALIGNED_16 {
     real inverse_falloff_squared; /* 1 / d0^2; 0: no falloff */
 } Light;
 
-/* Floor coordinates (a, b) of a point X: a = axis_a.X, b = axis_b.X. Texture coordinates (s, t) in the
-   unit square solve (a, b) = origin + s e + t f + s t g (inverse bilinear interpolation). */
+/* Floor coordinates (a, b) of a point X: a = axis_a.X, b = axis_b.X. Texture coordinates (s, t) in
+   the unit square solve (a, b) = origin + s e + t f + s t g (inverse bilinear interpolation). */
 typedef struct ALIGNED_16 {
     real axis_a[3], unused0;
     real axis_b[3], unused1;
@@ -73,11 +73,11 @@ typedef struct ALIGNED_16 {
     int unused_int[2];
 } FloorMap;
 
-/* One frame. The direction to the image point (i, j), counted in half sample steps from the middle of
-   the picture, is forward + i * right + j * down. */
+/* One frame. The direction to the image point (i, j), counted in half sample steps from the middle
+   of the picture, is forward + i * right + j * down. */
 typedef struct ALIGNED_16 {
     real forward[3], cutoff;
-    real right[3], to_fixed; /* 2^(fraction bits of a sample) */
+    real right[3], to_fixed;  /* 2^(fraction bits of a sample) */
     real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
     int width, height;
     int samples_per_side;
@@ -86,9 +86,9 @@ typedef struct ALIGNED_16 {
     int unused_int[3];
 } View;
 
-#define HD_ASSERT_SIZE(type, reals, ints)                                                         \
-    typedef char hd_size_of_##type##_is_as_documented                                             \
-        [sizeof(type) == (reals) * sizeof(real) + (ints) * 4 ? 1 : -1]
+#define HD_ASSERT_SIZE(type, reals, ints)                                                          \
+    typedef char hd_size_of_##type##_is_as_documented                                              \
+        [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
 HD_ASSERT_SIZE(Header, 4, 4);
 HD_ASSERT_SIZE(Plane, 4, 0);
@@ -104,36 +104,38 @@ HD_ASSERT_SIZE(View, 12, 8);
    light_distances[light * plane_count + plane]  exactly 0 for an edge light and its own faces
    object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
    texels                                        two words each: r | g << 16, b */
-#define HD_SCENE_TABLES(X)                                                                        \
-    X(Header, header)                                                                             \
-    X(Object, objects)                                                                            \
-    X(Plane, planes)                                                                              \
-    X(Edge, edges)                                                                                \
-    X(Material, materials)                                                                        \
-    X(Light, lights)                                                                              \
-    X(Vector, light_offsets)                                                                      \
-    X(real, light_distances)                                                                      \
-    X(Vector, object_offsets)                                                                     \
-    X(FloorMap, floor_map)                                                                        \
+#define HD_SCENE_TABLES(X)                                                                         \
+    X(Header, header)                                                                              \
+    X(Object, objects)                                                                             \
+    X(Plane, planes)                                                                               \
+    X(Edge, edges)                                                                                 \
+    X(Material, materials)                                                                         \
+    X(Light, lights)                                                                               \
+    X(Vector, light_offsets)                                                                       \
+    X(real, light_distances)                                                                       \
+    X(Vector, object_offsets)                                                                      \
+    X(FloorMap, floor_map)                                                                         \
     X(uint, texels)
 
-/* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of `to`. */
-#define HD_FRAME_TABLES(X)                                                                        \
-    X(View, view)                                                                                 \
+/* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of
+ * `to`. */
+#define HD_FRAME_TABLES(X)                                                                         \
+    X(View, view)                                                                                  \
     X(Vector, eye_offsets)
 
 #define HD_TABLE_INDEX(type, name) HD_TABLE_##name,
 enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
 enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 
-/* What one work item counted. A ray is a closest-hit search of a live lane; a shadow test is a pair of
-   a lit point and a light it faces; a clamp is a contribution that was cut to 2^16. */
+/* What one work item counted. A ray is a closest-hit search of a live lane; a shadow test is a pair
+   of a lit point and a light it faces; a clamp is a contribution that was cut to 2^16. */
 typedef struct ALIGNED_16 {
     uint64 rays, shadow_tests, clamps, unused;
 } RayCounts;
 
 /* The picture is cut into blocks of HD_BLOCK_SIDE x HD_BLOCK_SIDE pixels, row by row, and within a
-   block follows the Z order; a work item renders HD_PIXELS_PER_ITEM consecutive pixels of that order. */
+   block follows the Z order; a work item renders HD_PIXELS_PER_ITEM consecutive pixels of that
+   order. */
 enum { HD_BLOCK_SIDE = 8, HD_BLOCK_PIXELS = 64 };
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the rays met: normal, material, and the patterns on a face, its rim and its edge lights' discs. */
+/* What the rays met: normal, material, and the patterns on a face, its rim and its edge lights'
+ * discs. */
 #ifndef HD_SURFACE_H
 #define HD_SURFACE_H
 
@@ -70,7 +71,8 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edges, Vec3 poin
         vreal along = vec3_dot(offset, direction);
         vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
         cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
-        vreal light = (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
+        vreal light =
+            (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
         Vec3 distance = vec3_scale_add(direction, -light, offset);
         found = found | lt(vec3_dot(distance, distance), splat(solid->disc_radius_squared));
     }
@@ -87,9 +89,8 @@ FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
         normal = vec3_pick(met, vec3_splat(plane->x, plane->y, plane->z), normal);
         add_to_greatest(&heights, plane_distance(plane, surface->point));
     }
-    surface->normal =
-        vec3_pick(m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
-                  surface->normal);
+    surface->normal = vec3_pick(
+        m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
     set_material(surface, m, materials + solid->face_material);
     vmask rim = m & lt(splat(-solid->rim_depth), heights.second);
     if (any_lane(rim))
@@ -103,9 +104,8 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     GLOBAL const Object *floor = objects + object;
     GLOBAL const Plane *plane = planes + floor->first_plane;
     Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
-    surface->normal =
-        vec3_pick(m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))),
-                  surface->normal);
+    surface->normal = vec3_pick(
+        m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
     set_material(surface, m, materials + floor->face_material);
     if (floor->textured) {
         vreal s, t;

@@ -6,12 +6,14 @@
 #include "scene_arguments.h"
 #include "vectors.h"
 
-FN vreal clamp_unit(vreal a) { return lesser(greater(a, splat(R(0.0))), splat(R(1.0))); }
+FN vreal clamp_unit(vreal a) {
+    return lesser(greater(a, splat(R(0.0))), splat(R(1.0)));
+}
 
-/* Texture coordinates in the unit square of a point of the floor. With h = (a, b) - origin, t solves
-   k2 t^2 + k1 t + k0 = 0, and the root inside a convex quadrilateral is the one at which the map's
-   determinant, k1 + 2 k2 t, has the sign of the orientation. Of the two ways to write a root the one
-   that adds numbers of equal sign is taken, which also covers k2 = 0. */
+/* Texture coordinates in the unit square of a point of the floor. With h = (a, b) - origin, t
+   solves k2 t^2 + k1 t + k0 = 0, and the root inside a convex quadrilateral is the one at which the
+   map's determinant, k1 + 2 k2 t, has the sign of the orientation. Of the two ways to write a root
+   the one that adds numbers of equal sign is taken, which also covers k2 = 0. */
 FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
     Vec3 axis_a = vec3_splat(map->axis_a[0], map->axis_a[1], map->axis_a[2]);
     Vec3 axis_b = vec3_splat(map->axis_b[0], map->axis_b[1], map->axis_b[2]);
@@ -51,7 +53,9 @@ FN Texel fetch_texel(GLOBAL const uint *texels, int width, vint x, vint y) {
     return texel;
 }
 
-FN vreal blend(vreal a, vreal b, vreal weight) { return multiply_add(weight, b - a, a); }
+FN vreal blend(vreal a, vreal b, vreal weight) {
+    return multiply_add(weight, b - a, a);
+}
 
 /* Bilinear between texel centres, the border's texels continued outwards. */
 FN Vec3 sample_texture(GLOBAL const FloorMap *map, GLOBAL const uint *texels, vreal s, vreal t) {

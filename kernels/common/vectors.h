@@ -17,12 +17,24 @@ FN Vec3 vec3(vreal x, vreal y, vreal z) {
     return v;
 }
 
-FN Vec3 vec3_splat(real x, real y, real z) { return vec3(splat(x), splat(y), splat(z)); }
-FN Vec3 vec3_zero(void) { return vec3_splat(R(0.0), R(0.0), R(0.0)); }
-FN Vec3 vec3_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
-FN Vec3 vec3_sub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
-FN Vec3 vec3_mul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
-FN Vec3 vec3_scale(Vec3 a, vreal s) { return vec3(a.x * s, a.y * s, a.z * s); }
+FN Vec3 vec3_splat(real x, real y, real z) {
+    return vec3(splat(x), splat(y), splat(z));
+}
+FN Vec3 vec3_zero(void) {
+    return vec3_splat(R(0.0), R(0.0), R(0.0));
+}
+FN Vec3 vec3_add(Vec3 a, Vec3 b) {
+    return vec3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+FN Vec3 vec3_sub(Vec3 a, Vec3 b) {
+    return vec3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+FN Vec3 vec3_mul(Vec3 a, Vec3 b) {
+    return vec3(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+FN Vec3 vec3_scale(Vec3 a, vreal s) {
+    return vec3(a.x * s, a.y * s, a.z * s);
+}
 
 /* a * s + b */
 FN Vec3 vec3_scale_add(Vec3 a, vreal s, Vec3 b) {
@@ -42,9 +54,12 @@ FN Vec3 vec3_normalize(Vec3 a) {
 }
 
 /* Non-zero when all lanes hold the same number. */
-FN int all_same(vint a) { return !any_lane(~eq_int(a, splat_int(lane_int(&a, 0)))); }
+FN int all_same(vint a) {
+    return !any_lane(~eq_int(a, splat_int(lane_int(&a, 0))));
+}
 
-/* table[index] for each lane; `same` is all_same(index), which callers compute once for many reads. */
+/* table[index] for each lane; `same` is all_same(index), which callers compute once for many reads.
+ */
 FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index, int same) {
     if (same) {
         GLOBAL const Vector *v = table + lane_int(&index, 0);
@@ -62,17 +77,16 @@ FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index, int same) {
 
 /* Signed distance of a point to a plane of the same object, positive outside. */
 FN vreal plane_distance(GLOBAL const Plane *plane, Vec3 point) {
-    return multiply_add(splat(plane->x), point.x,
-                        multiply_add(splat(plane->y), point.y,
-                                     multiply_add(splat(plane->z), point.z,
-                                                  splat(-plane->distance))));
+    return multiply_add(
+        splat(plane->x), point.x,
+        multiply_add(splat(plane->y), point.y,
+                     multiply_add(splat(plane->z), point.z, splat(-plane->distance))));
 }
 
 /* Cosine between a direction and the plane's outward normal, times the direction's length. */
 FN vreal plane_slope(GLOBAL const Plane *plane, Vec3 direction) {
-    return multiply_add(
-        splat(plane->x), direction.x,
-        multiply_add(splat(plane->y), direction.y, splat(plane->z) * direction.z));
+    return multiply_add(splat(plane->x), direction.x,
+                        multiply_add(splat(plane->y), direction.y, splat(plane->z) * direction.z));
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The conformance suite: renders the fixed list of frames on every backend, device and lane count that
-   opens, in float and double, and demands one hash for each frame and precision, the committed one.
+/* The conformance suite: renders the fixed list of frames on every backend, device and lane count
+   that opens, in float and double, and demands one hash for each frame and precision, the committed
+   one.
 
    hedron_conformance [--golden FILE] [--write-golden] [--math strict|fast] [--backend NAME]
                       [--pictures FOLDER] */

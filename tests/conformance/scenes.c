@@ -1,127 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 #include "scenes.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "trigonometry.h"
-
-static void *allocate(size_t count, size_t size) {
-    void *memory = calloc(count > 0 ? count : 1, size);
-    if (memory == NULL)
-        abort();
-    return memory;
-}
-
-static HdVec3 same(double a) { return hd_vec3(a, a, a); }
-
-static HdMaterial glass(HdVec3 colour, double reflection, double transmission) {
-    return (HdMaterial){.colour = colour,
-                        .mirror_tint = same(1.0),
-                        .diffuse = 0.3,
-                        .specular = 0.4,
-                        .shininess = 48,
-                        .reflection = reflection,
-                        .transmission = transmission};
-}
-
-static HdMaterial rim_material(void) {
-    return (HdMaterial){.colour = same(0.05),
-                        .mirror_tint = same(1.0),
-                        .diffuse = 0.5,
-                        .specular = 0.25,
-                        .shininess = 7};
-}
-
-static void start(HdScene *scene, int width, int height, int samples, int depth, int solids,
-                  int lights) {
-    memset(scene, 0, sizeof *scene);
-    scene->frame_count = 1;
-    scene->width = width;
-    scene->height = height;
-    scene->samples_per_side = samples;
-    scene->depth = depth;
-    scene->field_of_view_degrees = 60.0;
-    scene->exposure = 1.0;
-    scene->background = hd_vec3(0.01, 0.02, 0.04);
-    scene->solid_count = solids;
-    scene->solids = allocate((size_t)solids, sizeof *scene->solids);
-    scene->light_count = lights;
-    scene->lights = allocate((size_t)lights, sizeof *scene->lights);
-}
-
-static void set_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
-                      HdVec3 colour, int lights_per_edge) {
-    double count = lights_per_edge > 0 ? 12.0 * lights_per_edge : 1.0;
-    scene->solids[index] =
-        (HdSolid){.kind = kind,
-                  .centre = centre,
-                  .circumradius = radius,
-                  .face = glass(colour, 0.6, 0.35),
-                  .rim_width = 0.05 * radius,
-                  .rim = rim_material(),
-                  .lights = {.per_edge = lights_per_edge,
-                             .intensity = same(2.0 / count),
-                             .falloff_distance = radius,
-                             .disc_radius = 0.025 * radius,
-                             .disc_radiance = hd_vec3(3.0, 2.5, 2.0)}};
-}
-
-static void set_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity) {
-    scene->lights[index] = (HdLight){.position = position, .intensity = intensity};
-}
-
-/* A texture of hard squares and smooth ramps, so that a wrong texel or weight shows. */
-static void set_texture(HdTexture *texture, int width, int height) {
-    texture->width = width;
-    texture->height = height;
-    texture->texels = allocate((size_t)width * (size_t)height * 3, sizeof *texture->texels);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            uint16_t *rgb = texture->texels + 3 * (y * width + x);
-            rgb[0] = (x / 4 + y / 4) % 2 ? 60000 : 4000;
-            rgb[1] = (uint16_t)(65535 * x / width);
-            rgb[2] = (uint16_t)(65535 * y / height);
-        }
-}
-
-static void set_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d) {
-    scene->floor.present = true;
-    scene->floor.corners[0] = a;
-    scene->floor.corners[1] = b;
-    scene->floor.corners[2] = c;
-    scene->floor.corners[3] = d;
-    scene->floor.material = glass(hd_vec3(0.9, 0.8, 0.7), 0.4, 0.0);
-    scene->floor.material.diffuse = 0.7;
-}
-
-static void set_square_floor(HdScene *scene, double half_side, double z) {
-    set_floor(scene, hd_vec3(-half_side, half_side, z), hd_vec3(half_side, half_side, z),
-              hd_vec3(half_side, -half_side, z), hd_vec3(-half_side, -half_side, z));
-}
-
-static void look(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees) {
-    double sine, cosine;
-    camera->eye = eye;
-    camera->forward = hd_normalize(hd_sub(target, eye));
-    camera->right = hd_normalize(hd_cross(camera->forward, hd_vec3(0.0, 0.0, 1.0)));
-    camera->up = hd_cross(camera->right, camera->forward);
-    hd_sine_cosine(field_of_view_degrees * HD_PI / 360.0, &sine, &cosine);
-    camera->tangent_of_half_fov = sine / cosine;
-}
+#include "scene_builder.h"
 
 static void two_lights(HdScene *scene) {
-    set_light(scene, 0, hd_vec3(3.0, -2.0, 5.0), hd_vec3(1.0, 0.9, 0.8));
-    set_light(scene, 1, hd_vec3(-4.0, -1.0, 3.0), hd_vec3(0.3, 0.4, 0.7));
+    build_light(scene, 0, hd_vec3(3.0, -2.0, 5.0), hd_vec3(1.0, 0.9, 0.8));
+    build_light(scene, 1, hd_vec3(-4.0, -1.0, 3.0), hd_vec3(0.3, 0.4, 0.7));
 }
 
 static void one_solid(HdScene *scene, HdCamera *camera, HdSolidKind kind) {
-    start(scene, 64, 48, 2, 5, 1, 2);
+    build_scene(scene, 64, 48, 2, 5, 1, 2);
     two_lights(scene);
-    set_solid(scene, 0, kind, hd_vec3(0.1, 0.2, 0.05), 1.2, hd_vec3(0.9, 0.6, 0.3), 3);
-    set_square_floor(scene, 4.0, -1.3);
-    set_texture(&scene->floor.texture, 16, 12);
-    look(camera, hd_vec3(2.3, -2.9, 1.4), hd_vec3(0.0, 0.0, 0.0), 50.0);
+    build_solid(scene, 0, kind, hd_vec3(0.1, 0.2, 0.05), 1.2, hd_vec3(0.9, 0.6, 0.3), 3);
+    build_square_floor(scene, 4.0, -1.3);
+    build_texture(&scene->floor.texture, 16, 12);
+    build_camera(camera, hd_vec3(2.3, -2.9, 1.4), hd_vec3(0.0, 0.0, 0.0), 50.0);
 }
 
 static void tetrahedron(HdScene *scene, HdCamera *camera) {
@@ -141,72 +34,77 @@ static void icosahedron(HdScene *scene, HdCamera *camera) {
 }
 
 static void three_solids(HdScene *scene, HdCamera *camera, double spacing) {
-    start(scene, 80, 48, 2, 6, 3, 2);
+    build_scene(scene, 80, 48, 2, 6, 3, 2);
     two_lights(scene);
-    set_solid(scene, 0, HD_TETRAHEDRON, hd_vec3(-spacing, 0.1, 0.0), 1.1, hd_vec3(1.0, 0.3, 0.2), 2);
-    set_solid(scene, 1, HD_OCTAHEDRON, hd_vec3(0.0, 0.4, 0.2), 1.0, hd_vec3(0.3, 0.9, 0.4), 2);
-    set_solid(scene, 2, HD_DODECAHEDRON, hd_vec3(spacing, 0.0, 0.1), 1.2, hd_vec3(0.3, 0.5, 1.0), 1);
-    set_square_floor(scene, 6.0, -1.5);
-    look(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 65.0);
+    build_solid(scene, 0, HD_TETRAHEDRON, hd_vec3(-spacing, 0.1, 0.0), 1.1, hd_vec3(1.0, 0.3, 0.2),
+                2);
+    build_solid(scene, 1, HD_OCTAHEDRON, hd_vec3(0.0, 0.4, 0.2), 1.0, hd_vec3(0.3, 0.9, 0.4), 2);
+    build_solid(scene, 2, HD_DODECAHEDRON, hd_vec3(spacing, 0.0, 0.1), 1.2, hd_vec3(0.3, 0.5, 1.0),
+                1);
+    build_square_floor(scene, 6.0, -1.5);
+    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 65.0);
 }
 
-static void three_apart(HdScene *scene, HdCamera *camera) { three_solids(scene, camera, 2.4); }
+static void three_apart(HdScene *scene, HdCamera *camera) {
+    three_solids(scene, camera, 2.4);
+}
 static void three_overlapping(HdScene *scene, HdCamera *camera) {
     three_solids(scene, camera, 0.7);
 }
 
 static void eye_inside(HdScene *scene, HdCamera *camera) {
     three_solids(scene, camera, 2.4);
-    look(camera, hd_vec3(2.5, 0.1, 0.2), hd_vec3(0.0, 0.3, 0.0), 80.0);
+    build_camera(camera, hd_vec3(2.5, 0.1, 0.2), hd_vec3(0.0, 0.3, 0.0), 80.0);
 }
 
-/* Exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, looking along it and
-   inwards at once. */
+/* Exactly on the face x = 1 of a hexahedron with half-integer centre and edge 2, looking along it
+   and inwards at once. */
 static void eye_on_face(HdScene *scene, HdCamera *camera) {
-    start(scene, 64, 48, 1, 6, 1, 2);
+    build_scene(scene, 64, 48, 1, 6, 1, 2);
     two_lights(scene);
-    set_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.0), sqrt(3.0), hd_vec3(0.8, 0.7, 1.0), 4);
-    set_square_floor(scene, 4.0, -1.25);
-    look(camera, hd_vec3(1.0, -0.25, 0.125), hd_vec3(0.75, 0.5, 0.0), 120.0);
+    build_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.0), sqrt(3.0), hd_vec3(0.8, 0.7, 1.0),
+                4);
+    build_square_floor(scene, 4.0, -1.25);
+    build_camera(camera, hd_vec3(1.0, -0.25, 0.125), hd_vec3(0.75, 0.5, 0.0), 120.0);
 }
 
 static void eye_on_floor_plane(HdScene *scene, HdCamera *camera) {
     three_solids(scene, camera, 2.4);
-    look(camera, hd_vec3(0.5, -4.0, -1.5), hd_vec3(0.0, 0.0, -1.5), 70.0);
+    build_camera(camera, hd_vec3(0.5, -4.0, -1.5), hd_vec3(0.0, 0.0, -1.5), 70.0);
 }
 
-/* The middle of the picture is a vertex, and its middle row and column run along edges: odd sizes put
-   sample rays exactly there. */
+/* The middle of the picture is a vertex, and its middle row and column run along edges: odd sizes
+   put sample rays exactly there. */
 static void edges_and_corners(HdScene *scene, HdCamera *camera) {
-    start(scene, 65, 65, 1, 8, 2, 2);
+    build_scene(scene, 65, 65, 1, 8, 2, 2);
     two_lights(scene);
-    set_solid(scene, 0, HD_OCTAHEDRON, hd_vec3(0.0, 0.0, 0.0), 1.0, hd_vec3(0.6, 0.9, 0.9), 3);
-    set_solid(scene, 1, HD_HEXAHEDRON, hd_vec3(0.0, 4.0, 0.0), 2.0 * sqrt(3.0),
-              hd_vec3(1.0, 0.8, 0.5), 1);
+    build_solid(scene, 0, HD_OCTAHEDRON, hd_vec3(0.0, 0.0, 0.0), 1.0, hd_vec3(0.6, 0.9, 0.9), 3);
+    build_solid(scene, 1, HD_HEXAHEDRON, hd_vec3(0.0, 4.0, 0.0), 2.0 * sqrt(3.0),
+                hd_vec3(1.0, 0.8, 0.5), 1);
     scene->solids[0].rim_width = 0.0;
     scene->solids[1].rim_width = 0.0;
-    look(camera, hd_vec3(0.0, -3.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 45.0);
+    build_camera(camera, hd_vec3(0.0, -3.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 45.0);
 }
 
 static void fifty_edge_lights(HdScene *scene, HdCamera *camera) {
-    start(scene, 48, 36, 2, 6, 1, 0);
-    set_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.2), 1.5, hd_vec3(0.7, 0.4, 0.9), 50);
+    build_scene(scene, 48, 36, 2, 6, 1, 0);
+    build_solid(scene, 0, HD_HEXAHEDRON, hd_vec3(0.0, 0.0, 0.2), 1.5, hd_vec3(0.7, 0.4, 0.9), 50);
     scene->solids[0].lights.disc_radius = 0.01;
-    set_square_floor(scene, 5.0, -1.2);
-    set_texture(&scene->floor.texture, 7, 31);
-    look(camera, hd_vec3(2.6, -2.2, 1.9), hd_vec3(0.0, 0.0, 0.0), 55.0);
+    build_square_floor(scene, 5.0, -1.2);
+    build_texture(&scene->floor.texture, 7, 31);
+    build_camera(camera, hd_vec3(2.6, -2.2, 1.9), hd_vec3(0.0, 0.0, 0.0), 55.0);
 }
 
 static void tilted_floor(HdScene *scene, HdCamera *camera) {
     one_solid(scene, camera, HD_ICOSAHEDRON);
-    set_floor(scene, hd_vec3(-4.0, 4.0, -0.5), hd_vec3(4.0, 4.0, -1.5), hd_vec3(4.0, -4.0, -2.5),
-              hd_vec3(-4.0, -4.0, -1.5));
+    build_floor(scene, hd_vec3(-4.0, 4.0, -0.5), hd_vec3(4.0, 4.0, -1.5), hd_vec3(4.0, -4.0, -2.5),
+                hd_vec3(-4.0, -4.0, -1.5));
 }
 
 static void trapezoid_floor(HdScene *scene, HdCamera *camera) {
     one_solid(scene, camera, HD_TETRAHEDRON);
-    set_floor(scene, hd_vec3(-1.0, 5.0, -1.3), hd_vec3(2.0, 4.0, -1.3), hd_vec3(6.0, -4.0, -1.3),
-              hd_vec3(-5.0, -3.0, -1.3));
+    build_floor(scene, hd_vec3(-1.0, 5.0, -1.3), hd_vec3(2.0, 4.0, -1.3), hd_vec3(6.0, -4.0, -1.3),
+                hd_vec3(-5.0, -3.0, -1.3));
 }
 
 static void all_of_the_light(HdScene *scene, HdCamera *camera) {
@@ -217,7 +115,7 @@ static void all_of_the_light(HdScene *scene, HdCamera *camera) {
     for (int s = 0; s < 3; s++) {
         scene->solids[s].face.reflection = 0.7;
         scene->solids[s].face.transmission = 0.3;
-        scene->solids[s].face.colour = same(1.0);
+        scene->solids[s].face.colour = hd_vec3(1.0, 1.0, 1.0);
     }
 }
 
@@ -250,18 +148,18 @@ static void wide_strip(HdScene *scene, HdCamera *camera) {
     scene->width = 1023;
     scene->height = 7;
     scene->samples_per_side = 1;
-    look(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 150.0);
+    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 150.0);
 }
 
 static void right_angle_view(HdScene *scene, HdCamera *camera) {
     three_solids(scene, camera, 2.4);
     scene->samples_per_side = 3;
-    look(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 90.0);
+    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 90.0);
 }
 
 static void widest_view(HdScene *scene, HdCamera *camera) {
     three_solids(scene, camera, 2.4);
-    look(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 178.0);
+    build_camera(camera, hd_vec3(0.4, -4.5, 1.2), hd_vec3(0.0, 0.0, 0.0), 178.0);
 }
 
 static void cut_off(HdScene *scene, HdCamera *camera) {
@@ -285,12 +183,12 @@ static void far_from_origin(HdScene *scene, HdCamera *camera) {
 
 static void clamped(HdScene *scene, HdCamera *camera) {
     one_solid(scene, camera, HD_OCTAHEDRON);
-    scene->lights[0].intensity = same(1e12);
+    scene->lights[0].intensity = hd_vec3(1e12, 1e12, 1e12);
 }
 
 static void empty_scene(HdScene *scene, HdCamera *camera) {
-    start(scene, 9, 5, 1, 3, 0, 0);
-    look(camera, hd_vec3(0.0, -1.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 60.0);
+    build_scene(scene, 9, 5, 1, 3, 0, 0);
+    build_camera(camera, hd_vec3(0.0, -1.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 60.0);
 }
 
 const ConformanceFrame conformance_frames[] = {
@@ -320,5 +218,4 @@ const ConformanceFrame conformance_frames[] = {
     {"clamped", clamped},
     {"empty-scene", empty_scene},
 };
-const int conformance_frame_count =
-    (int)(sizeof conformance_frames / sizeof conformance_frames[0]);
+const int conformance_frame_count = (int)(sizeof conformance_frames / sizeof conformance_frames[0]);

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "commands.h"
+#include "default_scene.h"
+#include "progress.h"
+#include "rendering.h"
+
+/* Far above any classic input, and small enough to read into memory without a thought. */
+enum { MAX_INPUT_BYTES = 1 << 20 };
+
+static HdStatus read_standard_input(char **text, size_t *size, HdError *error) {
+    *text = malloc(MAX_INPUT_BYTES + 1);
+    if (*text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
+    *size = fread(*text, 1, MAX_INPUT_BYTES + 1, stdin);
+    if (ferror(stdin))
+        return hd_fail(error, HD_FAILED, "cannot read standard input");
+    if (*size > MAX_INPUT_BYTES)
+        return hd_fail(error, HD_BAD_INPUT, "standard input is longer than %d bytes",
+                       (int)MAX_INPUT_BYTES);
+    return HD_OK;
+}
+
+static HdStatus print_frame_line(void *context, int number, int done, const HdFrame *frame,
+                                 double seconds, HdError *error) {
+    if (printf("%d\t%.3f\t%" PRIu64 "\n", number, seconds * 1e3, frame->rays) < 0 ||
+        fflush(stdout) != 0)
+        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+    hd_progress_update(context, done);
+    return HD_OK;
+}
+
+static HdStatus render_input(const HdOptions *options, const HdClassicInput *input,
+                             HdError *error) {
+    HdFrameList frames;
+    HdStatus status =
+        hd_frame_list_parse(&frames, options->frames, input->scene.frame_count, error);
+    if (status != HD_OK)
+        return status;
+    HdProgress progress = hd_progress_start(frames.count);
+    HdSequence sequence = {
+        .scene = &input->scene,
+        .frames = &frames,
+        .precision = options->render.precision,
+        .output = input->output_pattern,
+        .stored = print_frame_line,
+        .context = &progress,
+    };
+    HdOptions chosen = *options;
+    bool cpu = options->mode == HD_CLASSIC_CPU;
+    if (cpu && chosen.backend == NULL)
+        chosen.backend = "c";
+    status = hd_render_sequence(&sequence, &chosen, !cpu, error);
+    hd_progress_end(&progress);
+    hd_frame_list_free(&frames);
+    return status;
+}
+
+static HdStatus print_default(HdError *error) {
+    HdClassicInput input;
+    HdStatus status = hd_default_input(&input, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_classic_print(stdout, &input, error);
+    hd_classic_free(&input);
+    return status;
+}
+
+static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
+    HdClassicInput input;
+    char *text = NULL;
+    size_t size = 0;
+    HdStatus status = read_standard_input(&text, &size, error);
+    if (status == HD_OK)
+        status = hd_classic_parse(&input, text, size, "standard input", options->variant, error);
+    free(text);
+    if (status != HD_OK)
+        return status;
+    status = hd_apply_scene_options(&input.scene, options, error);
+    if (status == HD_OK)
+        status = hd_load_floor_texture(&input.scene, input.texture_path, error);
+    if (status == HD_OK)
+        status = render_input(options, &input, error);
+    hd_classic_free(&input);
+    return status;
+}
+
+HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
+    if (options->mode == HD_CLASSIC_PRINT)
+        return print_default(error);
+    return trace_standard_input(options, error);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+#include "default_scene.h"
+
+#include <string.h>
+
+#include "image.h"
+#include "paths.h"
+
+/* Made by the build from scenes/default.in and scenes/default.png. */
+extern const unsigned char hd_default_scene[], hd_default_texture[];
+extern const size_t hd_default_scene_size, hd_default_texture_size;
+
+enum { DEFAULT_VARIANT = 4 };
+
+HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
+    return hd_classic_parse(input, (const char *)hd_default_scene, hd_default_scene_size,
+                            "the built-in scene", DEFAULT_VARIANT, error);
+}
+
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdError *error) {
+    char expanded[HD_MAX_PATH];
+    if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return hd_texture_decode(&scene->floor.texture, hd_default_texture,
+                                 hd_default_texture_size, "the built-in texture", error);
+    HdStatus status = hd_path_expand_home(path, expanded, error);
+    if (status != HD_OK)
+        return status;
+    return hd_texture_read(&scene->floor.texture, expanded, error);
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* The scene and the texture that are part of the program. */
+#ifndef HD_DEFAULT_SCENE_H
+#define HD_DEFAULT_SCENE_H
+
+#include "classic_input.h"
+
+/* The texture path that stands for the embedded texture. */
+#define HD_BUILTIN_TEXTURE "builtin:floor"
+
+/* The most colourful configuration, without its texture. */
+HdStatus hd_default_input(HdClassicInput *input, HdError *error);
+
+/* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder). */
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdError *error);
+
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "sequence.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "camera.h"
+#include "device_launch.h"
+#include "interrupt.h"
+#include "paths.h"
+#include "video.h"
+
+typedef struct Run {
+    const HdSequence *sequence;
+    HdRenderer *renderer;
+    HdFrame frame;
+    HdImage8 image;
+    HdVideo *video; /* NULL: pictures */
+    char output[HD_MAX_PATH];
+} Run;
+
+static bool is_film(const char *output) {
+    size_t length = strlen(output);
+    return length >= 4 && strcasecmp(output + length - 4, ".mp4") == 0;
+}
+
+HdStatus hd_sequence_check(const HdSequence *sequence, HdError *error) {
+    if (is_film(sequence->output))
+        return HD_OK;
+    if (hd_pattern_has_number(sequence->output) || strchr(sequence->output, '%') != NULL)
+        return hd_pattern_check(sequence->output, error);
+    if (sequence->frames->count == 1)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "'%s' names one picture, but %d frames are to be rendered: put %%04d into the "
+                   "name, choose a film (.mp4), or choose one frame with --frames",
+                   sequence->output, sequence->frames->count);
+}
+
+static HdStatus trace_frame(Run *run, int number, HdError *error) {
+    const HdSequence *sequence = run->sequence;
+    HdCamera camera;
+    HdFrameTables tables;
+    HdStatus status = hd_camera_at(&camera, sequence->scene, number, error);
+    if (status == HD_OK)
+        status = hd_compile_frame(&tables, sequence->scene, &camera, sequence->precision, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_renderer_render(run->renderer, &tables, &run->frame, error);
+    hd_frame_tables_free(&tables);
+    return status;
+}
+
+static HdStatus store_frame(Run *run, int number, HdError *error) {
+    char path[HD_MAX_PATH];
+    hd_frame_to_image8(&run->frame, &run->image);
+    if (run->video != NULL)
+        return hd_video_add(run->video, &run->image, error);
+    if (!hd_pattern_has_number(run->output))
+        return hd_image8_write(&run->image, run->output, error);
+    HdStatus status = hd_pattern_format(run->output, number, path, error);
+    if (status != HD_OK)
+        return status;
+    return hd_image8_write(&run->image, path, error);
+}
+
+static HdStatus render_frames(Run *run, HdError *error) {
+    const HdSequence *sequence = run->sequence;
+    for (int i = 0; i < sequence->frames->count; i++) {
+        int number = sequence->frames->frames[i];
+        double start = hd_monotonic_seconds();
+        HdStatus status = trace_frame(run, number, error);
+        double seconds = hd_monotonic_seconds() - start;
+        if (status == HD_OK && hd_interrupt_signal() != 0)
+            status = hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", i,
+                             sequence->frames->count);
+        if (status == HD_OK)
+            status = store_frame(run, number, error);
+        if (status == HD_OK)
+            status = sequence->stored(sequence->context, number, i + 1, &run->frame, seconds, error);
+        if (status != HD_OK)
+            return status;
+    }
+    return HD_OK;
+}
+
+static HdStatus prepare(Run *run, HdError *error) {
+    const HdScene *scene = run->sequence->scene;
+    HdSceneTables tables;
+    HdStatus status = hd_path_expand_home(run->sequence->output, run->output, error);
+    if (status == HD_OK)
+        status = hd_frame_create(&run->frame, scene->width, scene->height, error);
+    if (status == HD_OK)
+        status = hd_image8_create(&run->image, scene->width, scene->height, error);
+    if (status == HD_OK)
+        status = hd_compile_scene(&tables, scene, run->sequence->precision, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_renderer_upload(run->renderer, &tables, error);
+    hd_scene_tables_free(&tables);
+    if (status == HD_OK && is_film(run->output))
+        status = hd_video_open(&run->video, run->output, scene->width, scene->height,
+                               run->sequence->frames_per_second, error);
+    return status;
+}
+
+HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error) {
+    Run run = {.sequence = sequence, .renderer = renderer};
+    HdStatus status = prepare(&run, error);
+    if (status == HD_OK)
+        status = render_frames(&run, error);
+    if (run.video != NULL) {
+        if (status == HD_OK)
+            status = hd_video_close(run.video, error);
+        else
+            hd_video_abort(run.video);
+    }
+    hd_frame_free(&run.frame);
+    hd_image8_free(&run.image);
+    return status;
+}
