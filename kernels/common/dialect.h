@@ -422,6 +422,21 @@ FN vreal greater(vreal a, vreal b) {
     return pick(lt(b, a), a, b);
 }
 
+/* The number of the lowest bit that is set, from 0 on; not for 0. */
+#if defined(__OPENCL_C_VERSION__)
+FN int lowest_bit(uint bits) {
+    return 31 - (int)clz(bits & (0u - bits));
+}
+#elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
+FN int lowest_bit(uint bits) {
+    return __ffs((int)bits) - 1;
+}
+#else
+FN int lowest_bit(uint bits) {
+    return __builtin_ctz(bits);
+}
+#endif
+
 FN vmask mask_none(void) {
     return splat_int(0);
 }

@@ -68,45 +68,44 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     *transmittance = vec3_pick(crossing, filtered, *transmittance);
 }
 
-/* Lets the segments from the points to the light pass one solid. A segment misses it when both of
-   its ends are on the outer side of one plane, which settles most of them before anything is
-   divided. */
-FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const real *light_heights,
-                    const vreal *heights, const LitPoints *points, vmask lit, Vec3 *transmittance) {
+/* Lets the segments from the points to the light pass one solid. A segment misses it when neither
+   end is inside of one plane, which settles most of them before anything is divided. */
+FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
+                    GLOBAL const real *light_heights, const vreal *heights, const LitPoints *points,
+                    vmask lit, Vec3 *transmittance) {
     GLOBAL const Object *solid = objects + object;
-    int first = solid->first_plane, end = first + solid->plane_count;
+    int first = solid->first_plane;
     vmask own = eq_int(points->object, splat_int(object));
     vmask own_inside = own & points->inside;
     vmask crossing = lit & (~own | own_inside);
-    if (!any_lane(crossing))
-        return;
     vreal zero = splat(R(0.0));
-    int light_is_outside = 0;
-    for (int k = first; k < end; k++) {
-        if (light_heights[k] >= R(0.0))
-            crossing = crossing & (lt(heights[k], zero) | own_inside);
-        light_is_outside = light_is_outside | (light_heights[k] > R(0.0));
-    }
+    vmask inside = mask_all();
+    for (uint left = sides->outside | sides->on_plane; left; left &= left - 1)
+        inside = inside & lt(heights[first + lowest_bit(left)], zero);
+    crossing = crossing & (inside | own_inside);
     if (!any_lane(crossing))
         return;
 
     vreal entry = zero, exit = splat(R(1.0));
     vmask entered = mask_none();
-    for (int k = first; k < end; k++) {
-        vreal light_height = splat(light_heights[k]);
-        vreal height = heights[k];
-        if (light_heights[k] < R(0.0)) {
-            vmask enters = lt(zero, height);
-            entry = pick(enters, greater(entry, height / (height - light_height)), entry);
-            entered = entered | enters;
-        } else if (light_heights[k] > R(0.0)) {
-            exit = lesser(exit, height / (height - light_height));
-        }
+    uint all_planes = ((uint)1 << solid->plane_count) - 1;
+    for (uint left = all_planes & ~(sides->outside | sides->on_plane); left; left &= left - 1) {
+        int k = first + lowest_bit(left);
+        vmask enters = crossing & lt(zero, heights[k]);
+        if (!any_lane(enters))
+            continue;
+        vreal t = heights[k] / (heights[k] - splat(light_heights[k]));
+        entry = pick(enters, greater(entry, t), entry);
+        entered = entered | enters;
+    }
+    for (uint left = sides->outside; left; left &= left - 1) {
+        int k = first + lowest_bit(left);
+        exit = lesser(exit, heights[k] / (heights[k] - splat(light_heights[k])));
     }
     crossing = crossing & (own_inside | lt(entry, exit));
     cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing & entered, entry,
                transmittance);
-    if (light_is_outside)
+    if (sides->outside)
         cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing, exit, transmittance);
 }
 
@@ -150,11 +149,12 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
             continue;
         *shadow_tests = *shadow_tests - lit;
         GLOBAL const real *light_heights = light_distances + i * header->plane_count;
+        GLOBAL const LightSides *sides = light_sides + i * header->object_count;
         for (int object = header->solid_count; object < header->object_count; object++)
             lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_heights, heights, points);
         Vec3 transmittance = vec3_splat(R(1.0), R(1.0), R(1.0));
         for (int object = 0; object < header->solid_count; object++)
-            cross_solid(SCENE_ARGUMENTS object, light_heights, heights, points, lit,
+            cross_solid(SCENE_ARGUMENTS object, sides + object, light_heights, heights, points, lit,
                         &transmittance);
         GLOBAL const Light *light = lights + i;
         vreal inverse = one / square_root(squared);

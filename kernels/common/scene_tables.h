@@ -61,6 +61,12 @@ typedef struct ALIGNED_16 {
     real inverse_falloff_squared; /* 1 / d0^2; 0: no falloff */
 } Light;
 
+/* On which side of an object's planes a light is, a bit for each plane from the object's first one
+   on. It is strictly inside of those that are in neither word. */
+typedef struct ALIGNED_16 {
+    uint outside, on_plane, unused[2];
+} LightSides;
+
 /* Floor coordinates (a, b) of a point X: a = axis_a.X, b = axis_b.X. Texture coordinates (s, t) in
    the unit square solve (a, b) = origin + s e + t f + s t g (inverse bilinear interpolation). */
 typedef struct ALIGNED_16 {
@@ -96,12 +102,14 @@ HD_ASSERT_SIZE(Object, 8, 8);
 HD_ASSERT_SIZE(Edge, 8, 0);
 HD_ASSERT_SIZE(Material, 12, 4);
 HD_ASSERT_SIZE(Light, 4, 0);
+HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 20, 4);
 HD_ASSERT_SIZE(View, 12, 8);
 
 /* The tables of a scene, in the order of the kernels' arguments:
    light_offsets[object * light_count + light]   the light's position relative to the object
    light_distances[light * plane_count + plane]  exactly 0 for an edge light and its own faces
+   light_sides[light * object_count + object]    of solids only
    object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
    texels                                        two words each: r | g << 16, b */
 #define HD_SCENE_TABLES(X)                                                                         \
@@ -113,6 +121,7 @@ HD_ASSERT_SIZE(View, 12, 8);
     X(Light, lights)                                                                               \
     X(Vector, light_offsets)                                                                       \
     X(real, light_distances)                                                                       \
+    X(LightSides, light_sides)                                                                     \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \
     X(uint, texels)
