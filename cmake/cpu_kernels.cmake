@@ -9,6 +9,12 @@ if(processor MATCHES "^(x86_64|amd64)$")
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
 endif()
 
+# gcc takes vectors that are filled lane by lane for uninitialised.
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    set(no_false_alarms -Wno-maybe-uninitialized)
+endif()
+set(HEDRON_KERNEL_WARNINGS ${HEDRON_WARNINGS} -Wno-unused-parameter -Wno-psabi ${no_false_alarms})
+
 set(flags_generic "")
 set(flags_avx2 -mavx2 -mfma -mbmi2)
 set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma -mbmi2
@@ -34,8 +40,7 @@ foreach(build IN LISTS builds)
             target_compile_definitions(hedron_kernel_${name} PRIVATE
                 HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes}
                 HD_DOUBLE=$<STREQUAL:${precision},double>)
-            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_WARNINGS}
-                -Wno-unused-parameter -Wno-psabi -Wno-maybe-uninitialized ${level} ${flags_${set}} -fno-math-errno
+            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS} ${level} ${flags_${set}} -fno-math-errno
                 -fno-trapping-math ${flags_${math}})
             target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
         endforeach()

@@ -20,8 +20,8 @@ typedef struct CRenderer {
     HdThreadPool *pool;
     int threads;
     const HdCpuBuild *build;
-    HdSceneTables scene;   /* our own copy */
-    HdCpuCounts *counts;   /* one for each item of the last frame size */
+    HdSceneTables scene; /* our own copy */
+    HdCpuCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
 } CRenderer;
 

@@ -18,8 +18,7 @@ HD_CPU_BUILDS(DECLARE_BUILD)
         {#set, lanes, HD_FLOAT, HD_MATH_FAST, hd_kernel_##set##_##lanes##_float_fast},             \
         {#set, lanes, HD_DOUBLE_PRECISION, HD_MATH_STRICT,                                         \
          hd_kernel_##set##_##lanes##_double_strict},                                               \
-        {#set, lanes, HD_DOUBLE_PRECISION, HD_MATH_FAST,                                           \
-         hd_kernel_##set##_##lanes##_double_fast},
+        {#set, lanes, HD_DOUBLE_PRECISION, HD_MATH_FAST, hd_kernel_##set##_##lanes##_double_fast},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 
 static bool is_supported(const char *set) {

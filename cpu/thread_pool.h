@@ -10,8 +10,8 @@ typedef struct HdThreadPool HdThreadPool;
 /* Starts `threads` threads (at least 1), each in the default floating-point environment. */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
-/* Calls work(context, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed order, and
-   waits for all of them. One caller at a time. */
+/* Calls work(context, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
+   order, and waits for all of them. One caller at a time. */
 void hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
                         void *context);
 

@@ -25,12 +25,12 @@ typedef struct HdDevice {
     const HdBackend *backend;
     int index; /* within the backend */
     char name[256];
-    char driver[256];        /* platform, driver and versions, for people */
-    bool is_cpu;             /* takes several lanes */
+    char driver[256];  /* platform, driver and versions, for people */
+    bool is_cpu;       /* takes several lanes */
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     bool has_double;
-    char not_strict[256];    /* why the device cannot do strict arithmetic; empty: it can */
+    char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
 /* A backend. Arguments are checked before a function is called (backend.c); "must" marks what the
@@ -42,8 +42,8 @@ struct HdBackend {
        return HD_UNAVAILABLE and the reason: which library or driver is missing. */
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 
-    /* Opens one device. Must fail with HD_UNAVAILABLE when the device cannot do what the options ask
-       (double, strict, lanes), naming what is missing. */
+    /* Opens one device. Must fail with HD_UNAVAILABLE when the device cannot do what the options
+       ask (double, strict, lanes), naming what is missing. */
     HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                      HdError *error);
 

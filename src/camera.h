@@ -8,7 +8,7 @@
 
 typedef struct HdCamera {
     HdVec3 eye;
-    HdVec3 right, up, forward; /* orthonormal, right-handed: right x up = -forward */
+    HdVec3 right, up, forward;  /* orthonormal, right-handed: right x up = -forward */
     double tangent_of_half_fov; /* horizontal */
 } HdCamera;
 
@@ -17,7 +17,8 @@ HdVec3 hd_cylinder_point(const HdCylinderPath *path, int frame, int frame_count)
 
 /* The camera of one frame. Where it looks straight up or down, the picture's up is the horizontal
    direction in which that view would be left by tilting: towards the z axis (looking down) or away
-   from it (looking up) at the eye's angle phi. Fails with HD_BAD_INPUT when the eye is at the target. */
+   from it (looking up) at the eye's angle phi. Fails with HD_BAD_INPUT when the eye is at the
+   target. */
 HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError *error);
 
 #endif

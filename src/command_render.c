@@ -18,8 +18,7 @@ static HdStatus show_progress(void *context, int number, int done, const HdFrame
 
 static HdStatus render_frames(const HdOptions *options, const HdScene *scene, HdError *error) {
     HdFrameList frames;
-    HdStatus status =
-        hd_frame_list_parse(&frames, options->frames, scene->frame_count, error);
+    HdStatus status = hd_frame_list_parse(&frames, options->frames, scene->frame_count, error);
     if (status != HD_OK)
         return status;
     HdProgress progress = hd_progress_start(frames.count);

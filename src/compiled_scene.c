@@ -38,9 +38,8 @@ HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdC
     tables->precision = precision;
     tables->width = scene->width;
     tables->height = scene->height;
-    HdStatus status = precision == HD_FLOAT
-                          ? hd_compile_frame_float(tables, scene, camera, error)
-                          : hd_compile_frame_double(tables, scene, camera, error);
+    HdStatus status = precision == HD_FLOAT ? hd_compile_frame_float(tables, scene, camera, error)
+                                            : hd_compile_frame_double(tables, scene, camera, error);
     if (status != HD_OK)
         hd_frame_tables_free(tables);
     return status;

@@ -34,8 +34,8 @@ typedef struct HdFrameTables {
     HdPrecision precision;
 } HdFrameTables;
 
-/* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences of
-   centres are formed before they are rounded to the kernels' precision. */
+/* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences
+   of centres are formed before they are rounded to the kernels' precision. */
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           HdError *error);
 void hd_scene_tables_free(HdSceneTables *tables);

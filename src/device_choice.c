@@ -94,8 +94,8 @@ static void search_any(Search *search, char note[512]) {
     if (!search->found)
         search_backend(search, hd_backend_find("c"), false);
     if (search->found && !has_gpu && search->wish->gpu)
-        snprintf(note, 512, "no GPU was found; tracing with %s on %s",
-                 search->best.backend->name, search->best.name);
+        snprintf(note, 512, "no GPU was found; tracing with %s on %s", search->best.backend->name,
+                 search->best.name);
 }
 
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,

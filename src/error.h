@@ -12,8 +12,8 @@ typedef enum HdStatus {
     HD_INTERRUPTED = 130
 } HdStatus;
 
-/* What failed last. The message is one sentence without a line break at its end; a compiler's log may
-   follow on lines of its own. */
+/* What failed last. The message is one sentence without a line break at its end; a compiler's log
+   may follow on lines of its own. */
 typedef struct HdError {
     HdStatus status;
     char message[32768];

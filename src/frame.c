@@ -8,8 +8,8 @@ HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error) 
     memset(frame, 0, sizeof *frame);
     frame->rgb = calloc((size_t)width * (size_t)height * 3, sizeof *frame->rgb);
     if (frame->rgb == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame of %d x %d pixels", width,
-                       height);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame of %d x %d pixels",
+                       width, height);
     frame->width = width;
     frame->height = height;
     return HD_OK;

@@ -8,7 +8,9 @@
 
 static volatile sig_atomic_t caught;
 
-static void remember(int number) { caught = number; }
+static void remember(int number) {
+    caught = number;
+}
 
 void hd_interrupt_install(void) {
     struct sigaction action;
@@ -25,4 +27,6 @@ void hd_interrupt_install(void) {
     sigaction(SIGCHLD, &action, NULL);
 }
 
-int hd_interrupt_signal(void) { return caught; }
+int hd_interrupt_signal(void) {
+    return caught;
+}

@@ -3,9 +3,9 @@
 #ifndef HD_INTERRUPT_H
 #define HD_INTERRUPT_H
 
-/* Catches SIGINT and SIGTERM once each; a second one ends the program at once. A file that grows past
-   its limit becomes an error of write instead of a death, and children can be waited for whatever the
-   parent process had set. */
+/* Catches SIGINT and SIGTERM once each; a second one ends the program at once. A file that grows
+   past its limit becomes an error of write instead of a death, and children can be waited for
+   whatever the parent process had set. */
 void hd_interrupt_install(void);
 
 /* The number of the signal that came, or 0. */

@@ -86,8 +86,7 @@ static HdStatus parse_integer(const char *name, const char *text, int least, int
     return HD_OK;
 }
 
-static HdStatus parse_size(const char *name, const char *text, HdOptions *options,
-                           HdError *error) {
+static HdStatus parse_size(const char *name, const char *text, HdOptions *options, HdError *error) {
     char *end;
     errno = 0;
     long width = strtol(text, &end, 10), height = 0;
@@ -110,8 +109,8 @@ static HdStatus parse_fraction(const char *name, const char *text, double *out, 
     char *end;
     double value = strtod(text, &end);
     if (end == text || *end != '\0' || !(value >= 0.0 && value < 1.0))
-        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from 0 to below 1",
-                       name, text);
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from 0 to below 1", name,
+                       text);
     *out = value;
     return HD_OK;
 }
@@ -126,8 +125,8 @@ static int choice(const char *text, const char *const *names, int count) {
 
 static HdStatus parse_backend(const char *text, HdOptions *options, HdError *error) {
     if (strcmp(text, "auto") != 0 && hd_backend_find(text) == NULL)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--backend is '%s', expected auto, c, opencl or cuda", text);
+        return hd_fail(error, HD_BAD_INPUT, "--backend is '%s', expected auto, c, opencl or cuda",
+                       text);
     options->backend = strcmp(text, "auto") == 0 ? NULL : text;
     return HD_OK;
 }
@@ -271,13 +270,12 @@ static HdCommand command_named(const char *name) {
     return HD_COMMAND_CLASSIC;
 }
 
-static HdStatus parse_help_topic(HdOptions *options, int count, char **arguments,
-                                 HdError *error) {
+static HdStatus parse_help_topic(HdOptions *options, int count, char **arguments, HdError *error) {
     if (count <= 2)
         return HD_OK;
     options->help_topic = command_named(arguments[2]);
-    if (count > 3 || (options->help_topic != HD_COMMAND_RENDER &&
-                      options->help_topic != HD_COMMAND_DEVICES))
+    if (count > 3 ||
+        (options->help_topic != HD_COMMAND_RENDER && options->help_topic != HD_COMMAND_DEVICES))
         return hd_fail(error, HD_BAD_INPUT, "'help' is followed by 'render', 'devices' or nothing");
     return HD_OK;
 }

@@ -20,8 +20,8 @@ HdStatus hd_path_make_parents(const char *path, HdError *error);
 /* True where `path` holds a frame number: "%d" or "%0Nd", N from 1 to 9. */
 bool hd_pattern_has_number(const char *path);
 
-/* Checks a pattern: exactly one "%d" or "%0Nd"; "%%" stands for a percent sign; anything else after a
-   percent sign is wrong. The pattern never reaches printf. */
+/* Checks a pattern: exactly one "%d" or "%0Nd"; "%%" stands for a percent sign; anything else after
+   a percent sign is wrong. The pattern never reaches printf. */
 HdStatus hd_pattern_check(const char *pattern, HdError *error);
 
 /* Writes the name of one frame of a checked pattern. */

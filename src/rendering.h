@@ -6,10 +6,12 @@
 #include "options.h"
 #include "sequence.h"
 
-/* Lays size, samples, depth and cut-off of the command line over the scene, and checks the result. */
+/* Lays size, samples, depth and cut-off of the command line over the scene, and checks the result.
+ */
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error);
 
-/* Chooses and opens a device, and renders the sequence; a fallback is announced on standard error. */
+/* Chooses and opens a device, and renders the sequence; a fallback is announced on standard error.
+ */
 HdStatus hd_render_sequence(const HdSequence *sequence, const HdOptions *options, bool want_gpu,
                             HdError *error);
 

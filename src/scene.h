@@ -34,7 +34,7 @@ typedef struct HdMaterial {
 /* Point lights at (k + 1/2) / per_edge along every edge of a solid, each seen as a disc. */
 typedef struct HdEdgeLights {
     int per_edge;
-    HdVec3 intensity;       /* of each light; 0: a bright spot that lights nothing */
+    HdVec3 intensity;        /* of each light; 0: a bright spot that lights nothing */
     double falloff_distance; /* d0 of 1 / (1 + (d / d0)^2); 0: no falloff */
     double disc_radius;
     HdVec3 disc_radiance;

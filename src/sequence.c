@@ -78,7 +78,8 @@ static HdStatus render_frames(Run *run, HdError *error) {
         if (status == HD_OK)
             status = store_frame(run, number, error);
         if (status == HD_OK)
-            status = sequence->stored(sequence->context, number, i + 1, &run->frame, seconds, error);
+            status =
+                sequence->stored(sequence->context, number, i + 1, &run->frame, seconds, error);
         if (status != HD_OK)
             return status;
     }

@@ -143,10 +143,12 @@ expect_sentence() {
     fi
 }
 
-# expect_refusal CODE COMMAND...: that exit code, one sentence, and nothing on standard output.
+# expect_refusal CODE COMMAND...: that exit code at once, one sentence, and nothing on standard output.
 expect_refusal() {
-    expect_exit "$@"
-    if ((code == $1)); then
+    local expected=$1
+    shift
+    expect_exit "$expected" timeout 20 "$@"
+    if ((code == expected)); then
         expect_sentence
         expect_stdout_lines 0
     fi

@@ -5,9 +5,8 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# So many frames of this kind that a signal always comes in their midst: all of them take many seconds.
-slow=(--size 160x120 --samples 3 --depth 4)
-slow_official=(--size 160x120 --samples 1 --depth 3)
+# 240 frames that take many seconds together, so that a signal comes in their midst.
+slow=(--size 160x120 --samples 1 --depth 3)
 use_official_input
 
 # expect_first_frames FOLDER: the files are those of the first frames, whole, and no others. Sets `frames`.
@@ -31,7 +30,7 @@ for signal in INT TERM; do
     if ! wait_until 20 test -e out/2.data; then
         fail 'no third frame after 20 s'
     fi
-    kill "-$signal" "$pid"
+    kill "-$signal" "$pid" || fail 'it was over before the signal'
     expect_end $((128 + number)) 10
     expect_sentence
     expect_stdout_lines 0
@@ -41,13 +40,13 @@ for signal in INT TERM; do
 
     # The classic mode has a line for each frame that is there.
     sed '2s|.*|out/%d.data|' "$work/official.in" >"$work/sequence.in"
-    start "$hedron" --cpu "${slow_official[@]}" --frames 0-239 <"$work/sequence.in"
+    start "$hedron" --cpu "${slow[@]}" --frames 0-239 <"$work/sequence.in"
     if ! wait_until 20 test -e out/2.data; then
         fail 'no third frame after 20 s'
     fi
     # As a terminal does it: to the whole group.
-    kill "-$signal" -- "-$pid"
-    expect_end $((128 + number)) 20
+    kill "-$signal" -- "-$pid" || fail 'it was over before the signal'
+    expect_end $((128 + number)) 10
     expect_sentence
     expect_first_frames out
     expect_stdout_lines "$frames" $'[0-9]+\t[0-9.]+\t[0-9]+'

@@ -51,6 +51,7 @@ expect_close() {
         fail "$1 and $2 differ by more than 8 in $far bytes"
     fi
 }
+expect_different float.data double.data
 expect_close float.data double.data
 picture fast --backend c --math fast
 expect_close float.data fast.data

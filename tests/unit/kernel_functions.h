@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT */
+/* Tests of the shared kernel functions, called from C; included once for each HD_LANES. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../../kernels/common/render.h"
+
+#define CLOSE(found, expected) assert_true(fabs((double)(found) - (double)(expected)) < 1e-5)
+
+/* A bundle whose lanes differ: lane l holds start + l * step. */
+static vreal ramp(real start, real step) {
+    vreal v = splat(R(0.0));
+    for (int lane = 0; lane < HD_LANES; lane++)
+        set_lane_real(&v, lane, start + (real)lane * step);
+    return v;
+}
+
+static vint int_ramp(int start, int step) {
+    vint v = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        set_lane_int(&v, lane, start + lane * step);
+    return v;
+}
+
+static void masks_tell_lanes_apart(void **state) {
+    (void)state;
+    vint numbers = int_ramp(0, 1);
+    vmask last = eq_int(numbers, splat_int(HD_LANES - 1));
+    assert_true(any_lane(last));
+    assert_false(any_lane(mask_none()));
+    assert_true(any_lane(mask_all()));
+    assert_int_equal(first_lane(last), HD_LANES - 1);
+    assert_int_equal(first_lane(mask_all()), 0);
+    assert_true(all_same(splat_int(7)));
+    assert_int_equal(all_same(numbers), HD_LANES == 1);
+    vint picked = pick_int(last, splat_int(5), numbers);
+    assert_int_equal(lane_int(&picked, HD_LANES - 1), 5);
+    vint spread = spread_first(int_ramp(3, 1), last);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        assert_int_equal(lane_int(&spread, lane), 3 + HD_LANES - 1);
+    spread = spread_first(splat_int(-1), mask_none());
+    assert_int_equal(lane_int(&spread, 0), 0);
+}
+
+static void lesser_and_greater_drop_nan(void **state) {
+    (void)state;
+    vreal nan = splat((real)NAN), one = splat(R(1.0)), two = splat(R(2.0));
+    vreal r = lesser(nan, one);
+    assert_true(lane_real(&r, 0) == R(1.0));
+    r = greater(nan, one);
+    assert_true(lane_real(&r, 0) == R(1.0));
+    r = lesser(one, two);
+    assert_true(lane_real(&r, 0) == R(1.0));
+    r = greater(one, two);
+    assert_true(lane_real(&r, 0) == R(2.0));
+}
+
+static void multiply_add_rounds_once(void **state) {
+    (void)state;
+    /* (1 + e)(1 - e) - 1 = -e^2: lost if the product is rounded on its own. */
+    real e = sizeof(real) == 4 ? R(1.1920928955078125e-7) : R(2.220446049250313e-16);
+    vreal r = multiply_add(splat(R(1.0) + e), splat(R(1.0) - e), splat(R(-1.0)));
+    for (int lane = 0; lane < HD_LANES; lane++)
+        assert_true(lane_real(&r, lane) == -e * e);
+}
+
+static void lowest_bits(void **state) {
+    (void)state;
+    for (int bit = 0; bit < 32; bit++) {
+        assert_int_equal(lowest_bit((uint)1 << bit), bit);
+        assert_int_equal(lowest_bit(~(uint)0 << bit), bit);
+    }
+}
+
+static void powers(void **state) {
+    (void)state;
+    vreal x = ramp(R(0.5), R(0.05));
+    for (int n = 1; n <= 70; n++) {
+        vreal common = power(x, splat_int(n), n), mixed = power(x, splat_int(n), 0);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            CLOSE(lane_real(&common, lane), pow((double)lane_real(&x, lane), n));
+            assert_true(lane_real(&common, lane) == lane_real(&mixed, lane));
+        }
+    }
+    vint exponents = int_ramp(1, 3);
+    vreal r = power(x, exponents, 0);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        CLOSE(lane_real(&r, lane), pow((double)lane_real(&x, lane), 1 + 3 * lane));
+}
+
+static fixed64 one_contribution(real radiance, real weight, int *clamps) {
+    vint counted = splat_int(0);
+    vfix fixed =
+        contribution(mask_all(), splat(radiance), splat(weight), R(1099511627776.0), &counted);
+    *clamps = lane_int(&counted, 0);
+    return lane_fix(&fixed, 0);
+}
+
+static void contributions_are_clamped(void **state) {
+    (void)state;
+    int clamps;
+    assert_true(one_contribution(R(1.0), R(0.5), &clamps) == (fixed64)1 << 39);
+    assert_int_equal(clamps, 0);
+    assert_true(one_contribution(R(65536.0), R(1.0), &clamps) == (fixed64)1 << 56);
+    assert_int_equal(clamps, 0);
+    assert_true(one_contribution(R(65537.0), R(1.0), &clamps) == (fixed64)1 << 56);
+    assert_int_equal(clamps, 1);
+    assert_true(one_contribution((real)INFINITY, R(1.0), &clamps) == (fixed64)1 << 56);
+    assert_int_equal(clamps, 1);
+    assert_true(one_contribution((real)NAN, R(1.0), &clamps) == 0);
+    assert_true(one_contribution(R(-3.0), R(1.0), &clamps) == 0);
+    assert_int_equal(clamps, 0);
+}
+
+static void two_greatest_of_many(void **state) {
+    (void)state;
+    static const real numbers[] = {R(-3.0), R(-0.5), R(-7.0), R(-0.25), R(-0.5)};
+    TwoGreatest two = two_greatest();
+    for (int i = 0; i < 5; i++)
+        add_to_greatest(&two, splat(numbers[i]));
+    assert_true(lane_real(&two.first, 0) == R(-0.25));
+    assert_true(lane_real(&two.second, 0) == R(-0.5));
+}
+
+static void fetching_by_lane(void **state) {
+    (void)state;
+    Vector table[40];
+    for (int i = 0; i < 40; i++)
+        table[i] = (Vector){(real)i, (real)(2 * i), (real)(-i), R(0.0)};
+    vint index = int_ramp(3, 2);
+    Vec3 v = fetch_vector(table, index, all_same(index));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&v.x, lane) == (real)(3 + 2 * lane));
+        assert_true(lane_real(&v.y, lane) == (real)(6 + 4 * lane));
+        assert_true(lane_real(&v.z, lane) == (real)(-3 - 2 * lane));
+    }
+}
+
+/* A map in the plane z = 0 with the given corners, corner 0 at (s, t) = (0, 0). */
+static FloorMap map_of(const double a[4], const double b[4]) {
+    FloorMap map = {.axis_a = {R(1.0)}, .axis_b = {R(0.0), R(1.0)}};
+    map.origin[0] = (real)a[0];
+    map.origin[1] = (real)b[0];
+    map.e[0] = (real)(a[1] - a[0]);
+    map.e[1] = (real)(b[1] - b[0]);
+    map.f[0] = (real)(a[3] - a[0]);
+    map.f[1] = (real)(b[3] - b[0]);
+    map.g[0] = (real)(a[0] - a[1] + a[2] - a[3]);
+    map.g[1] = (real)(b[0] - b[1] + b[2] - b[3]);
+    map.orientation = map.e[0] * map.f[1] - map.e[1] * map.f[0] < R(0.0) ? R(-1.0) : R(1.0);
+    return map;
+}
+
+static void floor_coordinates_invert_the_map(void **state) {
+    (void)state;
+    static const double quads[][2][4] = {
+        {{-5, 5, 5, -5}, {5, 5, -5, -5}},     /* a square, clockwise */
+        {{0, 4, 5, 1}, {0, 0, 3, 3}},         /* a parallelogram */
+        {{-1, 1, 6, -5}, {5, 4, -4, -3}},     /* a general quadrilateral */
+        {{-0.1, 0.1, 8, -8}, {3, 3, -3, -3}}, /* a strong trapezium */
+        {{-8, 8, 0.1, -0.1}, {-3, -3, 3, 3}}, /* the other way round */
+    };
+    for (size_t q = 0; q < sizeof quads / sizeof quads[0]; q++) {
+        const double *a = quads[q][0], *b = quads[q][1];
+        FloorMap map = map_of(a, b);
+        for (int i = 0; i <= 10; i++)
+            for (int j = 0; j <= 10; j++) {
+                double s = i / 10.0, t = j / 10.0, w[4];
+                vreal found_s, found_t;
+                w[0] = (1 - s) * (1 - t);
+                w[1] = s * (1 - t);
+                w[2] = s * t;
+                w[3] = (1 - s) * t;
+                double x = 0, y = 0;
+                for (int c = 0; c < 4; c++) {
+                    x += w[c] * a[c];
+                    y += w[c] * b[c];
+                }
+                floor_coordinates(&map, vec3_splat((real)x, (real)y, R(0.0)), &found_s, &found_t);
+                assert_true(fabs((double)lane_real(&found_s, 0) - s) < 3e-4);
+                assert_true(fabs((double)lane_real(&found_t, 0) - t) < 3e-4);
+            }
+    }
+}
+
+static void texels_are_interpolated(void **state) {
+    (void)state;
+    enum { WIDTH = 3, HEIGHT = 2 };
+    uint texels[WIDTH * HEIGHT * 2];
+    FloorMap map = {.texture_width = WIDTH, .texture_height = HEIGHT};
+    for (uint i = 0; i < WIDTH * HEIGHT; i++) {
+        texels[2 * i] = i * 10000u | (65535u - i * 10000u) << 16;
+        texels[2 * i + 1] = i * 5000u;
+    }
+    /* texel centres, then half-way between two, then beyond the border's centres */
+    Vec3 c = sample_texture(&map, texels, splat(R(0.5) / R(3.0)), splat(R(0.25)));
+    CLOSE(lane_real(&c.x, 0), 0.0);
+    CLOSE(lane_real(&c.y, 0), 1.0);
+    c = sample_texture(&map, texels, splat(R(2.5) / R(3.0)), splat(R(0.75)));
+    CLOSE(lane_real(&c.x, 0), 50000.0 / 65535.0);
+    CLOSE(lane_real(&c.z, 0), 25000.0 / 65535.0);
+    c = sample_texture(&map, texels, splat(R(1.0) / R(3.0)), splat(R(0.5)));
+    CLOSE(lane_real(&c.x, 0), 20000.0 / 65535.0);
+    c = sample_texture(&map, texels, splat(R(1.0)), splat(R(1.0)));
+    CLOSE(lane_real(&c.x, 0), 50000.0 / 65535.0);
+    c = sample_texture(&map, texels, splat(R(0.0)), splat(R(0.0)));
+    CLOSE(lane_real(&c.x, 0), 0.0);
+}
+
+static void every_pixel_has_one_place(void **state) {
+    (void)state;
+    enum { WIDTH = 21, HEIGHT = 13, BLOCKS = 3 * 2 };
+    View view = {.width = WIDTH, .height = HEIGHT};
+    int seen[HEIGHT][WIDTH] = {{0}};
+    for (int place = 0; place < BLOCKS * HD_BLOCK_PIXELS; place++) {
+        Pixel pixel = pixel_at(&view, place);
+        if (in_picture(&view, pixel))
+            seen[pixel.y][pixel.x]++;
+    }
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            assert_int_equal(seen[y][x], 1);
+}
+
+static void samples_fill_the_lanes(void **state) {
+    (void)state;
+    View view = {.forward = {R(0.0), R(1.0)},
+                 .right = {R(0.001)},
+                 .down = {R(0.0), R(0.0), R(-0.001)},
+                 .width = 8,
+                 .height = 8,
+                 .samples_per_side = 3};
+    int live = 0;
+    for (int first = 0; first < HD_BLOCK_PIXELS * 9; first += HD_LANES) {
+        Vec3 direction;
+        vmask alive = sample_directions(&view, 0, first, &direction);
+        for (int lane = 0; lane < HD_LANES; lane++)
+            live += lane_int(&alive, lane) != 0;
+        vreal length = vec3_dot(direction, direction);
+        CLOSE(lane_real(&length, 0), 1.0);
+    }
+    assert_int_equal(live, 64 * 9);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masks_tell_lanes_apart),
+        cmocka_unit_test(lesser_and_greater_drop_nan),
+        cmocka_unit_test(multiply_add_rounds_once),
+        cmocka_unit_test(lowest_bits),
+        cmocka_unit_test(powers),
+        cmocka_unit_test(contributions_are_clamped),
+        cmocka_unit_test(two_greatest_of_many),
+        cmocka_unit_test(fetching_by_lane),
+        cmocka_unit_test(floor_coordinates_invert_the_map),
+        cmocka_unit_test(texels_are_interpolated),
+        cmocka_unit_test(every_pixel_has_one_place),
+        cmocka_unit_test(samples_fill_the_lanes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
