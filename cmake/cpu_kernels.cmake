@@ -16,8 +16,8 @@ endif()
 set(HEDRON_KERNEL_WARNINGS ${HEDRON_WARNINGS} -Wno-unused-parameter -Wno-psabi ${no_false_alarms})
 
 set(flags_generic "")
-set(flags_avx2 -mavx2 -mfma -mbmi2)
-set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma -mbmi2
+set(flags_avx2 -mavx2 -mfma)
+set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
     -mprefer-vector-width=512)
 set(flags_strict -ffp-contract=off)
 set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The builds of the shared kernels for plain C: one for each instruction set, lane count, precision
-   and arithmetic. CMakeLists.txt compiles cpu/kernel.c once for each of them. */
+   and arithmetic. cmake/cpu_kernels.cmake compiles cpu/kernel.c once for each of them. */
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 

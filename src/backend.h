@@ -63,7 +63,7 @@ struct HdBackend {
 
 enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
 
-/* All backends in the order of preference of "auto": cuda, opencl, c. */
+/* All backends: cuda, opencl, c. */
 extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
 extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 

@@ -48,11 +48,14 @@ static HdStatus render_input(const HdOptions *options, const HdClassicInput *inp
         .stored = print_frame_line,
         .context = &progress,
     };
-    HdOptions chosen = *options;
     bool cpu = options->mode == HD_CLASSIC_CPU;
-    if (cpu && chosen.backend == NULL)
-        chosen.backend = "c";
-    status = hd_render_sequence(&sequence, &chosen, !cpu, error);
+    HdDeviceWish wish = {
+        .backend = options->backend != NULL || !cpu ? options->backend : "c",
+        .device = options->device,
+        .gpu = !cpu,
+        .cpu = cpu,
+    };
+    status = hd_render_sequence(&sequence, options, &wish, error);
     hd_progress_end(&progress);
     hd_frame_list_free(&frames);
     return status;

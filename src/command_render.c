@@ -31,7 +31,8 @@ static HdStatus render_frames(const HdOptions *options, const HdScene *scene, Hd
         .stored = show_progress,
         .context = &progress,
     };
-    status = hd_render_sequence(&sequence, options, false, error);
+    HdDeviceWish wish = {.backend = options->backend, .device = options->device};
+    status = hd_render_sequence(&sequence, options, &wish, error);
     hd_progress_end(&progress);
     hd_frame_list_free(&frames);
     if (status == HD_OK)

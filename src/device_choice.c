@@ -58,7 +58,8 @@ static double preference(const HdDevice *device) {
 static void consider(Search *search, const HdDevice *device) {
     if (!is_wanted(device, search->wish->device))
         return;
-    const char *reason = why_unfit(device, search->options);
+    const char *reason = search->wish->cpu && !device->is_cpu ? "it is not a CPU"
+                                                              : why_unfit(device, search->options);
     if (reason != NULL) {
         add_reason(search, device->name, reason);
         return;
@@ -94,8 +95,8 @@ static void search_any(Search *search, char note[512]) {
     if (!search->found)
         search_backend(search, hd_backend_find("c"), false);
     if (search->found && !has_gpu && search->wish->gpu)
-        snprintf(note, 512, "no GPU was found; tracing with %s on %s", search->best.backend->name,
-                 search->best.name);
+        snprintf(note, 512, "no suitable GPU was found; tracing with %s on %s",
+                 search->best.backend->name, search->best.name);
 }
 
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,

@@ -9,6 +9,7 @@ typedef struct HdDeviceWish {
     const char *backend; /* NULL: any */
     const char *device;  /* number within the backend or part of a name; NULL: any */
     bool gpu;            /* a GPU is wanted; without one the fastest OpenCL device will do */
+    bool cpu;            /* only a CPU will do */
 } HdDeviceWish;
 
 /* Chooses a device that can do what `options` ask. Without a named backend: a CUDA device, else a

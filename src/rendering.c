@@ -2,9 +2,6 @@
 #include "rendering.h"
 
 #include <stdio.h>
-
-#include "device_choice.h"
-
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
     if (options->width > 0) {
         scene->width = options->width;
@@ -19,15 +16,14 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
     return hd_scene_validate(scene, error);
 }
 
-HdStatus hd_render_sequence(const HdSequence *sequence, const HdOptions *options, bool want_gpu,
-                            HdError *error) {
-    HdDeviceWish wish = {.backend = options->backend, .device = options->device, .gpu = want_gpu};
+HdStatus hd_render_sequence(const HdSequence *sequence, const HdOptions *options,
+                            const HdDeviceWish *wish, HdError *error) {
     HdDevice device;
     HdRenderer *renderer;
     char note[512];
     HdStatus status = hd_sequence_check(sequence, error);
     if (status == HD_OK)
-        status = hd_choose_device(&device, &wish, &options->render, note, error);
+        status = hd_choose_device(&device, wish, &options->render, note, error);
     if (status != HD_OK)
         return status;
     if (note[0] != '\0')

@@ -3,6 +3,7 @@
 #ifndef HD_RENDERING_H
 #define HD_RENDERING_H
 
+#include "device_choice.h"
 #include "options.h"
 #include "sequence.h"
 
@@ -12,7 +13,7 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
 
 /* Chooses and opens a device, and renders the sequence; a fallback is announced on standard error.
  */
-HdStatus hd_render_sequence(const HdSequence *sequence, const HdOptions *options, bool want_gpu,
-                            HdError *error);
+HdStatus hd_render_sequence(const HdSequence *sequence, const HdOptions *options,
+                            const HdDeviceWish *wish, HdError *error);
 
 #endif

@@ -153,6 +153,9 @@ static void check_rim(Checker *checker, const HdSolid *solid, const HdPlatonic *
     }
     if (solid->rim_width > 0.0)
         check_material(checker, "rim ", &solid->rim);
+    if (checker->status == HD_OK && solid->rim_width > 0.0 && solid->rim.transmission > 0.0)
+        fail_value(checker, "rim transmission", "", solid->rim.transmission,
+                   "0, since rims are opaque");
 }
 
 static void check_edge_lights(Checker *checker, const HdEdgeLights *lights) {

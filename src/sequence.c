@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "sequence.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -17,7 +18,6 @@ typedef struct Run {
     HdFrame frame;
     HdImage8 image;
     HdVideo *video; /* NULL: pictures */
-    char output[HD_MAX_PATH];
 } Run;
 
 static bool is_film(const char *output) {
@@ -26,6 +26,11 @@ static bool is_film(const char *output) {
 }
 
 HdStatus hd_sequence_check(const HdSequence *sequence, HdError *error) {
+    if (is_film(sequence->output) && hd_pattern_has_number(sequence->output))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'%s' asks for numbered films: a film has no number in its name, and "
+                       "pictures end in .png or .data",
+                       sequence->output);
     if (is_film(sequence->output))
         return HD_OK;
     if (hd_pattern_has_number(sequence->output) || strchr(sequence->output, '%') != NULL)
@@ -52,17 +57,24 @@ static HdStatus trace_frame(Run *run, int number, HdError *error) {
     return status;
 }
 
+static HdStatus frame_path(const char *output, int number, char path[HD_MAX_PATH], HdError *error) {
+    if (hd_pattern_has_number(output))
+        return hd_pattern_format(output, number, path, error);
+    snprintf(path, HD_MAX_PATH, "%s", output);
+    return HD_OK;
+}
+
 static HdStatus store_frame(Run *run, int number, HdError *error) {
-    char path[HD_MAX_PATH];
+    char path[HD_MAX_PATH], expanded[HD_MAX_PATH];
     hd_frame_to_image8(&run->frame, &run->image);
     if (run->video != NULL)
         return hd_video_add(run->video, &run->image, error);
-    if (!hd_pattern_has_number(run->output))
-        return hd_image8_write(&run->image, run->output, error);
-    HdStatus status = hd_pattern_format(run->output, number, path, error);
+    HdStatus status = frame_path(run->sequence->output, number, path, error);
+    if (status == HD_OK)
+        status = hd_path_expand_home(path, expanded, error);
     if (status != HD_OK)
         return status;
-    return hd_image8_write(&run->image, path, error);
+    return hd_image8_write(&run->image, expanded, error);
 }
 
 static HdStatus render_frames(Run *run, HdError *error) {
@@ -86,12 +98,19 @@ static HdStatus render_frames(Run *run, HdError *error) {
     return HD_OK;
 }
 
+static HdStatus open_film(Run *run, HdError *error) {
+    char path[HD_MAX_PATH];
+    HdStatus status = hd_path_expand_home(run->sequence->output, path, error);
+    if (status != HD_OK)
+        return status;
+    return hd_video_open(&run->video, path, run->frame.width, run->frame.height,
+                         run->sequence->frames_per_second, error);
+}
+
 static HdStatus prepare(Run *run, HdError *error) {
     const HdScene *scene = run->sequence->scene;
     HdSceneTables tables;
-    HdStatus status = hd_path_expand_home(run->sequence->output, run->output, error);
-    if (status == HD_OK)
-        status = hd_frame_create(&run->frame, scene->width, scene->height, error);
+    HdStatus status = hd_frame_create(&run->frame, scene->width, scene->height, error);
     if (status == HD_OK)
         status = hd_image8_create(&run->image, scene->width, scene->height, error);
     if (status == HD_OK)
@@ -100,9 +119,8 @@ static HdStatus prepare(Run *run, HdError *error) {
         return status;
     status = hd_renderer_upload(run->renderer, &tables, error);
     hd_scene_tables_free(&tables);
-    if (status == HD_OK && is_film(run->output))
-        status = hd_video_open(&run->video, run->output, scene->width, scene->height,
-                               run->sequence->frames_per_second, error);
+    if (status == HD_OK && is_film(run->sequence->output))
+        status = open_film(run, error);
     return status;
 }
 

@@ -8,6 +8,7 @@
 /* The lit points of a bundle. */
 typedef struct {
     vint object;  /* what the points lie on */
+    vint plane;   /* and the plane of the face */
     vmask inside; /* light reaches the point from inside that solid */
     vmask active;
 } LitPoints;
@@ -144,7 +145,11 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         Vec3 to_light = vec3_sub(position, surface->point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
-        vmask lit = points->active & lt(zero, cosine) & lt(zero, squared);
+        /* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
+        GLOBAL const Light *light = lights + i;
+        vmask own = eq_int(points->plane, splat_int(light->own_plane[0])) |
+                    eq_int(points->plane, splat_int(light->own_plane[1]));
+        vmask lit = points->active & ~own & lt(zero, cosine) & lt(zero, squared);
         if (!any_lane(lit))
             continue;
         *shadow_tests = *shadow_tests - lit;
@@ -156,7 +161,6 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         for (int object = 0; object < header->solid_count; object++)
             cross_solid(SCENE_ARGUMENTS object, sides + object, light_heights, heights, points, lit,
                         &transmittance);
-        GLOBAL const Light *light = lights + i;
         vreal inverse = one / square_root(squared);
         vreal falloff = one;
         if (light->inverse_falloff_squared > R(0.0))

@@ -67,6 +67,7 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     LitPoints points;
     points.active = struck & (lt(zero, surface.diffuse) | lt(zero, surface.specular));
     points.object = spread_first(hit->object, struck);
+    points.plane = hit->plane;
     points.inside = is_solid & ~hit->entering;
     Vec3 radiance = vec3_scale_add(surface.colour, surface.ambient, surface.emission);
     if (any_lane(points.active))

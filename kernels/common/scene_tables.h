@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
-   (src/compile_scene.c), a backend copies them as they are.
+   (src/compile_tables.inc), a backend copies them as they are.
 
    Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
    it has no padding in float and in double. "Object" is a solid or, last of all, the floor.
@@ -59,6 +59,8 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real intensity[3];
     real inverse_falloff_squared; /* 1 / d0^2; 0: no falloff */
+    int own_plane[2];             /* the planes of the faces that hold an edge light; -1: none */
+    int unused_int[2];
 } Light;
 
 /* On which side of an object's planes a light is, a bit for each plane from the object's first one
@@ -101,7 +103,7 @@ HD_ASSERT_SIZE(Plane, 4, 0);
 HD_ASSERT_SIZE(Object, 8, 8);
 HD_ASSERT_SIZE(Edge, 8, 0);
 HD_ASSERT_SIZE(Material, 12, 4);
-HD_ASSERT_SIZE(Light, 4, 0);
+HD_ASSERT_SIZE(Light, 4, 4);
 HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 20, 4);
 HD_ASSERT_SIZE(View, 12, 8);

@@ -99,7 +99,7 @@ for key in --gpu ''; do
     # shellcheck disable=SC2086 # an option or none
     expect_exit 0 "${nothing[@]}" "$hedron" $key "${small[@]}" --frames 0 <"$work/official.in"
     expect_sentence
-    expect_stderr_contains 'no GPU was found'
+    expect_stderr_contains 'no suitable GPU was found'
     expect_stdout_lines 1 $'0\t[0-9.]+\t[0-9]+'
     expect_same out/img_0.data cpu.data
     rm -r out

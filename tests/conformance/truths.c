@@ -220,6 +220,29 @@ static void check_panes(Check *check) {
     check_transmittance(check, "light inside", &scene, hd_vec3(0.3, 0.2, -1.0), 0.45);
 }
 
+/* The faces of a solid that is alone with its edge lights see none of them from outside. */
+static void check_own_lights(Check *check) {
+    HdScene scene;
+    HdCamera camera;
+    begin(check);
+    for (int kind = 0; kind < HD_SOLID_KIND_COUNT; kind++) {
+        build_scene(&scene, 60, 60, 1, 0, 1, 0);
+        scene.background = hd_vec3(0.0, 0.0, 0.0);
+        build_solid(&scene, 0, (HdSolidKind)kind, hd_vec3(0.3, 0.2, 0.1), 1.0,
+                    hd_vec3(1.0, 1.0, 1.0), 3);
+        scene.solids[0].lights.intensity = hd_vec3(1.0, 1.0, 1.0);
+        scene.solids[0].lights.disc_radius = scene.solids[0].rim_width = 0.0;
+        build_camera(&camera, hd_vec3(2.1, -3.2, 1.3), hd_vec3(0.3, 0.2, 0.1), 40.0);
+        HdFrame frame = render(check, &scene, &camera);
+        for (int y = 0; y < frame.height; y++)
+            for (int x = 0; x < frame.width; x++)
+                expect(check, "own edge lights", x, y, red(&frame, x, y), 0.0);
+        expect(check, "own edge lights, tests", 0, 0, (double)frame.shadow_tests, 0.0);
+        hd_frame_free(&frame);
+        hd_scene_free(&scene);
+    }
+}
+
 /* Between mirrors that all glow alike, the radiance is a geometric series, whatever the ray does.
  */
 static void check_mirror_series(Check *check) {
@@ -394,6 +417,7 @@ void check_truths(HdRenderer *renderer, HdPrecision precision, const char *label
     check_projection(&check);
     check_phong(&check);
     check_panes(&check);
+    check_own_lights(&check);
     check_mirror_series(&check);
     check_mirror_box(&check);
     check_half_plane(&check);

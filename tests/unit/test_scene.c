@@ -21,13 +21,19 @@ static HdMaterial good_material(void) {
                         .transmission = 0.3};
 }
 
+static HdMaterial opaque_material(void) {
+    HdMaterial material = good_material();
+    material.transmission = 0.0;
+    return material;
+}
+
 static HdSolid good_solid(HdSolidKind kind) {
     return (HdSolid){.kind = kind,
                      .centre = {1.0, 2.0, 3.0},
                      .circumradius = 2.0,
                      .face = good_material(),
                      .rim_width = 0.08,
-                     .rim = good_material(),
+                     .rim = opaque_material(),
                      .lights = {.per_edge = 3,
                                 .intensity = {0.1, 0.1, 0.1},
                                 .falloff_distance = 2.0,
@@ -206,6 +212,8 @@ static void test_rim(void **state) {
     REJECTED(f.solids[0].rim_width = not_a_number, "solid 1: rim width is nan");
     REJECTED(f.solids[0].rim_width = cube + 1e-9, "solid 1: rim width is 1.1547");
     ACCEPTED(f.solids[0].rim_width = cube - 1e-9);
+    REJECTED(f.solids[0].rim.transmission = 0.2, "solid 1: rim transmission is 0.2");
+    ACCEPTED(f.solids[0].rim.transmission = 0.2; f.solids[0].rim_width = 0.0);
     /* The icosahedron's is a triangle with the side R / 0.95105651629515. */
     const double triangle = 2.0 / 0.95105651629515357 / sqrt(12.0);
     REJECTED(f.solids[1].rim_width = triangle + 1e-9, "solid 2: rim width is 0.607");
