@@ -98,7 +98,8 @@ done
 right --device 0
 right --device=0
 
-right --frames 239
+frame_count=$("$hedron" --default | head -n 1)
+right --frames $((frame_count - 1))
 right --frames=7
 right --frames 7,7
 for value in '' a 1- -1 1-2-3 5-3 ',' '1,,2' '1,' 0x1 10000000 99999999999999999999 1.5 '1 2'; do
@@ -107,8 +108,8 @@ for value in '' a 1- -1 1-2-3 5-3 ',' '1,,2' '1,' 0x1 10000000 99999999999999999
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "$value"
     expect_stderr_contains 'frame'
 done
-expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames 240
-expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames 238-240
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "$frame_count"
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "0-$frame_count"
 
 right --output other.data -o picture.data
 # The name tells what to write, so it has to end in one of the three.

@@ -52,6 +52,10 @@ for name in picture.png picture.data; do
 done
 expect_files .
 
+# A film has no number.
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-2 -o film_%d.mp4
+expect_files .
+
 # ---- films
 if ! command -v ffmpeg >"$logs/which" || ! command -v ffprobe >"$logs/which"; then
     if ((failures > 0)); then
@@ -92,11 +96,11 @@ render --size 32x24 --frames 0,7
 expect_stdout_lines 1 'hedron\.mp4'
 expect_film hedron.mp4 2 32 24
 # Names that FFmpeg would take for something else.
-for name in -film.mp4 'a b.mp4' 'pipe:1.mp4' '50%d.mp4' "it's.mp4"; do
+for name in -film.mp4 'a b.mp4' 'pipe:1.mp4' '50%.mp4' "it's.mp4"; do
     render --size 32x24 --frames 0 -o "$name"
     expect_film "file:$name" 1 32 24
 done
-expect_files . -film.mp4 '50%d.mp4' 'a b.mp4' "it's.mp4" film.mp4 hedron.mp4 new new/odd.MP4 'pipe:1.mp4'
+expect_files . -film.mp4 '50%.mp4' 'a b.mp4' "it's.mp4" film.mp4 hedron.mp4 new new/odd.MP4 'pipe:1.mp4'
 rm -rf ./*
 
 # Pictures of one scene in the two formats hold the same pixels.
