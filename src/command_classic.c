@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "default_scene.h"
+#include "interrupt.h"
 #include "progress.h"
 #include "rendering.h"
 
@@ -15,6 +16,8 @@ static HdStatus read_standard_input(char **text, size_t *size, HdError *error) {
     if (*text == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
     *size = fread(*text, 1, MAX_INPUT_BYTES + 1, stdin);
+    if (hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while reading standard input");
     if (ferror(stdin))
         return hd_fail(error, HD_FAILED, "cannot read standard input");
     if (*size > MAX_INPUT_BYTES)

@@ -15,10 +15,14 @@ typedef struct Search {
     char reasons[4096]; /* why backends and devices were passed over */
 } Search;
 
-static void add_reason(Search *search, const char *backend, const char *reason) {
-    size_t used = strlen(search->reasons);
-    snprintf(search->reasons + used, sizeof search->reasons - used, "%s%s: %s",
-             used > 0 ? "; " : "", backend, reason);
+/* Each reason once; a backend's own reason begins with its name already. */
+static void add_reason(Search *search, const char *name, const char *reason) {
+    size_t used = strlen(search->reasons), length = strlen(name);
+    bool is_named = strncmp(reason, name, length) == 0 && reason[length] == ':';
+    if (strstr(search->reasons, reason) != NULL)
+        return;
+    snprintf(search->reasons + used, sizeof search->reasons - used, "%s%s%s%s",
+             used > 0 ? "; " : "", is_named ? "" : name, is_named ? "" : ": ", reason);
 }
 
 static bool contains(const char *text, const char *part) {

@@ -18,9 +18,7 @@
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
 HdImageFormat hd_image_format(const char *path) {
-    size_t length = strlen(path);
-    bool png = length >= 4 && strcasecmp(path + length - 4, ".png") == 0;
-    return png ? HD_IMAGE_PNG : HD_IMAGE_DATA;
+    return hd_path_has_ending(path, ".png") ? HD_IMAGE_PNG : HD_IMAGE_DATA;
 }
 
 static HdStatus check_size(int width, int height, HdError *error) {
@@ -71,6 +69,10 @@ HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, 
         return hd_fail(error, HD_BAD_INPUT,
                        "the texture %s has %lu x %lu pixels, expected 1..%d each", name,
                        (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_SIDE);
+    if ((uint64_t)width * height > HD_MAX_TEXTURE_PIXELS)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the texture %s has %lu x %lu pixels, expected at most %d in all", name,
+                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_PIXELS);
     texture->texels = calloc((size_t)width * (size_t)height, 3 * sizeof *texture->texels);
     if (texture->texels == NULL)
         return hd_fail(error, HD_FAILED, "not enough memory for the texture %s of %lu x %lu pixels",

@@ -31,7 +31,7 @@ void hd_image8_free(HdImage8 *image);
 HdStatus hd_image8_write(const HdImage8 *image, const char *path, HdError *error);
 
 /* Reads a texture, PNG of any kind or the data format, told apart by the first bytes; alpha is
-   dropped. At most 16384 x 16384. */
+   dropped. At most 65535 pixels a side, and 2^28 in all. */
 HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error);
 
 /* The same from memory; `name` is for messages. */

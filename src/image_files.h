@@ -10,9 +10,9 @@
 
 #include "image.h"
 
-enum { HD_MAX_TEXTURE_SIDE = 16384 };
+enum { HD_MAX_TEXTURE_SIDE = 65535, HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 
-/* Checks the size against HD_MAX_TEXTURE_SIDE and allocates the texels. */
+/* Checks the size against the limits above and allocates the texels. */
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
                            HdError *error);
 void hd_texture_clear(HdTexture *texture);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "paths.h"
 #include "scene.h"
 
 typedef enum OptionId {
@@ -131,6 +132,16 @@ static HdStatus parse_backend(const char *text, HdOptions *options, HdError *err
     return HD_OK;
 }
 
+static HdStatus parse_output(const char *text, HdOptions *options, HdError *error) {
+    if (!hd_path_has_ending(text, ".mp4") && !hd_path_has_ending(text, ".png") &&
+        !hd_path_has_ending(text, ".data"))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--output is '%.4000s', expected a name that ends in .mp4, .png or .data",
+                       text);
+    options->output = text;
+    return HD_OK;
+}
+
 static HdStatus parse_lanes(const char *text, HdOptions *options, HdError *error) {
     static const char *const names[] = {"1", "4", "8", "16"};
     static const int lanes[] = {1, 4, 8, 16};
@@ -179,11 +190,13 @@ static HdStatus apply_option(const OptionSpec *spec, const char *value, HdOption
     case OPTION_VARIANT:
         return parse_integer(spec->name, value, 1, 10, &options->variant, error);
     case OPTION_OUTPUT:
-        options->output = value;
-        return HD_OK;
+        return parse_output(value, options, error);
     case OPTION_BACKEND:
         return parse_backend(value, options, error);
     case OPTION_DEVICE:
+        if (value[0] == '\0')
+            return hd_fail(error, HD_BAD_INPUT,
+                           "--device is empty, expected a number or part of a name");
         options->device = value;
         return HD_OK;
     case OPTION_LANES:

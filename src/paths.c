@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -62,6 +63,11 @@ static HdStatus make_folder(const char *folder, const char *path, HdError *error
         return HD_OK;
     return hd_fail(error, HD_FAILED, "cannot make the folder %s for %s: %s", folder, path,
                    reason == EEXIST ? "a file has that name" : strerror(reason));
+}
+
+bool hd_path_has_ending(const char *path, const char *ending) {
+    size_t length = strlen(path), tail = strlen(ending);
+    return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
 HdStatus hd_path_make_parents(const char *path, HdError *error) {

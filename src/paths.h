@@ -14,6 +14,9 @@ enum { HD_MAX_PATH = 4096 };
    database). "~name" is left as it is. */
 HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *error);
 
+/* True where `path` ends in `ending`, such as ".png", in upper or lower case. */
+bool hd_path_has_ending(const char *path, const char *ending);
+
 /* Makes every missing folder above the file `path`. */
 HdStatus hd_path_make_parents(const char *path, HdError *error);
 

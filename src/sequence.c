@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "camera.h"
 #include "device_launch.h"
@@ -21,8 +20,7 @@ typedef struct Run {
 } Run;
 
 static bool is_film(const char *output) {
-    size_t length = strlen(output);
-    return length >= 4 && strcasecmp(output + length - 4, ".mp4") == 0;
+    return hd_path_has_ending(output, ".mp4");
 }
 
 HdStatus hd_sequence_check(const HdSequence *sequence, HdError *error) {
@@ -60,7 +58,10 @@ static HdStatus trace_frame(Run *run, int number, HdError *error) {
 static HdStatus frame_path(const char *output, int number, char path[HD_MAX_PATH], HdError *error) {
     if (hd_pattern_has_number(output))
         return hd_pattern_format(output, number, path, error);
-    snprintf(path, HD_MAX_PATH, "%s", output);
+    if (snprintf(path, HD_MAX_PATH, "%s", output) >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the name of the output has %zu bytes, expected fewer than %d",
+                       strlen(output), (int)HD_MAX_PATH);
     return HD_OK;
 }
 

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "atomic_file.h"
+#include "interrupt.h"
 #include "paths.h"
 
 extern char **environ;
@@ -27,7 +28,8 @@ enum {
     MAX_SAID = 4096,
     FOR_EVER = -1,
     /* How long a program that stopped reading may stay silent before it is killed. */
-    PATIENCE_MS = 3000
+    PATIENCE_MS = 3000,
+    GLANCE_MS = 200
 };
 
 /* A program at work. It leads a process group of its own, so that Ctrl-C in the terminal reaches
@@ -157,12 +159,17 @@ static void take_output(Child *child) {
 
 /* Takes in output until its end; false where the child is silent for longer than `patience`. */
 static bool drain(Child *child, int patience) {
+    int waited = 0;
     while (child->output >= 0) {
+        if (patience == FOR_EVER && hd_interrupt_signal() != 0)
+            return false;
         struct pollfd ready = {.fd = child->output, .events = POLLIN};
-        int count = poll(&ready, 1, patience);
+        int count = poll(&ready, 1, GLANCE_MS);
         if (count > 0)
             take_output(child);
-        else if (count == 0 || errno != EINTR)
+        else if (count < 0 && errno != EINTR)
+            return false;
+        else if (patience != FOR_EVER && (waited += GLANCE_MS) >= patience)
             return false;
     }
     return true;
@@ -174,11 +181,11 @@ static bool send_all(Child *child, const uint8_t *bytes, size_t size) {
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
-        if (poll(ready, 2, FOR_EVER) < 0) {
-            if (errno != EINTR)
-                return false;
+        int count = poll(ready, 2, GLANCE_MS);
+        if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
+            return false;
+        if (count <= 0)
             continue;
-        }
         if (ready[1].revents != 0)
             take_output(child);
         if (ready[0].revents == 0)
@@ -340,6 +347,10 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
     return status;
 }
 
+static HdStatus fail_interrupted(const HdVideo *video, HdError *error) {
+    return hd_fail(error, HD_INTERRUPTED, "interrupted while FFmpeg worked on %s", video->path);
+}
+
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
     end_child(&video->ffmpeg, PATIENCE_MS, how);
@@ -357,7 +368,8 @@ HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error) {
         return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
                        video->path, video->frames);
     if (!send_all(&video->ffmpeg, frame->rgba, (size_t)frame->width * (size_t)frame->height * 4))
-        return fail_early(video, error);
+        return hd_interrupt_signal() != 0 ? fail_interrupted(video, error)
+                                          : fail_early(video, error);
     video->frames++;
     return HD_OK;
 }
@@ -372,6 +384,8 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
                        video->path);
     if (end_child(&video->ffmpeg, FOR_EVER, how))
         return HD_OK;
+    if (hd_interrupt_signal() != 0)
+        return fail_interrupted(video, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
                    said(&video->ffmpeg));
 }

@@ -299,16 +299,16 @@ static void large_data_is_no_texture(void **state) {
     (void)state;
     HdError error = {0};
     HdTexture texture;
-    size_t size = 8 + 16385 * 4;
+    size_t size = 8 + 65536 * 4;
     unsigned char *bytes = calloc(size, 1);
     assert_non_null(bytes);
-    put_int32(bytes, 16385);
+    put_int32(bytes, 65536);
     put_int32(bytes + 4, 1);
-    check_refused(bytes, size, "16385 x 1 pixels, expected 1..16384");
+    check_refused(bytes, size, "65536 x 1 pixels, expected 1..65535");
     put_int32(bytes, 1);
-    put_int32(bytes + 4, 16384);
+    put_int32(bytes + 4, 65535);
     assert_int_equal(hd_texture_decode(&texture, bytes, size - 4, "x", &error), HD_OK);
-    assert_int_equal(texture.height, 16384);
+    assert_int_equal(texture.height, 65535);
     free(texture.texels);
     free(bytes);
 }
@@ -513,13 +513,16 @@ static void messages_of_libpng_are_passed_on(void **state) {
     check_refused(bytes, 20, "IHDR");
     bytes[29] ^= 1;
     check_refused(bytes, sample->file.size, "IHDR: CRC error");
-    bytes[18] = 0x40; /* width 16384 + 13 */
-    check_refused(bytes, sample->file.size, "16397 x 9 pixels, expected 1..16384");
-    bytes[18] = 0;
+    bytes[17] = 1; /* width 65536 + 13 */
+    check_refused(bytes, sample->file.size, "65549 x 9 pixels, expected 1..65535");
+    bytes[17] = 0;
     bytes[23] = 0;
-    check_refused(bytes, sample->file.size, "13 x 0 pixels, expected 1..16384");
+    check_refused(bytes, sample->file.size, "13 x 0 pixels, expected 1..65535");
     bytes[20] = 0xff;
     check_refused(bytes, sample->file.size, "13 x 4278190080 pixels");
+    bytes[18] = bytes[19] = bytes[22] = bytes[23] = 0xff;
+    bytes[20] = 0;
+    check_refused(bytes, sample->file.size, "65535 x 65535 pixels, expected at most 268435456");
     free(sample);
 }
 
