@@ -108,9 +108,6 @@ FN vreal pick(vmask m, vreal a, vreal b) {
 FN vint pick_int(vmask m, vint a, vint b) {
     return m ? a : b;
 }
-FN vfix pick_fix(vmask m, vfix a, vfix b) {
-    return m ? a : b;
-}
 FN int any_lane(vmask m) {
     return m != 0;
 }
@@ -226,9 +223,6 @@ FN vreal pick(vmask m, vreal a, vreal b) {
 FN vint pick_int(vmask m, vint a, vint b) {
     return select(b, a, m);
 }
-FN vfix pick_fix(vmask m, vfix a, vfix b) {
-    return select(b, a, HD_CONVERT_FIX(m));
-}
 FN int any_lane(vmask m) {
     return any(m);
 }
@@ -302,10 +296,6 @@ FN vreal pick(vmask m, vreal a, vreal b) {
 }
 FN vint pick_int(vmask m, vint a, vint b) {
     return (m & a) | (~m & b);
-}
-FN vfix pick_fix(vmask m, vfix a, vfix b) {
-    vfix wide = __builtin_convertvector(m, vfix);
-    return (wide & a) | (~wide & b);
 }
 FN real lane_real(const vreal *a, int lane) {
     return (*a)[lane];

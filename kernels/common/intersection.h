@@ -17,7 +17,7 @@ typedef struct {
 } Ray;
 
 typedef struct {
-    vreal distance;
+    vreal t;     /* along the ray */
     vint object; /* -1: none */
     vint plane;
     vmask entering; /* meets a solid from outside */
@@ -44,10 +44,9 @@ FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to)
     return vec3_add(point, fetch_vector(table, reference.row + to, reference.same));
 }
 
-FN void keep_closer(Hit *hit, vmask candidate, vreal distance, int object, vint plane,
-                    vmask entering) {
-    vmask closer = candidate & lt(distance, hit->distance);
-    hit->distance = pick(closer, distance, hit->distance);
+FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint plane, vmask entering) {
+    vmask closer = candidate & lt(t, hit->t);
+    hit->t = pick(closer, t, hit->t);
     hit->object = pick_int(closer, splat_int(object), hit->object);
     hit->plane = pick_int(closer, plane, hit->plane);
     hit->entering = pick_int(closer, entering, hit->entering);
@@ -66,13 +65,13 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
     vint entry_plane = splat_int(-1), exit_plane = splat_int(0);
     vmask missed = mask_none();
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
-        vreal height = plane_distance(planes + k, origin);
+        vreal distance = plane_distance(planes + k, origin);
         vreal slope = plane_slope(planes + k, ray->direction);
         vmask towards = lt(slope, zero);
-        vmask below = lt(height, zero) | own_inside;
-        vreal t = -height / slope;
+        vmask below = lt(distance, zero) | own_inside;
+        vreal t = -distance / slope;
         /* The origin is strictly outside of this plane and the ray runs inwards. */
-        vmask enters = lt(zero, height) & towards & ~own_inside & lt(entry, t);
+        vmask enters = lt(zero, distance) & towards & ~own_inside & lt(entry, t);
         entry = pick(enters, t, entry);
         entry_plane = pick_int(enters, splat_int(k), entry_plane);
         /* From inside an exit lies at t >= 0, though rounding may have put the origin outside. */
@@ -94,14 +93,15 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
     int first = objects[object].first_plane;
     Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
     vreal zero = splat(R(0.0));
-    vreal height = plane_distance(planes + first, origin);
+    vreal distance = plane_distance(planes + first, origin);
     vreal slope = plane_slope(planes + first, ray->direction);
-    vmask crossing = (lt(zero, height) & lt(slope, zero)) | (lt(height, zero) & lt(zero, slope));
-    vreal t = -height / slope;
-    for (int side = first + 1; side < first + 5; side++) {
-        vreal distance = multiply_add(t, plane_slope(planes + side, ray->direction),
-                                      plane_distance(planes + side, origin));
-        crossing = crossing & le(distance, zero);
+    vmask crossing =
+        (lt(zero, distance) & lt(slope, zero)) | (lt(distance, zero) & lt(zero, slope));
+    vreal t = -distance / slope;
+    for (int side = first + 1; side < first + 1 + HD_FLOOR_SIDES; side++) {
+        vreal beyond = multiply_add(t, plane_slope(planes + side, ray->direction),
+                                    plane_distance(planes + side, origin));
+        crossing = crossing & le(beyond, zero);
     }
     keep_closer(hit, crossing & ~own, t, object, splat_int(first), lt(slope, zero));
 }
@@ -109,7 +109,7 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
 /* For the floor, `entering` says that it is met from above its normal. */
 FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
     Hit hit;
-    hit.distance = splat(REAL_LARGE);
+    hit.t = splat(REAL_LARGE);
     hit.object = splat_int(-1);
     hit.plane = splat_int(0);
     hit.entering = mask_none();

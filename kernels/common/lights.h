@@ -16,43 +16,43 @@ typedef struct {
 /* Distances of the points to every plane of the scene, computed once for all lights. A point seen
    from inside its own solid is inside, whatever rounding says. */
 FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
-                       vreal *heights) {
+                       vreal *distances) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
     for (int object = 0; object < header->object_count; object++) {
         Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
         vmask own_inside = points->inside & eq_int(points->object, splat_int(object));
         int first = objects[object].first_plane;
         for (int k = first; k < first + objects[object].plane_count; k++) {
-            vreal height = plane_distance(planes + k, point);
-            heights[k] = pick(own_inside, lesser(height, splat(R(0.0))), height);
+            vreal point_distance = plane_distance(planes + k, point);
+            distances[k] = pick(own_inside, lesser(point_distance, splat(R(0.0))), point_distance);
         }
     }
 }
 
 /* Lanes whose segment to the light crosses the floor. */
-FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_heights,
-                      const vreal *heights, const LitPoints *points) {
+FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
+                      const vreal *distances, const LitPoints *points) {
     int first = objects[object].first_plane;
     vreal zero = splat(R(0.0));
-    real light_height = light_heights[first];
-    if (light_height == R(0.0))
+    real light_distance = light_row[first];
+    if (light_distance == R(0.0))
         return mask_none();
-    vreal height = heights[first];
-    vmask blocked = light_height < R(0.0) ? lt(zero, height) : lt(height, zero);
+    vreal point_distance = distances[first];
+    vmask blocked = light_distance < R(0.0) ? lt(zero, point_distance) : lt(point_distance, zero);
     blocked = blocked & ~eq_int(points->object, splat_int(object));
     if (!any_lane(blocked))
         return blocked;
-    vreal t = height / (height - splat(light_height));
-    for (int side = first + 1; side < first + 5; side++) {
-        vreal distance = multiply_add(t, splat(light_heights[side]) - heights[side], heights[side]);
+    vreal t = point_distance / (point_distance - splat(light_distance));
+    for (int side = first + 1; side < first + 1 + HD_FLOOR_SIDES; side++) {
+        vreal distance = multiply_add(t, splat(light_row[side]) - distances[side], distances[side]);
         blocked = blocked & le(distance, zero);
     }
     return blocked;
 }
 
 /* Multiplies `transmittance` by what one face lets through: its colour, or nothing at the rim. */
-FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_heights,
-                   const vreal *heights, vmask crossing, vreal t, Vec3 *transmittance) {
+FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
+                   const vreal *distances, vmask crossing, vreal t, Vec3 *transmittance) {
     if (!any_lane(crossing))
         return;
     GLOBAL const Material *face = materials + solid->face_material;
@@ -61,7 +61,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
         TwoGreatest greatest = two_greatest();
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++)
             add_to_greatest(&greatest,
-                            multiply_add(t, splat(light_heights[k]) - heights[k], heights[k]));
+                            multiply_add(t, splat(light_row[k]) - distances[k], distances[k]));
         passes = pick(lt(splat(-solid->rim_depth), greatest.second), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*transmittance, passes);
@@ -72,7 +72,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
 /* Lets the segments from the points to the light pass one solid. A segment misses it when neither
    end is inside of one plane, which settles most of them before anything is divided. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
-                    GLOBAL const real *light_heights, const vreal *heights, const LitPoints *points,
+                    GLOBAL const real *light_row, const vreal *distances, const LitPoints *points,
                     vmask lit, Vec3 *transmittance) {
     GLOBAL const Object *solid = objects + object;
     int first = solid->first_plane;
@@ -82,7 +82,7 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
     vreal zero = splat(R(0.0));
     vmask inside = mask_all();
     for (uint left = sides->outside | sides->on_plane; left; left &= left - 1)
-        inside = inside & lt(heights[first + lowest_bit(left)], zero);
+        inside = inside & lt(distances[first + lowest_bit(left)], zero);
     crossing = crossing & (inside | own_inside);
     if (!any_lane(crossing))
         return;
@@ -92,22 +92,22 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
     uint all_planes = ((uint)1 << solid->plane_count) - 1;
     for (uint left = all_planes & ~(sides->outside | sides->on_plane); left; left &= left - 1) {
         int k = first + lowest_bit(left);
-        vmask enters = crossing & lt(zero, heights[k]);
+        vmask enters = crossing & lt(zero, distances[k]);
         if (!any_lane(enters))
             continue;
-        vreal t = heights[k] / (heights[k] - splat(light_heights[k]));
+        vreal t = distances[k] / (distances[k] - splat(light_row[k]));
         entry = pick(enters, greater(entry, t), entry);
         entered = entered | enters;
     }
     for (uint left = sides->outside; left; left &= left - 1) {
         int k = first + lowest_bit(left);
-        exit = lesser(exit, heights[k] / (heights[k] - splat(light_heights[k])));
+        exit = lesser(exit, distances[k] / (distances[k] - splat(light_row[k])));
     }
     crossing = crossing & (own_inside | lt(entry, exit));
-    cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing & entered, entry,
+    cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing & entered, entry,
                transmittance);
     if (sides->outside)
-        cross_face(SCENE_ARGUMENTS solid, light_heights, heights, crossing, exit, transmittance);
+        cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing, exit, transmittance);
 }
 
 /* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. */
@@ -128,51 +128,77 @@ FN vreal power(vreal x, vint n, int common) {
     return result;
 }
 
+/* Phong's model for one light: the share of the arriving light that leaves towards the viewer, for
+   each channel. `cosine` is N.L times the light's distance, `squared` that distance squared. */
+FN Vec3 phong(const LaneMaterial *material, vint shininess, int common_shininess, vreal cosine,
+              vreal mirror_cosine, vreal squared) {
+    vreal inverse = splat(R(1.0)) / square_root(squared);
+    vreal highlight =
+        power(greater(mirror_cosine * inverse, splat(R(0.0))), shininess, common_shininess);
+    vreal specular = material->specular * highlight;
+    vreal diffuse = material->diffuse * (cosine * inverse);
+    return vec3_scale_add(material->colour, diffuse, vec3(specular, specular, specular));
+}
+
+/* The light's intensity at a squared distance. */
+FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
+    Vec3 intensity = vec3_splat(light->intensity[0], light->intensity[1], light->intensity[2]);
+    if (light->inverse_falloff_squared > R(0.0)) {
+        vreal one = splat(R(1.0));
+        vreal falloff = multiply_add(squared, splat(light->inverse_falloff_squared), one);
+        intensity = vec3_scale(intensity, one / falloff);
+    }
+    return intensity;
+}
+
+/* What the segments to one light let through in the lanes of `lit`. */
+FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *distances,
+                         const LitPoints *points, vmask lit) {
+    GLOBAL const real *light_row = light_distances + light * header->plane_count;
+    GLOBAL const LightSides *sides = light_sides + light * header->object_count;
+    for (int object = header->solid_count; object < header->object_count; object++)
+        lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, distances, points);
+    vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
+    Vec3 transmittance = vec3(open, open, open);
+    for (int object = 0; object < header->solid_count; object++)
+        cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, distances, points, lit,
+                    &transmittance);
+    return transmittance;
+}
+
+/* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
+FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
+    return eq_int(points->plane, splat_int(light->own_plane[0])) |
+           eq_int(points->plane, splat_int(light->own_plane[1]));
+}
+
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
    Lights are the outer loop and lanes the points, so that everything about a light is the same for
    a bundle. `mirrored` is the viewing ray's mirror direction, unit. */
 FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                      Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
-    vreal heights[PLANE_BOUND];
-    measure_planes(SCENE_ARGUMENTS surface, points, heights);
-    vreal zero = splat(R(0.0)), one = splat(R(1.0));
+    vreal distances[PLANE_BOUND];
+    measure_planes(SCENE_ARGUMENTS surface, points, distances);
+    vreal zero = splat(R(0.0));
     int same_object = all_same(points->object);
-    int common_power = all_same(surface->shininess) ? lane_int(&surface->shininess, 0) : 0;
+    vint shininess = spread_first(surface->material.shininess, points->active);
+    int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     for (int i = 0; i < header->light_count; i++) {
         Vec3 position =
             fetch_vector(light_offsets, points->object * header->light_count + i, same_object);
         Vec3 to_light = vec3_sub(position, surface->point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
-        /* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
-        GLOBAL const Light *light = lights + i;
-        vmask own = eq_int(points->plane, splat_int(light->own_plane[0])) |
-                    eq_int(points->plane, splat_int(light->own_plane[1]));
-        vmask lit = points->active & ~own & lt(zero, cosine) & lt(zero, squared);
+        vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
+                    lt(zero, squared);
         if (!any_lane(lit))
             continue;
         *shadow_tests = *shadow_tests - lit;
-        GLOBAL const real *light_heights = light_distances + i * header->plane_count;
-        GLOBAL const LightSides *sides = light_sides + i * header->object_count;
-        for (int object = header->solid_count; object < header->object_count; object++)
-            lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_heights, heights, points);
-        Vec3 transmittance = vec3_splat(R(1.0), R(1.0), R(1.0));
-        for (int object = 0; object < header->solid_count; object++)
-            cross_solid(SCENE_ARGUMENTS object, sides + object, light_heights, heights, points, lit,
-                        &transmittance);
-        vreal inverse = one / square_root(squared);
-        vreal falloff = one;
-        if (light->inverse_falloff_squared > R(0.0))
-            falloff = one / multiply_add(squared, splat(light->inverse_falloff_squared), one);
-        vreal towards_mirror = greater(vec3_dot(mirrored, to_light) * inverse, zero);
-        vreal specular =
-            surface->specular * falloff * power(towards_mirror, surface->shininess, common_power);
-        vreal diffuse = surface->diffuse * falloff * (cosine * inverse);
-        Vec3 reflected =
-            vec3_scale_add(surface->colour, diffuse, vec3(specular, specular, specular));
-        Vec3 arriving = vec3_mul(transmittance, vec3_splat(light->intensity[0], light->intensity[1],
-                                                           light->intensity[2]));
+        Vec3 arriving = vec3_mul(transmittance_to(SCENE_ARGUMENTS i, distances, points, lit),
+                                 intensity_at(lights + i, squared));
+        Vec3 reflected = phong(&surface->material, shininess, common_shininess, cosine,
+                               vec3_dot(mirrored, to_light), squared);
         sum = vec3_pick(lit, vec3_add(sum, vec3_mul(arriving, reflected)), sum);
     }
     return sum;

@@ -31,13 +31,6 @@ FN void add_radiance(SCENE_PARAMETERS Sample *sample, vmask m, Vec3 radiance, Ve
     sample->b += contribution(m, radiance.z, weight.z, view->to_fixed, &sample->clamps);
 }
 
-/* Object numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes
-   neither hold a wrong number nor make a bundle look mixed. */
-FN vint spread_first(vint objects_hit, vmask m) {
-    int filler = any_lane(m) ? lane_int(&objects_hit, first_lane(m)) : 0;
-    return pick_int(m, objects_hit, splat_int(filler));
-}
-
 /* A ray that goes on from the points of a surface. */
 FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 direction, Vec3 weight,
                 vmask inside, vmask alive, real cutoff) {
@@ -65,22 +58,25 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     vmask is_solid = lt_int(hit->object, splat_int(header->solid_count));
 
     LitPoints points;
-    points.active = struck & (lt(zero, surface.diffuse) | lt(zero, surface.specular));
+    points.active =
+        struck & (lt(zero, surface.material.diffuse) | lt(zero, surface.material.specular));
     points.object = spread_first(hit->object, struck);
     points.plane = hit->plane;
     points.inside = is_solid & ~hit->entering;
-    Vec3 radiance = vec3_scale_add(surface.colour, surface.ambient, surface.emission);
+    Vec3 radiance =
+        vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
     if (any_lane(points.active))
         radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & surface, &points, mirrored,
                                                    &sample->shadow_tests));
     add_radiance(SCENE_ARGUMENTS sample, struck, radiance, ray->weight);
 
-    *mirror =
-        next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.mirror_tint, surface.reflection),
-                 points.inside, struck & lt(zero, surface.reflection), view->cutoff);
+    *mirror = next_ray(ray, &surface, hit, mirrored,
+                       vec3_scale(surface.material.mirror_tint, surface.material.reflection),
+                       points.inside, struck & lt(zero, surface.material.reflection), view->cutoff);
     *through = next_ray(ray, &surface, hit, ray->direction,
-                        vec3_scale(surface.colour, surface.transmission), is_solid & hit->entering,
-                        struck & lt(zero, surface.transmission), view->cutoff);
+                        vec3_scale(surface.material.colour, surface.material.transmission),
+                        is_solid & hit->entering, struck & lt(zero, surface.material.transmission),
+                        view->cutoff);
 }
 
 FN Ray eye_ray(Vec3 direction, vmask alive) {

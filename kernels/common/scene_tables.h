@@ -41,7 +41,7 @@ typedef struct ALIGNED_16 {
     int first_edge, edge_count;
     int face_material, rim_material;
     int lights_per_edge;
-    int textured;
+    int unused_int;
 } Object;
 
 typedef struct ALIGNED_16 {
@@ -143,6 +143,9 @@ enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 typedef struct ALIGNED_16 {
     uint64 rays, shadow_tests, clamps, unused;
 } RayCounts;
+
+/* The floor has its own plane and one for each of its sides. */
+enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };
 
 /* The picture is cut into blocks of HD_BLOCK_SIDE x HD_BLOCK_SIDE pixels, row by row, and within a
    block follows the Z order; a work item renders HD_PIXELS_PER_ITEM consecutive pixels of that

@@ -7,13 +7,56 @@
 #include "intersection.h"
 #include "texture.h"
 
+/* A material for each lane. */
+typedef struct {
+    Vec3 colour, mirror_tint;
+    vreal ambient, diffuse, specular, reflection, transmission;
+    vint shininess;
+} LaneMaterial;
+
 typedef struct {
     Vec3 point;  /* relative to the object that was hit */
     Vec3 normal; /* unit, towards the viewer */
-    Vec3 colour, mirror_tint, emission;
-    vreal ambient, diffuse, specular, reflection, transmission;
-    vint shininess;
+    Vec3 emission;
+    LaneMaterial material;
 } Surface;
+
+/* Reflects and transmits nothing. */
+FN LaneMaterial no_material(void) {
+    LaneMaterial none;
+    none.colour = none.mirror_tint = vec3_zero();
+    none.ambient = none.diffuse = none.specular = splat(R(0.0));
+    none.reflection = none.transmission = splat(R(0.0));
+    none.shininess = splat_int(1);
+    return none;
+}
+
+FN LaneMaterial splat_material(GLOBAL const Material *material) {
+    LaneMaterial all;
+    all.colour = vec3_splat(material->colour[0], material->colour[1], material->colour[2]);
+    all.mirror_tint =
+        vec3_splat(material->mirror_tint[0], material->mirror_tint[1], material->mirror_tint[2]);
+    all.ambient = splat(material->ambient);
+    all.diffuse = splat(material->diffuse);
+    all.specular = splat(material->specular);
+    all.reflection = splat(material->reflection);
+    all.transmission = splat(material->transmission);
+    all.shininess = splat_int(material->shininess);
+    return all;
+}
+
+FN LaneMaterial pick_material(vmask m, LaneMaterial a, LaneMaterial b) {
+    LaneMaterial picked;
+    picked.colour = vec3_pick(m, a.colour, b.colour);
+    picked.mirror_tint = vec3_pick(m, a.mirror_tint, b.mirror_tint);
+    picked.ambient = pick(m, a.ambient, b.ambient);
+    picked.diffuse = pick(m, a.diffuse, b.diffuse);
+    picked.specular = pick(m, a.specular, b.specular);
+    picked.reflection = pick(m, a.reflection, b.reflection);
+    picked.transmission = pick(m, a.transmission, b.transmission);
+    picked.shininess = pick_int(m, a.shininess, b.shininess);
+    return picked;
+}
 
 /* The two greatest numbers that were added. */
 typedef struct {
@@ -31,31 +74,16 @@ FN void add_to_greatest(TwoGreatest *two, vreal a) {
     two->first = greater(two->first, a);
 }
 
-FN void set_material(Surface *surface, vmask m, GLOBAL const Material *material) {
-    Vec3 colour = vec3_splat(material->colour[0], material->colour[1], material->colour[2]);
-    Vec3 tint =
-        vec3_splat(material->mirror_tint[0], material->mirror_tint[1], material->mirror_tint[2]);
-    surface->colour = vec3_pick(m, colour, surface->colour);
-    surface->mirror_tint = vec3_pick(m, tint, surface->mirror_tint);
-    surface->ambient = pick(m, splat(material->ambient), surface->ambient);
-    surface->diffuse = pick(m, splat(material->diffuse), surface->diffuse);
-    surface->specular = pick(m, splat(material->specular), surface->specular);
-    surface->reflection = pick(m, splat(material->reflection), surface->reflection);
-    surface->transmission = pick(m, splat(material->transmission), surface->transmission);
-    surface->shininess = pick_int(m, splat_int(material->shininess), surface->shininess);
+FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
+    surface->material = pick_material(m, material, surface->material);
 }
 
 /* A disc shows its own radiance and nothing else. */
 FN void set_disc(Surface *surface, vmask m, GLOBAL const Object *solid) {
     Vec3 radiance =
         vec3_splat(solid->disc_radiance[0], solid->disc_radiance[1], solid->disc_radiance[2]);
-    vreal zero = splat(R(0.0));
     surface->emission = vec3_pick(m, radiance, surface->emission);
-    surface->ambient = pick(m, zero, surface->ambient);
-    surface->diffuse = pick(m, zero, surface->diffuse);
-    surface->specular = pick(m, zero, surface->specular);
-    surface->reflection = pick(m, zero, surface->reflection);
-    surface->transmission = pick(m, zero, surface->transmission);
+    set_material(surface, m, no_material());
 }
 
 /* Lanes whose point is within the radius of one of the solid's edge lights. */
@@ -81,21 +109,21 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edges, Vec3 poin
 
 FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
     GLOBAL const Object *solid = objects + object;
-    TwoGreatest heights = two_greatest();
+    TwoGreatest distances = two_greatest();
     Vec3 normal = vec3_zero();
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
         GLOBAL const Plane *plane = planes + k;
         vmask met = eq_int(hit->plane, splat_int(k));
         normal = vec3_pick(met, vec3_splat(plane->x, plane->y, plane->z), normal);
-        add_to_greatest(&heights, plane_distance(plane, surface->point));
+        add_to_greatest(&distances, plane_distance(plane, surface->point));
     }
     surface->normal = vec3_pick(
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
-    set_material(surface, m, materials + solid->face_material);
-    vmask rim = m & lt(splat(-solid->rim_depth), heights.second);
+    set_material(surface, m, splat_material(materials + solid->face_material));
+    vmask rim = m & lt(splat(-solid->rim_depth), distances.second);
     if (any_lane(rim))
-        set_material(surface, rim, materials + solid->rim_material);
-    vmask near_edge = m & lt(splat(-solid->disc_depth), heights.second);
+        set_material(surface, rim, splat_material(materials + solid->rim_material));
+    vmask near_edge = m & lt(splat(-solid->disc_depth), distances.second);
     if (any_lane(near_edge))
         set_disc(surface, near_edge & on_disc(solid, edges, surface->point), solid);
 }
@@ -106,12 +134,13 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
     surface->normal = vec3_pick(
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
-    set_material(surface, m, materials + floor->face_material);
-    if (floor->textured) {
+    set_material(surface, m, splat_material(materials + floor->face_material));
+    if (floor_map->texture_width > 0) {
         vreal s, t;
         floor_coordinates(floor_map, surface->point, &s, &t);
         Vec3 texel = sample_texture(floor_map, texels, s, t);
-        surface->colour = vec3_pick(m, vec3_mul(surface->colour, texel), surface->colour);
+        LaneMaterial *material = &surface->material;
+        material->colour = vec3_pick(m, vec3_mul(material->colour, texel), material->colour);
     }
 }
 
@@ -120,19 +149,15 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
 FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit,
                       vmask struck) {
     Surface surface;
-    surface.point = surface.normal = surface.colour = vec3_zero();
-    surface.mirror_tint = surface.emission = vec3_zero();
-    surface.ambient = surface.diffuse = surface.specular = splat(R(0.0));
-    surface.reflection = surface.transmission = splat(R(0.0));
-    surface.shininess = splat_int(1);
+    surface.point = surface.normal = surface.emission = vec3_zero();
+    surface.material = no_material();
     vmask left = struck;
     while (any_lane(left)) {
         int object = lane_int(&hit->object, first_lane(left));
         vmask m = left & eq_int(hit->object, splat_int(object));
         left = left & ~m;
         Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
-        surface.point =
-            vec3_pick(m, vec3_scale_add(ray->direction, hit->distance, origin), surface.point);
+        surface.point = vec3_pick(m, vec3_scale_add(ray->direction, hit->t, origin), surface.point);
         if (object < header->solid_count)
             describe_solid(SCENE_ARGUMENTS object, m, hit, &surface);
         else

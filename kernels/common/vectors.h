@@ -58,6 +58,13 @@ FN int all_same(vint a) {
     return !any_lane(~eq_int(a, splat_int(lane_int(&a, 0))));
 }
 
+/* Numbers in which the lanes outside of `m` repeat one from inside, so that dead lanes neither hold
+   a wrong number nor make a bundle look mixed. */
+FN vint spread_first(vint numbers, vmask m) {
+    int filler = any_lane(m) ? lane_int(&numbers, first_lane(m)) : 0;
+    return pick_int(m, numbers, splat_int(filler));
+}
+
 /* table[index] for each lane; `same` is all_same(index), which callers compute once for many reads.
  */
 FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index, int same) {
