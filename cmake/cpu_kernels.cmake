@@ -40,8 +40,8 @@ foreach(build IN LISTS builds)
             target_compile_definitions(hedron_kernel_${name} PRIVATE
                 HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes}
                 HD_DOUBLE=$<STREQUAL:${precision},double>)
-            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS} ${level} ${flags_${set}} -fno-math-errno
-                -fno-trapping-math ${flags_${math}})
+            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
+                ${level} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}})
             target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
         endforeach()
     endforeach()

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Turns a file into a C array while the program is built:
 
-       embed SYMBOL OUTPUT.c INPUT [--flatten] [--root DIR] [--depfile FILE]
+       embed SYMBOL OUTPUT.c INPUT [--flatten]
 
-   INPUT is relative to DIR, which is the current folder unless given. With --flatten every
-   #include "path" is replaced by that file's text, once, and #line directives name the files
-   relative to DIR. An include must not depend on an #if around it: the text goes where it is met
-   first. */
+   With --flatten every #include "path" is replaced by that file's text, once, and #line directives
+   name the files relative to the current folder, as INPUT is. An include must not depend on an #if
+   around it: the text goes where it is met first. */
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -23,13 +22,13 @@ typedef struct Text {
 } Text;
 
 typedef struct Options {
-    const char *symbol, *output, *input, *root, *depfile;
+    const char *symbol, *output, *input;
     bool flatten;
 } Options;
 
 typedef struct Job {
     Options options;
-    char files[MAX_FILES][MAX_PATH]; /* read so far, relative to the root */
+    char files[MAX_FILES][MAX_PATH]; /* read so far, relative to the current folder */
     int file_count;
     Text result;
 } Job;
@@ -69,9 +68,7 @@ static void join(char path[MAX_PATH], const char *folder, const char *name) {
         die("a path is too long: %s", name);
 }
 
-static Text read_file(const char *root, const char *name) {
-    char path[MAX_PATH];
-    join(path, root, name);
+static Text read_file(const char *path) {
     FILE *file = fopen(path, "rb");
     if (!file)
         die("cannot open %s: %s", path, strerror(errno));
@@ -159,7 +156,7 @@ static void flatten(Job *job, const char *name, int depth) {
     char *slash = strrchr(folder, '/');
     *(slash ? slash : folder) = '\0';
 
-    Text text = read_file(job->options.root, name);
+    Text text = read_file(name);
     append_line_directive(job, 1, name);
     int number = 0;
     for (size_t at = 0; at < text.size;) {
@@ -216,50 +213,20 @@ static void write_array(const Job *job) {
     finish(file, options->output);
 }
 
-/* In the syntax of make, where spaces are escaped. */
-static void write_dependency(FILE *file, const char *path) {
-    for (; *path; path++) {
-        if (*path == ' ' || *path == '#')
-            fputc('\\', file);
-        if (*path == '$')
-            fputc('$', file);
-        fputc(*path, file);
-    }
-}
-
-static void write_depfile(const Job *job) {
-    FILE *file = create(job->options.depfile);
-    write_dependency(file, job->options.output);
-    fputc(':', file);
-    for (int i = 0; i < job->file_count; i++) {
-        char path[MAX_PATH];
-        join(path, job->options.root, job->files[i]);
-        fputs(" \\\n  ", file);
-        write_dependency(file, path);
-    }
-    fputc('\n', file);
-    finish(file, job->options.depfile);
-}
-
 static Options parse(int argc, char **argv) {
-    Options options = {.root = ""};
+    Options options = {0};
     const char **positional[] = {&options.symbol, &options.output, &options.input};
     int count = 0;
     for (int i = 1; i < argc; i++) {
-        bool has_value = i + 1 < argc;
         if (strcmp(argv[i], "--flatten") == 0)
             options.flatten = true;
-        else if (strcmp(argv[i], "--root") == 0 && has_value)
-            options.root = argv[++i];
-        else if (strcmp(argv[i], "--depfile") == 0 && has_value)
-            options.depfile = argv[++i];
         else if (count < 3 && strncmp(argv[i], "--", 2) != 0)
             *positional[count++] = argv[i];
         else
             die("unexpected argument: %s", argv[i]);
     }
     if (count < 3)
-        die("usage: embed SYMBOL OUTPUT.c INPUT [--flatten] [--root DIR] [--depfile FILE]");
+        die("usage: embed SYMBOL OUTPUT.c INPUT [--flatten]");
     return options;
 }
 
@@ -270,10 +237,8 @@ int main(int argc, char **argv) {
     if (job.options.flatten)
         flatten(&job, job.options.input, 0);
     else
-        job.result = read_file(job.options.root, job.options.input);
+        job.result = read_file(job.options.input);
     write_array(&job);
-    if (job.options.depfile)
-        write_depfile(&job);
     free(job.result.bytes);
     return 0;
 }

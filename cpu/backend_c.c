@@ -5,23 +5,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "../kernels/common/scene_tables.h"
 #include "../src/backend.h"
+#include "../src/clock.h"
 #include "../src/kernel_source.h"
 #include "instruction_set.h"
 #include "kernel.h"
 #include "thread_pool.h"
-
-enum { PIXELS_PER_ITEM = 64 };
 
 typedef struct CRenderer {
     HdThreadPool *pool;
     int threads;
     const HdCpuBuild *build;
     HdSceneTables scene; /* our own copy */
-    HdCpuCounts *counts; /* one for each item of the last frame size */
+    HdRayCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
 } CRenderer;
 
@@ -122,29 +121,18 @@ static void render_one_item(void *context, int item) {
                            work->c->counts);
 }
 
-static double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                          HdError *error) {
     CRenderer *c = renderer;
-    int items = hd_kernel_item_count(tables->width, tables->height, PIXELS_PER_ITEM);
+    int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
     HdStatus status = reserve_counts(c, items, error);
     if (status != HD_OK)
         return status;
     FrameWork work = {c, tables, frame->rgb};
-    double start = seconds_now();
+    double start = hd_monotonic_seconds();
     hd_thread_pool_run(c->pool, items, render_one_item, &work);
-    frame->trace_seconds = seconds_now() - start;
-    frame->rays = frame->shadow_tests = frame->clamps = 0;
-    for (int i = 0; i < items; i++) {
-        frame->rays += c->counts[i].rays;
-        frame->shadow_tests += c->counts[i].shadow_tests;
-        frame->clamps += c->counts[i].clamps;
-    }
+    frame->trace_seconds = hd_monotonic_seconds() - start;
+    hd_frame_set_counts(frame, c->counts, items);
     return HD_OK;
 }
 

@@ -14,11 +14,11 @@
 HD_CPU_BUILDS(DECLARE_BUILD)
 
 #define LIST_BUILD(set, lanes)                                                                     \
-    {#set, lanes, HD_FLOAT, HD_MATH_STRICT, hd_kernel_##set##_##lanes##_float_strict},             \
-        {#set, lanes, HD_FLOAT, HD_MATH_FAST, hd_kernel_##set##_##lanes##_float_fast},             \
-        {#set, lanes, HD_DOUBLE_PRECISION, HD_MATH_STRICT,                                         \
+    {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_STRICT, hd_kernel_##set##_##lanes##_float_strict},   \
+        {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_FAST, hd_kernel_##set##_##lanes##_float_fast},   \
+        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_STRICT,                                         \
          hd_kernel_##set##_##lanes##_double_strict},                                               \
-        {#set, lanes, HD_DOUBLE_PRECISION, HD_MATH_FAST, hd_kernel_##set##_##lanes##_double_fast},
+        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_FAST, hd_kernel_##set##_##lanes##_double_fast},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 
 static bool is_supported(const char *set) {
@@ -42,7 +42,7 @@ const char *hd_cpu_best_instruction_set(void) {
 static int native_lanes(HdPrecision precision) {
     const char *set = hd_cpu_best_instruction_set();
     int floats = strcmp(set, "avx512") == 0 ? 16 : strcmp(set, "avx2") == 0 ? 8 : 4;
-    if (precision == HD_FLOAT)
+    if (precision == HD_PRECISION_FLOAT)
         return floats;
     return floats == 16 ? 8 : 4;
 }

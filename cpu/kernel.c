@@ -10,10 +10,10 @@
 HdCpuKernel HD_KERNEL_NAME;
 
 void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, float *pixels,
-                    HdCpuCounts *counts) {
+                    HdRayCounts *counts) {
     HD_SCENE_TABLES(TABLE_FROM_SCENE)
     HD_FRAME_TABLES(TABLE_FROM_FRAME)
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
-    counts[item] = (HdCpuCounts){counted.rays, counted.shadow_tests, counted.clamps, 0};
+    counts[item] = (HdRayCounts){counted.rays, counted.shadow_tests, counted.clamps, 0};
 }

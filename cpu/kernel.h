@@ -4,17 +4,12 @@
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 
-#include <stdint.h>
-
 #include "../src/compiled_scene.h"
-
-typedef struct HdCpuCounts {
-    uint64_t rays, shadow_tests, clamps, unused;
-} HdCpuCounts;
+#include "../src/frame.h"
 
 /* Renders one work item: its pixels, and counts[item]. */
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item, float *pixels,
-                         HdCpuCounts *counts);
+                         HdRayCounts *counts);
 
 /* X(instruction set, lanes), from the most to the least capable. */
 #ifdef HD_CPU_X86

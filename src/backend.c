@@ -8,8 +8,6 @@
 
 #include "../kernels/common/scene_tables.h"
 
-extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
-
 const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
                                                         &hd_backend_c};
 
@@ -19,8 +17,6 @@ struct HdRenderer {
     HdRenderOptions options;
     bool has_scene;
 };
-
-enum { HD_MAX_THREADS = 1024 };
 
 const HdBackend *hd_backend_find(const char *name) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++)
@@ -37,32 +33,40 @@ static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
     if (options->threads < 0 || options->threads > HD_MAX_THREADS)
         return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
                        (int)HD_MAX_THREADS, options->threads);
-    if (options->precision != HD_FLOAT && options->precision != HD_DOUBLE_PRECISION)
+    if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)
         return hd_fail(error, HD_BAD_INPUT, "unknown precision %d", (int)options->precision);
     if (options->math != HD_MATH_STRICT && options->math != HD_MATH_FAST)
         return hd_fail(error, HD_BAD_INPUT, "unknown arithmetic %d", (int)options->math);
     return HD_OK;
 }
 
-static HdStatus check_abilities(const HdDevice *device, const HdRenderOptions *options,
-                                HdError *error) {
-    if (options->precision == HD_DOUBLE_PRECISION && !device->has_double)
-        return hd_fail(error, HD_UNAVAILABLE, "%s: %s has no double precision",
-                       device->backend->name, device->name);
-    if (options->math == HD_MATH_STRICT && device->not_strict[0])
-        return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do strict arithmetic: %s",
-                       device->backend->name, device->name, device->not_strict);
-    return HD_OK;
+const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
+    if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
+        return device->not_strict;
+    if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
+        return "the device has no double precision";
+    if (options->lanes > 1 && !device->is_cpu)
+        return "several lanes need a CPU";
+    return NULL;
+}
+
+/* Says which backend failed, if it did. */
+static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError *error) {
+    if (status != HD_OK)
+        hd_error_prefix(error, backend->name);
+    return status;
 }
 
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     *renderer = NULL;
     HdStatus status = check_options(options, error);
-    if (status == HD_OK)
-        status = check_abilities(device, options, error);
     if (status != HD_OK)
         return status;
+    const char *obstacle = hd_device_obstacle(device, options);
+    if (obstacle != NULL)
+        return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,
+                       device->name, obstacle);
     HdRenderer *opened = calloc(1, sizeof *opened);
     if (!opened)
         return hd_fail(error, HD_FAILED, "out of memory");
@@ -71,7 +75,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     status = opened->backend->open(device, options, &opened->state, error);
     if (status != HD_OK) {
         free(opened);
-        return status;
+        return name_backend(device->backend, status, error);
     }
     *renderer = opened;
     return HD_OK;
@@ -109,7 +113,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     renderer->has_scene = false;
     status = renderer->backend->upload(renderer->state, tables, error);
     renderer->has_scene = status == HD_OK;
-    return status;
+    return name_backend(renderer->backend, status, error);
 }
 
 /* Kernels count work items and the values of a picture in int, whole blocks at a time. */
@@ -143,7 +147,8 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
                        frame->height, tables->width, tables->height);
-    return renderer->backend->render(renderer->state, tables, frame, error);
+    status = renderer->backend->render(renderer->state, tables, frame, error);
+    return name_backend(renderer->backend, status, error);
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {

@@ -12,9 +12,11 @@
 
 typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
 
+enum { HD_MAX_THREADS = 1024 };
+
 typedef struct HdRenderOptions {
     int lanes;   /* 1, 4, 8 or 16; 0: what suits the device */
-    int threads; /* of the C backend; 0: one for each core */
+    int threads; /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
     HdPrecision precision;
     HdMath math;
 } HdRenderOptions;
@@ -34,7 +36,8 @@ typedef struct HdDevice {
 } HdDevice;
 
 /* A backend. Arguments are checked before a function is called (backend.c); "must" marks what the
-   callers rely on. Renderers are opaque to everybody else. */
+   callers rely on. Renderers are opaque to everybody else. Messages do not name the backend: who
+   calls it adds its name. */
 struct HdBackend {
     const char *name; /* as on the command line */
 
@@ -42,8 +45,8 @@ struct HdBackend {
        return HD_UNAVAILABLE and the reason: which library or driver is missing. */
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 
-    /* Opens one device. Must fail with HD_UNAVAILABLE when the device cannot do what the options
-       ask (double, strict, lanes), naming what is missing. */
+    /* Opens one device that can do what the options ask (hd_device_obstacle). Must fail with
+       HD_UNAVAILABLE where the device or its driver cannot be used after all. */
     HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                      HdError *error);
 
@@ -63,15 +66,22 @@ struct HdBackend {
 
 enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
 
-/* All backends: cuda, opencl, c. */
+/* All backends, the best first: cuda, opencl, c. The last one is always there. */
 extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
 extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 
 /* NULL where no backend has that name. */
 const HdBackend *hd_backend_find(const char *name);
 
+/* Why the device cannot do what the options ask (strict arithmetic, double precision, several
+   lanes), in words; NULL: it can. The words live as long as the device. */
+const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options);
+
+/* An open device. Messages of the functions below begin with the backend's name where the backend
+   failed: "cuda: ...". */
 typedef struct HdRenderer HdRenderer;
 
+/* HD_UNAVAILABLE where the device has an obstacle. */
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error);
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);

@@ -8,9 +8,7 @@
 #include "cuda_compile.h"
 #include "device_launch.h"
 
-extern const HdBackend hd_backend_cuda;
-
-enum { BLOCK_THREADS = 128, MIN_TABLE_BYTES = 16 };
+enum { BLOCK_THREADS = 128 };
 
 typedef struct Memory {
     HdCuPointer pointer;
@@ -116,7 +114,7 @@ static HdStatus count_devices(const HdCudaDriver *driver, int *count, HdError *e
     if (code != HD_CU_SUCCESS)
         return hd_cuda_fail(driver, "cuDeviceGetCount", code, error);
     if (*count < 1)
-        return hd_fail(error, HD_UNAVAILABLE, "cuda: the NVIDIA driver knows no device");
+        return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver knows no device");
     return HD_OK;
 }
 
@@ -227,10 +225,6 @@ static void cuda_close(void *state) {
 
 static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options, void **state,
                           HdError *error) {
-    if (options->lanes > 1)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "cuda: %s takes 1 lane, not %d; only CPU devices take several", device->name,
-                       options->lanes);
     Renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory");
@@ -269,14 +263,14 @@ static HdStatus resize(Renderer *renderer, Memory *memory, size_t bytes, const c
     }
     size_t available = 0, total = 0;
     renderer->driver.memory_info(&available, &total);
-    return hd_fail(
-        error, HD_FAILED, "cuda: the %s need %zu bytes; %s has %zu free of %zu (cuMemAlloc: %s)",
-        what, bytes, renderer->name, available, total, hd_cuda_error_name(&renderer->driver, code));
+    return hd_fail(error, HD_FAILED,
+                   "the %s need %zu bytes; %s has %zu free of %zu (cuMemAlloc: %s)", what, bytes,
+                   renderer->name, available, total, hd_cuda_error_name(&renderer->driver, code));
 }
 
 static HdStatus copy_table(Renderer *renderer, Memory *memory, const HdTable *table,
                            const char *what, HdError *error) {
-    size_t bytes = table->bytes < MIN_TABLE_BYTES ? MIN_TABLE_BYTES : table->bytes;
+    size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
     HdStatus status = resize(renderer, memory, bytes, what, error);
     if (status != HD_OK || table->bytes == 0)
         return status;
@@ -297,7 +291,7 @@ static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError 
     HdCuResult result = renderer->driver.module_load(&module, code->cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
-                       "cuda: the driver, of CUDA %d, does not load what NVRTC %d.%d compiled for "
+                       "the driver, of CUDA %d, does not load what NVRTC %d.%d compiled for "
                        "sm_%d (cuModuleLoadData: %s)",
                        query_driver_version(&renderer->driver) / 1000, renderer->nvrtc.major,
                        renderer->nvrtc.minor, renderer->arch,
@@ -370,10 +364,10 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     if (status == HD_OK)
         status = resize(renderer, &renderer->pixels, pixel_bytes, "pixels", error);
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, HD_COUNTS_BYTES * (size_t)items,
+        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)items,
                         "counts of the work items", error);
     if (status == HD_OK)
-        status = resize(renderer, &renderer->sums, HD_COUNTS_BYTES * HD_SUM_WORKERS,
+        status = resize(renderer, &renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS,
                         "sums of the counts", error);
     return status;
 }
@@ -438,7 +432,7 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     Renderer *renderer = state;
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
-    HdItemCounts sums[HD_SUM_WORKERS];
+    HdRayCounts sums[HD_SUM_WORKERS];
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
@@ -450,7 +444,7 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     if (status == HD_OK)
         status = read_back(renderer, &renderer->sums, sums, error);
     if (status == HD_OK)
-        hd_frame_set_counts(frame, sums);
+        hd_frame_set_counts(frame, sums, HD_SUM_WORKERS);
     leave(renderer);
     return status;
 }
@@ -459,7 +453,7 @@ static void cuda_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     int length = snprintf(
         text, (size_t)capacity, "sm_%d, 1 lane of %s, blocks of %d threads", renderer->arch,
-        renderer->shape.precision == HD_DOUBLE_PRECISION ? "double" : "float", (int)BLOCK_THREADS);
+        renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float", (int)BLOCK_THREADS);
     if (renderer->module && length > 0 && length < capacity)
         snprintf(text + length, (size_t)(capacity - length),
                  ", %d registers and %d bytes of local memory a thread, NVRTC %d.%d",

@@ -5,10 +5,11 @@
 #include <string.h>
 
 #include "../kernels/common/scene_tables.h"
+#include "clock.h"
 #include "device_launch.h"
 #include "opencl_program.h"
 
-enum { CPU_PIXELS_PER_ITEM = HD_BLOCK_PIXELS, GPU_LOCAL_SIZE = 64, MIN_TABLE_BYTES = 16 };
+enum { CPU_PIXELS_PER_ITEM = HD_BLOCK_PIXELS, GPU_LOCAL_SIZE = 64 };
 
 /* Arguments of hedron_render that follow the tables. */
 enum {
@@ -51,13 +52,9 @@ static int natural_lanes(int native_width) {
     return native_width >= 8 ? 8 : 4;
 }
 
-static HdStatus choose_shape(Renderer *renderer, const HdRenderOptions *options, HdError *error) {
+static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
     bool is_cpu = renderer->device.is_cpu;
     int lanes = options->lanes;
-    if (!is_cpu && lanes > 1)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "opencl: %s takes 1 lane, not %d; only CPU devices take several",
-                       renderer->name, lanes);
     if (lanes == 0)
         lanes = is_cpu ? natural_lanes(renderer->device.native_width[options->precision]) : 1;
     renderer->shape = (HdKernelShape){
@@ -69,7 +66,6 @@ static HdStatus choose_shape(Renderer *renderer, const HdRenderOptions *options,
     renderer->local_size = is_cpu ? 1 : GPU_LOCAL_SIZE;
     renderer->launch_items =
         is_cpu ? HD_MAX_LAUNCH_ITEMS : hd_gpu_launch_items(renderer->device.compute_units);
-    return HD_OK;
 }
 
 static HdStatus create_queue(Renderer *renderer, HdError *error) {
@@ -115,10 +111,10 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
         return hd_fail(error, HD_FAILED, "out of memory");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
     HdStatus status = hd_opencl_find(&renderer->device, device->index, error);
-    if (status == HD_OK)
-        status = choose_shape(renderer, options, error);
-    if (status == HD_OK)
+    if (status == HD_OK) {
+        choose_shape(renderer, options);
         status = create_queue(renderer, error);
+    }
     if (status != HD_OK) {
         opencl_close(renderer);
         return status;
@@ -136,24 +132,22 @@ static HdStatus resize(Renderer *renderer, Buffer *buffer, size_t bytes, cl_mem_
     release(buffer);
     if (bytes > renderer->device.max_allocation)
         return hd_fail(error, HD_UNAVAILABLE,
-                       "opencl: the %s need %zu bytes in one buffer; %s allows %llu of its %llu",
-                       what, bytes, renderer->name,
-                       (unsigned long long)renderer->device.max_allocation,
+                       "the %s need %zu bytes in one buffer; %s allows %llu of its %llu", what,
+                       bytes, renderer->name, (unsigned long long)renderer->device.max_allocation,
                        (unsigned long long)renderer->device.memory);
     cl_int code;
     buffer->memory = clCreateBuffer(renderer->context, flags, bytes, NULL, &code);
     if (!buffer->memory)
         return hd_fail(error, HD_FAILED,
-                       "opencl: %s has no room for the %s, %zu bytes (clCreateBuffer: %s)",
-                       renderer->name, what, bytes, hd_opencl_error_name(code));
+                       "%s has no room for the %s, %zu bytes (clCreateBuffer: %s)", renderer->name,
+                       what, bytes, hd_opencl_error_name(code));
     buffer->bytes = bytes;
     return HD_OK;
 }
 
-/* An empty table gets a buffer too: a kernel's argument must point somewhere. */
 static HdStatus copy_table(Renderer *renderer, Buffer *buffer, const HdTable *table,
                            const char *what, HdError *error) {
-    size_t bytes = table->bytes < MIN_TABLE_BYTES ? MIN_TABLE_BYTES : table->bytes;
+    size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
     HdStatus status = resize(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
     if (status != HD_OK || table->bytes == 0)
         return status;
@@ -168,7 +162,7 @@ static HdStatus set_argument(cl_kernel kernel, int index, size_t size, const voi
 }
 
 static HdStatus set_buffer(cl_kernel kernel, int index, const Buffer *buffer, HdError *error) {
-    return set_argument(kernel, index, sizeof buffer->memory, &buffer->memory, error);
+    return set_argument(kernel, index, sizeof(cl_mem), &buffer->memory, error);
 }
 
 static HdStatus set_int(cl_kernel kernel, int index, int value, HdError *error) {
@@ -236,8 +230,8 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     } outputs[] = {
         {&renderer->pixels, sizeof(float) * 3 * (size_t)tables->width * (size_t)tables->height,
          "pixels"},
-        {&renderer->counts, HD_COUNTS_BYTES * (size_t)items, "counts of the work items"},
-        {&renderer->sums, HD_COUNTS_BYTES * HD_SUM_WORKERS, "sums of the counts"},
+        {&renderer->counts, sizeof(HdRayCounts) * (size_t)items, "counts of the work items"},
+        {&renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS, "sums of the counts"},
     };
     for (size_t i = 0; status == HD_OK && i < sizeof outputs / sizeof *outputs; i++)
         status = resize(renderer, outputs[i].buffer, outputs[i].bytes, CL_MEM_READ_WRITE,
@@ -318,7 +312,7 @@ static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame 
     Renderer *renderer = state;
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
-    HdItemCounts sums[HD_SUM_WORKERS];
+    HdRayCounts sums[HD_SUM_WORKERS];
     HdStatus status = prepare(renderer, tables, items, error);
     if (status == HD_OK)
         status = trace(renderer, items, &frame->trace_seconds, error);
@@ -327,7 +321,7 @@ static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame 
     if (status == HD_OK)
         status = read_back(renderer, &renderer->sums, sums, error);
     if (status == HD_OK)
-        hd_frame_set_counts(frame, sums);
+        hd_frame_set_counts(frame, sums, HD_SUM_WORKERS);
     return status;
 }
 
@@ -337,7 +331,7 @@ static void opencl_describe(const void *state, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
              "%d lane%s of %s, work groups of %zu, %d pixel%s for each work item, %d compute units",
              shape->lanes, shape->lanes == 1 ? "" : "s",
-             shape->precision == HD_DOUBLE_PRECISION ? "double" : "float", renderer->local_size,
+             shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", renderer->local_size,
              shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s",
              renderer->device.compute_units);
 }

@@ -20,7 +20,12 @@
 #include "paths.h"
 #include "scene.h"
 
-enum { HD_CLASSIC_SOLIDS = 3, HD_CLASSIC_MAX_LIGHTS = 4, HD_CLASSIC_VARIANTS = 10 };
+enum {
+    HD_CLASSIC_SOLIDS = 3,
+    HD_CLASSIC_MAX_LIGHTS = 4,
+    HD_CLASSIC_VARIANTS = 10,
+    HD_CLASSIC_DEFAULT_VARIANT = 4
+};
 
 typedef struct HdClassicInput {
     HdScene scene;

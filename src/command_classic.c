@@ -5,7 +5,6 @@
 #include "commands.h"
 #include "default_scene.h"
 #include "interrupt.h"
-#include "progress.h"
 #include "rendering.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
@@ -26,42 +25,22 @@ static HdStatus read_standard_input(char **text, size_t *size, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus print_frame_line(void *context, int number, int done, const HdFrame *frame,
-                                 double seconds, HdError *error) {
+static HdStatus print_frame_line(int number, const HdFrame *frame, double seconds, HdError *error) {
     if (printf("%d\t%.3f\t%" PRIu64 "\n", number, seconds * 1e3, frame->rays) < 0 ||
         fflush(stdout) != 0)
         return hd_fail(error, HD_FAILED, "cannot write to standard output");
-    hd_progress_update(context, done);
     return HD_OK;
 }
 
 static HdStatus render_input(const HdOptions *options, const HdClassicInput *input,
                              HdError *error) {
-    HdFrameList frames;
-    HdStatus status =
-        hd_frame_list_parse(&frames, options->frames, input->scene.frame_count, error);
-    if (status != HD_OK)
-        return status;
-    HdProgress progress = hd_progress_start(frames.count);
-    HdSequence sequence = {
+    HdRendering rendering = {
         .scene = &input->scene,
-        .frames = &frames,
-        .precision = options->render.precision,
         .output = input->output_pattern,
+        .device_kind = options->mode == HD_CLASSIC_CPU ? HD_ONLY_CPU : HD_PREFER_GPU,
         .stored = print_frame_line,
-        .context = &progress,
     };
-    bool cpu = options->mode == HD_CLASSIC_CPU;
-    HdDeviceWish wish = {
-        .backend = options->backend != NULL || !cpu ? options->backend : "c",
-        .device = options->device,
-        .gpu = !cpu,
-        .cpu = cpu,
-    };
-    status = hd_render_sequence(&sequence, options, &wish, error);
-    hd_progress_end(&progress);
-    hd_frame_list_free(&frames);
-    return status;
+    return hd_render(&rendering, options, error);
 }
 
 static HdStatus print_default(HdError *error) {

@@ -1,42 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "commands.h"
 #include "default_scene.h"
-#include "progress.h"
 #include "rendering.h"
 
-enum { FRAMES_PER_SECOND = 30 };
-
-static HdStatus show_progress(void *context, int number, int done, const HdFrame *frame,
-                              double seconds, HdError *error) {
-    (void)number;
-    (void)frame;
-    (void)seconds;
-    (void)error;
-    hd_progress_update(context, done);
-    return HD_OK;
-}
-
 static HdStatus render_frames(const HdOptions *options, const HdScene *scene, HdError *error) {
-    HdFrameList frames;
-    HdStatus status = hd_frame_list_parse(&frames, options->frames, scene->frame_count, error);
-    if (status != HD_OK)
-        return status;
-    HdProgress progress = hd_progress_start(frames.count);
-    HdSequence sequence = {
+    HdRendering rendering = {
         .scene = scene,
-        .frames = &frames,
-        .precision = options->render.precision,
         .output = options->output ? options->output : "hedron.mp4",
-        .frames_per_second = FRAMES_PER_SECOND,
-        .stored = show_progress,
-        .context = &progress,
+        .device_kind = HD_WANT_ANY,
     };
-    HdDeviceWish wish = {.backend = options->backend, .device = options->device};
-    status = hd_render_sequence(&sequence, options, &wish, error);
-    hd_progress_end(&progress);
-    hd_frame_list_free(&frames);
+    HdStatus status = hd_render(&rendering, options, error);
     if (status == HD_OK)
-        printf("%s\n", sequence.output);
+        printf("%s\n", rendering.output);
     return status;
 }
 

@@ -25,8 +25,9 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
                           HdError *error) {
     memset(tables, 0, sizeof *tables);
     tables->precision = precision;
-    HdStatus status = precision == HD_FLOAT ? hd_compile_scene_float(tables, scene, error)
-                                            : hd_compile_scene_double(tables, scene, error);
+    HdStatus status = precision == HD_PRECISION_FLOAT
+                          ? hd_compile_scene_float(tables, scene, error)
+                          : hd_compile_scene_double(tables, scene, error);
     if (status != HD_OK)
         hd_scene_tables_free(tables);
     return status;
@@ -38,8 +39,9 @@ HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdC
     tables->precision = precision;
     tables->width = scene->width;
     tables->height = scene->height;
-    HdStatus status = precision == HD_FLOAT ? hd_compile_frame_float(tables, scene, camera, error)
-                                            : hd_compile_frame_double(tables, scene, camera, error);
+    HdStatus status = precision == HD_PRECISION_FLOAT
+                          ? hd_compile_frame_float(tables, scene, camera, error)
+                          : hd_compile_frame_double(tables, scene, camera, error);
     if (status != HD_OK)
         hd_frame_tables_free(tables);
     return status;

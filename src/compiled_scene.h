@@ -9,7 +9,7 @@
 #include "error.h"
 #include "scene.h"
 
-typedef enum HdPrecision { HD_FLOAT, HD_DOUBLE_PRECISION } HdPrecision;
+typedef enum HdPrecision { HD_PRECISION_FLOAT, HD_PRECISION_DOUBLE } HdPrecision;
 
 /* Bytes for a device, laid out as the kernels' structs. Empty tables are allowed. */
 typedef struct HdTable {

@@ -17,8 +17,7 @@ static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *err
     const char *missing = hd_library_load(library, symbols, COUNT(symbols), driver);
     if (missing)
         return hd_fail(error, HD_UNAVAILABLE,
-                       "cuda: the NVIDIA driver is too old: libcuda.so.1 has no function %s",
-                       missing);
+                       "the NVIDIA driver is too old: libcuda.so.1 has no function %s", missing);
     return HD_OK;
 }
 
@@ -26,8 +25,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     memset(driver, 0, sizeof *driver);
     void *library = hd_library_open("libcuda.so.1");
     if (!library)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "cuda: the NVIDIA driver (libcuda.so.1) is not installed");
+        return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver (libcuda.so.1) is not installed");
     HdStatus status = load_functions(driver, library, error);
     hd_library_close(library);
     if (status != HD_OK)
@@ -35,7 +33,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     HdCuResult code = driver->init(0);
     if (code != HD_CU_SUCCESS)
         return hd_fail(error, HD_UNAVAILABLE,
-                       "cuda: the NVIDIA driver does not start: cuInit failed with %s",
+                       "the NVIDIA driver does not start: cuInit failed with %s",
                        hd_cuda_error_name(driver, code));
     return HD_OK;
 }
@@ -52,7 +50,7 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
     const char *text = NULL;
     if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
-    return hd_fail(error, HD_FAILED, "cuda: %s failed with %s (%u: %s)", function,
+    return hd_fail(error, HD_FAILED, "%s failed with %s (%u: %s)", function,
                    hd_cuda_error_name(driver, code), code, text);
 }
 

@@ -10,11 +10,9 @@
 extern const unsigned char hd_default_scene[], hd_default_texture[];
 extern const size_t hd_default_scene_size, hd_default_texture_size;
 
-enum { DEFAULT_VARIANT = 4 };
-
 HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
     return hd_classic_parse(input, (const char *)hd_default_scene, hd_default_scene_size,
-                            "the built-in scene", DEFAULT_VARIANT, error);
+                            "the built-in scene", HD_CLASSIC_DEFAULT_VARIANT, error);
 }
 
 HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdError *error) {

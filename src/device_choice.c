@@ -15,14 +15,12 @@ typedef struct Search {
     char reasons[4096]; /* why backends and devices were passed over */
 } Search;
 
-/* Each reason once; a backend's own reason begins with its name already. */
+/* Each reason once, though several devices may have it. */
 static void add_reason(Search *search, const char *name, const char *reason) {
-    size_t used = strlen(search->reasons), length = strlen(name);
-    bool is_named = strncmp(reason, name, length) == 0 && reason[length] == ':';
-    if (strstr(search->reasons, reason) != NULL)
-        return;
-    snprintf(search->reasons + used, sizeof search->reasons - used, "%s%s%s%s",
-             used > 0 ? "; " : "", is_named ? "" : name, is_named ? "" : ": ", reason);
+    size_t used = strlen(search->reasons);
+    if (strstr(search->reasons, reason) == NULL)
+        snprintf(search->reasons + used, sizeof search->reasons - used, "%s%s: %s",
+                 used > 0 ? "; " : "", name, reason);
 }
 
 static bool contains(const char *text, const char *part) {
@@ -33,7 +31,7 @@ static bool contains(const char *text, const char *part) {
     return length == 0;
 }
 
-static bool is_wanted(const HdDevice *device, const char *wish) {
+static bool is_named(const HdDevice *device, const char *wish) {
     if (wish == NULL)
         return true;
     char *end;
@@ -43,78 +41,89 @@ static bool is_wanted(const HdDevice *device, const char *wish) {
     return contains(device->name, wish);
 }
 
-static const char *why_unfit(const HdDevice *device, const HdRenderOptions *options) {
-    if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
-        return device->not_strict;
-    if (options->precision == HD_DOUBLE_PRECISION && !device->has_double)
-        return "the device has no double precision";
-    if (options->lanes > 1 && !device->is_cpu)
-        return "several lanes need a CPU";
-    return NULL;
+static const HdBackend *plain_c(void) {
+    return hd_backends[HD_BACKEND_COUNT - 1];
 }
 
-/* GPUs before CPUs, then the one that promises more. */
-static double preference(const HdDevice *device) {
-    double speed = (double)device->compute_units * (double)device->clock_mhz;
-    return (device->is_cpu ? 0.0 : 1e9) + speed;
+static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
+    if (!is_named(device, wish->device))
+        return false;
+    return !device->is_cpu || device->backend == plain_c() || wish->backend != NULL ||
+           wish->device != NULL || wish->kind == HD_PREFER_GPU;
+}
+
+static double speed(const HdDevice *device) {
+    return (double)device->compute_units * (double)device->clock_mhz;
+}
+
+/* `best` was found earlier, in the same backend or in one that comes first. */
+static bool is_better(const HdDevice *device, const HdDevice *best) {
+    if (device->is_cpu != best->is_cpu)
+        return best->is_cpu;
+    return device->backend == best->backend && speed(device) > speed(best);
 }
 
 static void consider(Search *search, const HdDevice *device) {
-    if (!is_wanted(device, search->wish->device))
-        return;
-    const char *reason = search->wish->cpu && !device->is_cpu ? "it is not a CPU"
-                                                              : why_unfit(device, search->options);
+    const char *reason = hd_device_obstacle(device, search->options);
+    if (search->wish->kind == HD_ONLY_CPU && !device->is_cpu)
+        reason = "it is not a CPU";
     if (reason != NULL) {
         add_reason(search, device->name, reason);
-        return;
-    }
-    if (!search->found || preference(device) > preference(&search->best)) {
+    } else if (!search->found || is_better(device, &search->best)) {
         search->best = *device;
         search->found = true;
     }
 }
 
-static void search_backend(Search *search, const HdBackend *backend, bool gpus_only) {
+static void search_backend(Search *search, const HdBackend *backend, HdError *error) {
     HdDevice devices[HD_MAX_DEVICES];
-    static HdError error;
     int count = 0;
-    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, &error) != HD_OK) {
-        add_reason(search, backend->name, error.message);
+    bool any = false;
+    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, error) != HD_OK) {
+        add_reason(search, backend->name, error->message);
         return;
     }
-    for (int i = 0; i < count; i++)
-        if (!gpus_only || !devices[i].is_cpu)
-            consider(search, &devices[i]);
-    if (!search->found && search->wish->device != NULL && !gpus_only)
+    for (int i = 0; i < count; i++) {
+        if (!is_in_question(&devices[i], search->wish))
+            continue;
+        any = true;
+        consider(search, &devices[i]);
+    }
+    if (!any && search->wish->device != NULL)
         add_reason(search, backend->name, "no device of that number or name");
 }
 
-static void search_any(Search *search, char note[512]) {
-    search_backend(search, hd_backend_find("cuda"), true);
-    if (!search->found)
-        search_backend(search, hd_backend_find("opencl"), true);
-    bool has_gpu = search->found;
-    if (!search->found && (search->wish->gpu || search->wish->device != NULL))
-        search_backend(search, hd_backend_find("opencl"), false);
-    if (!search->found)
-        search_backend(search, hd_backend_find("c"), false);
-    if (search->found && !has_gpu && search->wish->gpu)
-        snprintf(note, 512, "no suitable GPU was found; tracing with %s on %s",
-                 search->best.backend->name, search->best.name);
+/* A later backend is not asked once there is a GPU: drivers take their time to start. */
+static void search_all(Search *search, HdError *error) {
+    for (int i = 0; i < HD_BACKEND_COUNT; i++) {
+        search_backend(search, hd_backends[i], error);
+        if (search->found && !search->best.is_cpu)
+            return;
+    }
+}
+
+static void search_wanted(Search *search, HdError *error) {
+    const HdDeviceWish *wish = search->wish;
+    if (wish->backend != NULL)
+        search_backend(search, hd_backend_find(wish->backend), error);
+    else if (wish->kind == HD_ONLY_CPU)
+        search_backend(search, plain_c(), error);
+    else
+        search_all(search, error);
 }
 
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
                           const HdRenderOptions *options, char note[512], HdError *error) {
     Search search = {.wish = wish, .options = options};
     note[0] = '\0';
-    if (wish->backend != NULL)
-        search_backend(&search, hd_backend_find(wish->backend), false);
-    else
-        search_any(&search, note);
+    search_wanted(&search, error);
     if (!search.found)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s",
                        wish->device ? " (asked for device '" : "", wish->device ? wish->device : "",
                        wish->device ? "')" : "", search.reasons);
     *device = search.best;
+    if (wish->kind == HD_PREFER_GPU && wish->backend == NULL && device->is_cpu)
+        snprintf(note, 512, "no suitable GPU was found; tracing with %s on %s",
+                 device->backend->name, device->name);
     return HD_OK;
 }

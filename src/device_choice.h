@@ -5,17 +5,23 @@
 
 #include "backend.h"
 
+typedef enum HdDeviceKind {
+    HD_WANT_ANY,   /* a GPU, else plain C */
+    HD_PREFER_GPU, /* a GPU, else any backend's CPU, which is worth a note */
+    HD_ONLY_CPU    /* only a CPU will do: plain C, unless a backend is named */
+} HdDeviceKind;
+
 typedef struct HdDeviceWish {
     const char *backend; /* NULL: any */
     const char *device;  /* number within the backend or part of a name; NULL: any */
-    bool gpu;            /* a GPU is wanted; without one the fastest OpenCL device will do */
-    bool cpu;            /* only a CPU will do */
+    HdDeviceKind kind;
 } HdDeviceWish;
 
-/* Chooses a device that can do what `options` ask. Without a named backend: a CUDA device, else a
-   GPU under OpenCL, else plain C. With `gpu` and no GPU: the OpenCL device with the most compute
-   units times clock, else plain C; `note` then says so in a sentence, and is empty otherwise.
-   HD_UNAVAILABLE with every reason where nothing fits. */
+/* Chooses a device that can do what `options` ask. GPUs come before CPUs, then backends in the
+   order of hd_backends, then the device with the most compute units times clock. CPUs of other
+   backends than plain C count only where the backend or a device is named, or a GPU is preferred.
+   Where one was preferred, no backend was named and there is none, `note` says so in a sentence;
+   otherwise it is empty. HD_UNAVAILABLE with every reason where nothing fits. */
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
                           const HdRenderOptions *options, char note[512], HdError *error);
 

@@ -27,4 +27,7 @@ __attribute__((format(printf, 3, 4)))
 HdStatus
 hd_fail(HdError *error, HdStatus status, const char *format, ...);
 
+/* Puts `name` and a colon before the message of `error`, which is cut if it gets too long. */
+void hd_error_prefix(HdError *error, const char *name);
+
 #endif

@@ -20,23 +20,12 @@ void hd_frame_free(HdFrame *frame) {
     memset(frame, 0, sizeof *frame);
 }
 
-static uint8_t to_byte(float value) {
-    if (!(value > 0.0f))
-        return 0;
-    if (value >= 1.0f)
-        return 255;
-    return (uint8_t)(value * 255.0f + 0.5f);
-}
-
-void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image) {
-    size_t count = (size_t)frame->width * (size_t)frame->height;
-    for (size_t i = 0; i < count; i++) {
-        const float *rgb = frame->rgb + 3 * i;
-        uint8_t *rgba = image->rgba + 4 * i;
-        rgba[0] = to_byte(rgb[0]);
-        rgba[1] = to_byte(rgb[1]);
-        rgba[2] = to_byte(rgb[2]);
-        rgba[3] = 255;
+void hd_frame_set_counts(HdFrame *frame, const HdRayCounts *counts, int count) {
+    frame->rays = frame->shadow_tests = frame->clamps = 0;
+    for (int i = 0; i < count; i++) {
+        frame->rays += counts[i].rays;
+        frame->shadow_tests += counts[i].shadow_tests;
+        frame->clamps += counts[i].clamps;
     }
 }
 
@@ -47,12 +36,20 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size) {
     return hash;
 }
 
+/* The bytes of an integer, the lowest first. */
+static uint64_t hash_integer(uint64_t hash, uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; i++)
+        hash = (hash ^ (value >> (8 * i) & 0xff)) * 1099511628211u;
+    return hash;
+}
+
 uint64_t hd_frame_hash(const HdFrame *frame) {
     uint64_t hash = 14695981039346656037u;
-    int32_t size[2] = {frame->width, frame->height};
-    uint64_t counts[3] = {frame->rays, frame->shadow_tests, frame->clamps};
     size_t values = (size_t)frame->width * (size_t)frame->height * 3;
-    hash = hash_bytes(hash, size, sizeof size);
-    hash = hash_bytes(hash, counts, sizeof counts);
+    hash = hash_integer(hash, (uint32_t)frame->width, 4);
+    hash = hash_integer(hash, (uint32_t)frame->height, 4);
+    hash = hash_integer(hash, frame->rays, 8);
+    hash = hash_integer(hash, frame->shadow_tests, 8);
+    hash = hash_integer(hash, frame->clamps, 8);
     return hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
 }

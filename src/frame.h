@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include "error.h"
-#include "image.h"
 
 typedef struct HdFrame {
     int width, height;
@@ -17,12 +16,17 @@ typedef struct HdFrame {
     double trace_seconds;  /* on the device, copies left out */
 } HdFrame;
 
+/* What the kernels count in a part of a frame, laid out as their RayCounts; as in HdFrame. */
+typedef struct HdRayCounts {
+    uint64_t rays, shadow_tests, clamps, unused;
+} HdRayCounts;
+_Static_assert(sizeof(HdRayCounts) == 32, "the kernels count in 32 bytes");
+
 HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error);
 void hd_frame_free(HdFrame *frame);
 
-/* Each channel clamped to 0..1, times 255, rounded to the nearest; alpha 255. `image` has the
-   frame's size. */
-void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image);
+/* Sets the frame's counts to the sums of those of its parts. */
+void hd_frame_set_counts(HdFrame *frame, const HdRayCounts *counts, int count);
 
 /* A 64-bit hash (FNV-1a) of size, pixels and counts of rays, shadow tests and clamps: two frames
    are the same when their hashes are. */

@@ -47,6 +47,26 @@ void hd_image8_free(HdImage8 *image) {
     *image = (HdImage8){0};
 }
 
+static uint8_t to_byte(float value) {
+    if (!(value > 0.0f))
+        return 0;
+    if (value >= 1.0f)
+        return 255;
+    return (uint8_t)(value * 255.0f + 0.5f);
+}
+
+void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image) {
+    size_t count = (size_t)frame->width * (size_t)frame->height;
+    for (size_t i = 0; i < count; i++) {
+        const float *rgb = frame->rgb + 3 * i;
+        uint8_t *rgba = image->rgba + 4 * i;
+        rgba[0] = to_byte(rgb[0]);
+        rgba[1] = to_byte(rgb[1]);
+        rgba[2] = to_byte(rgb[2]);
+        rgba[3] = 255;
+    }
+}
+
 HdStatus hd_image8_write(const HdImage8 *image, const char *path, HdError *error) {
     HdAtomicFile file;
     HdStatus status = check_size(image->width, image->height, error);

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "frame.h"
 #include "scene.h"
 
 /* Eight bits a channel, row by row from the top: r, g, b, a. */
@@ -25,6 +26,10 @@ HdImageFormat hd_image_format(const char *path);
 HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error);
 void hd_image8_free(HdImage8 *image);
 
+/* Each channel clamped to 0..1, times 255, rounded to the nearest; alpha 255. `image` has the
+   frame's size. */
+void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image);
+
 /* Writes under a temporary name beside `path` and renames it; makes missing folders. On failure
    nothing is left behind under either name, and a file that was there before is untouched. The data
    format: int32 width, int32 height, then r g b a, little endian. PNG: RGB, 8 bits. */
@@ -37,5 +42,8 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error);
 /* The same from memory; `name` is for messages. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdError *error);
+
+/* Frees what the texture owns and clears it; it may be clear already. */
+void hd_texture_clear(HdTexture *texture);
 
 #endif

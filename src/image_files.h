@@ -15,7 +15,6 @@ enum { HD_MAX_TEXTURE_SIDE = 65535, HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 /* Checks the size against the limits above and allocates the texels. */
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
                            HdError *error);
-void hd_texture_clear(HdTexture *texture);
 
 /* Write to an open stream; `path` is for messages. */
 HdStatus hd_image_data_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error);

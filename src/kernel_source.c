@@ -14,7 +14,7 @@ void hd_kernel_defines(const HdKernelShape *shape,
         int value;
     } list[HD_KERNEL_DEFINE_COUNT] = {
         {"HD_LANES", shape->lanes},
-        {"HD_DOUBLE", shape->precision == HD_DOUBLE_PRECISION},
+        {"HD_DOUBLE", shape->precision == HD_PRECISION_DOUBLE},
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
         {"HD_PLANE_BOUND", shape->plane_bound},
         {"HD_DEPTH_BOUND", shape->depth_bound},

@@ -23,6 +23,11 @@ typedef struct HdKernelShape {
     HdMath math;
 } HdKernelShape;
 
+/* NVIDIA's compilers take so many registers, left alone, that few threads are in flight. On an H200
+   a limit of 64 renders 29 % more frames in a second with floats and 75 % more with doubles, spills
+   and all; 56 and 72 are no better. */
+enum { HD_REGISTER_LIMIT = 64 };
+
 enum { HD_KERNEL_DEFINE_COUNT = 6, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic

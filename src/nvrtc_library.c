@@ -144,10 +144,9 @@ static const char *package_for(int arch) {
 static HdStatus fail(const Search *search, const char *device, const char *path, HdError *error) {
     if (path && !search->found[0])
         return hd_fail(error, HD_UNAVAILABLE,
-                       "cuda: %s cannot be loaded as an NVRTC library, version 11.2 or newer",
-                       path);
+                       "%s cannot be loaded as an NVRTC library, version 11.2 or newer", path);
     return hd_fail(error, HD_UNAVAILABLE,
-                   "cuda: no NVRTC library here compiles for %s (sm_%d); found: %s; install %s or "
+                   "no NVRTC library here compiles for %s (sm_%d); found: %s; install %s or "
                    "name its libnvrtc.so in HEDRON_NVRTC",
                    device, search->arch, search->found[0] ? search->found : "none",
                    package_for(search->arch));

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const HdBackend hd_backend_opencl;
-
 enum { MAX_PLATFORMS = 32 };
 
 typedef struct Entry {
@@ -132,7 +130,7 @@ static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint 
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, count);
     if (code != CL_SUCCESS || *count == 0)
         return hd_fail(error, HD_UNAVAILABLE,
-                       "opencl: no OpenCL platform is installed (the ICD loader reports %s); a "
+                       "no OpenCL platform is installed (the ICD loader reports %s); a "
                        "graphics driver or the package pocl-opencl-icd brings one",
                        code == CL_SUCCESS ? "none" : hd_opencl_error_name(code));
     if (*count > MAX_PLATFORMS)
@@ -166,7 +164,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
     char name[80];
     query_platform_name(platforms[0], name, sizeof name);
     return hd_fail(error, HD_UNAVAILABLE,
-                   "opencl: none of the %u installed OpenCL platforms (%s%s) has a device: %s",
+                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
                    (unsigned)platform_count, name, platform_count > 1 ? ", ..." : "",
                    hd_opencl_error_name(last_code));
 }
@@ -187,7 +185,7 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     if (status != HD_OK)
         return status;
     if (index < 0 || index >= count)
-        return hd_fail(error, HD_UNAVAILABLE, "opencl: there is no device %d, only 0 to %d", index,
+        return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);
     cl_device_id id = entries[index].device;
     char reasons[256];
@@ -195,7 +193,7 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     if (reasons[0]) {
         char name[128];
         query_text(id, CL_DEVICE_NAME, name, sizeof name);
-        return hd_fail(error, HD_UNAVAILABLE, "opencl: %s cannot be used: %s", name, reasons);
+        return hd_fail(error, HD_UNAVAILABLE, "%s cannot be used: %s", name, reasons);
     }
     *device = (HdOpenclDevice){
         .id = id,

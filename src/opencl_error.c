@@ -79,6 +79,6 @@ const char *hd_opencl_error_name(cl_int code) {
 }
 
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code) {
-    return hd_fail(error, HD_FAILED, "OpenCL: %s failed with %s (%d)", function,
-                   hd_opencl_error_name(code), (int)code);
+    return hd_fail(error, HD_FAILED, "%s failed with %s (%d)", function, hd_opencl_error_name(code),
+                   (int)code);
 }

@@ -15,8 +15,9 @@ static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *sha
                                                       : "-cl-fp32-correctly-rounded-divide-sqrt");
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
-    if (takes_register_limit) /* see REGISTER_LIMIT in cuda_compile.c */
-        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " -cl-nv-maxrregcount=64");
+    if (takes_register_limit)
+        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " -cl-nv-maxrregcount=%d",
+                 (int)HD_REGISTER_LIMIT);
 }
 
 static HdStatus fail_with_log(cl_program program, cl_device_id device, const char *name,
@@ -27,9 +28,8 @@ static HdStatus fail_with_log(cl_program program, cl_device_id device, const cha
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    hd_fail(error, HD_FAILED,
-            "opencl: the compiler of %s refused the kernels (clBuildProgram: %s):\n%s", name,
-            hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
+    hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
+            name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
     free(log);
     return HD_FAILED;
 }

@@ -2,10 +2,10 @@
 #include "options.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "classic_input.h"
 #include "paths.h"
 #include "scene.h"
 
@@ -73,7 +73,16 @@ static const OptionSpec specs[] = {
     {OPTION_HELP, "--help", "-h", NULL, RENDERING | HD_COMMAND_DEVICES, "print this help"},
     {OPTION_VERSION, "--version", NULL, NULL, RENDERING, "print the version"},
 };
+_Static_assert(HD_CLASSIC_VARIANTS == 10 && HD_CLASSIC_DEFAULT_VARIANT == 4,
+               "the help of --variant says so");
 enum { SPEC_COUNT = sizeof specs / sizeof specs[0] };
+
+typedef struct Parser {
+    HdOptions *options;
+    bool mode_given;
+    int count, next; /* arguments, and the number of the one to be read next */
+    char **arguments;
+} Parser;
 
 static HdStatus parse_integer(const char *name, const char *text, int least, int most, int *out,
                               HdError *error) {
@@ -157,7 +166,7 @@ static HdStatus parse_precision(const char *text, HdOptions *options, HdError *e
     int number = choice(text, names, 2);
     if (number < 0)
         return hd_fail(error, HD_BAD_INPUT, "--precision is '%s', expected float or double", text);
-    options->render.precision = number == 0 ? HD_FLOAT : HD_DOUBLE_PRECISION;
+    options->render.precision = number == 0 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE;
     return HD_OK;
 }
 
@@ -170,25 +179,26 @@ static HdStatus parse_math(const char *text, HdOptions *options, HdError *error)
     return HD_OK;
 }
 
-static HdStatus set_mode(HdOptions *options, HdClassicMode mode, HdError *error) {
-    if (options->mode_given && options->mode != mode)
+static HdStatus set_mode(Parser *parser, HdClassicMode mode, HdError *error) {
+    if (parser->mode_given && parser->options->mode != mode)
         return hd_fail(error, HD_BAD_INPUT, "only one of --gpu, --cpu and --default may be given");
-    options->mode = mode;
-    options->mode_given = true;
+    parser->options->mode = mode;
+    parser->mode_given = true;
     return HD_OK;
 }
 
-static HdStatus apply_option(const OptionSpec *spec, const char *value, HdOptions *options,
+static HdStatus apply_option(Parser *parser, const OptionSpec *spec, const char *value,
                              HdError *error) {
+    HdOptions *options = parser->options;
     switch (spec->id) {
     case OPTION_GPU:
-        return set_mode(options, HD_CLASSIC_GPU, error);
+        return set_mode(parser, HD_CLASSIC_GPU, error);
     case OPTION_CPU:
-        return set_mode(options, HD_CLASSIC_CPU, error);
+        return set_mode(parser, HD_CLASSIC_CPU, error);
     case OPTION_DEFAULT:
-        return set_mode(options, HD_CLASSIC_PRINT, error);
+        return set_mode(parser, HD_CLASSIC_PRINT, error);
     case OPTION_VARIANT:
-        return parse_integer(spec->name, value, 1, 10, &options->variant, error);
+        return parse_integer(spec->name, value, 1, HD_CLASSIC_VARIANTS, &options->variant, error);
     case OPTION_OUTPUT:
         return parse_output(value, options, error);
     case OPTION_BACKEND:
@@ -202,7 +212,7 @@ static HdStatus apply_option(const OptionSpec *spec, const char *value, HdOption
     case OPTION_LANES:
         return parse_lanes(value, options, error);
     case OPTION_THREADS:
-        return parse_integer(spec->name, value, 1, 1024, &options->render.threads, error);
+        return parse_integer(spec->name, value, 1, HD_MAX_THREADS, &options->render.threads, error);
     case OPTION_PRECISION:
         return parse_precision(value, options, error);
     case OPTION_MATH:
@@ -249,9 +259,9 @@ static const char *command_label(HdCommand command) {
                                            : "the classic mode";
 }
 
-static HdStatus parse_argument(HdOptions *options, int count, char **arguments, int *i,
-                               HdError *error) {
-    const char *argument = arguments[*i];
+static HdStatus parse_argument(Parser *parser, HdError *error) {
+    HdCommand command = parser->options->command;
+    const char *argument = parser->arguments[parser->next++];
     const char *value;
     const OptionSpec *spec = find_spec(argument, &value);
     if (argument[0] != '-' || argument[1] == '\0')
@@ -259,18 +269,20 @@ static HdStatus parse_argument(HdOptions *options, int count, char **arguments, 
                        "'%s' is neither a command nor an option; see 'hedron --help'", argument);
     if (spec == NULL)
         return hd_fail(error, HD_BAD_INPUT, "unknown option '%s'; see 'hedron --help'", argument);
-    if (!(spec->commands & (unsigned)options->command))
+    if (!(spec->commands & (unsigned)command))
         return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; see 'hedron --help'",
-                       spec->name, command_label(options->command));
+                       spec->name, command_label(command));
     if (spec->value == NULL && value != NULL)
         return hd_fail(error, HD_BAD_INPUT, "%s takes no value, but '%s' was given", spec->name,
                        value);
     if (spec->value != NULL && value == NULL) {
-        if (*i + 1 >= count)
+        if (parser->next >= parser->count)
             return hd_fail(error, HD_BAD_INPUT, "%s needs a value (%s)", spec->name, spec->value);
-        value = arguments[++*i];
+        value = parser->arguments[parser->next++];
     }
-    return apply_option(spec, value, options, error);
+    if (value == NULL) /* and none is wanted */
+        value = "";
+    return apply_option(parser, spec, value, error);
 }
 
 static HdCommand command_named(const char *name) {
@@ -295,19 +307,23 @@ static HdStatus parse_help_topic(HdOptions *options, int count, char **arguments
 
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
     memset(options, 0, sizeof *options);
-    options->variant = 4;
+    options->variant = HD_CLASSIC_DEFAULT_VARIANT;
     options->depth = options->samples = options->width = options->height = -1;
     options->cutoff = -1.0;
     options->command = count > 1 ? command_named(arguments[1]) : HD_COMMAND_CLASSIC;
     if (options->command == HD_COMMAND_HELP)
         return parse_help_topic(options, count, arguments, error);
-    int first = options->command == HD_COMMAND_CLASSIC ? 1 : 2;
-    for (int i = first; i < count; i++) {
-        HdStatus status = parse_argument(options, count, arguments, &i, error);
+    Parser parser = {
+        .options = options,
+        .count = count,
+        .next = options->command == HD_COMMAND_CLASSIC ? 1 : 2,
+        .arguments = arguments,
+    };
+    while (parser.next < count && options->command != HD_COMMAND_HELP &&
+           options->command != HD_COMMAND_VERSION) {
+        HdStatus status = parse_argument(&parser, error);
         if (status != HD_OK)
             return status;
-        if (options->command == HD_COMMAND_HELP || options->command == HD_COMMAND_VERSION)
-            break;
     }
     return HD_OK;
 }

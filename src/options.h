@@ -3,7 +3,6 @@
 #ifndef HD_OPTIONS_H
 #define HD_OPTIONS_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
 #include "backend.h"
@@ -19,20 +18,20 @@ typedef enum HdCommand {
 
 typedef enum HdClassicMode { HD_CLASSIC_GPU, HD_CLASSIC_CPU, HD_CLASSIC_PRINT } HdClassicMode;
 
-/* What the command line said. Numbers that were not given are -1, texts NULL. */
+/* What the command line said. */
 typedef struct HdOptions {
     HdCommand command;
-    HdCommand help_topic; /* of HD_COMMAND_HELP; 0: the program as a whole */
-    HdClassicMode mode;
-    bool mode_given;
-    int variant;
-    const char *output;
-    const char *backend; /* NULL: auto */
-    const char *device;  /* number or part of a name */
-    HdRenderOptions render;
-    int depth, samples, width, height;
-    double cutoff;
-    const char *frames;
+    HdCommand help_topic;   /* of HD_COMMAND_HELP; 0: the program as a whole */
+    HdClassicMode mode;     /* HD_CLASSIC_GPU if not given */
+    int variant;            /* HD_CLASSIC_DEFAULT_VARIANT if not given */
+    const char *output;     /* NULL: not given */
+    const char *backend;    /* NULL: auto or not given */
+    const char *device;     /* number or part of a name; NULL: not given */
+    const char *frames;     /* NULL: not given */
+    HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
+                               float, strict */
+    int depth, samples, width, height; /* each -1: not given */
+    double cutoff;                     /* -1: not given */
 } HdOptions;
 
 /* Parses the arguments of main. Fails with HD_BAD_INPUT and a sentence that names the argument. */

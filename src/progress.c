@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "device_launch.h"
+#include "clock.h"
 
 enum { BAR_WIDTH = 30 };
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image.h"
+
 /* The kernels count positions in the picture in half samples, as floats. */
 _Static_assert(2 * HD_MAX_IMAGE_SIDE * HD_MAX_SAMPLES_PER_SIDE < 1 << 24,
                "every half sample of the largest picture is an exact float");
@@ -273,6 +275,6 @@ HdStatus hd_scene_validate(const HdScene *scene, HdError *error) {
 void hd_scene_free(HdScene *scene) {
     free(scene->solids);
     free(scene->lights);
-    free(scene->floor.texture.texels);
+    hd_texture_clear(&scene->floor.texture);
     *scene = (HdScene){0};
 }

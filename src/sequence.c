@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "camera.h"
-#include "device_launch.h"
+#include "clock.h"
+#include "image.h"
 #include "interrupt.h"
 #include "paths.h"
 #include "video.h"

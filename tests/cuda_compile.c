@@ -30,7 +30,7 @@ static bool parse(Options *options, int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
         const char *value = i + 1 < argc ? argv[i + 1] : NULL;
         if (strcmp(argv[i], "--double") == 0)
-            options->shape.precision = HD_DOUBLE_PRECISION;
+            options->shape.precision = HD_PRECISION_DOUBLE;
         else if (strcmp(argv[i], "--fast") == 0)
             options->shape.math = HD_MATH_FAST;
         else if (strcmp(argv[i], "--log") == 0)
@@ -98,7 +98,7 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
     static const char *const kernels[] = {"hedron_render", "hedron_sum_counts"};
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
-           options->shape.precision == HD_DOUBLE_PRECISION ? "double" : "float",
+           options->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
            options->shape.plane_bound, options->shape.depth_bound, code->size);
     bool complete = true;
     for (int i = 0; i < 2; i++) {

@@ -48,6 +48,9 @@ typedef long long fixed64;
 
 #else
 
+#if defined(__FAST_MATH__) || (defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0)
+#error "hedron needs IEEE 754 arithmetic in the declared precision: no -ffast-math, no x87"
+#endif
 #include <math.h>
 #include <stdint.h>
 #if defined(__AVX512F__) || defined(__AVX2__)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # SIGINT and SIGTERM: what is finished stays whole, nothing half-done stays, the exit code is 128 + signal.
+# shellcheck disable=SC2317 # wait_for calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -8,6 +9,56 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 # A hundred frames that take many seconds together, so that a signal comes in their midst.
 slow=(--size 240x180 --samples 1 --depth 4 --threads 1 --frames 0-99)
 use_official_input
+
+# Signals come when something shows that it is time for them, never after a fixed while.
+
+# wait_for WHAT COMMAND...: until the command succeeds, and at most 20 s.
+wait_for() {
+    local what=$1
+    shift
+    if ! wait_until 20 "$@"; then
+        fail "waited in vain for $what"
+        show_logs
+    fi
+}
+
+# send SIGNAL TARGET: where the target is gone already, the test would show nothing.
+send() {
+    kill "-$1" -- "$2" 2>/dev/null || fail 'it was over before the signal'
+}
+
+# The state of the program's main thread, as a letter, and the hundredths of a second it has computed.
+# Nothing before it has taken the place of the shell that started it.
+look_at() {
+    local all stat
+    state='' ticks=0
+    { read -r all <"/proc/$pid/stat"; } 2>/dev/null || return 1
+    [[ $all == "$pid (hedron) "* ]] || return 1
+    read -r -a stat <<<"${all#*) }"
+    state=${stat[0]}
+    ticks=$((stat[11] + stat[12]))
+}
+
+# catches SIGNAL: the program's handler is there, and was not yet used.
+catches() {
+    local mask
+    look_at || return 1
+    mask=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$pid/status") || return 1
+    [[ -n $mask ]] && (((16#$mask >> ($(kill -l "$1") - 1)) & 1))
+}
+
+has_caught() {
+    look_at && ! catches "$1"
+}
+
+# It has only the one thread then, and nothing but its input to wait for.
+waits_for_input() {
+    catches "$1" && look_at && [[ $state == S ]]
+}
+
+has_computed() {
+    look_at && ((ticks >= $1))
+}
 
 # expect_first_frames FOLDER: the files are those of the first frames, whole, and no others. Sets `frames`.
 expect_first_frames() {
@@ -27,10 +78,8 @@ expect_first_frames() {
 for signal in INT TERM; do
     number=$(kill -l "$signal")
     start "$hedron" render --backend c "${slow[@]}" -o 'out/%d.data'
-    if ! wait_until 20 test -e out/2.data; then
-        fail 'no third frame after 20 s'
-    fi
-    kill "-$signal" "$pid" || fail 'it was over before the signal'
+    wait_for 'the third frame' test -e out/2.data
+    send "$signal" "$pid"
     expect_end $((128 + number)) 10
     expect_sentence
     expect_stdout_lines 0
@@ -41,11 +90,9 @@ for signal in INT TERM; do
     # The classic mode has a line for each frame that is there.
     sed '2s|.*|out/%d.data|' "$work/official.in" >"$work/sequence.in"
     start "$hedron" --cpu "${slow[@]}" <"$work/sequence.in"
-    if ! wait_until 20 test -e out/2.data; then
-        fail 'no third frame after 20 s'
-    fi
+    wait_for 'the third frame' test -e out/2.data
     # As a terminal does it: to the whole group.
-    kill "-$signal" -- "-$pid" || fail 'it was over before the signal'
+    send "$signal" "-$pid"
     expect_end $((128 + number)) 10
     expect_sentence
     expect_first_frames out
@@ -54,17 +101,24 @@ for signal in INT TERM; do
 done
 
 # ---- films
-if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
+# fake_ffmpeg BODY: a program that is found in $work/tools instead of FFmpeg.
+fake_ffmpeg() {
+    mkdir -p "$work/tools"
+    printf '#!%s\n%s\n' "$(command -v bash)" "$1" >"$work/tools/ffmpeg"
+    chmod +x "$work/tools/ffmpeg"
+    rm -f "$work/reached"
+}
+
+if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
+    # As soon as there is a folder for the film, and when FFmpeg has several frames.
+    fake_ffmpeg "{ head -c 500000; : >'$work/reached'; exec cat; } | '$ffmpeg' \"\$@\""
     for signal in INT TERM; do
-        number=$(kill -l "$signal")
-        for delay in 0.05 0.5; do
-            start "$hedron" render --backend c "${slow[@]}" -o new/film.mp4
-            if ! wait_until 20 test -d new; then
-                fail 'no folder for the film after 20 s'
-            fi
-            sleep "$delay"
-            kill "-$signal" -- "-$pid"
-            expect_end $((128 + number)) 10
+        for moment in new "$work/reached"; do
+            rm -f "$work/reached"
+            start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${slow[@]}" -o new/film.mp4
+            wait_for "$moment" test -e "$moment"
+            send "$signal" "-$pid"
+            expect_end $((128 + $(kill -l "$signal"))) 10
             expect_sentence
             expect_stdout_lines 0
             expect_files . new
@@ -73,14 +127,12 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     done
 
     # An FFmpeg that stopped reading, or that does not come to its end, must not stop us from ending.
-    mkdir "$work/tools"
-    for body in 'exec sleep 20' 'cat >/dev/null; exec sleep 20'; do
-        printf '#!%s\n%s\n' "$(command -v bash)" "$body" >"$work/tools/ffmpeg"
-        chmod +x "$work/tools/ffmpeg"
+    for body in 'head -c 100000 >/dev/null' 'cat >/dev/null'; do
+        fake_ffmpeg "$body; : >'$work/reached'; exec sleep 60"
         start env PATH="$work/tools:$PATH" "$hedron" render --backend c --size 400x300 --samples 1 --depth 0 \
             --frames 0-3 -o film.mp4
-        sleep 0.7
-        kill -TERM "$pid"
+        wait_for 'FFmpeg to come to its point' test -e "$work/reached"
+        send TERM "$pid"
         expect_end 143 5
         expect_files .
         rm -rf ./*
@@ -94,18 +146,18 @@ mkfifo "$work/pipe"
 exec 9<>"$work/pipe"
 for signal in INT TERM; do
     start "$hedron" --cpu <"$work/pipe" 9>&-
-    sleep 0.3
-    kill "-$signal" "$pid"
+    wait_for 'it to wait for its input' waits_for_input "$signal"
+    send "$signal" "$pid"
     expect_end $((128 + $(kill -l "$signal"))) 3
 done
 exec 9>&-
 
-# ---- a second signal ends it at once, whatever it is at
+# ---- a second signal ends it at once, whatever it is at: here in the midst of a frame of many minutes
 start "$hedron" render --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
-sleep 0.3
-kill -INT "$pid"
-sleep 0.3
-kill -INT "$pid" 2>/dev/null || true
+wait_for 'it to compute' has_computed 30
+send INT "$pid"
+wait_for 'the first signal to arrive' has_caught INT
+send INT "$pid"
 expect_end 130 3
 
 expect_files .

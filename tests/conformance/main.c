@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one.
+   one. The options --backend, --lanes and --precision leave out the others.
 
-   hedron_conformance [--golden FILE] [--write-golden] [--math strict|fast] [--backend NAME]
-                      [--pictures FOLDER] */
+   Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
+   where nothing of the backend in --backend opens. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdbool.h>
@@ -13,12 +13,22 @@
 #include <string.h>
 
 #include "backend.h"
+#include "image.h"
+#include "render_scene.h"
 #include "scenes.h"
 #include "truths.h"
 
-enum { MAX_FRAMES = 64, MAX_NAME = 64 };
+enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
+enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
+static const char usage[] =
+    "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
+    "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
+    "                          [--precision float|double] [--pictures FOLDER]\n";
 static const char *const precision_names[2] = {"float", "double"};
+static const char *const math_names[2] = {"strict", "fast"};
+static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
+static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 
 typedef struct Golden {
     uint64_t hash[MAX_FRAMES][2];
@@ -27,9 +37,11 @@ typedef struct Golden {
 } Golden;
 
 typedef struct Options {
-    const char *golden, *backend, *pictures;
+    const char *golden, *pictures;
+    const HdBackend *backend; /* NULL: all */
+    int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
     bool write_golden;
-    HdMath math;
+    int math;
 } Options;
 
 typedef struct Tally {
@@ -43,29 +55,50 @@ static int frame_number(const char *name) {
     return -1;
 }
 
-static bool read_golden(Golden *golden, const char *path) {
-    char name[MAX_NAME];
+/* Takes "NAME HASH HASH". */
+static bool read_golden_line(Golden *golden, const char *line) {
+    char name[MAX_NAME], more;
     uint64_t hash[2];
+    if (sscanf(line, "%63s %" SCNx64 " %" SCNx64 " %c", name, &hash[0], &hash[1], &more) != 3)
+        return false;
+    int frame = frame_number(name);
+    if (frame < 0 || golden->known[frame][HD_PRECISION_FLOAT])
+        return false;
+    for (int p = 0; p < 2; p++) {
+        golden->hash[frame][p] = hash[p];
+        golden->known[frame][p] = true;
+    }
+    return true;
+}
+
+/* Every line must be that of a frame, and no two of the same. */
+static bool read_golden(Golden *golden, const char *path) {
+    char line[256];
+    bool good = true;
     FILE *file = fopen(path, "r");
     if (file == NULL) {
         perror(path);
         return false;
     }
-    while (fscanf(file, "%63s %" SCNx64 " %" SCNx64, name, &hash[0], &hash[1]) == 3) {
-        int frame = frame_number(name);
-        if (frame < 0)
-            continue;
-        for (int p = 0; p < 2; p++) {
-            golden->hash[frame][p] = hash[p];
-            golden->known[frame][p] = true;
+    for (int number = 1; fgets(line, (int)sizeof line, file) != NULL; number++)
+        if (!read_golden_line(golden, line)) {
+            line[strcspn(line, "\n")] = '\0';
+            fprintf(stderr, "%s:%d: expected the name of a frame, once, and two hashes: %s\n", path,
+                    number, line);
+            good = false;
         }
-    }
+    good = !ferror(file) && good;
     fclose(file);
     golden->fixed = true;
-    return true;
+    return good;
 }
 
 static bool write_golden(const Golden *golden, const char *path) {
+    for (int i = 0; i < conformance_frame_count; i++)
+        if (!golden->known[i][HD_PRECISION_FLOAT] || !golden->known[i][HD_PRECISION_DOUBLE]) {
+            fprintf(stderr, "%s: not written, for a precision was not rendered\n", path);
+            return false;
+        }
     FILE *file = fopen(path, "w");
     if (file == NULL) {
         perror(path);
@@ -74,12 +107,11 @@ static bool write_golden(const Golden *golden, const char *path) {
     for (int i = 0; i < conformance_frame_count; i++)
         fprintf(file, "%-20s %016" PRIx64 " %016" PRIx64 "\n", conformance_frames[i].name,
                 golden->hash[i][0], golden->hash[i][1]);
-    return fclose(file) == 0;
-}
-
-static void fail(const char *what, const HdError *error) {
-    fprintf(stderr, "%s: %s\n", what, error->message);
-    exit(1);
+    bool good = !ferror(file);
+    good = fclose(file) == 0 && good;
+    if (!good)
+        fprintf(stderr, "%s: cannot be written\n", path);
+    return good;
 }
 
 static void save_picture(const Options *options, const char *name, const HdFrame *frame) {
@@ -99,26 +131,14 @@ static void save_picture(const Options *options, const char *name, const HdFrame
 
 static uint64_t render_hash(HdRenderer *renderer, int number, HdPrecision precision,
                             const Options *options) {
-    HdError error;
     HdScene scene;
     HdCamera camera;
-    HdFrame frame;
-    HdSceneTables tables;
-    HdFrameTables view;
     const char *name = conformance_frames[number].name;
     conformance_frames[number].build(&scene, &camera);
-    if (hd_scene_validate(&scene, &error) != HD_OK ||
-        hd_compile_scene(&tables, &scene, precision, &error) != HD_OK ||
-        hd_compile_frame(&view, &scene, &camera, precision, &error) != HD_OK ||
-        hd_frame_create(&frame, scene.width, scene.height, &error) != HD_OK ||
-        hd_renderer_upload(renderer, &tables, &error) != HD_OK ||
-        hd_renderer_render(renderer, &view, &frame, &error) != HD_OK)
-        fail(name, &error);
+    HdFrame frame = render_scene(renderer, &scene, &camera, precision, name);
     uint64_t hash = hd_frame_hash(&frame);
     save_picture(options, name, &frame);
     hd_frame_free(&frame);
-    hd_frame_tables_free(&view);
-    hd_scene_tables_free(&tables);
     hd_scene_free(&scene);
     return hash;
 }
@@ -152,7 +172,7 @@ static void check_renderer(const HdDevice *device, int lanes, int threads, HdPre
     HdRenderer *renderer;
     char text[256], label[1024];
     HdRenderOptions wanted = {
-        .lanes = lanes, .threads = threads, .precision = precision, .math = options->math};
+        .lanes = lanes, .threads = threads, .precision = precision, .math = (HdMath)options->math};
     HdStatus status = hd_renderer_open(&renderer, device, &wanted, &error);
     if (status == HD_UNAVAILABLE) {
         printf("skip            %s %s, %d lanes, %s: %s\n", device->backend->name, device->name,
@@ -172,11 +192,12 @@ static void check_renderer(const HdDevice *device, int lanes, int threads, HdPre
 
 static void check_device(const HdDevice *device, const Options *options, Golden *golden,
                          Tally *tally) {
-    static const int lane_counts[] = {1, 4, 8, 16};
-    for (int precision = HD_FLOAT; precision <= HD_DOUBLE_PRECISION; precision++)
-        for (int i = 0; i < (device->is_cpu ? 4 : 1); i++)
-            check_renderer(device, lane_counts[i], 1 + i % 2, (HdPrecision)precision, options,
-                           golden, tally);
+    for (int precision = HD_PRECISION_FLOAT; precision <= HD_PRECISION_DOUBLE; precision++)
+        for (int i = 0; i < (device->is_cpu ? LANE_COUNTS : 1); i++)
+            if ((options->precision == ALL || options->precision == precision) &&
+                (options->lanes == ALL || options->lanes == i))
+                check_renderer(device, lane_counts[i], 1 + i % 2, (HdPrecision)precision, options,
+                               golden, tally);
 }
 
 static void check_backend(const HdBackend *backend, const Options *options, Golden *golden,
@@ -191,26 +212,47 @@ static void check_backend(const HdBackend *backend, const Options *options, Gold
         check_device(&devices[i], options, golden, tally);
 }
 
+/* The index of the name, or -1. */
+static int choose(const char *name, const char *const *names, int count) {
+    for (int i = 0; i < count; i++)
+        if (strcmp(name, names[i]) == 0)
+            return i;
+    return -1;
+}
+
+static bool parse_option(Options *options, const char *name, const char *value) {
+    if (strcmp(name, "--golden") == 0)
+        return (options->golden = value) != NULL;
+    if (strcmp(name, "--pictures") == 0)
+        return (options->pictures = value) != NULL;
+    if (strcmp(name, "--backend") == 0)
+        return (options->backend = hd_backend_find(value)) != NULL;
+    if (strcmp(name, "--math") == 0)
+        return (options->math = choose(value, math_names, 2)) >= 0;
+    if (strcmp(name, "--lanes") == 0)
+        return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
+    if (strcmp(name, "--precision") == 0)
+        return (options->precision = choose(value, precision_names, 2)) >= 0;
+    return false;
+}
+
 static bool parse_options(Options *options, int count, char **arguments) {
     for (int i = 1; i < count; i++) {
-        const char *name = arguments[i];
-        if (strcmp(name, "--write-golden") == 0) {
+        if (strcmp(arguments[i], "--write-golden") == 0) {
             options->write_golden = true;
             continue;
         }
-        const char *value = i + 1 < count ? arguments[++i] : NULL;
-        if (value == NULL)
+        const char *value = i + 1 < count ? arguments[i + 1] : NULL;
+        if (value == NULL || !parse_option(options, arguments[i], value)) {
+            fprintf(stderr, "hedron_conformance: not understood: %s %s\n", arguments[i],
+                    value == NULL ? "" : value);
             return false;
-        if (strcmp(name, "--golden") == 0)
-            options->golden = value;
-        else if (strcmp(name, "--backend") == 0)
-            options->backend = value;
-        else if (strcmp(name, "--pictures") == 0)
-            options->pictures = value;
-        else if (strcmp(name, "--math") == 0)
-            options->math = strcmp(value, "fast") == 0 ? HD_MATH_FAST : HD_MATH_STRICT;
-        else
-            return false;
+        }
+        i++;
+    }
+    if (options->write_golden && options->golden == NULL) {
+        fprintf(stderr, "hedron_conformance: --write-golden needs --golden\n");
+        return false;
     }
     return true;
 }
@@ -223,24 +265,32 @@ static void print_hashes(const Golden *golden) {
 }
 
 int main(int count, char **arguments) {
-    Options options = {.math = HD_MATH_STRICT};
+    Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL};
     Golden golden = {.fixed = false};
     Tally tally = {0};
     if (!parse_options(&options, count, arguments)) {
-        fprintf(stderr, "usage: hedron_conformance [--golden FILE] [--write-golden] "
-                        "[--math strict|fast] [--backend NAME] [--pictures FOLDER]\n");
-        return 2;
+        fputs(usage, stderr);
+        return EXIT_USAGE;
+    }
+    if (conformance_frame_count > MAX_FRAMES) {
+        fprintf(stderr, "%d frames, expected at most %d: raise MAX_FRAMES\n",
+                conformance_frame_count, (int)MAX_FRAMES);
+        return 1;
     }
     if (options.golden != NULL && !options.write_golden && !read_golden(&golden, options.golden))
         return 1;
     /* The plain C backend first: it is always there. */
     for (int i = HD_BACKEND_COUNT - 1; i >= 0; i--)
-        if (options.backend == NULL || strcmp(hd_backends[i]->name, options.backend) == 0)
+        if (options.backend == NULL || options.backend == hd_backends[i])
             check_backend(hd_backends[i], &options, &golden, &tally);
+    if (tally.renderers == 0) {
+        printf("\nnothing was rendered\n");
+        return options.backend != NULL ? EXIT_SKIPPED : 1;
+    }
     print_hashes(&golden);
     printf("\n%d renderers, %d frames, %d different; %d truths, %d untrue\n", tally.renderers,
            tally.frames, tally.different, tally.truths, tally.untrue);
-    if (options.write_golden && !write_golden(&golden, options.golden))
+    if (tally.different > 0 || tally.untrue > 0)
         return 1;
-    return tally.renderers > 0 && tally.different == 0 && tally.untrue == 0 ? 0 : 1;
+    return options.write_golden && !write_golden(&golden, options.golden) ? 1 : 0;
 }

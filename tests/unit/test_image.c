@@ -1,62 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <dirent.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <png.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "image.h"
-
-static char folder[] = "/tmp/hedron-test-image-XXXXXX";
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
-    (void)info;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static int make_test_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int remove_test_folder(void **state) {
-    (void)state;
-    return chdir("/") != 0 || nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-}
-
-static int count_entries(const char *path) {
-    int count = 0;
-    DIR *entries = opendir(path);
-    assert_non_null(entries);
-    while (readdir(entries) != NULL)
-        count++;
-    closedir(entries);
-    return count - 2; /* "." and ".." */
-}
-
-static void write_bytes(const char *path, const void *bytes, size_t size) {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
+#include "test_folder.h"
 
 static size_t read_bytes(const char *path, unsigned char *bytes, size_t room) {
     FILE *file = fopen(path, "rb");
@@ -109,7 +60,7 @@ static void sizes_are_checked(void **state) {
         HdError error = {0};
         assert_int_equal(hd_image8_create(&image, wrong[i][0], wrong[i][1], &error), HD_BAD_INPUT);
         assert_null(image.rgba);
-        assert_non_null(strstr(error.message, "1..65535"));
+        expect_contains(error.message, "1..65535");
     }
     HdError error = {0};
     assert_int_equal(hd_image8_create(&image, 65535, 1, &error), HD_OK);
@@ -208,8 +159,8 @@ static void check_full_disk(const char *path, int width, int height, rlim_t room
     HdStatus status = hd_image8_write(&image, path, &error);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
     assert_int_equal(status, HD_FAILED);
-    assert_non_null(strstr(error.message, path));
-    assert_non_null(strstr(error.message, "File too large"));
+    expect_contains(error.message, path);
+    expect_contains(error.message, "File too large");
     assert_int_equal(read_bytes(path, bytes, sizeof bytes), 5);
     assert_memory_equal(bytes, "older", 5);
     hd_image8_free(&image);
@@ -231,8 +182,8 @@ static void check_unwritable(const char *path, HdStatus status, const char *part
     HdError error = {0};
     HdImage8 image = make_image(3, 2);
     assert_int_equal(hd_image8_write(&image, path, &error), status);
-    assert_non_null(strstr(error.message, part));
-    assert_non_null(strstr(error.message, path));
+    expect_contains(error.message, part);
+    expect_contains(error.message, path);
     hd_image8_free(&image);
 }
 
@@ -264,8 +215,8 @@ static void check_refused(const void *bytes, size_t size, const char *part) {
     assert_int_equal(hd_texture_decode(&texture, bytes, size, "a name", &error), HD_BAD_INPUT);
     assert_int_equal(texture.width, 0);
     assert_null(texture.texels);
-    assert_non_null(strstr(error.message, "a name"));
-    assert_non_null(strstr(error.message, part));
+    expect_contains(error.message, "a name");
+    expect_contains(error.message, part);
 }
 
 static void wrong_data_is_refused(void **state) {
@@ -531,8 +482,8 @@ static void check_unreadable(const char *path, const char *part) {
     HdTexture texture = {1, 1, NULL};
     assert_int_equal(hd_texture_read(&texture, path, &error), HD_BAD_INPUT);
     assert_int_equal(texture.width, 0);
-    assert_non_null(strstr(error.message, path));
-    assert_non_null(strstr(error.message, part));
+    expect_contains(error.message, path);
+    expect_contains(error.message, part);
 }
 
 static void unreadable_textures_are_named(void **state) {

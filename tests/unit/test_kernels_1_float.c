@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define HD_LANES 1
+#define HD_LANES  1
 #define HD_DOUBLE 0
 #include "kernel_functions.h"

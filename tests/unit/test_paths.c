@@ -1,40 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <ftw.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
-
 #include "paths.h"
-
-static char folder[] = "/tmp/hedron-test-paths-XXXXXX";
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
-    (void)info;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static int make_test_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int remove_test_folder(void **state) {
-    (void)state;
-    return chdir("/") != 0 || nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-}
+#include "test_folder.h"
 
 static void check_expanded(const char *path, const char *expected) {
     HdError error = {0};
@@ -106,7 +74,7 @@ static void parents_are_made(void **state) {
     assert_true(is_folder("one/two/three"));
     assert_int_equal(access("one/two/three/file", F_OK), -1);
     assert_int_equal(hd_path_make_parents("one/two/three/file", &error), HD_OK);
-    snprintf(absolute, sizeof absolute, "%s/four/five/file", folder);
+    snprintf(absolute, sizeof absolute, "%s/four/five/file", test_folder);
     assert_int_equal(hd_path_make_parents(absolute, &error), HD_OK);
     assert_true(is_folder("four/five"));
     assert_int_equal(hd_path_make_parents("./six/../seven/file", &error), HD_OK);
@@ -120,11 +88,9 @@ static void parents_are_made(void **state) {
 static void files_in_the_way_are_named(void **state) {
     (void)state;
     HdError error = {0};
-    FILE *file = fopen("block", "w");
-    assert_non_null(file);
-    fclose(file);
+    write_bytes("block", "", 0);
     assert_int_equal(hd_path_make_parents("block/file", &error), HD_FAILED);
-    assert_non_null(strstr(error.message, "folder block for block/file: a file has that name"));
+    expect_contains(error.message, "folder block for block/file: a file has that name");
     assert_int_equal(hd_path_make_parents("block/deep/file", &error), HD_FAILED);
 }
 
@@ -148,7 +114,7 @@ static void wrong_patterns_are_refused(void **state) {
         HdError error = {0};
         char out[HD_MAX_PATH];
         assert_int_equal(hd_pattern_check(wrong[i], &error), HD_BAD_INPUT);
-        assert_non_null(strstr(error.message, wrong[i]));
+        expect_contains(error.message, wrong[i]);
         assert_int_equal(hd_pattern_format(wrong[i], 1, out, &error), HD_BAD_INPUT);
     }
 }

@@ -1,68 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
-#include <limits.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <dirent.h>
 #include <errno.h>
-#include <ftw.h>
+#include <limits.h>
 #include <signal.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
-#include <cmocka.h>
-
+#include "test_folder.h"
 #include "video.h"
 
-static char folder[] = "/tmp/hedron-test-video-XXXXXX";
 static char *old_path;
 static char this_program[PATH_MAX];
 
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
-    (void)info;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static int count_entries(const char *path) {
-    int count = 0;
-    DIR *entries = opendir(path);
-    assert_non_null(entries);
-    while (readdir(entries) != NULL)
-        count++;
-    closedir(entries);
-    return count - 2; /* "." and ".." */
-}
-
-static int make_test_folder(void **state) {
-    (void)state;
+static int set_up_group(void **state) {
     const char *path = getenv("PATH");
     old_path = strdup(path == NULL ? "/usr/bin:/bin" : path);
-    return old_path == NULL || mkdtemp(folder) == NULL || chdir(folder) != 0;
+    return old_path == NULL || make_test_folder(state) != 0;
 }
 
-static int remove_test_folder(void **state) {
-    (void)state;
+static int tear_down_group(void **state) {
     free(old_path);
-    return chdir("/") != 0 || nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    return remove_test_folder(state);
 }
 
 /* Every test begins with an empty folder "out" and the true PATH. */
 static int set_up(void **state) {
     (void)state;
     setenv("PATH", old_path, 1);
-    nftw("out", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-    nftw("bin", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    remove_folder("out");
+    remove_folder("bin");
     return mkdir("out", 0777) != 0 || mkdir("bin", 0777) != 0;
 }
 
@@ -91,22 +58,19 @@ static void need_ffmpeg(void) {
 }
 
 static void write_file(const char *path, const char *text, mode_t mode) {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
+    write_bytes(path, text, strlen(text));
     assert_int_equal(chmod(path, mode), 0);
 }
 
 /* Puts a program first in PATH. $REAL is the PATH without it. */
 static void fake(const char *name, const char *script) {
     char text[1000], path[100];
-    char *search = malloc(strlen(folder) + strlen(old_path) + 10);
+    char *search = malloc(strlen(test_folder) + strlen(old_path) + 10);
     assert_non_null(search);
     snprintf(text, sizeof text, "#!/bin/sh\n%s\n", script);
     snprintf(path, sizeof path, "bin/%s", name);
     write_file(path, text, 0777);
-    sprintf(search, "%s/bin:%s", folder, old_path);
+    sprintf(search, "%s/bin:%s", test_folder, old_path);
     setenv("PATH", search, 1);
     setenv("REAL", old_path, 1);
     free(search);
@@ -145,8 +109,7 @@ static void check_failure(int width, int height, int frames, HdStatus expected, 
     HdError error = {0};
     assert_int_equal(make_film("out/film.mp4", width, height, frames, &error), expected);
     assert_int_equal(error.status, expected);
-    if (strstr(error.message, part) == NULL)
-        fail_msg("\"%s\" lacks \"%s\"", error.message, part);
+    expect_contains(error.message, part);
     assert_int_equal(count_entries("out"), 0);
 }
 
@@ -254,7 +217,7 @@ static void frames_of_another_size_are_refused(void **state) {
     need_ffmpeg();
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, 25, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
-    assert_non_null(strstr(error.message, "16 x 32 pixels"));
+    expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
     assert_int_equal(hd_video_close(video, &error), HD_OK);
     hd_image8_free(&right);
@@ -268,13 +231,13 @@ static void wrong_settings_are_refused(void **state) {
     check_failure(0, 16, 1, HD_BAD_INPUT, "0 x 16 pixels, expected 1..65535");
     check_failure(16, 65536, 1, HD_BAD_INPUT, "16 x 65536 pixels, expected 1..65535");
     assert_int_equal(hd_video_open(&video, "out/a", 16, 16, 0, &error), HD_BAD_INPUT);
-    assert_non_null(strstr(error.message, "0 frames a second"));
+    expect_contains(error.message, "0 frames a second");
 }
 
 static void missing_programs_are_unavailable(void **state) {
     (void)state;
     char only_bin[100];
-    snprintf(only_bin, sizeof only_bin, "/nonexistent::%s/bin", folder);
+    snprintf(only_bin, sizeof only_bin, "/nonexistent::%s/bin", test_folder);
     setenv("PATH", only_bin, 1);
     check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffmpeg\"");
     write_file("bin/ffmpeg", "#!/bin/sh\nexit 0\n", 0777);
@@ -319,7 +282,7 @@ static void failed_films_take_no_more_frames(void **state) {
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
-    assert_non_null(strstr(error.message, "takes no more frames"));
+    expect_contains(error.message, "takes no more frames");
     assert_int_equal(hd_video_close(video, &error), HD_FAILED);
     assert_int_equal(count_entries("out"), 0);
     hd_image8_free(&frame);
@@ -466,5 +429,5 @@ int main(int argc, char **argv) {
         VIDEO_TEST(blocked_signals_do_not_reach_ffmpeg),
         VIDEO_TEST(closed_standard_streams_do_no_harm),
     };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+    return cmocka_run_group_tests(tests, set_up_group, tear_down_group);
 }
