@@ -54,12 +54,28 @@ static void *thread_main(void *argument) {
     return NULL;
 }
 
+/* Kernels keep their private arrays on the stack: at the limits of depth, planes and lanes
+   about 2.2 MB, which is more than some systems give a thread. */
+enum { STACK_BYTES = 8 << 20 };
+
+static int start_thread(pthread_t *thread, HdThreadPool *pool) {
+    pthread_attr_t attributes;
+    int code = pthread_attr_init(&attributes);
+    if (code != 0)
+        return code;
+    code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    if (code == 0)
+        code = pthread_create(thread, &attributes, thread_main, pool);
+    pthread_attr_destroy(&attributes);
+    return code;
+}
+
 static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
     pool->threads = calloc((size_t)threads, sizeof *pool->threads);
     if (pool->threads == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
     for (int i = 0; i < threads; i++) {
-        int code = pthread_create(&pool->threads[i], NULL, thread_main, pool);
+        int code = start_thread(&pool->threads[i], pool);
         if (code != 0)
             return hd_fail(error, HD_FAILED, "cannot start thread %d of %d: %s", i + 1, threads,
                            strerror(code));

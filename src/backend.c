@@ -41,6 +41,8 @@ static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
 }
 
 const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
+    if (device->unusable[0] != '\0')
+        return device->unusable;
     if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
         return device->not_strict;
     if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)

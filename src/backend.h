@@ -32,6 +32,7 @@ typedef struct HdDevice {
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     bool has_double;
+    char unusable[512];   /* why nothing can run there, say no compiler for it; empty: it can */
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
 

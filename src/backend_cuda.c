@@ -83,12 +83,17 @@ static int query_driver_version(const HdCudaDriver *driver) {
     return driver->driver_version(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
-static HdStatus describe_device(HdDevice *device, const HdCudaDriver *driver, int index,
-                                HdError *error) {
-    memset(device, 0, sizeof *device);
-    device->backend = &hd_backend_cuda;
-    device->index = index;
-    device->has_double = true;
+/* Fails where the device's compiler is missing, so that a choice among devices can pass it over. */
+static HdStatus check_compiler(const char *name, int arch, int driver_version, HdError *error) {
+    HdNvrtc nvrtc;
+    HdStatus status = hd_nvrtc_open(&nvrtc, name, arch, driver_version / 1000, NULL, error);
+    if (status == HD_OK)
+        hd_nvrtc_close(&nvrtc);
+    return status;
+}
+
+static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
+                             HdError *error) {
     HdCuDevice handle;
     HdCuResult code = driver->device_get(&handle, index);
     if (code != HD_CU_SUCCESS)
@@ -105,7 +110,20 @@ static HdStatus describe_device(HdDevice *device, const HdCudaDriver *driver, in
         return status;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
-    return HD_OK;
+    return check_compiler(device->name, arch, version, error);
+}
+
+/* A device that fails is listed with the reason; it does not hide the others. */
+static void describe_device(HdDevice *device, const HdCudaDriver *driver, int index) {
+    HdError error;
+    memset(device, 0, sizeof *device);
+    device->backend = &hd_backend_cuda;
+    device->index = index;
+    device->has_double = true;
+    snprintf(device->name, sizeof device->name, "CUDA device %d", index);
+    if (query_device(device, driver, index, &error) != HD_OK)
+        snprintf(device->unusable, sizeof device->unusable, "%.*s",
+                 (int)sizeof device->unusable - 1, error.message);
 }
 
 static HdStatus count_devices(const HdCudaDriver *driver, int *count, HdError *error) {
@@ -125,13 +143,11 @@ static HdStatus cuda_enumerate(HdDevice *devices, int capacity, int *count, HdEr
     int available = 0;
     if (status == HD_OK)
         status = count_devices(&driver, &available, error);
-    for (int i = 0; status == HD_OK && i < available && i < capacity; i++) {
-        status = describe_device(&devices[i], &driver, i, error);
-        *count = i + 1;
-    }
     if (status != HD_OK)
-        *count = 0;
-    return status;
+        return status;
+    for (*count = 0; *count < available && *count < capacity; ++*count)
+        describe_device(&devices[*count], &driver, *count);
+    return HD_OK;
 }
 
 /* ---- open and close ---- */

@@ -43,12 +43,14 @@ static HdStatus render_input(const HdOptions *options, const HdClassicInput *inp
     return hd_render(&rendering, options, error);
 }
 
-static HdStatus print_default(HdError *error) {
+static HdStatus print_default(const HdOptions *options, HdError *error) {
     HdClassicInput input;
     HdStatus status = hd_default_input(&input, error);
     if (status != HD_OK)
         return status;
-    status = hd_classic_print(stdout, &input, error);
+    status = hd_apply_scene_options(&input.scene, options, error);
+    if (status == HD_OK)
+        status = hd_classic_print(stdout, &input, error);
     hd_classic_free(&input);
     return status;
 }
@@ -74,6 +76,6 @@ static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
 
 HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
     if (options->mode == HD_CLASSIC_PRINT)
-        return print_default(error);
+        return print_default(options, error);
     return trace_standard_input(options, error);
 }

@@ -4,6 +4,8 @@
 static void print_device(const HdDevice *device) {
     printf("  %d  %s\n", device->index, device->name);
     printf("     %s\n", device->driver);
+    if (device->unusable[0] != '\0')
+        printf("     cannot be used: %s\n", device->unusable);
     printf("     %s, double precision: %s, strict arithmetic: %s%s\n",
            device->is_cpu ? "CPU" : "GPU", device->has_double ? "yes" : "no",
            device->not_strict[0] == '\0' ? "yes" : "no, ", device->not_strict);

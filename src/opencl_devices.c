@@ -122,6 +122,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    find_obstacles(entry.device, device->unusable, sizeof device->unusable);
     find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
 }
 
@@ -188,13 +189,6 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
         return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);
     cl_device_id id = entries[index].device;
-    char reasons[256];
-    find_obstacles(id, reasons, sizeof reasons);
-    if (reasons[0]) {
-        char name[128];
-        query_text(id, CL_DEVICE_NAME, name, sizeof name);
-        return hd_fail(error, HD_UNAVAILABLE, "%s cannot be used: %s", name, reasons);
-    }
     *device = (HdOpenclDevice){
         .id = id,
         .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
