@@ -165,11 +165,13 @@ static bool drain(Child *child, int patience) {
             return false;
         struct pollfd ready = {.fd = child->output, .events = POLLIN};
         int count = poll(&ready, 1, GLANCE_MS);
-        if (count > 0)
+        bool failed = count < 0 && errno != EINTR;
+        if (count > 0) {
             take_output(child);
-        else if (count < 0 && errno != EINTR)
-            return false;
-        else if (patience != FOR_EVER && (waited += GLANCE_MS) >= patience)
+            continue;
+        }
+        waited += GLANCE_MS;
+        if (failed || (patience != FOR_EVER && waited >= patience))
             return false;
     }
     return true;

@@ -40,8 +40,9 @@ FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *d
         Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
         if (!in_picture(view, pixel))
             continue;
-        set_lane_real(&right, lane, (real)(2 * (pixel.x * n + part % n) + 1 - view->width * n));
-        set_lane_real(&down, lane, (real)(2 * (pixel.y * n + part / n) + 1 - view->height * n));
+        int column = pixel.x * n + part % n, row = pixel.y * n + part / n;
+        set_lane_real(&right, lane, (real)(2 * column + 1 - view->width * n));
+        set_lane_real(&down, lane, (real)(2 * row + 1 - view->height * n));
         set_lane_int(&alive, lane, -1);
     }
     Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
