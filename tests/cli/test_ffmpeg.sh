@@ -98,8 +98,12 @@ rm "$tools/ffprobe"
 printf '#!/no/such/interpreter\n' >"$tools/ffmpeg"
 chmod +x "$tools/ffmpeg"
 expect_no_film 3 'cannot start'
-printf '\177ELF' >"$tools/ffmpeg"
-expect_no_film 3 'cannot start'
+# Not with the address sanitizer: on some systems it takes an old posix_spawn, which gives to sh what is
+# no program.
+if ! grep -q __asan_init "$hedron"; then
+    printf '\177ELF' >"$tools/ffmpeg"
+    expect_no_film 3 'cannot start'
+fi
 rm "$tools/ffmpeg"
 
 # An old film stays when the new one fails, and goes when it does not.

@@ -47,7 +47,7 @@ expect_files .
 
 # A reader that goes away ends the program; frames stay whole.
 code=0
-"$hedron" --cpu <"$work/good.in" 2>"$logs/stderr" | true || code=$?
+"$hedron" --cpu <"$work/good.in" 2>"$logs/stderr" | head -c 0 || code=$?
 for file in out/*; do
     expect_data "$file" 32 24
 done
