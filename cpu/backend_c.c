@@ -132,7 +132,7 @@ static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *f
     double start = hd_monotonic_seconds();
     hd_thread_pool_run(c->pool, items, render_one_item, &work);
     frame->trace_seconds = hd_monotonic_seconds() - start;
-    hd_frame_set_counts(frame, c->counts, items);
+    hd_frame_set_counts(frame, tables->samples_per_side, c->counts, items);
     return HD_OK;
 }
 

@@ -336,13 +336,12 @@ static HdStatus find_compiler(Renderer *renderer, HdError *error) {
                          error);
 }
 
-static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdError *error) {
+static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
-    if (renderer->module && shape->plane_bound == plane_bound && shape->depth_bound == depth_bound)
+    if (renderer->module && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     unload_module(renderer);
-    shape->plane_bound = plane_bound;
-    shape->depth_bound = depth_bound;
+    shape->needs = *needs;
     HdCudaCode code;
     HdStatus status = find_compiler(renderer, error);
     if (status == HD_OK)
@@ -356,11 +355,11 @@ static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdEr
 
 static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
+    HdKernelNeeds needs = hd_kernel_needs(tables);
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = build(renderer, hd_kernel_bound(tables->plane_count), hd_kernel_bound(tables->depth),
-                   error);
+    status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
         status = copy_table(renderer, &renderer->scene[i], &tables->table[i], "tables of the scene",
                             error);
@@ -460,7 +459,7 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     if (status == HD_OK)
         status = read_back(renderer, &renderer->sums, sums, error);
     if (status == HD_OK)
-        hd_frame_set_counts(frame, sums, HD_SUM_WORKERS);
+        hd_frame_set_counts(frame, tables->samples_per_side, sums, HD_SUM_WORKERS);
     leave(renderer);
     return status;
 }

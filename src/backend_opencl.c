@@ -183,14 +183,13 @@ static HdStatus limit_local_size(Renderer *renderer, HdError *error) {
     return check(code, "clGetKernelWorkGroupInfo", error);
 }
 
-static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdError *error) {
+static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
     bool is_built = renderer->program.program != NULL;
-    if (is_built && shape->plane_bound == plane_bound && shape->depth_bound == depth_bound)
+    if (is_built && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     hd_opencl_program_free(&renderer->program);
-    shape->plane_bound = plane_bound;
-    shape->depth_bound = depth_bound;
+    shape->needs = *needs;
     HdStatus status = hd_opencl_build(&renderer->program, renderer->context, &renderer->device,
                                       renderer->name, shape, error);
     if (status == HD_OK)
@@ -200,8 +199,8 @@ static HdStatus build(Renderer *renderer, int plane_bound, int depth_bound, HdEr
 
 static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
-    HdStatus status = build(renderer, hd_kernel_bound(tables->plane_count),
-                            hd_kernel_bound(tables->depth), error);
+    HdKernelNeeds needs = hd_kernel_needs(tables);
+    HdStatus status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
         Buffer *buffer = &renderer->scene[i];
         status = copy_table(renderer, buffer, &tables->table[i], "tables of the scene", error);
@@ -321,7 +320,7 @@ static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame 
     if (status == HD_OK)
         status = read_back(renderer, &renderer->sums, sums, error);
     if (status == HD_OK)
-        hd_frame_set_counts(frame, sums, HD_SUM_WORKERS);
+        hd_frame_set_counts(frame, tables->samples_per_side, sums, HD_SUM_WORKERS);
     return status;
 }
 

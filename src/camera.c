@@ -17,19 +17,29 @@ static double oscillation(double base, double amplitude, double angle) {
 }
 
 /* The horizontal unit vector away from the z axis at the path's angle phi. */
-static HdVec3 outward_at(const HdCylinderPath *path, double t) {
+static HdVec3 outward_on_cylinder(const HdCylinderPath *path, double t) {
     HdVec3 outward = {0.0, 0.0, 0.0};
     hd_sine_cosine(path->phi0 + path->phi_frequency * t, &outward.y, &outward.x);
     return outward;
 }
 
-HdVec3 hd_cylinder_point(const HdCylinderPath *path, int frame, int frame_count) {
+static HdVec3 outward_at(const HdPath *path, double t) {
+    if (!path->is_fixed)
+        return outward_on_cylinder(&path->cylinder, t);
+    const double size = fmax(fabs(path->point.x), fabs(path->point.y));
+    if (!(size > 0.0))
+        return hd_vec3(1.0, 0.0, 0.0);
+    return hd_normalize(hd_vec3(path->point.x / size, path->point.y / size, 0.0));
+}
+
+HdVec3 hd_path_point(const HdPath *path, int frame, int frame_count) {
+    const HdCylinderPath *law = &path->cylinder;
+    if (path->is_fixed)
+        return path->point;
     const double t = flight_time(frame, frame_count);
-    const double r =
-        oscillation(path->r0, path->r_amplitude, path->r_frequency * t + path->r_phase);
-    const double z =
-        oscillation(path->z0, path->z_amplitude, path->z_frequency * t + path->z_phase);
-    const HdVec3 outward = outward_at(path, t);
+    const double r = oscillation(law->r0, law->r_amplitude, law->r_frequency * t + law->r_phase);
+    const double z = oscillation(law->z0, law->z_amplitude, law->z_frequency * t + law->z_phase);
+    const HdVec3 outward = outward_on_cylinder(law, t);
     return hd_vec3(r * outward.x, r * outward.y, z);
 }
 
@@ -42,7 +52,7 @@ static double largest_component(HdVec3 a) {
 }
 
 /* `path` supplies phi where the view is vertical and the picture could be turned any way. */
-static void set_basis(HdCamera *camera, HdVec3 view, const HdCylinderPath *path, double t) {
+static void set_basis(HdCamera *camera, HdVec3 view, const HdPath *path, double t) {
     static const double vertical = 1e-9;
     /* Brought near 1 first, so that the squares neither overflow nor vanish. */
     const double size = largest_component(view);
@@ -62,8 +72,8 @@ static void set_basis(HdCamera *camera, HdVec3 view, const HdCylinderPath *path,
 HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError *error) {
     /* Eye and target closer than this, compared with their coordinates, differ by rounding only. */
     static const double same_place = 1e-13;
-    const HdVec3 eye = hd_cylinder_point(&scene->eye, frame, scene->frame_count);
-    const HdVec3 target = hd_cylinder_point(&scene->target, frame, scene->frame_count);
+    const HdVec3 eye = hd_path_point(&scene->eye, frame, scene->frame_count);
+    const HdVec3 target = hd_path_point(&scene->target, frame, scene->frame_count);
     const HdVec3 view = hd_sub(target, eye);
     if (!is_finite(eye) || !is_finite(target) || !is_finite(view))
         return hd_fail(error, HD_BAD_INPUT,

@@ -72,7 +72,10 @@ static HdVec3 grey(double value) {
 
 static HdMaterial classic_material(void) {
     return (HdMaterial){
-        .mirror_tint = {1.0, 1.0, 1.0}, .diffuse = classic_diffuse, .shininess = classic_shininess};
+        .mirror_tint = {1.0, 1.0, 1.0},
+                        .diffuse = classic_diffuse,
+                        .shininess = classic_shininess,
+                        .index_of_refraction = 1.0};
 }
 
 static void fill_solid(HdSolid *solid) {
@@ -84,10 +87,12 @@ static void fill_solid(HdSolid *solid) {
     solid->rim.colour = grey(classic_rim_colour);
     solid->rim.specular = classic_rim_specular;
     const int count = platonic.edge_count * solid->lights.per_edge;
-    solid->lights.intensity = grey(count > 0 ? classic_edge_power / count : 0.0);
-    solid->lights.falloff_distance = solid->circumradius;
+    solid->lights.colour_count = 1;
+    solid->lights.colours[0] = grey(1.0);
+    solid->lights.intensity = count > 0 ? classic_edge_power / count : 0.0;
+    solid->lights.falloff.distance = solid->circumradius;
     solid->lights.disc_radius = classic_disc_radius * solid->circumradius;
-    solid->lights.disc_radiance = grey(classic_disc_radiance);
+    solid->lights.disc_radiance = classic_disc_radiance;
 }
 
 static void read_solid(HdTokenReader *reader, HdSolidKind kind, int number, HdSolid *solid) {
@@ -175,13 +180,13 @@ static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]
 static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdClassicInput *input) {
     HdScene *scene = &input->scene;
     scene->exposure = 1.0;
-    hd_read_int(reader, "number of frames", 1, 10000000, &scene->frame_count);
+    hd_read_int(reader, "number of frames", 1, HD_MAX_FRAMES, &scene->frame_count);
     read_output_pattern(reader, input->output_pattern);
     hd_read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
     hd_read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
     hd_read_number(reader, "field of view", &scene->field_of_view_degrees);
-    read_flight(reader, "eye", &scene->eye);
-    read_flight(reader, "target", &scene->target);
+    read_flight(reader, "eye", &scene->eye.cylinder);
+    read_flight(reader, "target", &scene->target.cylinder);
     read_solids(reader, kinds, scene);
     read_floor(reader, input);
     read_lights(reader, scene);

@@ -113,8 +113,8 @@ HdStatus hd_classic_print(FILE *out, const HdClassicInput *input, HdError *error
             scene->height);
     print_number(out, scene->field_of_view_degrees);
     putc('\n', out);
-    print_flight(out, &scene->eye);
-    print_flight(out, &scene->target);
+    print_flight(out, &scene->eye.cylinder);
+    print_flight(out, &scene->target.cylinder);
     for (int i = 0; i < HD_CLASSIC_SOLIDS; i++)
         print_solid(out, &scene->solids[i]);
     print_floor(out, &scene->floor, input->texture_path);

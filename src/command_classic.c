@@ -26,7 +26,7 @@ static HdStatus read_standard_input(char **text, size_t *size, HdError *error) {
 }
 
 static HdStatus print_frame_line(int number, const HdFrame *frame, double seconds, HdError *error) {
-    if (printf("%d\t%.3f\t%" PRIu64 "\n", number, seconds * 1e3, frame->rays) < 0 ||
+    if (printf("%d\t%.3f\t%" PRIu64 "\n", number, seconds * 1e3, hd_frame_rays(frame)) < 0 ||
         fflush(stdout) != 0)
         return hd_fail(error, HD_FAILED, "cannot write to standard output");
     return HD_OK;

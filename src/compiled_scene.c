@@ -39,6 +39,7 @@ HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdC
     tables->precision = precision;
     tables->width = scene->width;
     tables->height = scene->height;
+    tables->samples_per_side = scene->samples_per_side;
     HdStatus status = precision == HD_PRECISION_FLOAT
                           ? hd_compile_frame_float(tables, scene, camera, error)
                           : hd_compile_frame_double(tables, scene, camera, error);

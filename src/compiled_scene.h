@@ -24,13 +24,15 @@ typedef struct HdSceneTables {
     HdPrecision precision;
     int plane_count;
     int depth;
+    bool refracts;        /* some solid has an index of refraction that is not 1 */
+    bool lit_from_behind; /* some material is */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
 typedef struct HdFrameTables {
     HdTable table[4];
     int table_count;
-    int width, height;
+    int width, height, samples_per_side;
     HdPrecision precision;
 } HdFrameTables;
 

@@ -20,13 +20,22 @@ void hd_frame_free(HdFrame *frame) {
     memset(frame, 0, sizeof *frame);
 }
 
-void hd_frame_set_counts(HdFrame *frame, const HdRayCounts *counts, int count) {
-    frame->rays = frame->shadow_tests = frame->clamps = 0;
+void hd_frame_set_counts(HdFrame *frame, int samples_per_side, const HdRayCounts *counts,
+                         int count) {
+    const uint64_t samples = (uint64_t)samples_per_side * (uint64_t)samples_per_side;
+    frame->primary_rays = (uint64_t)frame->width * (uint64_t)frame->height * samples;
+    frame->mirrored_rays = frame->transmitted_rays = 0;
+    frame->shadow_tests = frame->clamps = 0;
     for (int i = 0; i < count; i++) {
-        frame->rays += counts[i].rays;
+        frame->mirrored_rays += counts[i].mirrored_rays;
+        frame->transmitted_rays += counts[i].transmitted_rays;
         frame->shadow_tests += counts[i].shadow_tests;
         frame->clamps += counts[i].clamps;
     }
+}
+
+uint64_t hd_frame_rays(const HdFrame *frame) {
+    return frame->primary_rays + frame->mirrored_rays + frame->transmitted_rays;
 }
 
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size) {
@@ -48,7 +57,7 @@ uint64_t hd_frame_hash(const HdFrame *frame) {
     size_t values = (size_t)frame->width * (size_t)frame->height * 3;
     hash = hash_integer(hash, (uint32_t)frame->width, 4);
     hash = hash_integer(hash, (uint32_t)frame->height, 4);
-    hash = hash_integer(hash, frame->rays, 8);
+    hash = hash_integer(hash, hd_frame_rays(frame), 8);
     hash = hash_integer(hash, frame->shadow_tests, 8);
     hash = hash_integer(hash, frame->clamps, 8);
     return hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);

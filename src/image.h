@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "curve.h"
 #include "error.h"
 #include "frame.h"
 #include "scene.h"
@@ -16,6 +17,12 @@ typedef struct HdImage8 {
     int width, height;
     uint8_t *rgba; /* owned; width * height * 4 */
 } HdImage8;
+
+/* How a picture stores values; PFM is always linear, and only PNG has more than 8 bits. */
+typedef struct HdPictureStyle {
+    HdCurve curve;
+    int bits; /* 8 or 16 */
+} HdPictureStyle;
 
 typedef enum HdImageFormat { HD_IMAGE_DATA, HD_IMAGE_PNG } HdImageFormat;
 

@@ -16,8 +16,10 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_LANES", shape->lanes},
         {"HD_DOUBLE", shape->precision == HD_PRECISION_DOUBLE},
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
-        {"HD_PLANE_BOUND", shape->plane_bound},
-        {"HD_DEPTH_BOUND", shape->depth_bound},
+        {"HD_PLANE_BOUND", shape->needs.plane_bound},
+        {"HD_DEPTH_BOUND", shape->needs.depth_bound},
+        {"HD_REFRACTS", shape->needs.refracts},
+        {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
     };
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
@@ -29,6 +31,26 @@ int hd_kernel_bound(int count) {
     while (bound < count)
         bound *= 2;
     return bound;
+}
+
+HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
+    return (HdKernelNeeds){
+        .plane_bound = hd_kernel_bound(tables->plane_count),
+        .depth_bound = hd_kernel_bound(tables->depth),
+        .refracts = tables->refracts,
+        .lit_from_behind = tables->lit_from_behind,
+    };
+}
+
+bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
+    return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
+           a->refracts == b->refracts && a->lit_from_behind == b->lit_from_behind;
+}
+
+void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
+    snprintf(text, (size_t)capacity, "built for up to %d planes and depth %d, %s refraction, %s",
+             needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
+             needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -3,6 +3,7 @@
 #ifndef HD_KERNEL_SOURCE_H
 #define HD_KERNEL_SOURCE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "backend.h"
@@ -13,12 +14,18 @@ extern const size_t hd_opencl_source_size; /* without the NUL */
 extern const unsigned char hd_cuda_source[];
 extern const size_t hd_cuda_source_size;
 
+/* What a build for one scene can do; what it cannot is not compiled in. */
+typedef struct HdKernelNeeds {
+    int plane_bound, depth_bound; /* private arrays are this large */
+    int refracts;                 /* 0 or 1 */
+    int lit_from_behind;          /* 0 or 1 */
+} HdKernelNeeds;
+
 /* What the text is specialised by. */
 typedef struct HdKernelShape {
     int lanes;
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
-    int plane_bound;     /* private arrays are this large */
-    int depth_bound;
+    HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
 } HdKernelShape;
@@ -28,7 +35,7 @@ typedef struct HdKernelShape {
    and all; 56 and 72 are no better. */
 enum { HD_REGISTER_LIMIT = 64 };
 
-enum { HD_KERNEL_DEFINE_COUNT = 6, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINE_COUNT = 8, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
    -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */
@@ -38,6 +45,13 @@ void hd_kernel_defines(const HdKernelShape *shape,
 /* A bound that scenes of similar size share, so that one build serves them all: the least power of
    two that is at least 8 and `count`. */
 int hd_kernel_bound(int count);
+
+/* What a scene needs, its numbers rounded up by hd_kernel_bound. */
+HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
+bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
+
+/* One line for people. */
+void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);
 
 /* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and
    lower border, times the items of a block. */

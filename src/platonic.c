@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "trigonometry.h"
+
 typedef struct Points {
     int count;
     HdVec3 point[HD_MAX_VERTICES];
@@ -167,4 +169,30 @@ void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
         hd_length(hd_sub(solid->vertex[first.vertex[0]], solid->vertex[first.vertex[1]]));
     solid->sine_of_dihedral =
         hd_length(hd_cross(solid->face_normal[first.face[0]], solid->face_normal[first.face[1]]));
+}
+
+/* Turns about the axis that follows `u` and `v` in the cyclic order x, y, z. */
+static void rotate_plane(double *u, double *v, double sine, double cosine) {
+    const double turned = cosine * *u - sine * *v;
+    *v = sine * *u + cosine * *v;
+    *u = turned;
+}
+
+static void rotate_points(HdVec3 *points, int count, HdVec3 sine, HdVec3 cosine) {
+    for (int i = 0; i < count; i++) {
+        rotate_plane(&points[i].y, &points[i].z, sine.x, cosine.x);
+        rotate_plane(&points[i].z, &points[i].x, sine.y, cosine.y);
+        rotate_plane(&points[i].x, &points[i].y, sine.z, cosine.z);
+    }
+}
+
+void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees) {
+    HdVec3 sine, cosine;
+    if (degrees.x == 0.0 && degrees.y == 0.0 && degrees.z == 0.0)
+        return;
+    hd_sine_cosine(degrees.x * (HD_PI / 180.0), &sine.x, &cosine.x);
+    hd_sine_cosine(degrees.y * (HD_PI / 180.0), &sine.y, &cosine.y);
+    hd_sine_cosine(degrees.z * (HD_PI / 180.0), &sine.z, &cosine.z);
+    rotate_points(solid->vertex, solid->vertex_count, sine, cosine);
+    rotate_points(solid->face_normal, solid->face_count, sine, cosine);
 }

@@ -43,4 +43,8 @@ const char *hd_solid_name(HdSolidKind kind);
 /* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid);
 
+/* Turns the solid about the x axis, then the y axis, then the z axis, counterclockwise as seen from
+   the axis's tip. Angles of 0 leave every bit as it is. */
+void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees);
+
 #endif

@@ -162,10 +162,10 @@ static void check_rim(Checker *checker, const HdSolid *solid, const HdPlatonic *
 
 static void check_edge_lights(Checker *checker, const HdEdgeLights *lights) {
     check_int(checker, "number of lights per edge", lights->per_edge, 0, HD_MAX_LIGHTS);
-    check_light(checker, "edge lights' intensity", lights->intensity);
-    check_falloff(checker, lights->falloff_distance);
+    check_range(checker, "edge lights' intensity", lights->intensity, 0.0, largest_number);
+    check_falloff(checker, lights->falloff.distance);
     check_range(checker, "edge lights' disc radius", lights->disc_radius, 0.0, largest_number);
-    check_light(checker, "edge lights' disc radiance", lights->disc_radiance);
+    check_range(checker, "edge lights' disc radiance", lights->disc_radiance, 0.0, largest_number);
 }
 
 /* Returns the number of its edge lights. */
@@ -191,7 +191,7 @@ static void check_point_lights(Checker *checker, const HdScene *scene) {
         snprintf(checker->where, sizeof checker->where, "light %d: ", i + 1);
         check_position(checker, "position", scene->lights[i].position);
         check_light(checker, "intensity", scene->lights[i].intensity);
-        check_falloff(checker, scene->lights[i].falloff_distance);
+        check_falloff(checker, scene->lights[i].falloff.distance);
         checker->where[0] = '\0';
     }
 }
@@ -265,11 +265,18 @@ static void check_floor(Checker *checker, const HdFloor *floor) {
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error) {
     Checker checker = {.error = error, .status = HD_OK, .where = ""};
     check_picture(&checker, scene);
-    check_path(&checker, "eye", &scene->eye);
-    check_path(&checker, "target", &scene->target);
+    check_path(&checker, "eye", &scene->eye.cylinder);
+    check_path(&checker, "target", &scene->target.cylinder);
     check_solids_and_lights(&checker, scene);
     check_floor(&checker, &scene->floor);
     return checker.status;
+}
+
+void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems) {
+    static HdError error;
+    (void)naming;
+    if (hd_scene_validate(scene, &error) != HD_OK)
+        hd_problem(problems, "%s", error.message);
 }
 
 void hd_scene_free(HdScene *scene) {

@@ -8,6 +8,7 @@
 
 #include "error.h"
 #include "platonic.h"
+#include "problems.h"
 #include "vec3.h"
 
 enum {
@@ -16,10 +17,12 @@ enum {
     HD_MAX_DEPTH = 1000,
     HD_MAX_SAMPLES_PER_SIDE = 64,
     HD_MAX_IMAGE_SIDE = 65535,
-    HD_MAX_SHININESS = 65536
+    HD_MAX_SHININESS = 65536,
+    HD_MAX_FRAMES = 10000000,
+    HD_MAX_EDGE_COLOURS = 30 /* the edges of a dodecahedron */
 };
 
-/* Phong's terms and the two rays that go on. reflection + transmission <= 1. */
+/* Phong's terms and the two rays that go on. On each side reflection + transmission <= 1. */
 typedef struct HdMaterial {
     HdVec3 colour;      /* 0..1; tints diffuse light and what passes through */
     HdVec3 mirror_tint; /* 0..1; tints the mirror image */
@@ -29,21 +32,36 @@ typedef struct HdMaterial {
     int shininess; /* exponent, 1..HD_MAX_SHININESS */
     double reflection;
     double transmission;
+    double inner_reflection; /* of rays that meet the face from inside the solid; */
+    double inner_transmission;
+    bool has_inner_side;        /* without it both sides reflect and transmit alike */
+    double index_of_refraction; /* inside the solid, 1 outside; 1: rays go straight on */
+    bool lit_from_behind; /* lights behind the face shine through: diffuse * transmission of them */
 } HdMaterial;
+
+/* How a light fades with the distance d: 1 / (1 + (d / distance)^2), or (1 - (d / end)^2)^2 up to
+   d = end and nothing beyond, or, both being 0, not at all. */
+typedef struct HdFalloff {
+    double distance;
+    double end;
+} HdFalloff;
 
 /* Point lights at (k + 1/2) / per_edge along every edge of a solid, each seen as a disc. */
 typedef struct HdEdgeLights {
     int per_edge;
-    HdVec3 intensity;        /* of each light; 0: a bright spot that lights nothing */
-    double falloff_distance; /* d0 of 1 / (1 + (d / d0)^2); 0: no falloff */
+    int colour_count; /* edge e has colour e modulo colour_count; at least 1 if there are lights */
+    HdVec3 colours[HD_MAX_EDGE_COLOURS]; /* 0..1 */
+    double intensity; /* of each light, times its colour; 0: a bright spot that lights nothing */
+    HdFalloff falloff;
     double disc_radius;
-    HdVec3 disc_radiance;
+    double disc_radiance; /* times the light's colour */
 } HdEdgeLights;
 
 typedef struct HdSolid {
     HdSolidKind kind;
     HdVec3 centre;
     double circumradius;
+    HdVec3 rotation_degrees; /* from the canonical orientation: about x, then y, then z */
     HdMaterial face;
     double rim_width; /* measured in the face, from the edge inwards; 0: no rim */
     HdMaterial rim;
@@ -53,7 +71,7 @@ typedef struct HdSolid {
 typedef struct HdLight {
     HdVec3 position;
     HdVec3 intensity;
-    double falloff_distance; /* 0: no falloff */
+    HdFalloff falloff;
 } HdLight;
 
 /* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
@@ -80,9 +98,16 @@ typedef struct HdCylinderPath {
     double r_phase, z_phase;
 } HdCylinderPath;
 
+/* Where the eye or the target is: on a cylinder path, or, `is_fixed`, always at `point`. */
+typedef struct HdPath {
+    bool is_fixed;
+    HdVec3 point;
+    HdCylinderPath cylinder;
+} HdPath;
+
 typedef struct HdScene {
     int frame_count;
-    HdCylinderPath eye, target;
+    HdPath eye, target;
     double field_of_view_degrees; /* horizontal */
     int width, height;
     int samples_per_side; /* n of the n x n samples of a pixel */
@@ -97,8 +122,15 @@ typedef struct HdScene {
     HdFloor floor;
 } HdScene;
 
-/* Checks every value; on failure the error names the first one that is wrong and what was expected.
-   Library code may rely on a scene that passed. */
+/* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
+typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
+
+/* Checks every value and what values must be to each other: the two shares of a side, a flat and
+   convex floor, refracting solids that overlap nothing, an eye that is never at its target. Adds
+   all that is wrong to `problems`. Library code may rely on a scene in which nothing was found. */
+void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems);
+
+/* The same, in prose; on failure the error names the first value that is wrong. */
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error);
 
 /* Frees what the scene owns and clears it. */

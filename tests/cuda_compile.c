@@ -25,7 +25,9 @@ typedef struct Options {
 static bool parse(Options *options, int argc, char **argv) {
     /* Three solids, a floor, and the depth of the default scene. */
     *options = (Options){
-        .shape = {.lanes = 1, .pixels_per_item = 1, .plane_bound = 32, .depth_bound = 8},
+        .shape = {.lanes = 1,
+                  .pixels_per_item = 1,
+                  .needs = {.plane_bound = 32, .depth_bound = 16}},
     };
     for (int i = 1; i < argc; i++) {
         const char *value = i + 1 < argc ? argv[i + 1] : NULL;
@@ -33,6 +35,10 @@ static bool parse(Options *options, int argc, char **argv) {
             options->shape.precision = HD_PRECISION_DOUBLE;
         else if (strcmp(argv[i], "--fast") == 0)
             options->shape.math = HD_MATH_FAST;
+        else if (strcmp(argv[i], "--refracts") == 0)
+            options->shape.needs.refracts = 1;
+        else if (strcmp(argv[i], "--lit-from-behind") == 0)
+            options->shape.needs.lit_from_behind = 1;
         else if (strcmp(argv[i], "--log") == 0)
             options->show_log = true;
         else if (!value)
@@ -42,9 +48,9 @@ static bool parse(Options *options, int argc, char **argv) {
         else if (strcmp(argv[i], "--nvrtc") == 0)
             options->nvrtc = argv[++i];
         else if (strcmp(argv[i], "--planes") == 0)
-            options->shape.plane_bound = hd_kernel_bound(atoi(argv[++i]));
+            options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
-            options->shape.depth_bound = hd_kernel_bound(atoi(argv[++i]));
+            options->shape.needs.depth_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--cubin") == 0)
             options->cubin = argv[++i];
         else
@@ -99,7 +105,7 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
            options->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
-           options->shape.plane_bound, options->shape.depth_bound, code->size);
+           options->shape.needs.plane_bound, options->shape.needs.depth_bound, code->size);
     bool complete = true;
     for (int i = 0; i < 2; i++) {
         Usage usage = kernel_usage(code->log, kernels[i]);

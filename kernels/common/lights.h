@@ -50,13 +50,15 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     return blocked;
 }
 
-/* Multiplies `transmittance` by what one face lets through: its colour, or nothing at the rim. */
+/* Multiplies `transmittance` by what one face lets through: its colour times `transmission`, or
+   nothing at the rim. */
 FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
-                   const vreal *distances, vmask crossing, vreal t, Vec3 *transmittance) {
+                   const vreal *distances, vmask crossing, vreal t, real transmission,
+                   Vec3 *transmittance) {
     if (!any_lane(crossing))
         return;
     GLOBAL const Material *face = materials + solid->face_material;
-    vreal passes = splat(face->transmission);
+    vreal passes = splat(transmission);
     if (solid->rim_depth > R(0.0)) {
         TwoGreatest greatest = two_greatest();
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++)
@@ -104,10 +106,13 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
         exit = lesser(exit, distances[k] / (distances[k] - splat(light_row[k])));
     }
     crossing = crossing & (own_inside | lt(entry, exit));
+    /* Sides are named as for a ray that looks from the point to the light. */
+    GLOBAL const Material *face = materials + solid->face_material;
     cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing & entered, entry,
-               transmittance);
+               face->transmission, transmittance);
     if (sides->outside)
-        cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing, exit, transmittance);
+        cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing, exit,
+                   face->inner_transmission, transmittance);
 }
 
 /* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. */
@@ -143,12 +148,21 @@ FN Vec3 phong(const LaneMaterial *material, vint shininess, int common_shininess
 /* The light's intensity at a squared distance. */
 FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
     Vec3 intensity = vec3_splat(light->intensity[0], light->intensity[1], light->intensity[2]);
-    if (light->inverse_falloff_squared > R(0.0)) {
-        vreal one = splat(R(1.0));
-        vreal falloff = multiply_add(squared, splat(light->inverse_falloff_squared), one);
-        intensity = vec3_scale(intensity, one / falloff);
+    vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
+    if (light->falloff_ends) {
+        vreal rest = greater(multiply_add(-squared, scale, one), splat(R(0.0)));
+        intensity = vec3_scale(intensity, rest * rest);
+    } else if (light->inverse_falloff_squared > R(0.0)) {
+        intensity = vec3_scale(intensity, one / multiply_add(squared, scale, one));
     }
     return intensity;
+}
+
+/* Lanes at a squared distance at which nothing is left of the light. */
+FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
+    if (!light->falloff_ends)
+        return mask_none();
+    return le(splat(R(1.0)), squared * splat(light->inverse_falloff_squared));
 }
 
 /* What the segments to one light let through in the lanes of `lit`. */
@@ -191,7 +205,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
         vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
-                    lt(zero, squared);
+                    lt(zero, squared) & ~beyond_falloff(lights + i, squared);
         if (!any_lane(lit))
             continue;
         *shadow_tests = *shadow_tests - lit;

@@ -9,7 +9,8 @@
 /* What a bundle of samples gathered. Sums are fixed point, so that their order does not matter. */
 typedef struct {
     vfix r, g, b;
-    vint rays, shadow_tests, clamps;
+    vint mirrored, transmitted; /* rays */
+    vint shadow_tests, clamps;
 } Sample;
 
 #define CONTRIBUTION_LIMIT R(65536.0)
@@ -48,6 +49,33 @@ FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 dir
     return next;
 }
 
+/* The direction of a ray that passes a surface by Snell's law (Glassner 1989, An Introduction to
+   Ray Tracing, chapter 2, section 5.2); `facing` is the cosine between `normal` and the ray. Where
+   the two sides have one index the direction stays as it is, bit by bit. Lanes of `total` reflect
+   totally instead. */
+FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index, vmask *total) {
+    vreal one = splat(R(1.0)), zero = splat(R(0.0));
+    vmask bends = lt(relative_index, one) | lt(one, relative_index);
+    vreal sine_squared = multiply_add(-facing, facing, one) * relative_index * relative_index;
+    vreal cosine_squared = one - sine_squared;
+    *total = bends & lt(cosine_squared, zero);
+    vreal cosine = square_root(greater(cosine_squared, zero));
+    vreal along_normal = multiply_add(-relative_index, facing, -cosine);
+    Vec3 bent = vec3_scale_add(normal, along_normal, vec3_scale(direction, relative_index));
+    return vec3_pick(bends & ~*total, vec3_normalize(bent), direction);
+}
+
+/* Turns a lit surface over, for what shines through it from behind. */
+FN void turn_over(Surface *surface, LitPoints *points, vmask is_solid) {
+    LaneMaterial *material = &surface->material;
+    surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
+    material->diffuse = material->diffuse * material->transmission;
+    material->specular = splat(R(0.0));
+    points->active =
+        points->active & material->lit_from_behind & lt(splat(R(0.0)), material->diffuse);
+    points->inside = is_solid & ~points->inside;
+}
+
 /* Shades the lanes that hit something and prepares the two rays that may go on. */
 FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit, vmask struck,
               Sample *sample, Ray *mirror, Ray *through) {
@@ -65,18 +93,30 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     points.inside = is_solid & ~hit->entering;
     Vec3 radiance =
         vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
-    if (any_lane(points.active))
-        radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & surface, &points, mirrored,
-                                                   &sample->shadow_tests));
+    Surface lit = surface;
+    for (int side = 0; side <= LIT_FROM_BEHIND; side++) {
+        if (side > 0)
+            turn_over(&lit, &points, is_solid);
+        if (any_lane(points.active))
+            radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & lit, &points, mirrored,
+                                                       &sample->shadow_tests));
+    }
     add_radiance(SCENE_ARGUMENTS sample, struck, radiance, ray->weight);
 
-    *mirror = next_ray(ray, &surface, hit, mirrored,
-                       vec3_scale(surface.material.mirror_tint, surface.material.reflection),
-                       points.inside, struck & lt(zero, surface.material.reflection), view->cutoff);
-    *through = next_ray(ray, &surface, hit, ray->direction,
-                        vec3_scale(surface.material.colour, surface.material.transmission),
-                        is_solid & hit->entering, struck & lt(zero, surface.material.transmission),
-                        view->cutoff);
+    vreal reflection = surface.material.reflection, transmission = surface.material.transmission;
+    Vec3 passing = ray->direction;
+    vmask total = mask_none();
+    if (REFRACTS) {
+        passing = refract(ray->direction, surface.normal, facing, surface.material.relative_index,
+                          &total);
+        reflection = pick(total, reflection + transmission, reflection);
+    }
+    *mirror =
+        next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.material.mirror_tint, reflection),
+                 is_solid & ~hit->entering, struck & lt(zero, reflection), view->cutoff);
+    *through =
+        next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
+                 is_solid & hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
 }
 
 FN Ray eye_ray(Vec3 direction, vmask alive) {
@@ -100,7 +140,6 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Vec3 background =
         vec3_splat(header->background[0], header->background[1], header->background[2]);
     for (;;) {
-        sample->rays = sample->rays - ray.alive;
         Reference reference = reference_of(SCENE_ARGUMENTS ray.touched, level == 0);
         Hit hit = closest_hit(SCENE_ARGUMENTS & ray, reference);
         vmask struck = ray.alive & ~lt_int(hit.object, splat_int(0));
@@ -110,6 +149,8 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
             shade(SCENE_ARGUMENTS & ray, reference, &hit, struck, sample, &mirror, &through);
             if (level < view->depth) {
                 level++;
+                sample->mirrored = sample->mirrored - mirror.alive;
+                sample->transmitted = sample->transmitted - through.alive;
                 int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
                 if (mirrors && passes) {
                     stack[waiting] = mirror;

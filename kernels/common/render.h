@@ -55,7 +55,8 @@ FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *d
 
 FN Sample empty_sample(void) {
     Sample sample;
-    sample.rays = sample.shadow_tests = sample.clamps = splat_int(0);
+    sample.mirrored = sample.transmitted = splat_int(0);
+    sample.shadow_tests = sample.clamps = splat_int(0);
     sample.r = sample.g = sample.b = truncate_to_fix(splat(R(0.0)));
     return sample;
 }
@@ -77,7 +78,7 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
     fixed64 sums[HD_PIXELS_PER_ITEM * 3];
     for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
         sums[i] = 0;
-    uint64 rays = 0, shadow_tests = 0, clamps = 0;
+    uint64 mirrored = 0, transmitted = 0, shadow_tests = 0, clamps = 0;
     int per_pixel = view->samples_per_side * view->samples_per_side;
     for (int first = 0; first < HD_PIXELS_PER_ITEM * per_pixel; first += HD_LANES) {
         Vec3 direction;
@@ -93,31 +94,33 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
             sums[place * 3] += lane_fix(&sample.r, lane) >> view->pixel_shift;
             sums[place * 3 + 1] += lane_fix(&sample.g, lane) >> view->pixel_shift;
             sums[place * 3 + 2] += lane_fix(&sample.b, lane) >> view->pixel_shift;
-            rays += (uint64)lane_int(&sample.rays, lane);
+            mirrored += (uint64)lane_int(&sample.mirrored, lane);
+            transmitted += (uint64)lane_int(&sample.transmitted, lane);
             shadow_tests += (uint64)lane_int(&sample.shadow_tests, lane);
             clamps += (uint64)lane_int(&sample.clamps, lane);
         }
     }
     store_pixels(view, item, sums, pixels);
-    counts->rays = rays;
+    counts->mirrored = mirrored;
+    counts->transmitted = transmitted;
     counts->shadow_tests = shadow_tests;
     counts->clamps = clamps;
-    counts->unused = 0;
 }
 
 /* Adds up every `workers`-th count from number `worker` on. */
 FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int workers,
                    GLOBAL RayCounts *sums) {
-    uint64 rays = 0, shadow_tests = 0, clamps = 0;
+    uint64 mirrored = 0, transmitted = 0, shadow_tests = 0, clamps = 0;
     for (int i = worker; i < count; i += workers) {
-        rays += counts[i].rays;
+        mirrored += counts[i].mirrored;
+        transmitted += counts[i].transmitted;
         shadow_tests += counts[i].shadow_tests;
         clamps += counts[i].clamps;
     }
-    sums[worker].rays = rays;
+    sums[worker].mirrored = mirrored;
+    sums[worker].transmitted = transmitted;
     sums[worker].shadow_tests = shadow_tests;
     sums[worker].clamps = clamps;
-    sums[worker].unused = 0;
 }
 
 #endif

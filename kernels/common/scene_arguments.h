@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How functions hand the tables on (structs hold no pointers), and the bounds of private arrays. */
+/* How functions hand the tables on (structs hold no pointers), the bounds of private arrays, and
+   what the scene needs at all. */
 #ifndef HD_SCENE_ARGUMENTS_H
 #define HD_SCENE_ARGUMENTS_H
 
@@ -14,11 +15,15 @@
 
 /* Constants where the kernels are built at run time, otherwise the scene's own numbers. */
 #ifdef HD_PLANE_BOUND
-#define PLANE_BOUND HD_PLANE_BOUND
-#define DEPTH_BOUND HD_DEPTH_BOUND
+#define PLANE_BOUND     HD_PLANE_BOUND
+#define DEPTH_BOUND     HD_DEPTH_BOUND
+#define REFRACTS        HD_REFRACTS
+#define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
 #else
-#define PLANE_BOUND (header->plane_count + 1)
-#define DEPTH_BOUND (view->depth + 1)
+#define PLANE_BOUND     (header->plane_count + 1)
+#define DEPTH_BOUND     (view->depth + 1)
+#define REFRACTS        (header->refracts)
+#define LIT_FROM_BEHIND (header->lit_from_behind)
 #endif
 
 #endif

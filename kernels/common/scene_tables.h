@@ -21,6 +21,9 @@ typedef struct ALIGNED_16 {
     int object_count;
     int plane_count;
     int light_count;
+    int refracts;        /* some index of refraction is not 1 */
+    int lit_from_behind; /* some material is */
+    int unused[2];
 } Header;
 
 /* A face's plane, n.x = distance, or one of the floor's: its own first, then four upright ones that
@@ -35,8 +38,6 @@ typedef struct ALIGNED_16 {
     real disc_depth; /* likewise for the radius of the edge lights' discs */
     real disc_radius_squared;
     real edge_half_length;
-    real disc_radiance[3];
-    real unused;
     int first_plane, plane_count;
     int first_edge, edge_count;
     int face_material, rim_material;
@@ -47,20 +48,25 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real middle[3], unused0;
     real direction[3], unused1; /* unit */
+    real disc_radiance[3], unused2;
 } Edge;
 
 typedef struct ALIGNED_16 {
     real colour[3], ambient;
     real mirror_tint[3], diffuse;
-    real specular, reflection, transmission, unused;
-    int shininess, unused_int[3];
+    real specular, reflection, transmission;
+    real inner_reflection, inner_transmission; /* for rays that meet it from inside the solid */
+    real index_of_refraction, inverse_index;
+    real unused;
+    int shininess, lit_from_behind, unused_int[2];
 } Material;
 
 typedef struct ALIGNED_16 {
     real intensity[3];
-    real inverse_falloff_squared; /* 1 / d0^2; 0: no falloff */
+    real inverse_falloff_squared; /* 1 over the square of the falloff's length; 0: no falloff */
     int own_plane[2];             /* the planes of the faces that hold an edge light; -1: none */
-    int unused_int[2];
+    int falloff_ends;             /* the length is the distance at which nothing is left */
+    int unused_int;
 } Light;
 
 /* On which side of an object's planes a light is, a bit for each plane from the object's first one
@@ -98,11 +104,11 @@ typedef struct ALIGNED_16 {
     typedef char hd_size_of_##type##_is_as_documented                                              \
         [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
-HD_ASSERT_SIZE(Header, 4, 4);
+HD_ASSERT_SIZE(Header, 4, 8);
 HD_ASSERT_SIZE(Plane, 4, 0);
-HD_ASSERT_SIZE(Object, 8, 8);
-HD_ASSERT_SIZE(Edge, 8, 0);
-HD_ASSERT_SIZE(Material, 12, 4);
+HD_ASSERT_SIZE(Object, 4, 8);
+HD_ASSERT_SIZE(Edge, 12, 0);
+HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
 HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 20, 4);
@@ -138,10 +144,11 @@ HD_ASSERT_SIZE(View, 12, 8);
 enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
 enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 
-/* What one work item counted. A ray is a closest-hit search of a live lane; a shadow test is a pair
-   of a lit point and a light it faces; a clamp is a contribution that was cut to 2^16. */
+/* What one work item counted beside its primary rays. A ray is a closest-hit search of a live lane;
+   a shadow test is a pair of a lit point and a light that may reach it; a clamp is a contribution
+   that was cut to 2^16. */
 typedef struct ALIGNED_16 {
-    uint64 rays, shadow_tests, clamps, unused;
+    uint64 mirrored, transmitted, shadow_tests, clamps;
 } RayCounts;
 
 /* The floor has its own plane and one for each of its sides. */

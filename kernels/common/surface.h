@@ -10,7 +10,10 @@
 /* A material for each lane. */
 typedef struct {
     Vec3 colour, mirror_tint;
-    vreal ambient, diffuse, specular, reflection, transmission;
+    vreal ambient, diffuse, specular;
+    vreal reflection, transmission; /* of the side that the ray meets */
+    vreal relative_index; /* of the side that the ray comes from, over that of the other side */
+    vmask lit_from_behind;
     vint shininess;
 } LaneMaterial;
 
@@ -27,11 +30,14 @@ FN LaneMaterial no_material(void) {
     none.colour = none.mirror_tint = vec3_zero();
     none.ambient = none.diffuse = none.specular = splat(R(0.0));
     none.reflection = none.transmission = splat(R(0.0));
+    none.relative_index = splat(R(1.0));
+    none.lit_from_behind = mask_none();
     none.shininess = splat_int(1);
     return none;
 }
 
-FN LaneMaterial splat_material(GLOBAL const Material *material) {
+/* `entering` tells the lanes that meet the outer side. */
+FN LaneMaterial splat_material(GLOBAL const Material *material, vmask entering) {
     LaneMaterial all;
     all.colour = vec3_splat(material->colour[0], material->colour[1], material->colour[2]);
     all.mirror_tint =
@@ -39,8 +45,12 @@ FN LaneMaterial splat_material(GLOBAL const Material *material) {
     all.ambient = splat(material->ambient);
     all.diffuse = splat(material->diffuse);
     all.specular = splat(material->specular);
-    all.reflection = splat(material->reflection);
-    all.transmission = splat(material->transmission);
+    all.reflection = pick(entering, splat(material->reflection), splat(material->inner_reflection));
+    all.transmission =
+        pick(entering, splat(material->transmission), splat(material->inner_transmission));
+    all.relative_index =
+        pick(entering, splat(material->inverse_index), splat(material->index_of_refraction));
+    all.lit_from_behind = material->lit_from_behind ? mask_all() : mask_none();
     all.shininess = splat_int(material->shininess);
     return all;
 }
@@ -54,6 +64,8 @@ FN LaneMaterial pick_material(vmask m, LaneMaterial a, LaneMaterial b) {
     picked.specular = pick(m, a.specular, b.specular);
     picked.reflection = pick(m, a.reflection, b.reflection);
     picked.transmission = pick(m, a.transmission, b.transmission);
+    picked.relative_index = pick(m, a.relative_index, b.relative_index);
+    picked.lit_from_behind = (m & a.lit_from_behind) | (~m & b.lit_from_behind);
     picked.shininess = pick_int(m, a.shininess, b.shininess);
     return picked;
 }
@@ -78,33 +90,35 @@ FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
     surface->material = pick_material(m, material, surface->material);
 }
 
-/* A disc shows its own radiance and nothing else. */
-FN void set_disc(Surface *surface, vmask m, GLOBAL const Object *solid) {
-    Vec3 radiance =
-        vec3_splat(solid->disc_radiance[0], solid->disc_radiance[1], solid->disc_radiance[2]);
-    surface->emission = vec3_pick(m, radiance, surface->emission);
-    set_material(surface, m, no_material());
-}
-
-/* Lanes whose point is within the radius of one of the solid's edge lights. */
-FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edges, Vec3 point) {
+/* Lanes whose point is within the radius of one of the edge's lights. */
+FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point) {
     real count = (real)solid->lights_per_edge;
     real spacing = R(2.0) * solid->edge_half_length / count;
-    vmask found = mask_none();
+    Vec3 direction = vec3_splat(edge->direction[0], edge->direction[1], edge->direction[2]);
+    Vec3 middle = vec3_splat(edge->middle[0], edge->middle[1], edge->middle[2]);
+    Vec3 offset = vec3_sub(point, middle);
+    vreal along = vec3_dot(offset, direction);
+    vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
+    cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
+    vreal light =
+        (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
+    Vec3 distance = vec3_scale_add(direction, -light, offset);
+    return lt(vec3_dot(distance, distance), splat(solid->disc_radius_squared));
+}
+
+/* A disc shows its own radiance and nothing else. */
+FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m,
+                   Surface *surface) {
+    vmask shown = mask_none();
     for (int e = solid->first_edge; e < solid->first_edge + solid->edge_count; e++) {
         GLOBAL const Edge *edge = edges + e;
-        Vec3 direction = vec3_splat(edge->direction[0], edge->direction[1], edge->direction[2]);
-        Vec3 middle = vec3_splat(edge->middle[0], edge->middle[1], edge->middle[2]);
-        Vec3 offset = vec3_sub(point, middle);
-        vreal along = vec3_dot(offset, direction);
-        vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
-        cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
-        vreal light =
-            (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);
-        Vec3 distance = vec3_scale_add(direction, -light, offset);
-        found = found | lt(vec3_dot(distance, distance), splat(solid->disc_radius_squared));
+        vmask disc = m & on_disc(solid, edge, surface->point);
+        Vec3 radiance =
+            vec3_splat(edge->disc_radiance[0], edge->disc_radiance[1], edge->disc_radiance[2]);
+        surface->emission = vec3_pick(disc, radiance, surface->emission);
+        shown = shown | disc;
     }
-    return found;
+    set_material(surface, shown, no_material());
 }
 
 FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
@@ -119,13 +133,13 @@ FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     }
     surface->normal = vec3_pick(
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
-    set_material(surface, m, splat_material(materials + solid->face_material));
+    set_material(surface, m, splat_material(materials + solid->face_material, hit->entering));
     vmask rim = m & lt(splat(-solid->rim_depth), distances.second);
     if (any_lane(rim))
-        set_material(surface, rim, splat_material(materials + solid->rim_material));
+        set_material(surface, rim, splat_material(materials + solid->rim_material, hit->entering));
     vmask near_edge = m & lt(splat(-solid->disc_depth), distances.second);
     if (any_lane(near_edge))
-        set_disc(surface, near_edge & on_disc(solid, edges, surface->point), solid);
+        show_discs(solid, edges, near_edge, surface);
 }
 
 FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
@@ -134,7 +148,7 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
     surface->normal = vec3_pick(
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
-    set_material(surface, m, splat_material(materials + floor->face_material));
+    set_material(surface, m, splat_material(materials + floor->face_material, hit->entering));
     if (floor_map->texture_width > 0) {
         vreal s, t;
         floor_coordinates(floor_map, surface->point, &s, &t);

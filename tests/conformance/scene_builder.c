@@ -24,7 +24,8 @@ HdMaterial build_material(HdVec3 colour, double reflection, double transmission)
                         .specular = 0.4,
                         .shininess = 48,
                         .reflection = reflection,
-                        .transmission = transmission};
+                        .transmission = transmission,
+                        .index_of_refraction = 1.0};
 }
 
 static HdMaterial rim_material(void) {
@@ -32,7 +33,8 @@ static HdMaterial rim_material(void) {
                         .mirror_tint = same(1.0),
                         .diffuse = 0.5,
                         .specular = 0.25,
-                        .shininess = 7};
+                        .shininess = 7,
+                        .index_of_refraction = 1.0};
 }
 
 void build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
@@ -62,10 +64,12 @@ void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
                                      .rim_width = 0.05 * radius,
                                      .rim = rim_material(),
                                      .lights = {.per_edge = lights_per_edge,
-                                                .intensity = same(2.0 / count),
-                                                .falloff_distance = radius,
+                                                .colour_count = 1,
+                                                .colours = {{1.0, 1.0, 1.0}},
+                                                .intensity = 2.0 / count,
+                                                .falloff = {.distance = radius},
                                                 .disc_radius = 0.025 * radius,
-                                                .disc_radiance = hd_vec3(3.0, 2.5, 2.0)}};
+                                                .disc_radiance = 3.0}};
 }
 
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity) {

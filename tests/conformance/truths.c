@@ -111,7 +111,7 @@ static double phong_radiance(const HdScene *scene, HdVec3 point, HdVec3 d) {
     double radiance = m->ambient * m->colour.x;
     for (int i = 0; i < scene->light_count; i++) {
         HdVec3 to_light = hd_sub(scene->lights[i].position, point);
-        double distance = hd_length(to_light), d0 = scene->lights[i].falloff_distance;
+        double distance = hd_length(to_light), d0 = scene->lights[i].falloff.distance;
         double f = d0 > 0.0 ? 1.0 / (1.0 + distance * distance / (d0 * d0)) : 1.0;
         HdVec3 l = hd_scale(to_light, 1.0 / distance);
         radiance += f * scene->lights[i].intensity.x *
@@ -133,7 +133,7 @@ static void check_phong(Check *check) {
     scene.floor.material.ambient = 0.1;
     build_light(&scene, 0, hd_vec3(1.0, 2.0, 2.0), hd_vec3(1.5, 1.5, 1.5));
     build_light(&scene, 1, hd_vec3(-2.0, 1.0, 0.5), hd_vec3(0.7, 0.7, 0.7));
-    scene.lights[1].falloff_distance = 1.5;
+    scene.lights[1].falloff.distance = 1.5;
     build_camera(&camera, hd_vec3(0.0, -4.0, 1.0), hd_vec3(0.0, 0.5, -1.0), 60.0);
     HdFrame frame = render(check, &scene, &camera);
     for (int y = 0; y < frame.height; y++)
@@ -280,7 +280,7 @@ static void check_own_lights(Check *check) {
         build_solid(&scene, 0, (HdSolidKind)kind, hd_vec3(0.3, 0.2, 0.1), 1.0,
                     hd_vec3(0.5, 0.5, 0.5), 3);
         scene.solids[0].face.ambient = 0.25;
-        scene.solids[0].lights.intensity = hd_vec3(1.0, 1.0, 1.0);
+        scene.solids[0].lights.intensity = 1.0;
         scene.solids[0].lights.disc_radius = scene.solids[0].rim_width = 0.0;
         build_camera(&camera, hd_vec3(2.1, -3.2, 1.3), hd_vec3(0.3, 0.2, 0.1), 40.0);
         HdFrame frame = render(check, &scene, &camera);
@@ -310,7 +310,7 @@ static void check_mirror_series(Check *check) {
         for (int y = 0; y < frame.height; y++)
             for (int x = 0; x < frame.width; x++)
                 expect(check, "mirror series", x, y, red(&frame, x, y), expected);
-        expect(check, "number of rays", 0, 0, (double)frame.rays, 24.0 * 16.0 * (depth + 1));
+        expect(check, "number of rays", 0, 0, (double)hd_frame_rays(&frame), 24.0 * 16.0 * (depth + 1));
         hd_frame_free(&frame);
         hd_scene_free(&scene);
     }

@@ -10,26 +10,29 @@ static const double tolerance = 1e-14;
 static HdScene example(void) {
     return (HdScene){
         .frame_count = 1024,
-        .eye = {.r0 = 7.0,
-                .z0 = 3.0,
-                .r_amplitude = 2.0,
-                .z_amplitude = 1.0,
-                .r_frequency = 2.0,
-                .z_frequency = 6.0,
-                .phi_frequency = 1.0},
-        .target = {.r0 = 2.0,
-                   .r_amplitude = 0.5,
-                   .z_amplitude = 0.1,
-                   .r_frequency = 1.0,
-                   .z_frequency = 4.0,
-                   .phi_frequency = 1.0},
+        .eye = {.cylinder = {.r0 = 7.0,
+                             .z0 = 3.0,
+                             .r_amplitude = 2.0,
+                             .z_amplitude = 1.0,
+                             .r_frequency = 2.0,
+                             .z_frequency = 6.0,
+                             .phi_frequency = 1.0}},
+        .target = {.cylinder = {.r0 = 2.0,
+                                .r_amplitude = 0.5,
+                                .z_amplitude = 0.1,
+                                .r_frequency = 1.0,
+                                .z_frequency = 4.0,
+                                .phi_frequency = 1.0}},
         .field_of_view_degrees = 120.0,
     };
 }
 
 /* Eye and target stand still. */
 static HdScene still(HdCylinderPath eye, HdCylinderPath target) {
-    return (HdScene){.frame_count = 1, .eye = eye, .target = target, .field_of_view_degrees = 90.0};
+    return (HdScene){.frame_count = 1,
+                     .eye = {.cylinder = eye},
+                     .target = {.cylinder = target},
+                     .field_of_view_degrees = 90.0};
 }
 
 static HdCamera camera_of(const HdScene *scene, int frame) {
@@ -48,34 +51,34 @@ static void expect_vector(HdVec3 actual, double x, double y, double z, double of
 
 static void test_known_positions(void **state) {
     (void)state;
-    const HdCylinderPath path = {.r0 = 5.0,
-                                 .z0 = 1.0,
-                                 .phi0 = 0.0,
-                                 .r_amplitude = 2.0,
-                                 .z_amplitude = 0.5,
-                                 .r_frequency = 1.0,
-                                 .z_frequency = 2.0,
-                                 .phi_frequency = 1.0};
-    expect_vector(hd_cylinder_point(&path, 0, 8), 5.0, 0.0, 1.0, tolerance);
-    expect_vector(hd_cylinder_point(&path, 2, 8), 0.0, 7.0, 1.0, tolerance);
-    expect_vector(hd_cylinder_point(&path, 4, 8), -5.0, 0.0, 1.0, tolerance);
-    expect_vector(hd_cylinder_point(&path, 6, 8), 0.0, -3.0, 1.0, tolerance);
+    const HdPath path = {.cylinder = {.r0 = 5.0,
+                                      .z0 = 1.0,
+                                      .phi0 = 0.0,
+                                      .r_amplitude = 2.0,
+                                      .z_amplitude = 0.5,
+                                      .r_frequency = 1.0,
+                                      .z_frequency = 2.0,
+                                      .phi_frequency = 1.0}};
+    expect_vector(hd_path_point(&path, 0, 8), 5.0, 0.0, 1.0, tolerance);
+    expect_vector(hd_path_point(&path, 2, 8), 0.0, 7.0, 1.0, tolerance);
+    expect_vector(hd_path_point(&path, 4, 8), -5.0, 0.0, 1.0, tolerance);
+    expect_vector(hd_path_point(&path, 6, 8), 0.0, -3.0, 1.0, tolerance);
     const double r = 5.0 + sqrt(2.0);
-    expect_vector(hd_cylinder_point(&path, 1, 8), r * sqrt(0.5), r * sqrt(0.5), 1.5, tolerance);
+    expect_vector(hd_path_point(&path, 1, 8), r * sqrt(0.5), r * sqrt(0.5), 1.5, tolerance);
 }
 
 static void test_phases_and_start(void **state) {
     (void)state;
     const double quarter = acos(0.0);
-    const HdCylinderPath path = {.r0 = 5.0,
-                                 .z0 = 1.0,
-                                 .phi0 = quarter,
-                                 .r_amplitude = 2.0,
-                                 .z_amplitude = 0.5,
-                                 .r_phase = quarter,
-                                 .z_phase = -quarter};
-    expect_vector(hd_cylinder_point(&path, 0, 3), 0.0, 7.0, 0.5, tolerance);
-    expect_vector(hd_cylinder_point(&path, 2, 3), 0.0, 7.0, 0.5, tolerance);
+    const HdPath path = {.cylinder = {.r0 = 5.0,
+                                      .z0 = 1.0,
+                                      .phi0 = quarter,
+                                      .r_amplitude = 2.0,
+                                      .z_amplitude = 0.5,
+                                      .r_phase = quarter,
+                                      .z_phase = -quarter}};
+    expect_vector(hd_path_point(&path, 0, 3), 0.0, 7.0, 0.5, tolerance);
+    expect_vector(hd_path_point(&path, 2, 3), 0.0, 7.0, 0.5, tolerance);
 }
 
 static void test_every_frame_follows_the_formula(void **state) {
@@ -84,7 +87,7 @@ static void test_every_frame_follows_the_formula(void **state) {
     for (int k = 0; k < 1024; k++) {
         const double t = 2.0 * acos(-1.0) * k / 1024.0;
         const double r = 7.0 + 2.0 * sin(2.0 * t);
-        expect_vector(hd_cylinder_point(&scene.eye, k, 1024), r * cos(t), r * sin(t),
+        expect_vector(hd_path_point(&scene.eye, k, 1024), r * cos(t), r * sin(t),
                       3.0 + sin(6.0 * t), 1e-13);
     }
 }
@@ -94,8 +97,8 @@ static void test_the_loop_closes(void **state) {
     const HdScene scene = example();
     const int counts[4] = {1, 7, 1024, 10000000};
     for (int i = 0; i < 4; i++) {
-        const HdVec3 first = hd_cylinder_point(&scene.eye, 0, counts[i]);
-        const HdVec3 last = hd_cylinder_point(&scene.eye, counts[i], counts[i]);
+        const HdVec3 first = hd_path_point(&scene.eye, 0, counts[i]);
+        const HdVec3 last = hd_path_point(&scene.eye, counts[i], counts[i]);
         expect_vector(last, first.x, first.y, first.z, tolerance);
     }
 }
@@ -116,7 +119,7 @@ static void test_the_basis_is_orthonormal_and_level(void **state) {
     const HdScene scene = example();
     for (int k = 0; k < 1024; k++) {
         const HdCamera camera = camera_of(&scene, k);
-        const HdVec3 target = hd_cylinder_point(&scene.target, k, 1024);
+        const HdVec3 target = hd_path_point(&scene.target, k, 1024);
         expect_orthonormal(&camera);
         expect_near(camera.right.z, 0.0, tolerance);
         assert_true(camera.up.z > 0.0);

@@ -28,8 +28,8 @@ static void test_official_camera_and_picture(void **state) {
     assert_int_equal(scene->width, 640);
     assert_int_equal(scene->height, 480);
     expect_near(scene->field_of_view_degrees, 120.0, 0.0);
-    expect_path(&scene->eye, eye);
-    expect_path(&scene->target, target);
+    expect_path(&scene->eye.cylinder, eye);
+    expect_path(&scene->target.cylinder, target);
     assert_int_equal(scene->depth, 10);
     assert_int_equal(scene->samples_per_side, 16);
     expect_near(scene->exposure, 1.0, 0.0);
@@ -89,7 +89,7 @@ static void test_official_floor_and_lights(void **state) {
     expect_vector(input.scene.lights[0].intensity, 1.0, 1.0, 1.0);
     expect_vector(input.scene.lights[1].position, 1.0, 0.0, 10.0);
     expect_vector(input.scene.lights[1].intensity, 0.0, 0.0, 1.0);
-    expect_near(input.scene.lights[1].falloff_distance, 0.0, 0.0);
+    expect_near(input.scene.lights[1].falloff.distance, 0.0, 0.0);
     hd_classic_free(&input);
 }
 
@@ -115,10 +115,12 @@ static void test_what_the_input_lacks(void **state) {
         expect_near(solid->rim.reflection, 0.0, 0.0);
         expect_near(solid->rim.transmission, 0.0, 0.0);
         /* Each of the three has 60 lights. */
-        expect_vector(solid->lights.intensity, 0.7 / 60, 0.7 / 60, 0.7 / 60);
-        expect_near(solid->lights.falloff_distance, r, 0.0);
+        expect_near(solid->lights.intensity, 0.7 / 60, 0.0);
+        assert_int_equal(solid->lights.colour_count, 1);
+        expect_vector(solid->lights.colours[0], 1.0, 1.0, 1.0);
+        expect_near(solid->lights.falloff.distance, r, 0.0);
         expect_near(solid->lights.disc_radius, 0.02 * r, 0.0);
-        expect_vector(solid->lights.disc_radiance, 4.0, 4.0, 4.0);
+        expect_near(solid->lights.disc_radiance, 4.0, 0.0);
     }
     const HdMaterial *floor = &input.scene.floor.material;
     expect_near(floor->diffuse, 0.5, 0.0);
@@ -134,7 +136,7 @@ static void test_no_light_and_no_edge_light(void **state) {
     (void)state;
     static HdClassicInput input;
     expect_token_accepted(&input, SOLID_1 + 9, "0");
-    expect_vector(input.scene.solids[0].lights.intensity, 0.0, 0.0, 0.0);
+    expect_near(input.scene.solids[0].lights.intensity, 0.0, 0.0);
     hd_classic_free(&input);
 
     const Tokens tokens = official_tokens();
@@ -195,7 +197,7 @@ static void test_variants(void **state) {
             const HdSolid *solid = &input.scene.solids[i];
             assert_int_equal(kinds[i], kind);
             assert_int_equal(solid->kind, kind);
-            expect_near(solid->lights.intensity.x, 0.7 / (edges[kind] * per_edge[i]), 0.0);
+            expect_near(solid->lights.intensity, 0.7 / (edges[kind] * per_edge[i]), 0.0);
         }
         hd_classic_free(&input);
     }
@@ -235,8 +237,10 @@ static void expect_same(const HdClassicInput *a, const HdClassicInput *b) {
     assert_int_equal(a->scene.width, b->scene.width);
     assert_int_equal(a->scene.height, b->scene.height);
     expect_near(a->scene.field_of_view_degrees, b->scene.field_of_view_degrees, 0.0);
-    assert_memory_equal(&a->scene.eye, &b->scene.eye, sizeof a->scene.eye);
-    assert_memory_equal(&a->scene.target, &b->scene.target, sizeof a->scene.target);
+    assert_memory_equal(&a->scene.eye.cylinder, &b->scene.eye.cylinder,
+                        sizeof a->scene.eye.cylinder);
+    assert_memory_equal(&a->scene.target.cylinder, &b->scene.target.cylinder,
+                        sizeof a->scene.target.cylinder);
     for (int i = 0; i < 3; i++)
         expect_same_solid(&a->scene.solids[i], &b->scene.solids[i]);
     assert_memory_equal(a->scene.floor.corners, b->scene.floor.corners,
@@ -266,7 +270,7 @@ static void test_round_trip(void **state) {
     expect_parsed(&input, official, 4);
     expect_round_trip(&input);
     /* Numbers that need all their digits. */
-    input.scene.eye =
+    input.scene.eye.cylinder =
         (HdCylinderPath){1.0 / 3.0, 0.1 + 0.2, -2.0 / 7.0, 1e-300, 123456789.123456789,
                          4.9e-324,  1e11 / 3,  -0.0,       1e-7,   -1.0};
     input.scene.solids[1].centre = hd_vec3(0.1, -1e-17, 1e11 + 0.1);
@@ -279,7 +283,7 @@ static void test_printed_text_is_short_and_in_lines(void **state) {
     (void)state;
     static HdClassicInput input;
     expect_parsed(&input, official, 4);
-    input.scene.eye.z_phase = 0.1 + 0.2;
+    input.scene.eye.cylinder.z_phase = 0.1 + 0.2;
     char *text = printed(&input);
     expect_contains(text, "1024\nout/img_%d.data\n640 480 120\n");
     expect_contains(text, "7 3 0   2 1   2 6 1   0 0.30000000000000004\n");

@@ -18,7 +18,8 @@ static HdMaterial good_material(void) {
                         .specular = 0.3,
                         .shininess = 64,
                         .reflection = 0.7,
-                        .transmission = 0.3};
+                        .transmission = 0.3,
+                        .index_of_refraction = 1.0};
 }
 
 static HdMaterial opaque_material(void) {
@@ -35,10 +36,12 @@ static HdSolid good_solid(HdSolidKind kind) {
                      .rim_width = 0.08,
                      .rim = opaque_material(),
                      .lights = {.per_edge = 3,
-                                .intensity = {0.1, 0.1, 0.1},
-                                .falloff_distance = 2.0,
+                                .colour_count = 1,
+                                .colours = {{1.0, 0.5, 0.25}},
+                                .intensity = 0.1,
+                                .falloff = {.distance = 2.0},
                                 .disc_radius = 0.04,
-                                .disc_radiance = {4.0, 4.0, 4.0}}};
+                                .disc_radiance = 4.0}};
 }
 
 static void make(Fixture *f) {
@@ -47,8 +50,8 @@ static void make(Fixture *f) {
                               {.position = {1.0, 0.0, 9.0}, .intensity = {2.0, 0.0, 0.0}}}};
     f->scene = (HdScene){
         .frame_count = 100,
-        .eye = {.r0 = 7.0},
-        .target = {.r0 = 1.0},
+        .eye = {.cylinder = {.r0 = 7.0}},
+        .target = {.cylinder = {.r0 = 1.0}},
         .field_of_view_degrees = 90.0,
         .width = 640,
         .height = 480,
@@ -144,16 +147,16 @@ static void test_view_cutoff_exposure_background(void **state) {
 
 static void test_paths(void **state) {
     (void)state;
-    REJECTED(f.scene.eye.r0 = not_a_number, "eye: r0 is nan");
-    REJECTED(f.scene.eye.z0 = infinite, "eye: z0 is inf");
-    REJECTED(f.scene.eye.phi0 = -infinite, "eye: phi0 is -inf");
-    REJECTED(f.scene.eye.r_amplitude = 1e13, "eye: r amplitude is 10000000000000");
-    REJECTED(f.scene.eye.z_amplitude = infinite, "eye: z amplitude is inf");
-    REJECTED(f.scene.target.r_frequency = infinite, "target: r frequency is inf");
-    REJECTED(f.scene.target.z_frequency = infinite, "target: z frequency is inf");
-    REJECTED(f.scene.target.phi_frequency = infinite, "target: phi frequency is inf");
-    REJECTED(f.scene.target.r_phase = infinite, "target: r phase is inf");
-    REJECTED(f.scene.target.z_phase = infinite, "target: z phase is inf");
+    REJECTED(f.scene.eye.cylinder.r0 = not_a_number, "eye: r0 is nan");
+    REJECTED(f.scene.eye.cylinder.z0 = infinite, "eye: z0 is inf");
+    REJECTED(f.scene.eye.cylinder.phi0 = -infinite, "eye: phi0 is -inf");
+    REJECTED(f.scene.eye.cylinder.r_amplitude = 1e13, "eye: r amplitude is 10000000000000");
+    REJECTED(f.scene.eye.cylinder.z_amplitude = infinite, "eye: z amplitude is inf");
+    REJECTED(f.scene.target.cylinder.r_frequency = infinite, "target: r frequency is inf");
+    REJECTED(f.scene.target.cylinder.z_frequency = infinite, "target: z frequency is inf");
+    REJECTED(f.scene.target.cylinder.phi_frequency = infinite, "target: phi frequency is inf");
+    REJECTED(f.scene.target.cylinder.r_phase = infinite, "target: r phase is inf");
+    REJECTED(f.scene.target.cylinder.z_phase = infinite, "target: z phase is inf");
 }
 
 static void test_materials(void **state) {
@@ -223,13 +226,13 @@ static void test_rim(void **state) {
 static void test_edge_lights(void **state) {
     (void)state;
     REJECTED(f.solids[0].lights.per_edge = -1, "solid 1: number of lights per edge is -1");
-    REJECTED(f.solids[0].lights.intensity.x = -1.0, "solid 1: edge lights' intensity's red is -1");
-    REJECTED(f.solids[0].lights.falloff_distance = -1.0, "solid 1: falloff distance is -1");
-    ACCEPTED(f.solids[0].lights.falloff_distance = 0.0);
-    REJECTED(f.solids[0].lights.falloff_distance = not_a_number, "falloff distance is nan");
+    REJECTED(f.solids[0].lights.intensity = -1.0, "solid 1: edge lights' intensity is -1");
+    REJECTED(f.solids[0].lights.falloff.distance = -1.0, "solid 1: falloff distance is -1");
+    ACCEPTED(f.solids[0].lights.falloff.distance = 0.0);
+    REJECTED(f.solids[0].lights.falloff.distance = not_a_number, "falloff distance is nan");
     REJECTED(f.solids[0].lights.disc_radius = -0.1, "solid 1: edge lights' disc radius is -0.1");
-    REJECTED(f.solids[0].lights.disc_radiance.z = not_a_number,
-             "solid 1: edge lights' disc radiance's blue is nan");
+    REJECTED(f.solids[0].lights.disc_radiance = not_a_number,
+             "solid 1: edge lights' disc radiance is nan");
 }
 
 static void test_lights(void **state) {
@@ -238,7 +241,7 @@ static void test_lights(void **state) {
     REJECTED(f.scene.light_count = 100001, "number of lights is 100001");
     REJECTED(f.lights[1].position.x = infinite, "light 2: position x is inf");
     REJECTED(f.lights[1].intensity.y = -1.0, "light 2: intensity's green is -1");
-    REJECTED(f.lights[0].falloff_distance = -1.0, "light 1: falloff distance is -1");
+    REJECTED(f.lights[0].falloff.distance = -1.0, "light 1: falloff distance is -1");
 }
 
 static void test_all_lights_together(void **state) {

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* What the ending of an output's name means; nothing else decides it. */
+#ifndef HD_OUTPUT_KIND_H
+#define HD_OUTPUT_KIND_H
+
+#include <stdbool.h>
+
+typedef enum HdOutputKind {
+    HD_OUTPUT_UNKNOWN,
+    HD_OUTPUT_DATA, /* .data: 8 bits, RGBA */
+    HD_OUTPUT_PNG,  /* .png: 8 or 16 bits, RGB */
+    HD_OUTPUT_PFM,  /* .pfm: float, linear */
+    HD_OUTPUT_MP4,  /* .mp4: H.264, 4:2:0 */
+    HD_OUTPUT_MKV,  /* .mkv: FFV1, lossless RGB */
+    HD_OUTPUT_GIF   /* .gif: 256 colours, repeats for ever */
+} HdOutputKind;
+
+/* By the ending, in upper or lower case. */
+HdOutputKind hd_output_kind(const char *path);
+
+bool hd_output_is_film(HdOutputKind kind);
+
+/* "film.mp4, film.mkv, ..." for messages and help. */
+const char *hd_output_endings(void);
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+#include "problems.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void hd_problem(HdProblems *problems, const char *format, ...) {
+    char line[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    problems->count++;
+    const size_t room = sizeof problems->text - problems->used;
+    if (strlen(line) + 2 > room)
+        return;
+    problems->used += (size_t)snprintf(problems->text + problems->used, room, "%s\n", line);
+}
+
+static void append_line(char *whole, size_t size, const char *line, size_t length) {
+    const size_t used = strlen(whole);
+    snprintf(whole + used, size - used, "\n  %.*s", (int)length, line);
+}
+
+HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdError *error) {
+    char whole[sizeof error->message];
+    int listed = 0;
+    if (problems->count == 0)
+        return HD_OK;
+    if (problems->count == 1)
+        return hd_fail(error, HD_BAD_INPUT, "%s: %.*s", name, (int)strcspn(problems->text, "\n"),
+                       problems->text);
+    snprintf(whole, sizeof whole, "%s: %d problems", name, problems->count);
+    for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1) {
+        append_line(whole, sizeof whole, line, strcspn(line, "\n"));
+        listed++;
+    }
+    if (listed < problems->count)
+        append_line(whole, sizeof whole, "and more of them", strlen("and more of them"));
+    return hd_fail(error, HD_BAD_INPUT, "%s", whole);
+}

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes as JSON (docs/formats.md). One table of fields (scene_fields.h) drives the reader, the
+   writer and the JSON Schema. */
+#ifndef HD_SCENE_FILE_H
+#define HD_SCENE_FILE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "curve.h"
+#include "image.h"
+#include "paths.h"
+#include "scene.h"
+
+enum { HD_MAX_SCENE_BYTES = 64 << 20, HD_MAX_FRAMES_PER_SECOND = 240 };
+
+/* What becomes of the frames. */
+typedef struct HdOutputSettings {
+    char path[HD_MAX_PATH]; /* empty: not said */
+    int frames_per_second;  /* of a film */
+    HdPictureStyle style;
+} HdOutputSettings;
+
+typedef struct HdSceneFile {
+    HdScene scene; /* the floor's texture is loaded by hd_scene_file_load_texture */
+    HdOutputSettings output;
+    char texture_path[HD_MAX_PATH]; /* empty: none; ready to open, "~" aside */
+    HdCurve texture_curve;
+} HdSceneFile;
+
+/* One "--set" of the command line, "camera.field_of_view=40": the value is JSON, or, where it is
+   not, a string. */
+typedef const char *HdSceneChange;
+
+/* Reads a scene from `size` bytes of JSON, the changes applied before anything is checked, fills in
+   every default, and checks all of it. Messages begin with `name` and tell every problem: with line
+   and column where the text is not JSON or repeats a key, otherwise with the JSON path, as
+   "solids[1].circumradius is -1, expected ...". A relative path of a texture counts from `folder`
+   ("" is the current one). On failure `file` is left empty. */
+HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, const char *name,
+                             const char *folder, const HdSceneChange *changes, int change_count,
+                             HdError *error);
+
+/* The same from a file of at most HD_MAX_SCENE_BYTES; textures count from the file's folder. */
+HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneChange *changes,
+                            int change_count, HdError *error);
+
+/* Reads the texture that the scene names, if any: the embedded "builtin:floor", or a file. */
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
+
+/* Writes a scene as JSON that reads back as the same scene, number for number. */
+HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error);
+
+/* Writes the JSON Schema (draft 2020-12) of the format. */
+HdStatus hd_scene_schema_print(FILE *out, HdError *error);
+
+void hd_scene_file_free(HdSceneFile *file);
+
+#endif
