@@ -10,7 +10,7 @@
 
 #include "image.h"
 
-enum { HD_MAX_TEXTURE_SIDE = 65535, HD_MAX_TEXTURE_PIXELS = 1 << 28 };
+enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 
 /* Checks the size against the limits above and allocates the texels. */
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,

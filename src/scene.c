@@ -12,17 +12,6 @@
 _Static_assert(2 * HD_MAX_IMAGE_SIDE * HD_MAX_SAMPLES_PER_SIDE < 1 << 24,
                "every half sample of the largest picture is an exact float");
 
-/* The kernels work in float. Within these limits no product of a distance, a coefficient, an
-   intensity and the exposure leaves its range, so neither infinity nor NaN can come up. */
-static const double smallest_length = 1e-12;
-static const double largest_number = 1e12;
-static const double largest_coefficient = 1e6;
-static const double largest_exposure = 1e6;
-static const double largest_field_of_view = 179.0;
-
-static const int largest_frame_count = 10000000;
-static const int largest_texture_side = 65535;
-
 /* What a sum such as 0.7 + 0.3 may exceed 1 by. */
 static const double sum_tolerance = 1e-9;
 
@@ -71,21 +60,21 @@ static void check_vector(Checker *checker, const char *what, HdVec3 value,
 }
 
 static void check_number(Checker *checker, const char *what, double value) {
-    check_range(checker, what, value, -largest_number, largest_number);
+    check_range(checker, what, value, -HD_MAX_NUMBER, HD_MAX_NUMBER);
 }
 
 static void check_position(Checker *checker, const char *what, HdVec3 value) {
-    check_vector(checker, what, value, axes, -largest_number, largest_number);
+    check_vector(checker, what, value, axes, -HD_MAX_NUMBER, HD_MAX_NUMBER);
 }
 
 static void check_light(Checker *checker, const char *what, HdVec3 value) {
-    check_vector(checker, what, value, channels, 0.0, largest_number);
+    check_vector(checker, what, value, channels, 0.0, HD_MAX_NUMBER);
 }
 
 /* "No falloff" is 0 itself: a distance that only a double can tell from 0 would become it. */
 static void check_falloff(Checker *checker, double distance) {
     if (distance != 0.0)
-        check_range(checker, "falloff distance", distance, smallest_length, largest_number);
+        check_range(checker, "falloff distance", distance, HD_MIN_LENGTH, HD_MAX_NUMBER);
 }
 
 static void check_path(Checker *checker, const char *name, const HdCylinderPath *path) {
@@ -104,17 +93,17 @@ static void check_path(Checker *checker, const char *name, const HdCylinderPath 
 }
 
 static void check_picture(Checker *checker, const HdScene *scene) {
-    check_int(checker, "frame count", scene->frame_count, 1, largest_frame_count);
+    check_int(checker, "frame count", scene->frame_count, 1, HD_MAX_FRAMES);
     check_int(checker, "width", scene->width, 1, HD_MAX_IMAGE_SIDE);
     check_int(checker, "height", scene->height, 1, HD_MAX_IMAGE_SIDE);
     check_int(checker, "samples per side", scene->samples_per_side, 1, HD_MAX_SAMPLES_PER_SIDE);
     check_int(checker, "depth", scene->depth, 0, HD_MAX_DEPTH);
     const double view = scene->field_of_view_degrees;
-    if (checker->status == HD_OK && !(view > 0.0 && view <= largest_field_of_view))
+    if (checker->status == HD_OK && !(view > 0.0 && view <= HD_MAX_FIELD_OF_VIEW))
         fail_value(checker, "field of view", "", view, "more than 0 and at most 179 degrees");
     if (checker->status == HD_OK && !(scene->cutoff >= 0.0 && scene->cutoff < 1.0))
         fail_value(checker, "cutoff", "", scene->cutoff, "at least 0 and less than 1");
-    if (checker->status == HD_OK && !(scene->exposure > 0.0 && scene->exposure <= largest_exposure))
+    if (checker->status == HD_OK && !(scene->exposure > 0.0 && scene->exposure <= HD_MAX_EXPOSURE))
         fail_value(checker, "exposure", "", scene->exposure, "more than 0 and at most 1000000");
     check_light(checker, "background", scene->background);
 }
@@ -127,9 +116,9 @@ static void check_material(Checker *checker, const char *part, const HdMaterial 
     snprintf(checker->where + length, sizeof checker->where - length, "%s", part);
     check_vector(checker, "colour", material->colour, channels, 0.0, 1.0);
     check_vector(checker, "mirror tint", material->mirror_tint, channels, 0.0, 1.0);
-    check_range(checker, "ambient", material->ambient, 0.0, largest_coefficient);
-    check_range(checker, "diffuse", material->diffuse, 0.0, largest_coefficient);
-    check_range(checker, "specular", material->specular, 0.0, largest_coefficient);
+    check_range(checker, "ambient", material->ambient, 0.0, HD_MAX_COEFFICIENT);
+    check_range(checker, "diffuse", material->diffuse, 0.0, HD_MAX_COEFFICIENT);
+    check_range(checker, "specular", material->specular, 0.0, HD_MAX_COEFFICIENT);
     check_int(checker, "shininess", material->shininess, 1, HD_MAX_SHININESS);
     check_range(checker, "reflection", material->reflection, 0.0, 1.0);
     check_range(checker, "transmission", material->transmission, 0.0, 1.0);
@@ -162,10 +151,10 @@ static void check_rim(Checker *checker, const HdSolid *solid, const HdPlatonic *
 
 static void check_edge_lights(Checker *checker, const HdEdgeLights *lights) {
     check_int(checker, "number of lights per edge", lights->per_edge, 0, HD_MAX_LIGHTS);
-    check_range(checker, "edge lights' intensity", lights->intensity, 0.0, largest_number);
+    check_range(checker, "edge lights' intensity", lights->intensity, 0.0, HD_MAX_NUMBER);
     check_falloff(checker, lights->falloff.distance);
-    check_range(checker, "edge lights' disc radius", lights->disc_radius, 0.0, largest_number);
-    check_range(checker, "edge lights' disc radiance", lights->disc_radiance, 0.0, largest_number);
+    check_range(checker, "edge lights' disc radius", lights->disc_radius, 0.0, HD_MAX_NUMBER);
+    check_range(checker, "edge lights' disc radiance", lights->disc_radiance, 0.0, HD_MAX_NUMBER);
 }
 
 /* Returns the number of its edge lights. */
@@ -177,7 +166,7 @@ static int64_t check_solid(Checker *checker, const HdSolid *solid, int number) {
         return 0;
     hd_platonic(solid->kind, &platonic);
     check_position(checker, "centre", solid->centre);
-    check_range(checker, "radius", solid->circumradius, smallest_length, largest_number);
+    check_range(checker, "radius", solid->circumradius, HD_MIN_LENGTH, HD_MAX_NUMBER);
     check_material(checker, "", &solid->face);
     check_rim(checker, solid, &platonic);
     check_edge_lights(checker, &solid->lights);
@@ -217,7 +206,7 @@ static void check_floor_shape(Checker *checker, const HdVec3 corner[4]) {
     const double size = fmax(hd_length(first), hd_length(second));
     const HdVec3 normal = hd_cross(first, second);
     const double area = hd_length(normal);
-    if (!(size >= smallest_length && area > sharpness * size * size)) {
+    if (!(size >= HD_MIN_LENGTH && area > sharpness * size * size)) {
         checker->status = hd_fail(checker->error, HD_BAD_INPUT,
                                   "floor: its corners enclose no area or its sides cross, expected "
                                   "the corners of a convex quadrilateral in their order around it");
@@ -253,8 +242,8 @@ static void check_floor(Checker *checker, const HdFloor *floor) {
         check_position(checker, names[i], floor->corners[i]);
     check_material(checker, "", &floor->material);
     if (floor->texture.width != 0) {
-        check_int(checker, "texture width", floor->texture.width, 1, largest_texture_side);
-        check_int(checker, "texture height", floor->texture.height, 1, largest_texture_side);
+        check_int(checker, "texture width", floor->texture.width, 1, HD_MAX_TEXTURE_SIDE);
+        check_int(checker, "texture height", floor->texture.height, 1, HD_MAX_TEXTURE_SIDE);
     }
     if (checker->status == HD_OK)
         check_floor_shape(checker, floor->corners);

@@ -9,18 +9,8 @@
 #include "error.h"
 #include "platonic.h"
 #include "problems.h"
+#include "scene_limits.h"
 #include "vec3.h"
-
-enum {
-    HD_MAX_SOLIDS = 256,
-    HD_MAX_LIGHTS = 100000, /* point lights and edge lights together */
-    HD_MAX_DEPTH = 1000,
-    HD_MAX_SAMPLES_PER_SIDE = 64,
-    HD_MAX_IMAGE_SIDE = 65535,
-    HD_MAX_SHININESS = 65536,
-    HD_MAX_FRAMES = 10000000,
-    HD_MAX_EDGE_COLOURS = 30 /* the edges of a dodecahedron */
-};
 
 /* Phong's terms and the two rays that go on. On each side reflection + transmission <= 1. */
 typedef struct HdMaterial {

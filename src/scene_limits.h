@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* What the values of a scene may be at most and at least. The kernels work in float. Within these
+   limits no product of a distance, a coefficient, an intensity and the exposure leaves its range,
+   so neither infinity nor NaN can come up. */
+#ifndef HD_SCENE_LIMITS_H
+#define HD_SCENE_LIMITS_H
+
+enum {
+    HD_MAX_SOLIDS = 256,
+    HD_MAX_LIGHTS = 100000, /* point lights and edge lights together */
+    HD_MAX_DEPTH = 1000,
+    HD_MAX_SAMPLES_PER_SIDE = 64,
+    HD_MAX_IMAGE_SIDE = 65535,
+    HD_MAX_TEXTURE_SIDE = 65535,
+    HD_MAX_SHININESS = 65536,
+    HD_MAX_FRAMES = 10000000,
+    HD_MAX_EDGE_COLOURS = 30 /* the edges of a dodecahedron */
+};
+
+#define HD_MIN_LENGTH              1e-12
+#define HD_MAX_NUMBER              1e12 /* coordinates, lengths, light */
+#define HD_MAX_COEFFICIENT         1e6
+#define HD_MAX_EXPOSURE            1e6
+#define HD_MAX_FIELD_OF_VIEW       179.0 /* degrees */
+#define HD_MAX_ROTATION            1e6   /* degrees, either way */
+#define HD_MIN_INDEX_OF_REFRACTION 0.1
+#define HD_MAX_INDEX_OF_REFRACTION 10.0
+
+#endif
