@@ -67,7 +67,7 @@ static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
         return status;
     status = hd_apply_scene_options(&input.scene, options, error);
     if (status == HD_OK)
-        status = hd_load_floor_texture(&input.scene, input.texture_path, error);
+        status = hd_load_floor_texture(&input.scene, input.texture_path, HD_CURVE_LINEAR, error);
     if (status == HD_OK)
         status = render_input(options, &input, error);
     hd_classic_free(&input);

@@ -22,7 +22,7 @@ HdStatus hd_command_render(const HdOptions *options, HdError *error) {
         return status;
     status = hd_apply_scene_options(&input.scene, options, error);
     if (status == HD_OK)
-        status = hd_load_floor_texture(&input.scene, input.texture_path, error);
+        status = hd_load_floor_texture(&input.scene, input.texture_path, HD_CURVE_LINEAR, error);
     if (status == HD_OK)
         status = render_frames(options, &input.scene, error);
     hd_classic_free(&input);

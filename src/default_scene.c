@@ -15,7 +15,8 @@ HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
                             "the built-in scene", HD_CLASSIC_DEFAULT_VARIANT, error);
 }
 
-HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdError *error) {
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {
+    (void)curve; /* the decoders know none yet */
     char expanded[HD_MAX_PATH];
     if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
         return hd_texture_decode(&scene->floor.texture, hd_default_texture, hd_default_texture_size,

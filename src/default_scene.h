@@ -4,6 +4,7 @@
 #define HD_DEFAULT_SCENE_H
 
 #include "classic_input.h"
+#include "curve.h"
 
 /* The texture path that stands for the embedded texture. */
 #define HD_BUILTIN_TEXTURE "builtin:floor"
@@ -11,7 +12,8 @@
 /* The most colourful configuration, without its texture. */
 HdStatus hd_default_input(HdClassicInput *input, HdError *error);
 
-/* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder). */
-HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdError *error);
+/* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder),
+   whose numbers are on `curve`. */
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error);
 
 #endif

@@ -145,8 +145,8 @@ static void find_edges(HdPlatonic *solid) {
 }
 
 const char *hd_solid_name(HdSolidKind kind) {
-    static const char *const names[HD_SOLID_KIND_COUNT] = {
-        "tetrahedron", "hexahedron", "octahedron", "dodecahedron", "icosahedron"};
+    static const char *const names[HD_SOLID_KIND_COUNT] = {"tetrahedron", "cube", "octahedron",
+                                                           "dodecahedron", "icosahedron"};
     return (unsigned)kind < HD_SOLID_KIND_COUNT ? names[kind] : "unknown solid";
 }
 

@@ -170,7 +170,7 @@ static void test_the_same_every_time(void **state) {
 static void test_names(void **state) {
     (void)state;
     assert_string_equal(hd_solid_name(HD_TETRAHEDRON), "tetrahedron");
-    assert_string_equal(hd_solid_name(HD_HEXAHEDRON), "hexahedron");
+    assert_string_equal(hd_solid_name(HD_HEXAHEDRON), "cube");
     assert_string_equal(hd_solid_name(HD_OCTAHEDRON), "octahedron");
     assert_string_equal(hd_solid_name(HD_DODECAHEDRON), "dodecahedron");
     assert_string_equal(hd_solid_name(HD_ICOSAHEDRON), "icosahedron");

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene_changes.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json_words.h"
+#include "scene_fields.h"
+
+/* One step of a path: a key, or, where that is empty, an index. */
+typedef struct Step {
+    char key[HD_MAX_PATH];
+    size_t index;
+} Step;
+
+typedef struct Walk {
+    HdSceneChange change;
+    const char *at;  /* what is left of the path */
+    const char *end; /* the sign = */
+    HdProblems *problems;
+} Walk;
+
+void hd_scene_change_name(HdSceneChange change, char out[256]) {
+    char quoted[HD_WORDS_SIZE];
+    hd_quoted(change, quoted);
+    const int inner = (int)strlen(quoted) - 2;
+    snprintf(out, 256, "%s %.*s: ", HD_CHANGE_OPTION, inner, quoted + 1);
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+complain(const Walk *walk, const char *format, ...) {
+    char name[256], text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    hd_scene_change_name(walk->change, name);
+    hd_problem(walk->problems, "%s%s", name, text);
+}
+
+static bool read_index(Walk *walk, Step *step) {
+    const char *digits = walk->at + 1;
+    const size_t count = strspn(digits, "0123456789");
+    const bool has_zero_in_front = count > 1 && digits[0] == '0';
+    if (count == 0 || count > 9 || has_zero_in_front || digits[count] != ']')
+        return false;
+    step->key[0] = '\0';
+    step->index = strtoul(digits, NULL, 10);
+    walk->at = digits + count + 1;
+    return true;
+}
+
+static bool read_key(Walk *walk, Step *step) {
+    const size_t length = strcspn(walk->at, ".[=");
+    if (length == 0 || length >= sizeof step->key)
+        return false;
+    memcpy(step->key, walk->at, length);
+    step->key[length] = '\0';
+    walk->at += length;
+    return true;
+}
+
+/* The next step, which begins the path or follows a dot, or is an index. */
+static bool read_step(Walk *walk, Step *step) {
+    const bool is_first = walk->at == walk->change;
+    bool is_read = false;
+    if (!is_first && *walk->at == '[')
+        is_read = read_index(walk, step);
+    else if (is_first || *walk->at == '.') {
+        walk->at += !is_first;
+        is_read = read_key(walk, step);
+    }
+    if (!is_read || walk->at > walk->end) {
+        complain(walk, "the path is not understood, expected one such as camera.field_of_view or "
+                       "solids[0].circumradius");
+        return false;
+    }
+    return true;
+}
+
+static bool may_be_made(const Step *step, bool is_first) {
+    const HdField *field = is_first ? hd_field(&hd_scene_fields, step->key) : NULL;
+    return field != NULL && field->type == HD_FIELD_OBJECT && field->is_given == NULL;
+}
+
+/* Complains unless `parent`, which the first `length` bytes name, can hold the step: an object for
+   a key, an array for an index of it. */
+static bool check_parent(const Walk *walk, const json_t *parent, const Step *step, int length) {
+    static const char root[] = "the scene";
+    char words[HD_WORDS_SIZE], expected[64] = "an object";
+    const bool is_index = step->key[0] == '\0';
+    if (is_index ? step->index < json_array_size(parent) : json_is_object(parent))
+        return true;
+    if (is_index)
+        snprintf(expected, sizeof expected, "an array with an element %zu", step->index);
+    hd_json_words(parent, words);
+    complain(walk, "%.*s is %s, expected %s", length > 0 ? length : (int)sizeof root,
+             length > 0 ? walk->change : root, words, expected);
+    return false;
+}
+
+static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, bool is_first) {
+    if (step->key[0] == '\0')
+        return json_array_get(parent, step->index);
+    json_t *child = json_object_get(parent, step->key);
+    if (child == NULL && may_be_made(step, is_first)) {
+        json_object_set_new(parent, step->key, json_object());
+        child = json_object_get(parent, step->key);
+    }
+    if (child == NULL)
+        complain(walk, "%.*s is missing, expected it in the scene", (int)(walk->at - walk->change),
+                 walk->change);
+    return child;
+}
+
+/* The value, a string where it is no JSON; NULL where it is no UTF-8 either. */
+static json_t *read_value(const char *text) {
+    json_error_t ignored;
+    const size_t flags = JSON_DECODE_ANY | JSON_REJECT_DUPLICATES;
+    json_t *value = json_loadb(text, strlen(text), flags, &ignored);
+    return value != NULL ? value : json_string(text);
+}
+
+static void put(const Walk *walk, json_t *parent, const Step *step) {
+    json_t *value = read_value(walk->end + 1);
+    if (value == NULL) {
+        complain(walk, "the value is not UTF-8, expected JSON or text");
+        return;
+    }
+    const int failed = step->key[0] == '\0' ? json_array_set_new(parent, step->index, value)
+                                            : json_object_set_new(parent, step->key, value);
+    if (failed)
+        complain(walk, "%.*s cannot be changed, expected a key in UTF-8 and enough memory",
+                 (int)(walk->end - walk->change), walk->change);
+}
+
+void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems) {
+    Walk walk = {.change = change, .at = change, .end = strchr(change, '='), .problems = problems};
+    Step step;
+    if (walk.end == NULL) {
+        complain(&walk, "there is no sign =, expected PATH=VALUE");
+        return;
+    }
+    for (json_t *parent = root; parent != NULL;) {
+        const int length = (int)(walk.at - walk.change);
+        if (!read_step(&walk, &step) || !check_parent(&walk, parent, &step, length))
+            return;
+        if (walk.at == walk.end) {
+            put(&walk, parent, &step);
+            return;
+        }
+        parent = find_child(&walk, parent, &step, length == 0);
+    }
+}
+
+bool hd_scene_change_made(HdSceneChange change, const char *path) {
+    const size_t length = strcspn(change, "=");
+    if (length == 0 || strncmp(change, path, length) != 0)
+        return false;
+    const char after = path[length];
+    return after == '\0' || after == '.' || after == '[';
+}

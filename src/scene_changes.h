@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* Changes that a command line makes to a scene file: "solids[1].circumradius=2". */
+#ifndef HD_SCENE_CHANGES_H
+#define HD_SCENE_CHANGES_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "scene_file.h"
+
+/* What messages call a change. */
+#define HD_CHANGE_OPTION "--set"
+
+/* Puts the value in its place in the tree. The object or array that holds it must be there, but for
+   the objects at the top that may be left out ("image"); an element of an array must be there
+   itself. Whether the scene knows such a key is checked later, with the rest of the file. */
+void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems);
+
+/* Whether the value at `path` comes from the change. */
+bool hd_scene_change_made(HdSceneChange change, const char *path);
+
+/* How messages begin that are about a change: "--set image.width=0: ". */
+void hd_scene_change_name(HdSceneChange change, char out[256]);
+
+#endif

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "scene_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "default_scene.h"
+#include "json_words.h"
+#include "scene_changes.h"
+#include "scene_read.h"
+
+/* JSON text has no zero bytes, and the parser takes one for the end of a token. */
+static HdStatus check_no_zero(const char *text, size_t size, const char *name, HdError *error) {
+    const char *zero = size > 0 ? memchr(text, 0, size) : NULL;
+    int line = 1, column = 1;
+    if (zero == NULL)
+        return HD_OK;
+    for (const char *c = text; c < zero; c++) {
+        column = *c == '\n' ? 1 : column + 1;
+        line += *c == '\n';
+    }
+    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: there is a zero byte, expected JSON text", name,
+                   line, column);
+}
+
+static HdStatus fail_syntax(const json_error_t *found, const char *name, HdError *error) {
+    char text[JSON_ERROR_TEXT_LENGTH * 2];
+    size_t used = 0;
+    for (const char *c = found->text; *c != '\0'; c++)
+        text[used++] = (char)((unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c);
+    text[used] = '\0';
+    if (json_error_code(found) == json_error_out_of_memory)
+        return hd_fail(error, HD_FAILED, "%s: out of memory: no room for the scene", name);
+    if (json_error_code(found) == json_error_null_character)
+        snprintf(text, sizeof text, "a string has the character \\u0000, expected text without it");
+    if (json_error_code(found) == json_error_numeric_overflow)
+        snprintf(text + used, sizeof text - used, ", expected a number that a double can hold");
+    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s", name, found->line, found->column, text);
+}
+
+static HdStatus parse_json(json_t **root, const char *text, size_t size, const char *name,
+                           HdError *error) {
+    json_error_t found;
+    if (size > HD_MAX_SCENE_BYTES)
+        return hd_fail(error, HD_BAD_INPUT, "%s has %zu bytes, expected at most %d", name, size,
+                       (int)HD_MAX_SCENE_BYTES);
+    if (size == 0)
+        return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected a scene in JSON", name);
+    HdStatus status = check_no_zero(text, size, name, error);
+    if (status != HD_OK)
+        return status;
+    *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &found);
+    return *root != NULL ? HD_OK : fail_syntax(&found, name, error);
+}
+
+static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *source,
+                      const char *name, HdError *error) {
+    HdProblems problems = {.count = 0};
+    for (int i = 0; i < source->change_count; i++)
+        hd_scene_change_apply(root, source->changes[i], &problems);
+    HdStatus status = hd_scene_from_json(file, root, source, &problems, error);
+    if (status == HD_OK)
+        status = hd_problems_status(&problems, name, error);
+    return status;
+}
+
+HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, const char *name,
+                             const char *folder, const HdSceneChange *changes, int change_count,
+                             HdError *error) {
+    const HdSceneSource source = {folder, changes, change_count};
+    json_t *root = NULL;
+    *file = (HdSceneFile){.output.frames_per_second = 0};
+    HdStatus status = parse_json(&root, text, size, name, error);
+    if (status == HD_OK)
+        status = build(file, root, &source, name, error);
+    json_decref(root);
+    if (status != HD_OK)
+        hd_scene_file_free(file);
+    return status;
+}
+
+static HdStatus check_file(int descriptor, const char *path, size_t *size, HdError *error) {
+    struct stat found;
+    if (fstat(descriptor, &found) != 0)
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path, strerror(errno));
+    if (!S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: it is not a regular file",
+                       path);
+    if (found.st_size > HD_MAX_SCENE_BYTES)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot read the scene %s: it has %lld bytes, expected at most %d", path,
+                       (long long)found.st_size, (int)HD_MAX_SCENE_BYTES);
+    *size = (size_t)found.st_size;
+    return HD_OK;
+}
+
+/* Up to `size` bytes; a file that has become shorter ends before them. */
+static HdStatus read_bytes(int descriptor, char *text, size_t *size, const char *path,
+                           HdError *error) {
+    size_t done = 0;
+    ssize_t count = 1;
+    while (done < *size && count != 0) {
+        count = read(descriptor, text + done, *size - done);
+        if (count < 0 && errno != EINTR)
+            return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path,
+                           strerror(errno));
+        done += count > 0 ? (size_t)count : 0;
+    }
+    *size = done;
+    return HD_OK;
+}
+
+static HdStatus load(const char *path, char **text, size_t *size, HdError *error) {
+    /* Not blocking, lest a named pipe stops the program before it is refused. */
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path, strerror(errno));
+    HdStatus status = check_file(descriptor, path, size, error);
+    if (status == HD_OK) {
+        *text = malloc(*size + 1);
+        status = *text != NULL
+                     ? read_bytes(descriptor, *text, size, path, error)
+                     : hd_fail(error, HD_FAILED,
+                               "not enough memory for the %zu bytes of the scene %s", *size, path);
+    }
+    close(descriptor);
+    return status;
+}
+
+HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneChange *changes,
+                            int change_count, HdError *error) {
+    char folder[HD_MAX_PATH] = "";
+    char *text = NULL;
+    size_t size = 0;
+    *file = (HdSceneFile){.output.frames_per_second = 0};
+    const char *slash = strrchr(path, '/');
+    HdStatus status = load(path, &text, &size, error);
+    if (status == HD_OK && slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    if (status == HD_OK)
+        status = hd_scene_file_parse(file, text, size, path, folder, changes, change_count, error);
+    free(text);
+    return status;
+}
+
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
+    if (file->texture_path[0] == '\0')
+        return HD_OK;
+    return hd_load_floor_texture(&file->scene, file->texture_path, file->texture_curve, error);
+}
+
+void hd_scene_file_free(HdSceneFile *file) {
+    hd_scene_free(&file->scene);
+    *file = (HdSceneFile){.output.frames_per_second = 0};
+}

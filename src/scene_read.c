@@ -1,0 +1,505 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene_read.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "default_scene.h"
+#include "json_words.h"
+#include "option_nearest.h"
+#include "scene_changes.h"
+#include "scene_fields.h"
+
+typedef struct NamedMaterial {
+    const char *name; /* of the tree */
+    HdMaterial material;
+} NamedMaterial;
+
+typedef struct Reader {
+    const HdSceneSource *source;
+    HdProblems *problems;
+    HdError *error;
+    HdStatus status;
+    char path[512]; /* of the value that is read: "solids[1].rim" */
+    NamedMaterial *materials;
+    int material_count;
+    bool knows_materials; /* otherwise no name of one can be checked */
+    /* What is wrong in these places makes the checks of the whole scene meaningless for them. */
+    bool is_view_wrong, is_floor_wrong, is_solid_wrong[HD_MAX_SOLIDS];
+} Reader;
+
+static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner);
+
+/* Path */
+
+static bool is_plain(const char *key) {
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    const size_t length = strlen(key);
+    return length > 0 && length <= 64 && strspn(key, letters) == length;
+}
+
+/* Goes on to a key; returns the length to go back to. */
+static size_t enter_key(Reader *reader, const char *key) {
+    char quoted[HD_WORDS_SIZE];
+    const size_t length = strlen(reader->path);
+    char *end = reader->path + length;
+    const size_t room = sizeof reader->path - length;
+    if (is_plain(key)) {
+        snprintf(end, room, "%s%s", length > 0 ? "." : "", key);
+    } else {
+        hd_quoted(key, quoted);
+        snprintf(end, room, "[%s]", quoted);
+    }
+    return length;
+}
+
+static size_t enter_index(Reader *reader, size_t index) {
+    const size_t length = strlen(reader->path);
+    snprintf(reader->path + length, sizeof reader->path - length, "[%zu]", index);
+    return length;
+}
+
+static void leave_to(Reader *reader, size_t length) {
+    reader->path[length] = '\0';
+}
+
+/* Problems */
+
+static bool begins_with(const char *text, const char *beginning) {
+    return strncmp(text, beginning, strlen(beginning)) == 0;
+}
+
+static void note_place(Reader *reader) {
+    const char *path = reader->path;
+    if (strcmp(path, "camera") == 0 || begins_with(path, "camera.eye") ||
+        begins_with(path, "camera.target"))
+        reader->is_view_wrong = true;
+    if (begins_with(path, "floor"))
+        reader->is_floor_wrong = true;
+    if (begins_with(path, "solids[")) {
+        const unsigned long index = strtoul(path + strlen("solids["), NULL, 10);
+        if (index < HD_MAX_SOLIDS)
+            reader->is_solid_wrong[index] = true;
+    }
+}
+
+/* The problem of the value at the path; what comes from a change says so. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+complain(Reader *reader, const char *format, ...) {
+    const HdSceneSource *source = reader->source;
+    char name[256] = "", text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    note_place(reader);
+    for (int i = 0; i < source->change_count; i++)
+        if (hd_scene_change_made(source->changes[i], reader->path))
+            hd_scene_change_name(source->changes[i], name);
+    const char *path = reader->path[0] != '\0' ? reader->path : "the scene";
+    hd_problem(reader->problems, "%s%s %s", name, path, text);
+}
+
+static void complain_of_value(Reader *reader, const json_t *value, const char *expected) {
+    char words[HD_WORDS_SIZE];
+    hd_json_words(value, words);
+    complain(reader, "is %s, expected %s", words, expected);
+}
+
+static void refuse(Reader *reader, const HdField *field, const json_t *value, bool is_part) {
+    char expected[HD_EXPECTED_SIZE];
+    hd_field_expected(field, is_part, expected);
+    complain_of_value(reader, value, expected);
+}
+
+static void list_keys(const HdObjectType *type, char out[HD_EXPECTED_SIZE * 2]) {
+    size_t used = 0;
+    for (int i = 0; i < type->field_count; i++) {
+        const char *between = i == 0 ? "" : i + 1 < type->field_count ? ", " : " or ";
+        used += (size_t)snprintf(out + used, HD_EXPECTED_SIZE * 2 - used, "%s\"%s\"", between,
+                                 type->fields[i].key);
+    }
+}
+
+static void refuse_unknown_keys(Reader *reader, const HdObjectType *type, const json_t *json) {
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)json, key, value) {
+        if (hd_field(type, key) != NULL)
+            continue;
+        HdNearest nearest = {.word = key};
+        for (int i = 0; i < type->field_count; i++)
+            hd_nearest_offer(&nearest, type->fields[i].key);
+        char keys[HD_EXPECTED_SIZE * 2];
+        snprintf(keys, sizeof keys, "\"%s\"", nearest.name != NULL ? nearest.name : "");
+        if (nearest.name == NULL)
+            list_keys(type, keys);
+        const size_t length = enter_key(reader, key);
+        complain(reader, "is an unknown key, expected %s", keys);
+        leave_to(reader, length);
+    }
+}
+
+/* Numbers */
+
+/* Reads a number in the field's range; false, and `out` as it was, where it is none. */
+static bool read_number(Reader *reader, const HdField *field, const json_t *value, bool is_part,
+                        double *out) {
+    const double number = json_number_value(value);
+    if (!json_is_number(value) || !hd_field_holds(field, number)) {
+        refuse(reader, field, value, is_part);
+        return false;
+    }
+    *out = number;
+    return true;
+}
+
+/* As in JSON Schema, 3.0 is an integer too. */
+static void read_integer(Reader *reader, const HdField *field, const json_t *value, int *out) {
+    const double number = json_number_value(value);
+    if (!json_is_number(value) || floor(number) != number || !hd_field_holds(field, number))
+        refuse(reader, field, value, false);
+    else
+        *out = (int)number;
+}
+
+static void refuse_vector(Reader *reader, const HdField *field, const json_t *value) {
+    char number[HD_EXPECTED_SIZE], expected[HD_EXPECTED_SIZE + 32];
+    hd_field_expected(field, true, number);
+    snprintf(expected, sizeof expected, "three numbers, each %s", number);
+    complain_of_value(reader, value, expected);
+}
+
+static void read_vector(Reader *reader, const HdField *field, const json_t *value, HdVec3 *out) {
+    double parts[3];
+    bool is_read = true;
+    if (!json_is_array(value) || json_array_size(value) != 3) {
+        refuse_vector(reader, field, value);
+        return;
+    }
+    for (size_t i = 0; i < 3; i++) {
+        const size_t length = enter_index(reader, i);
+        is_read &= read_number(reader, field, json_array_get(value, i), true, &parts[i]);
+        leave_to(reader, length);
+    }
+    if (is_read)
+        *out = hd_vec3(parts[0], parts[1], parts[2]);
+}
+
+/* Whether the value is an array with as many elements as the field may have. */
+static bool check_count(Reader *reader, const HdField *field, const json_t *value) {
+    char expected[HD_EXPECTED_SIZE];
+    const size_t count = json_array_size(value);
+    if (!json_is_array(value)) {
+        refuse(reader, field, value, false);
+        return false;
+    }
+    if (count >= (size_t)field->least && count <= (size_t)field->most)
+        return true;
+    hd_field_expected_count(field, expected);
+    complain(reader, "has %zu elements, expected %s", count, expected);
+    return false;
+}
+
+static void read_vectors(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    HdVec3 *vectors = (void *)((char *)owner + field->offset);
+    const size_t count = json_array_size(value);
+    if (!check_count(reader, field, value))
+        return;
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = enter_index(reader, i);
+        vectors[i] = vectors[0]; /* a default, should it be refused */
+        read_vector(reader, field, json_array_get(value, i), &vectors[i]);
+        leave_to(reader, length);
+    }
+    if (field->count_offset != 0)
+        *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
+}
+
+/* Words */
+
+static void read_choice(Reader *reader, const HdField *field, const json_t *value, void *place) {
+    char *json = NULL;
+    if (json_is_string(value) || json_is_integer(value))
+        json = json_dumps(value, JSON_ENCODE_ANY);
+    const HdChoice *choice = field->choices;
+    while (choice->json != NULL && (json == NULL || strcmp(choice->json, json) != 0))
+        choice++;
+    free(json);
+    if (choice->json == NULL)
+        refuse(reader, field, value, false);
+    else if (field->choices[1].json != NULL)
+        *(int *)place = choice->value;
+}
+
+static void read_text(Reader *reader, const HdField *field, const json_t *value,
+                      char out[HD_MAX_PATH]) {
+    if (!json_is_string(value) || json_string_length(value) == 0) {
+        refuse(reader, field, value, false);
+        return;
+    }
+    if (json_string_length(value) >= HD_MAX_PATH) {
+        complain(reader, "has %zu bytes, expected fewer than %d", json_string_length(value),
+                 HD_MAX_PATH);
+        return;
+    }
+    memcpy(out, json_string_value(value), json_string_length(value) + 1);
+}
+
+/* A relative path counts from the folder of the scene. */
+static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
+    const char *folder = reader->source->folder;
+    if (path[0] == '\0' || path[0] == '/' || folder[0] == '\0' || strcmp(path, "~") == 0 ||
+        begins_with(path, "~/") || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return;
+    const bool has_slash = folder[strlen(folder) - 1] == '/';
+    const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);
+    if (length >= HD_MAX_PATH) {
+        complain(reader, "has %zu bytes with the scene's folder, expected fewer than %d", length,
+                 HD_MAX_PATH);
+        return;
+    }
+    memmove(path + before, path, strlen(path) + 1);
+    memcpy(path, folder, strlen(folder));
+    path[before - 1] = '/';
+}
+
+static void read_material(Reader *reader, const HdField *field, const json_t *value,
+                          HdMaterial *out) {
+    char quoted[HD_WORDS_SIZE];
+    const char *name = json_string_value(value);
+    if (name == NULL) {
+        refuse(reader, field, value, false);
+        return;
+    }
+    HdNearest nearest = {.word = name};
+    for (int i = 0; i < reader->material_count; i++) {
+        hd_nearest_offer(&nearest, reader->materials[i].name);
+        if (strcmp(reader->materials[i].name, name) == 0) {
+            *out = reader->materials[i].material;
+            return;
+        }
+    }
+    if (!reader->knows_materials)
+        return;
+    if (nearest.name == NULL) {
+        refuse(reader, field, value, false);
+        return;
+    }
+    hd_quoted(nearest.name, quoted);
+    complain_of_value(reader, value, quoted);
+}
+
+/* Objects */
+
+static void read_path(Reader *reader, const HdField *field, const json_t *value, HdPath *out) {
+    if (json_is_array(value)) {
+        read_vector(reader, field, value, &out->point);
+    } else if (json_is_object(value)) {
+        *out = (HdPath){.is_fixed = false};
+        read_object(reader, field->object, value, out);
+    } else {
+        refuse(reader, field, value, false);
+    }
+}
+
+static void *allocate(Reader *reader, size_t count, size_t size) {
+    void *memory = calloc(count, size);
+    if (memory == NULL)
+        reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+    return memory;
+}
+
+static void read_list(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    const size_t count = json_array_size(value), size = field->object->size;
+    if (!check_count(reader, field, value) || count == 0)
+        return;
+    char *elements = allocate(reader, count, size);
+    if (elements == NULL)
+        return;
+    *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
+    memcpy((char *)owner + field->offset, &elements, sizeof elements);
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = enter_index(reader, i);
+        read_object(reader, field->object, json_array_get(value, i), elements + i * size);
+        leave_to(reader, length);
+    }
+}
+
+/* With one of the two given there is an inner side; the other is as outside. */
+static void settle_inner_side(HdMaterial *material, const json_t *json) {
+    const bool reflects = json_object_get(json, "inner_reflection") != NULL;
+    const bool transmits = json_object_get(json, "inner_transmission") != NULL;
+    material->has_inner_side = reflects || transmits;
+    if (transmits && !reflects)
+        material->inner_reflection = material->reflection;
+    if (reflects && !transmits)
+        material->inner_transmission = material->transmission;
+}
+
+static void read_materials(Reader *reader, const HdField *field, const json_t *value) {
+    const size_t count = json_object_size(value);
+    const char *name;
+    json_t *json;
+    if (!json_is_object(value)) {
+        refuse(reader, field, value, false);
+        return;
+    }
+    if (count > (size_t)field->most) {
+        complain(reader, "has %zu materials, expected at most %d", count, field->most);
+        return;
+    }
+    reader->knows_materials = true;
+    reader->materials = allocate(reader, count + 1, sizeof *reader->materials);
+    if (reader->materials == NULL)
+        return;
+    json_object_foreach((json_t *)value, name, json) {
+        NamedMaterial *named = &reader->materials[reader->material_count++];
+        named->name = name;
+        const size_t length = enter_key(reader, name);
+        read_object(reader, field->object, json, &named->material);
+        settle_inner_side(&named->material, json);
+        leave_to(reader, length);
+    }
+}
+
+static void read_field(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    void *place = (char *)owner + field->offset;
+    double factor = 1.0;
+    switch (field->type) {
+    case HD_FIELD_BOOLEAN:
+        if (json_is_boolean(value))
+            *(bool *)place = json_is_true(value);
+        else
+            refuse(reader, field, value, false);
+        break;
+    case HD_FIELD_INTEGER:
+        read_integer(reader, field, value, place);
+        break;
+    case HD_FIELD_NUMBER:
+        read_number(reader, field, value, false, place);
+        break;
+    case HD_FIELD_FACTOR:
+        if (read_number(reader, field, value, false, &factor))
+            *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, factor);
+        break;
+    case HD_FIELD_VECTOR:
+    case HD_FIELD_UNSCALED:
+        read_vector(reader, field, value, place);
+        break;
+    case HD_FIELD_VECTORS:
+        read_vectors(reader, field, value, owner);
+        break;
+    case HD_FIELD_CHOICE:
+        read_choice(reader, field, value, place);
+        break;
+    case HD_FIELD_TEXT:
+        read_text(reader, field, value, place);
+        break;
+    case HD_FIELD_MATERIAL:
+        read_material(reader, field, value, place);
+        break;
+    case HD_FIELD_PATH:
+        read_path(reader, field, value, place);
+        break;
+    case HD_FIELD_OBJECT:
+        read_object(reader, field->object, value, place);
+        break;
+    case HD_FIELD_LIST:
+        read_list(reader, field, value, owner);
+        break;
+    case HD_FIELD_MATERIALS:
+        read_materials(reader, field, value);
+        break;
+    }
+}
+
+static void reset_object(const HdObjectType *type, void *owner) {
+    for (int i = 0; i < type->field_count; i++) {
+        const HdField *field = &type->fields[i];
+        hd_field_reset(field, owner);
+        if (field->type == HD_FIELD_OBJECT && field->is_given == NULL)
+            reset_object(field->object, (char *)owner + field->offset);
+        if (field->type == HD_FIELD_MATERIAL)
+            reset_object(&hd_material_fields, (char *)owner + field->offset);
+    }
+}
+
+/* The value of the field, if it is there and may be. */
+static const json_t *find_value(Reader *reader, const HdField *field, const json_t *json) {
+    char expected[HD_EXPECTED_SIZE];
+    const json_t *value = json_object_get(json, field->key);
+    if (value == NULL && field->required) {
+        hd_field_expected(field, false, expected);
+        complain(reader, "is missing, expected %s", expected);
+    }
+    if (value != NULL && field->instead_of != NULL &&
+        json_object_get(json, field->instead_of) != NULL) {
+        complain(reader, "is given beside \"%s\", expected only one of them", field->instead_of);
+        return NULL;
+    }
+    return value;
+}
+
+static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner) {
+    reset_object(type, owner);
+    if (!json_is_object(json)) {
+        complain_of_value(reader, json, "an object");
+        return;
+    }
+    for (int i = 0; i < type->field_count && reader->status == HD_OK; i++) {
+        const HdField *field = &type->fields[i];
+        const size_t length = enter_key(reader, field->key);
+        const json_t *value = find_value(reader, field, json);
+        if (value != NULL)
+            read_field(reader, field, value, owner);
+        leave_to(reader, length);
+    }
+    refuse_unknown_keys(reader, type, json);
+}
+
+/* The scene */
+
+/* Where a value is refused, its default must not make other values look wrong. */
+static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
+    const HdObjectType *camera = hd_field(&hd_scene_fields, "camera")->object;
+    HdScene *scene = &file->scene;
+    bool is_any_wrong = false;
+    if (reader->is_view_wrong) {
+        hd_field_reset(hd_field(camera, "eye"), file);
+        hd_field_reset(hd_field(camera, "target"), file);
+    }
+    if (reader->is_floor_wrong)
+        scene->floor.present = false;
+    for (int i = 0; i < scene->solid_count; i++)
+        if (reader->is_solid_wrong[i]) {
+            scene->solids[i].rim_width = 0.0;
+            is_any_wrong = true;
+        }
+    /* Only refracting solids must keep clear of others. */
+    for (int i = 0; i < scene->solid_count && is_any_wrong; i++)
+        scene->solids[i].face.index_of_refraction = 1.0;
+}
+
+HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
+                            HdProblems *problems, HdError *error) {
+    Reader reader = {.source = source, .problems = problems, .error = error, .status = HD_OK};
+    reader.knows_materials = json_object_get(root, "materials") == NULL;
+    read_object(&reader, &hd_scene_fields, root, file);
+    file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
+    snprintf(reader.path, sizeof reader.path, "floor.texture.file");
+    place_texture(&reader, file->texture_path);
+    free(reader.materials);
+    if (reader.status != HD_OK)
+        return reader.status;
+    set_wrong_parts_aside(&reader, file);
+    if (json_is_object(root))
+        hd_scene_check(&file->scene, HD_NAMING_JSON, problems);
+    return HD_OK;
+}
