@@ -16,7 +16,6 @@ HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
 }
 
 HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {
-    (void)curve; /* the decoders know none yet */
     char expanded[HD_MAX_PATH];
     if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
         return hd_texture_decode(&scene->floor.texture, hd_default_texture, hd_default_texture_size,
@@ -24,5 +23,6 @@ HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, 
     HdStatus status = hd_path_expand_home(path, expanded, error);
     if (status != HD_OK)
         return status;
+    (void)curve; /* the decoders know none yet */
     return hd_texture_read(&scene->floor.texture, expanded, error);
 }

@@ -29,14 +29,15 @@ typedef struct HdSceneFile {
 } HdSceneFile;
 
 /* One "--set" of the command line, "camera.field_of_view=40": the value is JSON, or, where it is
-   not, a string. */
+   not, a string. What holds the value must be there, but for "image", "camera" and "output". */
 typedef const char *HdSceneChange;
 
 /* Reads a scene from `size` bytes of JSON, the changes applied before anything is checked, fills in
    every default, and checks all of it. Messages begin with `name` and tell every problem: with line
    and column where the text is not JSON or repeats a key, otherwise with the JSON path, as
-   "solids[1].circumradius is -1, expected ...". A relative path of a texture counts from `folder`
-   ("" is the current one). On failure `file` is left empty. */
+   "solids[1].circumradius is -1, expected ...", behind "--set CHANGE: " where a change brought the
+   value. A relative path of a texture counts from `folder` ("" is the current one). On failure
+   `file` is left empty. */
 HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, const char *name,
                              const char *folder, const HdSceneChange *changes, int change_count,
                              HdError *error);
@@ -48,7 +49,9 @@ HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneCh
 /* Reads the texture that the scene names, if any: the embedded "builtin:floor", or a file. */
 HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
 
-/* Writes a scene as JSON that reads back as the same scene, number for number. */
+/* Writes a scene, which must be valid, as JSON that reads back as the same scene, number for number
+   (only a point light beyond 2^39 may come back a rounding off). Materials get names: "solid_1",
+   "rim_1", "floor". Fails with HD_BAD_INPUT where a path is not UTF-8. */
 HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error);
 
 /* Writes the JSON Schema (draft 2020-12) of the format. */

@@ -589,6 +589,10 @@ static void test_one_problem_stays_one(void **state) {
         "floor.corners=[[0,0,0],[0,0,0],[0,0,0],[0,0,null]]",
         "materials=3",
         "solids[1].rim.width=-1",
+        "solids[1]={\"kind\": \"cube\", \"circumradius\": -1, \"material\": \"dark\", \"rim\": "
+        "{\"width\": 50, \"material\": \"dark\"}}",
+        "solids[1]={\"kind\": \"cube\", \"circumradius\": 5, \"material\": \"dark\", \"centre\": "
+        "1}",
     };
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         const char *message = expect_refused(rich_text, changes[i], "a.json: --set ");

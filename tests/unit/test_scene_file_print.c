@@ -159,6 +159,8 @@ static void test_values_that_are_hard_to_write(void **state) {
         "camera.eye.z_phase=123456789.12345679",
         "camera.eye={}",
         "background=[-0.0, 0, 1e-300]",
+        "background=[0, -0.0, 0]",
+        "materials.plain={\"diffuse\": 0.125, \"inner_reflection\": 0.5}",
         "output.path=\"a\\\"b\\\\c \\u00e9\\n\\t\\u007f.png\"",
         "materials.glass.inner_reflection=0",
         "materials.glass.inner_transmission=0",
