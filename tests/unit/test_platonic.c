@@ -232,6 +232,8 @@ static void test_rotations_follow_the_formula(void **state) {
 static void test_turned_by_nothing(void **state) {
     (void)state;
     const HdVec3 nothing[2] = {{0.0, 0.0, 0.0}, {-0.0, 0.0, -0.0}};
+    const HdVec3 point = turned(hd_vec3(-0.0, -0.0, -0.0), nothing[0]); /* signs are kept, too */
+    assert_true(signbit(point.x) && signbit(point.y) && signbit(point.z));
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++)
         for (int i = 0; i < 2; i++) {
             HdPlatonic before, after;

@@ -583,6 +583,30 @@ static void test_free_clears(void **state) {
     hd_scene_free(&scene);
 }
 
+/* What is wrong in one place, or was before, keeps no other check from being made. */
+static void test_no_problem_hides_another(void **state) {
+    (void)state;
+    static HdProblems problems;
+    Fixture f;
+    make(&f);
+    set_cubes(&f, 1.5, -0.25);
+    f.solids[0].face.index_of_refraction = 1.5;
+    f.scene.target = f.scene.eye;
+    f.scene.width = 0;
+    hd_problem(&problems, "an earlier one");
+    hd_scene_check(&f.scene, HD_NAMING_JSON, &problems);
+    assert_int_equal(problems.count, 5);
+    assert_string_equal(
+        problems.text,
+        "an earlier one\n"
+        "width is 0, expected 1 to 65535\n"
+        "camera: frame 0: the eye is at the target (7, 0, 0), expected two different points\n"
+        "solids[0]: it refracts and overlaps solids[1], 0.5 deep, expected a refracting solid to "
+        "overlap nothing\n"
+        "solids[0]: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid to "
+        "overlap nothing\n");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_good_scene),
@@ -612,6 +636,7 @@ int main(void) {
         cmocka_unit_test(test_no_problem_follows_from_another),
         cmocka_unit_test(test_the_eye_never_at_the_target),
         cmocka_unit_test(test_refracting_solids_overlap_nothing),
+        cmocka_unit_test(test_no_problem_hides_another),
         cmocka_unit_test(test_free_clears),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
