@@ -41,6 +41,7 @@ void build_scene(HdScene *scene, int width, int height, int samples, int depth, 
                  int lights) {
     memset(scene, 0, sizeof *scene);
     scene->frame_count = 1;
+    scene->target.cylinder.z0 = -1.0; /* not at the eye; the frames' cameras are others */
     scene->width = width;
     scene->height = height;
     scene->samples_per_side = samples;
