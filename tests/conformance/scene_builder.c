@@ -73,6 +73,14 @@ void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
                                                 .disc_radiance = 3.0}};
 }
 
+void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
+                 double grey, double transmission) {
+    build_solid(scene, index, kind, centre, radius, same(grey), 0);
+    scene->solids[index].rim_width = 0.0;
+    scene->solids[index].face.reflection = 0.0;
+    scene->solids[index].face.transmission = transmission;
+}
+
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity) {
     scene->lights[index] = (HdLight){.position = position, .intensity = intensity};
 }
