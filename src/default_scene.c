@@ -19,10 +19,9 @@ HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, 
     char expanded[HD_MAX_PATH];
     if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
         return hd_texture_decode(&scene->floor.texture, hd_default_texture, hd_default_texture_size,
-                                 "the built-in texture", error);
+                                 "the built-in texture", curve, error);
     HdStatus status = hd_path_expand_home(path, expanded, error);
     if (status != HD_OK)
         return status;
-    (void)curve; /* the decoders know none yet */
-    return hd_texture_read(&scene->floor.texture, expanded, error);
+    return hd_texture_read(&scene->floor.texture, expanded, curve, error);
 }

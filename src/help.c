@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "commands.h"
+#include "output_kind.h"
 
 static void print_program(void) {
     printf("hedron renders mirrored, transparent platonic solids with lights along their edges.\n"
@@ -26,11 +27,13 @@ static void print_render(void) {
            "\n"
            "Usage: hedron render [OPTIONS]\n"
            "\n"
-           "OUT ends in .mp4 (a film, made by FFmpeg), .png or .data. A sequence of pictures has\n"
-           "one %%d or %%04d in its name; a picture without takes a single frame. Without -o the\n"
-           "film is written to hedron.mp4.\n"
+           "OUT ends as one of these: %s.\n"
+           "Films are made by FFmpeg. A sequence of pictures has its frames' number in its name,\n"
+           "%%d, %%04d or ####; a picture without takes a single frame. Without -o the film is\n"
+           "written to hedron.mp4.\n"
            "\n"
-           "Options:\n");
+           "Options:\n",
+           hd_output_endings());
     hd_options_print(stdout, HD_COMMAND_RENDER);
 }
 

@@ -13,13 +13,10 @@
 
 #include "atomic_file.h"
 #include "image_files.h"
+#include "output_kind.h"
 
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
-
-HdImageFormat hd_image_format(const char *path) {
-    return hd_path_has_ending(path, ".png") ? HD_IMAGE_PNG : HD_IMAGE_DATA;
-}
 
 static HdStatus check_size(int width, int height, HdError *error) {
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
@@ -47,36 +44,45 @@ void hd_image8_free(HdImage8 *image) {
     *image = (HdImage8){0};
 }
 
-static uint8_t to_byte(float value) {
-    if (!(value > 0.0f))
-        return 0;
-    if (value >= 1.0f)
-        return 255;
-    return (uint8_t)(value * 255.0f + 0.5f);
-}
-
-void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image) {
-    size_t count = (size_t)frame->width * (size_t)frame->height;
-    for (size_t i = 0; i < count; i++) {
-        const float *rgb = frame->rgb + 3 * i;
-        uint8_t *rgba = image->rgba + 4 * i;
-        rgba[0] = to_byte(rgb[0]);
-        rgba[1] = to_byte(rgb[1]);
-        rgba[2] = to_byte(rgb[2]);
-        rgba[3] = 255;
+void hd_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba) {
+    enum { AT_ONCE = 256 };
+    uint8_t encoded[AT_ONCE * 3];
+    for (size_t first = 0; first < pixels; first += AT_ONCE) {
+        size_t count = pixels - first < AT_ONCE ? pixels - first : AT_ONCE;
+        hd_curve_encode8(curve, rgb + 3 * first, 3 * count, encoded);
+        for (size_t i = 0; i < count; i++) {
+            memcpy(rgba + 4 * (first + i), encoded + 3 * i, 3);
+            rgba[4 * (first + i) + 3] = 255;
+        }
     }
 }
 
-HdStatus hd_image8_write(const HdImage8 *image, const char *path, HdError *error) {
+void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image) {
+    hd_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)frame->height, image->rgba);
+}
+
+static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *error) {
+    if (hd_output_is_film(hd_output_kind(path)))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write %s as a picture: its ending is that of a film", path);
+    return check_size(frame->width, frame->height, error);
+}
+
+HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
+                          HdError *error) {
     HdAtomicFile file;
-    HdStatus status = check_size(image->width, image->height, error);
+    HdOutputKind kind = hd_output_kind(path);
+    HdStatus status = check_picture(frame, path, error);
     if (status == HD_OK)
         status = hd_atomic_file_open(&file, path, error);
     if (status != HD_OK)
         return status;
-    status = hd_image_format(path) == HD_IMAGE_PNG
-                 ? hd_image_png_write(image, file.stream, path, error)
-                 : hd_image_data_write(image, file.stream, path, error);
+    if (kind == HD_OUTPUT_PNG)
+        status = hd_image_png_write(frame, style, file.stream, path, error);
+    else if (kind == HD_OUTPUT_PFM)
+        status = hd_image_pfm_write(frame, file.stream, path, error);
+    else
+        status = hd_image_data_write(frame, style->curve, file.stream, path, error);
     if (status == HD_OK)
         return hd_atomic_file_commit(&file, error);
     hd_atomic_file_discard(&file);
@@ -108,12 +114,15 @@ void hd_texture_clear(HdTexture *texture) {
 }
 
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                           const char *name, HdError *error) {
+                           const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
     HdStatus status = hd_image_is_png(bytes, size)
                           ? hd_image_png_decode(texture, bytes, size, name, error)
                           : hd_image_data_decode(texture, bytes, size, name, error);
-    if (status != HD_OK)
+    if (status == HD_OK)
+        hd_curve_decode16(curve, texture->texels,
+                          (size_t)texture->width * (size_t)texture->height * 3);
+    else
         hd_texture_clear(texture);
     return status;
 }
@@ -165,7 +174,7 @@ static HdStatus read_file(int descriptor, const char *path, unsigned char **byte
     return read_exactly(descriptor, *bytes, *size, path, error);
 }
 
-HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error) {
+HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error) {
     unsigned char *bytes = NULL;
     size_t size = 0;
     *texture = (HdTexture){0};
@@ -177,7 +186,7 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error) {
     HdStatus status = read_file(descriptor, path, &bytes, &size, error);
     close(descriptor);
     if (status == HD_OK)
-        status = hd_texture_decode(texture, bytes, size, path, error);
+        status = hd_texture_decode(texture, bytes, size, path, curve, error);
     free(bytes);
     return status;
 }

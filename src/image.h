@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures in files. Values are linear as the caller gives them: no file written or read here
-   applies a curve. */
+/* Pictures in files. */
 #ifndef HD_IMAGE_H
 #define HD_IMAGE_H
 
@@ -24,31 +23,29 @@ typedef struct HdPictureStyle {
     int bits; /* 8 or 16 */
 } HdPictureStyle;
 
-typedef enum HdImageFormat { HD_IMAGE_DATA, HD_IMAGE_PNG } HdImageFormat;
-
-/* HD_IMAGE_PNG for names that end in ".png" (any case), HD_IMAGE_DATA for all others. */
-HdImageFormat hd_image_format(const char *path);
-
 /* Allocates a picture of width * height; 1..65535 each. */
 HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error);
 void hd_image8_free(HdImage8 *image);
 
-/* Each channel clamped to 0..1, times 255, rounded to the nearest; alpha 255. `image` has the
-   frame's size. */
-void hd_frame_to_image8(const HdFrame *frame, HdImage8 *image);
+/* As hd_curve_encode8; alpha 255. `image` has the frame's size. */
+void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
 
-/* Writes under a temporary name beside `path` and renames it; makes missing folders. On failure
-   nothing is left behind under either name, and a file that was there before is untouched. The data
-   format: int32 width, int32 height, then r g b a, little endian. PNG: RGB, 8 bits. */
-HdStatus hd_image8_write(const HdImage8 *image, const char *path, HdError *error);
+/* Writes a frame in the format of the path's ending (hd_output_kind): PNG, PFM, or else the data
+   format; a film's ending is an error. It is written under a temporary name beside `path` that is
+   then renamed; missing folders are made. On failure nothing is left behind under either name, and
+   a file that was there before is untouched. The data format: int32 width, int32 height, then r g b
+   a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk where the curve is sRGB's and a gAMA
+   chunk of 1 where it is linear. PFM: float, little endian, rows from the bottom. */
+HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
+                          HdError *error);
 
-/* Reads a texture, PNG of any kind or the data format, told apart by the first bytes; alpha is
-   dropped. At most 65535 pixels a side, and 2^28 in all. */
-HdStatus hd_texture_read(HdTexture *texture, const char *path, HdError *error);
+/* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
+   values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */
+HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error);
 
 /* The same from memory; `name` is for messages. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                           const char *name, HdError *error);
+                           const char *name, HdCurve curve, HdError *error);
 
 /* Frees what the texture owns and clears it; it may be clear already. */
 void hd_texture_clear(HdTexture *texture);

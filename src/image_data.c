@@ -5,6 +5,7 @@
 #include "image_files.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { HEAD_SIZE = 8 };
@@ -22,15 +23,29 @@ static int64_t get_int32(const unsigned char bytes[4]) {
     return bits > INT32_MAX ? (int64_t)bits - (INT64_C(1) << 32) : (int64_t)bits;
 }
 
-HdStatus hd_image_data_write(const HdImage8 *image, FILE *stream, const char *path,
-                             HdError *error) {
+static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t *row) {
     unsigned char head[HEAD_SIZE];
-    size_t size = (size_t)image->width * (size_t)image->height * 4;
-    put_int32(head, image->width);
-    put_int32(head + 4, image->height);
-    if (fwrite(head, 1, HEAD_SIZE, stream) != HEAD_SIZE ||
-        fwrite(image->rgba, 1, size, stream) != size)
-        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(errno));
+    const size_t width = (size_t)frame->width;
+    put_int32(head, frame->width);
+    put_int32(head + 4, frame->height);
+    bool good = fwrite(head, 1, HEAD_SIZE, stream) == HEAD_SIZE;
+    for (int y = 0; y < frame->height && good; y++) {
+        hd_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
+        good = fwrite(row, 4, width, stream) == width;
+    }
+    return good;
+}
+
+HdStatus hd_image_data_write(const HdFrame *frame, HdCurve curve, FILE *stream, const char *path,
+                             HdError *error) {
+    uint8_t *row = malloc((size_t)frame->width * 4);
+    if (row == NULL)
+        return hd_fail(error, HD_FAILED, "not enough memory to write %s", path);
+    bool good = write_all(frame, curve, stream, row);
+    int reason = errno;
+    free(row);
+    if (!good)
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
     return HD_OK;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The two formats behind image.h. */
+/* The formats behind image.h. */
 #ifndef HD_IMAGE_FILES_H
 #define HD_IMAGE_FILES_H
 
@@ -16,9 +16,15 @@ enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
                            HdError *error);
 
-/* Write to an open stream; `path` is for messages. */
-HdStatus hd_image_data_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error);
-HdStatus hd_image_png_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error);
+/* The pixels' values on the curve, each followed by an alpha of 255. */
+void hd_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba);
+
+/* Write to an open stream, a row at a time; `path` is for messages. */
+HdStatus hd_image_data_write(const HdFrame *frame, HdCurve curve, FILE *stream, const char *path,
+                             HdError *error);
+HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style, FILE *stream,
+                            const char *path, HdError *error);
+HdStatus hd_image_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error);
 
 /* True where the bytes begin with PNG's signature. */
 bool hd_image_is_png(const unsigned char *bytes, size_t size);

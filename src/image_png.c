@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <setjmp.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <png.h>
@@ -133,36 +134,68 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     return HD_OK;
 }
 
+/* What tells a viewer which curve the values are on. */
+static void set_curve(PngJob *job, HdCurve curve) {
+    if (curve == HD_CURVE_SRGB)
+        png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else
+        png_set_gAMA(job->png, job->info, 1.0);
+}
+
+/* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
+static void encode_row(const HdPictureStyle *style, const float *rgb, size_t values,
+                       uint16_t *row) {
+    unsigned char *bytes = (unsigned char *)row;
+    if (style->bits == 8) {
+        hd_curve_encode8(style->curve, rgb, values, bytes);
+        return;
+    }
+    hd_curve_encode16(style->curve, rgb, values, row);
+    for (size_t i = 0; i < values; i++) {
+        const unsigned code = row[i];
+        bytes[2 * i] = (unsigned char)(code >> 8);
+        bytes[2 * i + 1] = (unsigned char)(code & 0xff);
+    }
+}
+
 /* Runs under setjmp. Speed comes before size: frames are many and short-lived. */
-static void write_rows(PngJob *job, const HdImage8 *image) {
-    size_t row_size = (size_t)image->width * 4;
+static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
+                       uint16_t *row) {
+    const size_t values = (size_t)frame->width * 3;
     png_set_write_fn(job->png, job, write_bytes, flush_nothing);
     png_set_compression_level(job->png, 1);
     png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_IHDR(job->png, job->info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+    png_set_IHDR(job->png, job->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
+                 style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    set_curve(job, style->curve);
     png_write_info(job->png, job->info);
-    png_set_filler(job->png, 0, PNG_FILLER_AFTER); /* when writing: drops the fourth byte */
-    for (int y = 0; y < image->height; y++)
-        png_write_row(job->png, image->rgba + row_size * (size_t)y);
+    for (int y = 0; y < frame->height; y++) {
+        encode_row(style, frame->rgb + values * (size_t)y, values, row);
+        png_write_row(job->png, (png_const_bytep)row);
+    }
     png_write_end(job->png, NULL);
 }
 
-static bool try_writing(PngJob *job, const HdImage8 *image) {
+static bool try_writing(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
+                        uint16_t *row) {
     if (setjmp(png_jmpbuf(job->png)) != 0)
         return false;
-    write_rows(job, image);
+    write_rows(job, frame, style, row);
     return true;
 }
 
-HdStatus hd_image_png_write(const HdImage8 *image, FILE *stream, const char *path, HdError *error) {
+HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style, FILE *stream,
+                            const char *path, HdError *error) {
     PngJob job = {.stream = stream, .message = "out of memory"};
-    job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
+    if (row != NULL)
+        job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     if (job.png != NULL)
         job.info = png_create_info_struct(job.png);
-    bool done = job.info != NULL && try_writing(&job, image);
+    bool done = job.info != NULL && try_writing(&job, frame, style, row);
     png_destroy_write_struct(&job.png, &job.info);
+    free(row);
     if (!done)
         return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, job.message);
     return HD_OK;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "classic_input.h"
-#include "paths.h"
+#include "output_kind.h"
 #include "scene.h"
 
 typedef enum OptionId {
@@ -50,7 +50,7 @@ static const OptionSpec specs[] = {
     {OPTION_VARIANT, "--variant", NULL, "1..10", HD_COMMAND_CLASSIC,
      "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)"},
     {OPTION_OUTPUT, "--output", "-o", "OUT", HD_COMMAND_RENDER,
-     "film.mp4, picture.png, picture.data or a sequence such as out/%04d.png"},
+     "a film, a picture or a sequence such as out/####.png, by the name's ending"},
     {OPTION_BACKEND, "--backend", NULL, "NAME", RENDERING,
      "auto, c, opencl or cuda (default auto: the best one found)"},
     {OPTION_DEVICE, "--device", NULL, "DEVICE", RENDERING,
@@ -142,11 +142,9 @@ static HdStatus parse_backend(const char *text, HdOptions *options, HdError *err
 }
 
 static HdStatus parse_output(const char *text, HdOptions *options, HdError *error) {
-    if (!hd_path_has_ending(text, ".mp4") && !hd_path_has_ending(text, ".png") &&
-        !hd_path_has_ending(text, ".data"))
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--output is '%.4000s', expected a name that ends in .mp4, .png or .data",
-                       text);
+    if (hd_output_kind(text) == HD_OUTPUT_UNKNOWN)
+        return hd_fail(error, HD_BAD_INPUT, "--output is '%.4000s', expected a name such as %s",
+                       text, hd_output_endings());
     options->output = text;
     return HD_OK;
 }

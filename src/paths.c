@@ -83,34 +83,51 @@ HdStatus hd_path_make_parents(const char *path, HdError *error) {
     return status;
 }
 
-typedef enum Directive { DIRECTIVE_PERCENT, DIRECTIVE_NUMBER, DIRECTIVE_WRONG } Directive;
+/* A pattern's parts. */
+typedef enum Part { PART_CHARACTER, PART_PERCENT, PART_NUMBER, PART_WRONG } Part;
 
-/* `*text` stands at a percent sign and is moved past the directive. */
-static Directive read_directive(const char **text, int *digits) {
+enum { MAX_DIGITS = 9 };
+
+/* `*text` stands at a percent sign and is moved past the directive if it is one. */
+static Part read_directive(const char **text, int *digits) {
     const char *p = *text + 1;
-    *digits = 1;
     if (p[0] == '%') {
         *text = p + 1;
-        return DIRECTIVE_PERCENT;
+        return PART_PERCENT;
     }
-    if (p[0] == '0' && p[1] >= '1' && p[1] <= '9') {
+    if (p[0] == '0' && p[1] >= '1' && p[1] <= '0' + MAX_DIGITS) {
         *digits = p[1] - '0';
         p += 2;
     }
     if (p[0] != 'd')
-        return DIRECTIVE_WRONG;
+        return PART_WRONG;
     *text = p + 1;
-    return DIRECTIVE_NUMBER;
+    return PART_NUMBER;
+}
+
+/* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
+static Part read_part(const char **text, int *digits) {
+    size_t marks = strspn(*text, "#");
+    *digits = 1;
+    if (**text == '%')
+        return read_directive(text, digits);
+    if (marks > MAX_DIGITS)
+        return PART_WRONG;
+    *text += marks > 0 ? marks : 1;
+    if (marks == 0)
+        return PART_CHARACTER;
+    *digits = (int)marks;
+    return PART_NUMBER;
 }
 
 bool hd_pattern_has_number(const char *path) {
-    while ((path = strchr(path, '%')) != NULL) {
-        int digits;
-        Directive directive = read_directive(&path, &digits);
-        if (directive == DIRECTIVE_NUMBER)
+    int digits;
+    while (*path != '\0') {
+        Part part = read_part(&path, &digits);
+        if (part == PART_NUMBER)
             return true;
-        if (directive == DIRECTIVE_WRONG)
-            path++;
+        if (part == PART_WRONG)
+            path += *path == '#' ? strspn(path, "#") : 1;
     }
     return false;
 }
@@ -118,31 +135,28 @@ bool hd_pattern_has_number(const char *path) {
 HdStatus hd_pattern_check(const char *pattern, HdError *error) {
     const char *text = pattern;
     int numbers = 0, digits;
-    while ((text = strchr(text, '%')) != NULL) {
-        Directive directive = read_directive(&text, &digits);
-        if (directive == DIRECTIVE_WRONG)
+    while (*text != '\0') {
+        Part part = read_part(&text, &digits);
+        if (part == PART_WRONG)
             return hd_fail(error, HD_BAD_INPUT,
-                           "the pattern \"%s\" has \"%.4s\", expected %%d, %%0Nd with N from 1 to "
-                           "9, or %%%% for a percent sign",
-                           pattern, text);
-        numbers += directive == DIRECTIVE_NUMBER;
+                           "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
+                           "%d, 1 to %d #, or %%%% for a percent sign",
+                           pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
+                           MAX_DIGITS);
+        numbers += part == PART_NUMBER;
     }
     if (numbers != 1)
         return hd_fail(error, HD_BAD_INPUT,
-                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d or %%0Nd",
+                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
+                       "or run of #",
                        pattern, numbers);
     return HD_OK;
 }
 
-/* Writes what stands for the directive or the character at `*text` and moves past it. */
+/* Writes what stands for the next part and moves past it. */
 static void expand_next(const char **text, int frame, char piece[16]) {
     int digits;
-    Directive directive = DIRECTIVE_PERCENT;
-    if (**text == '%')
-        directive = read_directive(text, &digits);
-    else
-        (*text)++;
-    if (directive == DIRECTIVE_NUMBER)
+    if (read_part(text, &digits) == PART_NUMBER)
         snprintf(piece, 16, "%0*d", digits, frame);
     else
         snprintf(piece, 16, "%c", (*text)[-1]);

@@ -20,11 +20,12 @@ bool hd_path_has_ending(const char *path, const char *ending);
 /* Makes every missing folder above the file `path`. */
 HdStatus hd_path_make_parents(const char *path, HdError *error);
 
-/* True where `path` holds a frame number: "%d" or "%0Nd", N from 1 to 9. */
+/* True where `path` holds a frame number: "%d", "%0Nd" with N from 1 to 9, or a run of 1 to 9 "#",
+   which counts its digits. */
 bool hd_pattern_has_number(const char *path);
 
-/* Checks a pattern: exactly one "%d" or "%0Nd"; "%%" stands for a percent sign; anything else after
-   a percent sign is wrong. The pattern never reaches printf. */
+/* Checks a pattern: exactly one frame number; "%%" stands for a percent sign; anything else after a
+   percent sign is wrong, and so is a longer run of "#". The pattern never reaches printf. */
 HdStatus hd_pattern_check(const char *pattern, HdError *error);
 
 /* Writes the name of one frame of a checked pattern. */

@@ -9,6 +9,7 @@
 #include "clock.h"
 #include "image.h"
 #include "interrupt.h"
+#include "output_kind.h"
 #include "paths.h"
 #include "video.h"
 
@@ -16,29 +17,29 @@ typedef struct Run {
     const HdSequence *sequence;
     HdRenderer *renderer;
     HdFrame frame;
-    HdImage8 image;
     HdVideo *video; /* NULL: pictures */
+    HdImage8 image; /* a film's frame */
 } Run;
 
 static bool is_film(const char *output) {
-    return hd_path_has_ending(output, ".mp4");
+    return hd_output_is_film(hd_output_kind(output));
 }
 
 HdStatus hd_sequence_check(const HdSequence *sequence, HdError *error) {
     if (is_film(sequence->output) && hd_pattern_has_number(sequence->output))
         return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' asks for numbered films: a film has no number in its name, and "
-                       "pictures end in .png or .data",
+                       "'%s' asks for numbered films: a film has no %%d or # in its name, and "
+                       "pictures end in .png, .pfm or .data",
                        sequence->output);
     if (is_film(sequence->output))
         return HD_OK;
-    if (hd_pattern_has_number(sequence->output) || strchr(sequence->output, '%') != NULL)
+    if (strpbrk(sequence->output, "%#") != NULL)
         return hd_pattern_check(sequence->output, error);
     if (sequence->frames->count == 1)
         return HD_OK;
     return hd_fail(error, HD_BAD_INPUT,
-                   "'%s' names one picture, but %d frames are to be rendered: put %%04d into the "
-                   "name, choose a film (.mp4), or choose one frame with --frames",
+                   "'%s' names one picture, but %d frames are to be rendered: put #### into the "
+                   "name, choose a film such as film.mp4, or choose one frame with --frames",
                    sequence->output, sequence->frames->count);
 }
 
@@ -67,16 +68,18 @@ static HdStatus frame_path(const char *output, int number, char path[HD_MAX_PATH
 }
 
 static HdStatus store_frame(Run *run, int number, HdError *error) {
+    const HdPictureStyle style = {HD_CURVE_LINEAR, 8};
     char path[HD_MAX_PATH], expanded[HD_MAX_PATH];
-    hd_frame_to_image8(&run->frame, &run->image);
-    if (run->video != NULL)
+    if (run->video != NULL) {
+        hd_frame_to_image8(&run->frame, style.curve, &run->image);
         return hd_video_add(run->video, &run->image, error);
+    }
     HdStatus status = frame_path(run->sequence->output, number, path, error);
     if (status == HD_OK)
         status = hd_path_expand_home(path, expanded, error);
     if (status != HD_OK)
         return status;
-    return hd_image8_write(&run->image, expanded, error);
+    return hd_picture_write(&run->frame, &style, expanded, error);
 }
 
 static HdStatus render_frames(Run *run, HdError *error) {
@@ -103,6 +106,8 @@ static HdStatus render_frames(Run *run, HdError *error) {
 static HdStatus open_film(Run *run, HdError *error) {
     char path[HD_MAX_PATH];
     HdStatus status = hd_path_expand_home(run->sequence->output, path, error);
+    if (status == HD_OK)
+        status = hd_image8_create(&run->image, run->frame.width, run->frame.height, error);
     if (status != HD_OK)
         return status;
     return hd_video_open(&run->video, path, run->frame.width, run->frame.height,
@@ -113,8 +118,6 @@ static HdStatus prepare(Run *run, HdError *error) {
     const HdScene *scene = run->sequence->scene;
     HdSceneTables tables;
     HdStatus status = hd_frame_create(&run->frame, scene->width, scene->height, error);
-    if (status == HD_OK)
-        status = hd_image8_create(&run->image, scene->width, scene->height, error);
     if (status == HD_OK)
         status = hd_compile_scene(&tables, scene, run->sequence->precision, error);
     if (status != HD_OK)

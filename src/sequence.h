@@ -11,7 +11,7 @@ typedef struct HdSequence {
     const HdScene *scene;
     const HdFrameList *frames;
     HdPrecision precision;
-    const char *output;    /* a film's name (".mp4"), a sequence's pattern, or one picture's name */
+    const char *output;    /* a film's name, a sequence's pattern, or one picture's name */
     int frames_per_second; /* of a film */
     /* Called after each frame is stored; `done` counts from 1. Must return HD_OK to go on. */
     HdStatus (*stored)(void *context, int number, int done, const HdFrame *frame, double seconds,

@@ -148,7 +148,8 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     Vec3 normal = vec3_splat(plane->x, plane->y, plane->z);
     surface->normal = vec3_pick(
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
-    set_material(surface, m, splat_material(materials + floor->face_material, hit->entering));
+    /* A floor has no inner side: which way its normal looks is of no account. */
+    set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
     if (floor_map->texture_width > 0) {
         vreal s, t;
         floor_coordinates(floor_map, surface->point, &s, &t);

@@ -112,7 +112,7 @@ expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --fr
 expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "0-$frame_count"
 
 right --output other.data -o picture.data
-# The name tells what to write, so it has to end in one of the three.
+# The name tells what to write, so it has to have one of the endings.
 for value in '' picture picture.jpg film.avi 'out/%d.jpg' 'out/%s.png' '%d_%d.png' 'out/%5d.png' folder/; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$value"
 done

@@ -43,6 +43,15 @@ render --size 32x24 --frames 1 -o alone_%d.png
 expect_same out/0001.png alone_1.png
 expect_files . out out/0000.png out/0001.png out/0002.png out/0010.png alone_1.png
 rm -rf ./*
+render --size 32x24 --frames 0,10 -o 'take ##/a.data'
+expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
+expect_data 'take 10/a.data' 32 24
+rm -rf ./*
+for name in '#_##.data' '#/%d.data' '##########.data'; do
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$name"
+    expect_stderr_contains "$name"
+done
+expect_files .
 
 # ---- one name for several frames
 for name in picture.png picture.data; do
@@ -53,7 +62,10 @@ done
 expect_files .
 
 # A film has no number.
-expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-2 -o film_%d.mp4
+for name in film_%d.mp4 '###.mkv' '#/film.gif'; do
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-2 -o "$name"
+    expect_stderr_contains "$name"
+done
 expect_files .
 
 # ---- films
@@ -102,6 +114,30 @@ for name in -film.mp4 'a b.mp4' 'pipe:1.mp4' '50%.mp4' "it's.mp4"; do
 done
 expect_files . -film.mp4 '50%.mp4' 'a b.mp4' "it's.mp4" film.mp4 hedron.mp4 new new/odd.MP4 'pipe:1.mp4'
 rm -rf ./*
+
+# The lossless film has the frames' bytes, and the GIF as many frames.
+render --size 33x25 --frames 3-5 -o film.mkv
+expect_stdout_lines 1 'film\.mkv'
+render --size 33x25 --frames 3-5 -o '###.data'
+for number in 003 004 005; do
+    tail -c +9 "$number.data"
+done >frames.rgba
+ffmpeg -nostdin -v error -i film.mkv -f rawvideo -pix_fmt rgba film.rgba
+expect_same film.rgba frames.rgba
+render --size 33x25 --frames 3-5 -o film.gif
+found=$(film_says codec_name,width,height,nb_read_frames film.gif)
+if [[ $found != gif,33,25,3 ]]; then
+    fail "film.gif has '$found', expected 'gif,33,25,3'"
+fi
+rm -rf ./*
+
+# PFM has the values themselves.
+render --size 33x25 --frames 3 -o picture.pfm
+if [[ $(head -c 14 picture.pfm) != $'PF\n33 25\n-1.0' ]] ||
+    (($(stat -c %s picture.pfm) != 14 + 33 * 25 * 12)); then
+    fail "picture.pfm is no PFM of 33 x 25 pixels"
+fi
+rm picture.pfm
 
 # Pictures of one scene in the two formats hold the same pixels.
 for kind in png data; do

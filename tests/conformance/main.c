@@ -116,17 +116,13 @@ static bool write_golden(const Golden *golden, const char *path) {
 
 static void save_picture(const Options *options, const char *name, const HdFrame *frame) {
     HdError error;
-    HdImage8 image;
+    const HdPictureStyle style = {HD_CURVE_LINEAR, 8};
     char path[4096];
     if (options->pictures == NULL)
         return;
     snprintf(path, sizeof path, "%s/%s.png", options->pictures, name);
-    if (hd_image8_create(&image, frame->width, frame->height, &error) != HD_OK)
-        fail(name, &error);
-    hd_frame_to_image8(frame, &image);
-    if (hd_image8_write(&image, path, &error) != HD_OK)
+    if (hd_picture_write(frame, &style, path, &error) != HD_OK)
         fail(path, &error);
-    hd_image8_free(&image);
 }
 
 static uint64_t render_hash(HdRenderer *renderer, int number, HdPrecision precision,

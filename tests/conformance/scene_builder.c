@@ -41,6 +41,7 @@ void build_scene(HdScene *scene, int width, int height, int samples, int depth, 
                  int lights) {
     memset(scene, 0, sizeof *scene);
     scene->frame_count = 1;
+    scene->target.cylinder.z0 = -1.0; /* not at the eye; the frames' cameras are others */
     scene->width = width;
     scene->height = height;
     scene->samples_per_side = samples;
@@ -70,6 +71,14 @@ void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, dou
                                                 .falloff = {.distance = radius},
                                                 .disc_radius = 0.025 * radius,
                                                 .disc_radiance = 3.0}};
+}
+
+void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
+                 double grey, double transmission) {
+    build_solid(scene, index, kind, centre, radius, same(grey), 0);
+    scene->solids[index].rim_width = 0.0;
+    scene->solids[index].face.reflection = 0.0;
+    scene->solids[index].face.transmission = transmission;
 }
 
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity) {

@@ -16,6 +16,10 @@ HdMaterial build_material(HdVec3 colour, double reflection, double transmission)
 /* Reflection 0.6, transmission 0.35, a rim and edge lights. */
 void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
                  HdVec3 colour, int lights_per_edge);
+
+/* Without a rim, edge lights and reflection. */
+void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
+                 double grey, double transmission);
 void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity);
 void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d);
 void build_square_floor(HdScene *scene, double half_side, double z);

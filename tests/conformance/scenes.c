@@ -191,6 +191,129 @@ static void empty_scene(HdScene *scene, HdCamera *camera) {
     build_camera(camera, hd_vec3(0.0, -1.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 60.0);
 }
 
+static void refract(HdSolid *solid, double index, double reflection, double transmission) {
+    solid->face.index_of_refraction = index;
+    solid->face.reflection = reflection;
+    solid->face.transmission = transmission;
+    solid->face.diffuse = 0.05;
+}
+
+static void glass_cube(HdScene *scene, HdCamera *camera) {
+    one_solid(scene, camera, HD_HEXAHEDRON);
+    scene->solids[0].rotation_degrees = hd_vec3(15.0, 25.0, 35.0);
+    scene->solids[0].face.colour = hd_vec3(0.9, 0.97, 1.0);
+    refract(&scene->solids[0], 1.5, 0.1, 0.85);
+    scene->depth = 8;
+}
+
+/* Most of what is seen was reflected totally. */
+static void eye_inside_glass(HdScene *scene, HdCamera *camera) {
+    glass_cube(scene, camera);
+    refract(&scene->solids[0], 2.4, 0.15, 0.8);
+    scene->samples_per_side = 1;
+    build_camera(camera, hd_vec3(0.2, 0.1, 0.15), hd_vec3(-0.3, 0.9, -0.4), 100.0);
+}
+
+/* An index below 1, as air has in water: total reflection on the outer side. */
+static void bubble(HdScene *scene, HdCamera *camera) {
+    one_solid(scene, camera, HD_OCTAHEDRON);
+    scene->solids[0].face.colour = hd_vec3(1.0, 1.0, 1.0);
+    scene->solids[0].lights.per_edge = 0;
+    refract(&scene->solids[0], 0.75, 0.05, 0.9);
+}
+
+static void glass_dodecahedron(HdScene *scene, HdCamera *camera) {
+    one_solid(scene, camera, HD_DODECAHEDRON);
+    scene->solids[0].face.colour = hd_vec3(1.0, 0.93, 0.85);
+    scene->solids[0].face.has_inner_side = true;
+    scene->solids[0].face.inner_reflection = 0.3;
+    scene->solids[0].face.inner_transmission = 0.6;
+    scene->solids[0].rim_width = 0.0;
+    refract(&scene->solids[0], 1.33, 0.08, 0.9);
+}
+
+/* Mirrors from outside and nearly clear from within. */
+static void inner_sides(HdScene *scene, HdCamera *camera) {
+    three_solids(scene, camera, 0.7);
+    for (int s = 0; s < 3; s++) {
+        HdMaterial *face = &scene->solids[s].face;
+        face->reflection = 0.7;
+        face->transmission = 0.25;
+        face->has_inner_side = true;
+        face->inner_reflection = 0.1 * s;
+        face->inner_transmission = 0.8;
+    }
+}
+
+static void colour_edges(HdSolid *solid) {
+    static const HdVec3 colours[] = {
+        {1.0, 0.1, 0.1}, {0.1, 1.0, 0.2}, {0.2, 0.3, 1.0}, {1.0, 0.8, 0.1}};
+    solid->lights.colour_count = 4;
+    for (int i = 0; i < 4; i++)
+        solid->lights.colours[i] = colours[i];
+}
+
+static void coloured_edges(HdScene *scene, HdCamera *camera) {
+    three_solids(scene, camera, 2.4);
+    for (int s = 0; s < 3; s++) {
+        scene->solids[s].rotation_degrees = hd_vec3(20.0 * s, 35.0, -50.0);
+        scene->solids[s].lights.intensity = 0.15;
+        scene->solids[s].lights.disc_radius = 0.06;
+        colour_edges(&scene->solids[s]);
+    }
+}
+
+static void ending_lights(HdScene *scene, HdCamera *camera) {
+    one_solid(scene, camera, HD_DODECAHEDRON);
+    colour_edges(&scene->solids[0]);
+    scene->solids[0].lights.per_edge = 1;
+    scene->solids[0].lights.intensity = 1.5;
+    scene->solids[0].lights.falloff = (HdFalloff){.end = 1.6};
+    build_light(scene, 0, hd_vec3(1.3, -1.8, -0.6), hd_vec3(1.5, 1.2, 0.9));
+    build_light(scene, 1, hd_vec3(-1.4, 1.6, 0.2), hd_vec3(0.6, 0.9, 1.5));
+    for (int i = 0; i < 2; i++)
+        scene->lights[i].falloff = (HdFalloff){.end = 1.0 + 1.2 * i};
+}
+
+/* Lanterns: paper faces over the solid's own lights, and a lamp below a thin floor. */
+static void lanterns(HdScene *scene, HdCamera *camera) {
+    one_solid(scene, camera, HD_ICOSAHEDRON);
+    HdSolid *solid = &scene->solids[0];
+    colour_edges(solid);
+    solid->lights.per_edge = 1;
+    solid->lights.intensity = 0.15;
+    solid->face.reflection = 0.1;
+    solid->face.transmission = 0.5;
+    solid->face.diffuse = 0.8;
+    solid->face.lit_from_behind = true;
+    scene->floor.material.reflection = 0.1;
+    scene->floor.material.transmission = 0.6;
+    scene->floor.material.lit_from_behind = true;
+    build_light(scene, 1, hd_vec3(-1.5, -0.5, -2.2), hd_vec3(0.9, 0.9, 0.5));
+}
+
+static void everything(HdScene *scene, HdCamera *camera) {
+    three_solids(scene, camera, 2.0);
+    scene->depth = 10;
+    scene->cutoff = 0.001;
+    scene->samples_per_side = 1;
+    for (int s = 0; s < 3; s++) {
+        HdSolid *solid = &scene->solids[s];
+        solid->rotation_degrees = hd_vec3(-30.0, 10.0 * s, 65.0);
+        colour_edges(solid);
+        solid->lights.intensity = 0.15;
+        solid->lights.falloff = (HdFalloff){.end = 2.5};
+        refract(solid, s == 1 ? 0.8 : 1.4 + 0.3 * s, 0.15, 0.8);
+        solid->face.has_inner_side = true;
+        solid->face.inner_reflection = 0.2;
+        solid->face.inner_transmission = 0.75;
+        solid->face.diffuse = 0.4;
+        solid->face.lit_from_behind = s != 1;
+    }
+    scene->lights[1].falloff.end = 6.0;
+    build_texture(&scene->floor.texture, 24, 24);
+}
+
 const ConformanceFrame conformance_frames[] = {
     {"tetrahedron", tetrahedron},
     {"hexahedron", hexahedron},
@@ -217,5 +340,14 @@ const ConformanceFrame conformance_frames[] = {
     {"far-from-origin", far_from_origin},
     {"clamped", clamped},
     {"empty-scene", empty_scene},
+    {"inner-sides", inner_sides},
+    {"coloured-edges", coloured_edges},
+    {"ending-lights", ending_lights},
+    {"glass-cube", glass_cube},
+    {"eye-inside-glass", eye_inside_glass},
+    {"bubble", bubble},
+    {"glass-dodecahedron", glass_dodecahedron},
+    {"lanterns", lanterns},
+    {"everything", everything},
 };
 const int conformance_frame_count = (int)(sizeof conformance_frames / sizeof conformance_frames[0]);

@@ -3,10 +3,18 @@
 #ifndef HD_CONFORMANCE_TRUTHS_H
 #define HD_CONFORMANCE_TRUTHS_H
 
-#include "backend.h"
+#include "truth_check.h"
 
 /* Renders every truth with an open renderer and prints those that fail. */
 void check_truths(HdRenderer *renderer, HdPrecision precision, const char *label, int *checked,
                   int *failed);
+
+/* Those of one theme. */
+void check_geometry(Check *check);
+void check_shading(Check *check);
+void check_lights(Check *check);
+void check_rotation(Check *check);
+void check_refraction(Check *check);
+void check_sides(Check *check);
 
 #endif

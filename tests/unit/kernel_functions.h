@@ -212,6 +212,152 @@ static void texels_are_interpolated(void **state) {
     CLOSE(lane_real(&c.x, 0), 0.0);
 }
 
+/* The direction that meets a face of normal (0, 0, 1) at an angle; lanes have angles of their own.
+ */
+static Vec3 falling(vreal sine) {
+    vreal cosine = square_root(splat(R(1.0)) - sine * sine);
+    return vec3(sine, splat(R(0.0)), -cosine);
+}
+
+static Vec3 refract_at_level(Vec3 direction, vreal relative_index, vmask *total) {
+    Vec3 normal = vec3_splat(R(0.0), R(0.0), R(1.0));
+    return refract(direction, normal, vec3_dot(normal, direction), relative_index, total);
+}
+
+static void rays_bend_by_snells_law(void **state) {
+    (void)state;
+    static const double indices[] = {0.4, 0.75, 0.999, 1.001, 1.5, 2.45};
+    for (int i = 0; i < 6; i++)
+        for (int step = 0; step < 20; step++) {
+            vmask total;
+            vreal sine = ramp((real)step * R(0.04), R(0.01));
+            Vec3 bent = refract_at_level(falling(sine), splat((real)indices[i]), &total);
+            vreal length = vec3_dot(bent, bent);
+            for (int lane = 0; lane < HD_LANES; lane++) {
+                double expected = indices[i] * (double)lane_real(&sine, lane);
+                assert_int_equal(lane_int(&total, lane), expected > 1.0 ? -1 : 0);
+                CLOSE(lane_real(&length, lane), 1.0);
+                CLOSE(lane_real(&bent.y, lane), 0.0);
+                if (expected < 1.0)
+                    CLOSE(lane_real(&bent.x, lane), expected);
+                assert_true(lane_real(&bent.z, lane) < R(0.0));
+            }
+        }
+}
+
+static void index_one_and_upright_rays_go_straight(void **state) {
+    (void)state;
+    vmask total;
+    Vec3 before = falling(ramp(R(0.1), R(0.06)));
+    Vec3 after = refract_at_level(before, splat(R(1.0)), &total);
+    assert_false(any_lane(total));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&after.x, lane) == lane_real(&before.x, lane));
+        assert_true(lane_real(&after.z, lane) == lane_real(&before.z, lane));
+    }
+    after = refract_at_level(vec3_splat(R(0.0), R(0.0), R(-1.0)), ramp(R(0.5), R(0.2)), &total);
+    assert_false(any_lane(total));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&after.x, lane) == R(0.0));
+        assert_true(lane_real(&after.z, lane) == R(-1.0));
+    }
+}
+
+/* A direction may be longer than 1 by rounding; grazing and upright rays must not become NaN. */
+static void refraction_survives_rounding(void **state) {
+    (void)state;
+    vmask total;
+    const real ulp = sizeof(real) == 4 ? R(1.1920928955078125e-7) : R(2.220446049250313e-16);
+    Vec3 after = refract_at_level(vec3_splat(R(0.0), R(0.0), R(-1.0) - ulp), splat(R(2.0)), &total);
+    assert_true(lane_real(&after.z, 0) == R(-1.0));
+    after = refract_at_level(vec3_splat(R(1.0) + ulp, R(0.0), -ulp), splat(R(0.5)), &total);
+    assert_false(any_lane(total));
+    CLOSE(lane_real(&after.x, 0), 0.5);
+    after = refract_at_level(vec3_splat(R(1.0) + ulp, R(0.0), -ulp), splat(R(1.5)), &total);
+    assert_true(lane_int(&total, HD_LANES - 1) == -1);
+    CLOSE(lane_real(&after.x, 0), 1.0);
+}
+
+/* The vector form is longer or shorter than 1 where the ray's direction is: it must not pass that
+   on from face to face. */
+static void refracted_directions_have_length_one(void **state) {
+    (void)state;
+    vmask total;
+    Vec3 before = vec3_scale(falling(splat(R(0.3))), splat(R(1.001)));
+    Vec3 after = refract_at_level(before, splat(R(1.3)), &total);
+    vreal length = vec3_dot(after, after);
+    CLOSE(lane_real(&length, 0), 1.0);
+}
+
+static void materials_have_two_sides(void **state) {
+    (void)state;
+    Material material = {.reflection = R(0.125),
+                         .transmission = R(0.25),
+                         .inner_reflection = R(0.5),
+                         .inner_transmission = R(0.375),
+                         .index_of_refraction = R(2.0),
+                         .inverse_index = R(0.5)};
+    vmask first = eq_int(int_ramp(0, 1), splat_int(0));
+    LaneMaterial seen = splat_material(&material, first);
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&seen.reflection, lane) == (lane == 0 ? R(0.125) : R(0.5)));
+        assert_true(lane_real(&seen.transmission, lane) == (lane == 0 ? R(0.25) : R(0.375)));
+        assert_true(lane_real(&seen.relative_index, lane) == (lane == 0 ? R(0.5) : R(2.0)));
+    }
+    assert_false(any_lane(seen.lit_from_behind));
+}
+
+static void faces_turn_over(void **state) {
+    (void)state;
+    vint numbers = int_ramp(0, 1);
+    Surface surface;
+    LitPoints points;
+    surface.normal = vec3_splat(R(0.0), R(0.6), R(-0.8));
+    surface.material = no_material();
+    surface.material.diffuse = splat(R(0.5));
+    surface.material.specular = splat(R(0.75));
+    surface.material.transmission =
+        pick(lt_int(numbers, splat_int(7)), splat(R(0.25)), splat(R(0.0)));
+    surface.material.lit_from_behind = lt_int(numbers, splat_int(6));
+    points.active = lt_int(numbers, splat_int(5));
+    points.inside = lt_int(numbers, splat_int(2));
+    turn_over(&surface, &points, lt_int(numbers, splat_int(4)));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&surface.normal.y, lane) == R(-0.6));
+        assert_true(lane_real(&surface.normal.z, lane) == R(0.8));
+        assert_true(lane_real(&surface.material.diffuse, lane) == (lane < 7 ? R(0.125) : R(0.0)));
+        assert_true(lane_real(&surface.material.specular, lane) == R(0.0));
+        assert_int_equal(lane_int(&points.active, lane), lane < 5 ? -1 : 0);
+        assert_int_equal(lane_int(&points.inside, lane), lane >= 2 && lane < 4 ? -1 : 0);
+    }
+    surface.material.lit_from_behind = mask_none();
+    turn_over(&surface, &points, mask_all());
+    assert_false(any_lane(points.active));
+}
+
+static void falloff_ends(void **state) {
+    (void)state;
+    Light light = {.intensity = {R(2.0), R(4.0), R(8.0)},
+                   .inverse_falloff_squared = R(0.25),
+                   .falloff_ends = 1};
+    static const real squared[] = {R(0.0), R(1.0), R(2.0), R(3.0), R(4.0), R(5.0), R(1e30)};
+    static const real shares[] = {R(1.0), R(0.5625), R(0.25), R(0.0625), R(0.0), R(0.0), R(0.0)};
+    for (int i = 0; i < 7; i++) {
+        Vec3 left = intensity_at(&light, splat(squared[i]));
+        vmask beyond = beyond_falloff(&light, splat(squared[i]));
+        assert_true(lane_real(&left.x, 0) == R(2.0) * shares[i]);
+        assert_true(lane_real(&left.z, HD_LANES - 1) == R(8.0) * shares[i]);
+        assert_int_equal(lane_int(&beyond, HD_LANES - 1), squared[i] < R(4.0) ? 0 : -1);
+    }
+    light.falloff_ends = 0;
+    Vec3 left = intensity_at(&light, splat(R(12.0)));
+    assert_true(lane_real(&left.y, 0) == R(1.0));
+    assert_false(any_lane(beyond_falloff(&light, splat(R(12.0)))));
+    light.inverse_falloff_squared = R(0.0);
+    left = intensity_at(&light, splat(R(12.0)));
+    assert_true(lane_real(&left.y, 0) == R(4.0));
+}
+
 static void every_pixel_has_one_place(void **state) {
     (void)state;
     enum { WIDTH = 21, HEIGHT = 13, BLOCKS = 3 * 2 };
@@ -259,6 +405,13 @@ int main(void) {
         cmocka_unit_test(fetching_by_lane),
         cmocka_unit_test(floor_coordinates_invert_the_map),
         cmocka_unit_test(texels_are_interpolated),
+        cmocka_unit_test(rays_bend_by_snells_law),
+        cmocka_unit_test(index_one_and_upright_rays_go_straight),
+        cmocka_unit_test(refraction_survives_rounding),
+        cmocka_unit_test(refracted_directions_have_length_one),
+        cmocka_unit_test(materials_have_two_sides),
+        cmocka_unit_test(faces_turn_over),
+        cmocka_unit_test(falloff_ends),
         cmocka_unit_test(every_pixel_has_one_place),
         cmocka_unit_test(samples_fill_the_lanes),
     };

@@ -174,6 +174,106 @@ static void test_on_the_axis(void **state) {
     expect_vector(camera.up, 0.0, -1.0, 0.0, tolerance);
 }
 
+static HdPath standing_at(double x, double y, double z) {
+    return (HdPath){.is_fixed = true, .point = hd_vec3(x, y, z)};
+}
+
+static HdCamera fixed_camera(HdVec3 eye, HdVec3 target) {
+    const HdScene scene = {.frame_count = 1,
+                           .eye = {.is_fixed = true, .point = eye},
+                           .target = {.is_fixed = true, .point = target},
+                           .field_of_view_degrees = 90.0};
+    return camera_of(&scene, 0);
+}
+
+static void test_a_fixed_point_stays(void **state) {
+    (void)state;
+    HdPath path = standing_at(0.1, -0.2, 0.3);
+    path.cylinder = (HdCylinderPath){.r0 = 5.0, .z0 = 1.0, .phi_frequency = 1.0};
+    for (int frame = 0; frame < 7; frame++)
+        expect_vector(hd_path_point(&path, frame, 7), 0.1, -0.2, 0.3, 0.0);
+}
+
+/* The picture's up is the direction towards the z axis, or away from it, and that of a view that is
+   tilted a little. */
+static void test_vertical_from_a_fixed_eye(void **state) {
+    (void)state;
+    const HdVec3 places[4] = {
+        {3.0, 4.0, 5.0}, {-3.0, 4.0, -5.0}, {-1e-3, -1e-3, 2.0}, {1e9, -2e9, 7e9}};
+    for (int i = 0; i < 4; i++) {
+        const HdVec3 eye = places[i];
+        const double r = hypot(eye.x, eye.y);
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double height = sign * r;
+            const HdCamera camera = fixed_camera(eye, hd_vec3(eye.x, eye.y, eye.z + height));
+            const double inward = 1.0 - 1e-6; /* of the tilted view's target */
+            const HdCamera near =
+                fixed_camera(eye, hd_vec3(eye.x * inward, eye.y * inward, eye.z + height));
+            expect_orthonormal(&camera);
+            expect_vector(camera.forward, 0.0, 0.0, sign, 0.0);
+            expect_vector(camera.up, sign * eye.x / r, sign * eye.y / r, 0.0, tolerance);
+            expect_vector(near.up, camera.up.x, camera.up.y, camera.up.z, 2e-6);
+            expect_vector(near.right, camera.right.x, camera.right.y, camera.right.z, 2e-6);
+        }
+    }
+}
+
+/* phi is 0 there. */
+static void test_vertical_from_a_fixed_eye_on_the_axis(void **state) {
+    (void)state;
+    const HdCamera down = fixed_camera(hd_vec3(0.0, 0.0, 5.0), hd_vec3(0.0, 0.0, 0.0));
+    expect_orthonormal(&down);
+    expect_vector(down.forward, 0.0, 0.0, -1.0, 0.0);
+    expect_vector(down.up, -1.0, 0.0, 0.0, 0.0);
+    const HdCamera up = fixed_camera(hd_vec3(0.0, -0.0, 5.0), hd_vec3(0.0, 0.0, 9.0));
+    expect_orthonormal(&up);
+    expect_vector(up.forward, 0.0, 0.0, 1.0, 0.0);
+    expect_vector(up.up, 1.0, 0.0, 0.0, 0.0);
+}
+
+static void test_a_fixed_eye_follows_the_target(void **state) {
+    (void)state;
+    HdScene scene = example();
+    scene.eye = standing_at(1.0, 2.0, 6.0);
+    for (int k = 0; k < 1024; k++) {
+        const HdCamera camera = camera_of(&scene, k);
+        const HdVec3 target = hd_path_point(&scene.target, k, 1024);
+        const HdVec3 forward = hd_normalize(hd_sub(target, hd_vec3(1.0, 2.0, 6.0)));
+        expect_orthonormal(&camera);
+        expect_vector(camera.eye, 1.0, 2.0, 6.0, 0.0);
+        expect_vector(camera.forward, forward.x, forward.y, forward.z, tolerance);
+        expect_near(camera.right.z, 0.0, tolerance);
+    }
+}
+
+static void test_a_moving_eye_watches_a_fixed_target(void **state) {
+    (void)state;
+    HdScene scene = example();
+    scene.target = standing_at(0.0, 0.0, 1.0);
+    for (int k = 0; k < 1024; k += 64) {
+        const HdCamera camera = camera_of(&scene, k);
+        const HdVec3 eye = hd_path_point(&scene.eye, k, 1024);
+        const HdVec3 forward = hd_normalize(hd_sub(hd_vec3(0.0, 0.0, 1.0), eye));
+        expect_vector(camera.eye, eye.x, eye.y, eye.z, 0.0);
+        expect_vector(camera.forward, forward.x, forward.y, forward.z, tolerance);
+    }
+}
+
+static void test_a_fixed_eye_at_the_target(void **state) {
+    (void)state;
+    static HdError error;
+    HdCamera camera;
+    HdScene scene = example();
+    scene.eye = scene.target = standing_at(0.0, 0.0, 0.0);
+    assert_int_equal(hd_camera_at(&camera, &scene, 3, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "frame 3: the eye is at the target (0, 0, 0)");
+    scene.eye = standing_at(1.0, 1.0, 1.0);
+    scene.target = standing_at(1.0, 1.0 + 1e-15, 1.0);
+    assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_BAD_INPUT);
+    scene.target = standing_at(1.0, 1.0 + 1e-12, 1.0);
+    assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
+}
+
 static void test_very_far_and_very_near(void **state) {
     (void)state;
     const double sizes[4] = {1e-310, 1e-200, 1e200, 1e300};
@@ -237,6 +337,12 @@ int main(void) {
         cmocka_unit_test(test_straight_down),
         cmocka_unit_test(test_straight_up),
         cmocka_unit_test(test_on_the_axis),
+        cmocka_unit_test(test_a_fixed_point_stays),
+        cmocka_unit_test(test_vertical_from_a_fixed_eye),
+        cmocka_unit_test(test_vertical_from_a_fixed_eye_on_the_axis),
+        cmocka_unit_test(test_a_fixed_eye_follows_the_target),
+        cmocka_unit_test(test_a_moving_eye_watches_a_fixed_target),
+        cmocka_unit_test(test_a_fixed_eye_at_the_target),
         cmocka_unit_test(test_very_far_and_very_near),
         cmocka_unit_test(test_the_eye_at_the_target),
         cmocka_unit_test(test_too_far_for_a_number),

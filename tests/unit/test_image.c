@@ -23,33 +23,38 @@ static uint32_t next_random(uint32_t *seed) {
     return *seed >> 16;
 }
 
-static HdImage8 make_image(int width, int height) {
+static const HdPictureStyle LINEAR_8 = {HD_CURVE_LINEAR, 8};
+
+/* Values of whole bytes. */
+static HdFrame make_frame(int width, int height) {
     HdError error = {0};
-    HdImage8 image;
+    HdFrame frame;
     uint32_t seed = 1;
-    assert_int_equal(hd_image8_create(&image, width, height, &error), HD_OK);
-    for (size_t i = 0; i < (size_t)width * (size_t)height * 4; i++)
-        image.rgba[i] = (uint8_t)next_random(&seed);
-    return image;
+    assert_int_equal(hd_frame_create(&frame, width, height, &error), HD_OK);
+    for (size_t i = 0; i < (size_t)width * (size_t)height * 3; i++)
+        frame.rgb[i] = (float)(next_random(&seed) & 255) / 255.0f;
+    return frame;
 }
 
-static void check_texture(const HdTexture *texture, const HdImage8 *image) {
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    assert_int_equal(texture->width, image->width);
-    assert_int_equal(texture->height, image->height);
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < 3; c++)
-            assert_int_equal(texture->texels[i * 3 + c], image->rgba[i * 4 + c] * 257);
+static uint8_t byte_of(float value) {
+    return (uint8_t)lrintf(value * 255.0f);
 }
 
-static void formats_follow_the_name(void **state) {
-    (void)state;
-    assert_int_equal(hd_image_format("a.png"), HD_IMAGE_PNG);
-    assert_int_equal(hd_image_format("a/b.PnG"), HD_IMAGE_PNG);
-    assert_int_equal(hd_image_format("a.png.data"), HD_IMAGE_DATA);
-    assert_int_equal(hd_image_format("png"), HD_IMAGE_DATA);
-    assert_int_equal(hd_image_format("apng"), HD_IMAGE_DATA);
-    assert_int_equal(hd_image_format(""), HD_IMAGE_DATA);
+static void check_texture(const HdTexture *texture, const HdFrame *frame) {
+    size_t values = (size_t)frame->width * (size_t)frame->height * 3;
+    assert_int_equal(texture->width, frame->width);
+    assert_int_equal(texture->height, frame->height);
+    for (size_t i = 0; i < values; i++)
+        assert_int_equal(texture->texels[i], byte_of(frame->rgb[i]) * 257);
+}
+
+/* Writes a frame and reads it as a texture. */
+static HdTexture pass_through(const HdFrame *frame, const HdPictureStyle *style, const char *path) {
+    HdError error = {0};
+    HdTexture texture;
+    assert_int_equal(hd_picture_write(frame, style, path, &error), HD_OK);
+    assert_int_equal(hd_texture_read(&texture, path, style->curve, &error), HD_OK);
+    return texture;
 }
 
 static void sizes_are_checked(void **state) {
@@ -69,79 +74,198 @@ static void sizes_are_checked(void **state) {
     hd_image8_free(&image);
 }
 
-static void data_files_hold_the_bytes(void **state) {
+static void frames_become_bytes(void **state) {
     (void)state;
     HdError error = {0};
-    HdTexture texture;
-    HdImage8 image = make_image(259, 2);
+    HdFrame frame = make_frame(301, 3);
+    HdImage8 image;
+    assert_int_equal(hd_image8_create(&image, 301, 3, &error), HD_OK);
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        uint8_t expected[3];
+        hd_frame_to_image8(&frame, (HdCurve)curve, &image);
+        for (size_t i = 0; i < 301 * 3; i++) {
+            hd_curve_encode8((HdCurve)curve, frame.rgb + 3 * i, 3, expected);
+            assert_memory_equal(image.rgba + 4 * i, expected, 3);
+            assert_int_equal(image.rgba[4 * i + 3], 255);
+        }
+    }
+    hd_image8_free(&image);
+    hd_frame_free(&frame);
+}
+
+static void data_files_hold_the_bytes(void **state) {
+    (void)state;
+    HdFrame frame = make_frame(259, 2);
     static unsigned char bytes[8 + 259 * 2 * 4 + 1];
     const unsigned char head[8] = {3, 1, 0, 0, 2, 0, 0, 0};
-    assert_int_equal(hd_image8_write(&image, "bytes/a/b.data", &error), HD_OK);
+    HdTexture texture = pass_through(&frame, &LINEAR_8, "bytes/a/b.data");
     assert_int_equal(read_bytes("bytes/a/b.data", bytes, sizeof bytes), sizeof bytes - 1);
     assert_memory_equal(bytes, head, 8);
-    assert_memory_equal(bytes + 8, image.rgba, sizeof bytes - 9);
+    for (size_t i = 0; i < 259 * 2; i++) {
+        for (size_t c = 0; c < 3; c++)
+            assert_int_equal(bytes[8 + 4 * i + c], byte_of(frame.rgb[3 * i + c]));
+        assert_int_equal(bytes[8 + 4 * i + 3], 255);
+    }
     assert_int_equal(count_entries("bytes/a"), 1);
-    assert_int_equal(hd_texture_read(&texture, "bytes/a/b.data", &error), HD_OK);
-    check_texture(&texture, &image);
-    free(texture.texels);
-    hd_image8_free(&image);
+    check_texture(&texture, &frame);
+    hd_texture_clear(&texture);
+    hd_frame_free(&frame);
 }
 
 static void png_files_hold_the_colours(void **state) {
     (void)state;
-    HdError error = {0};
-    HdTexture texture;
-    HdImage8 image = make_image(67, 35);
-    unsigned char head[34];
-    assert_int_equal(hd_image8_write(&image, "colours/a.PNG", &error), HD_OK);
+    HdFrame frame = make_frame(67, 35);
+    unsigned char head[29];
+    HdTexture texture = pass_through(&frame, &LINEAR_8, "colours/a.PNG");
     assert_int_equal(count_entries("colours"), 1);
-    assert_int_equal(read_bytes("colours/a.PNG", head, 34), 34);
+    assert_int_equal(read_bytes("colours/a.PNG", head, sizeof head), sizeof head);
     assert_memory_equal(head, "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x43\0\0\0\x23\x08\x02\0\0\0",
                         29);
-    assert_int_equal(hd_texture_read(&texture, "colours/a.PNG", &error), HD_OK);
-    check_texture(&texture, &image);
-    free(texture.texels);
-    hd_image8_free(&image);
+    check_texture(&texture, &frame);
+    hd_texture_clear(&texture);
+    hd_frame_free(&frame);
+}
+
+/* Fills a small frame with values between the steps of 8 bits. */
+static HdFrame make_fine_frame(void) {
+    HdFrame frame = make_frame(13, 7);
+    for (int i = 0; i < 13 * 7 * 3; i++)
+        frame.rgb[i] = (float)i / (float)(13 * 7 * 3 - 1);
+    return frame;
+}
+
+static void png_files_may_have_16_bits(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdFrame frame = make_fine_frame();
+    uint16_t expected[13 * 7 * 3];
+    unsigned char head[25];
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        const HdPictureStyle style = {(HdCurve)curve, 16};
+        HdTexture texture;
+        assert_int_equal(hd_picture_write(&frame, &style, "sixteen.png", &error), HD_OK);
+        assert_int_equal(read_bytes("sixteen.png", head, sizeof head), sizeof head);
+        assert_int_equal(head[24], 16);
+        /* Read as it is, the texture has the codes of the file. */
+        assert_int_equal(hd_texture_read(&texture, "sixteen.png", HD_CURVE_LINEAR, &error), HD_OK);
+        hd_curve_encode16((HdCurve)curve, frame.rgb, 13 * 7 * 3, expected);
+        assert_memory_equal(texture.texels, expected, sizeof expected);
+        hd_texture_clear(&texture);
+    }
+    hd_frame_free(&frame);
+}
+
+/* Off the curve again, the values are those of the frame but for the rounding. */
+static void textures_come_off_the_curve(void **state) {
+    (void)state;
+    HdFrame frame = make_fine_frame();
+    const struct {
+        const char *path;
+        int bits;
+        double tolerance;
+    } files[] = {{"off.png", 16, 5e-5}, {"off.png", 8, 5e-3}, {"off.data", 8, 5e-3}};
+    for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
+        const HdPictureStyle style = {HD_CURVE_SRGB, files[f].bits};
+        HdTexture texture = pass_through(&frame, &style, files[f].path);
+        for (int i = 0; i < 13 * 7 * 3; i++)
+            expect_near(texture.texels[i] / 65535.0, (double)frame.rgb[i], files[f].tolerance);
+        hd_texture_clear(&texture);
+    }
+    hd_frame_free(&frame);
+}
+
+static bool has_chunk(const char *path, const char *chunk, size_t size) {
+    unsigned char bytes[200];
+    size_t count = read_bytes(path, bytes, sizeof bytes);
+    for (size_t i = 0; i + size <= count; i++)
+        if (memcmp(bytes + i, chunk, size) == 0)
+            return true;
+    return false;
+}
+
+static void png_files_name_the_curve(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdFrame frame = make_frame(3, 2);
+    const HdPictureStyle srgb = {HD_CURVE_SRGB, 8};
+    assert_int_equal(hd_picture_write(&frame, &srgb, "srgb.png", &error), HD_OK);
+    assert_true(has_chunk("srgb.png", "\0\0\0\1sRGB\0", 9));
+    assert_false(has_chunk("srgb.png", "gAMA", 4));
+    assert_int_equal(hd_picture_write(&frame, &LINEAR_8, "linear.png", &error), HD_OK);
+    assert_true(has_chunk("linear.png", "\0\0\0\4gAMA\0\1\x86\xa0", 12)); /* 100000: 1 */
+    assert_false(has_chunk("linear.png", "sRGB", 4));
+    hd_frame_free(&frame);
+}
+
+/* Whatever the style, and what no other format can hold. */
+static void pfm_files_hold_the_values(void **state) {
+    (void)state;
+    HdError error = {0};
+    const HdPictureStyle srgb = {HD_CURVE_SRGB, 8};
+    HdFrame frame = make_frame(2, 3);
+    unsigned char bytes[100];
+    const unsigned char third_row[8] = {0, 0, 0x80, 0x3f, 0, 0, 0x20, 0xc0}; /* 1, -2.5 */
+    frame.rgb[12] = 1.0f;
+    frame.rgb[13] = -2.5f;
+    frame.rgb[0] = 65536.0f;
+    assert_int_equal(hd_picture_write(&frame, &srgb, "values.Pfm", &error), HD_OK);
+    assert_int_equal(read_bytes("values.Pfm", bytes, sizeof bytes), 12 + 72);
+    assert_memory_equal(bytes, "PF\n2 3\n-1.0\n", 12);
+    assert_memory_equal(bytes + 12, third_row, 8);
+    assert_memory_equal(bytes + 12 + 48, "\0\0\x80\x47", 4);
+    hd_frame_free(&frame);
+}
+
+/* The classic mode's names need no ending. */
+static void other_endings_are_the_data_format(void **state) {
+    (void)state;
+    HdFrame frame = make_frame(3, 2);
+    const char *const names[] = {"none", "other.ppm", "png", "apng", "a.png.data"};
+    unsigned char bytes[33];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        HdTexture texture = pass_through(&frame, &LINEAR_8, names[i]);
+        check_texture(&texture, &frame);
+        assert_int_equal(read_bytes(names[i], bytes, sizeof bytes), 32);
+        hd_texture_clear(&texture);
+    }
+    hd_frame_free(&frame);
 }
 
 static void older_files_are_replaced(void **state) {
     (void)state;
-    HdError error = {0};
-    HdTexture texture;
-    HdImage8 image = make_image(3, 2);
+    HdFrame frame = make_frame(3, 2);
     mkdir("older", 0777);
     write_bytes("older/a.data", "older", 5);
-    assert_int_equal(hd_image8_write(&image, "older/a.data", &error), HD_OK);
-    assert_int_equal(hd_texture_read(&texture, "older/a.data", &error), HD_OK);
-    check_texture(&texture, &image);
+    HdTexture texture = pass_through(&frame, &LINEAR_8, "older/a.data");
+    check_texture(&texture, &frame);
     assert_int_equal(count_entries("older"), 1);
-    free(texture.texels);
-    hd_image8_free(&image);
+    hd_texture_clear(&texture);
+    hd_frame_free(&frame);
 }
 
 /* The temporary name of a process that died may be there already. */
 static void stale_temporary_files_do_no_harm(void **state) {
     (void)state;
     HdError error = {0};
-    HdImage8 image = make_image(3, 2);
+    HdFrame frame = make_frame(3, 2);
     char stale[100];
     snprintf(stale, sizeof stale, "stale/a.data.tmp-%ld-0", (long)getpid());
     mkdir("stale", 0777);
     write_bytes(stale, "stale", 5);
-    assert_int_equal(hd_image8_write(&image, "stale/a.data", &error), HD_OK);
+    assert_int_equal(hd_picture_write(&frame, &LINEAR_8, "stale/a.data", &error), HD_OK);
     assert_int_equal(count_entries("stale"), 2);
-    hd_image8_free(&image);
+    hd_frame_free(&frame);
 }
 
 static void long_names_can_be_written(void **state) {
     (void)state;
     HdError error = {0};
-    HdImage8 image = make_image(3, 2);
+    HdFrame frame = make_frame(3, 2);
     char name[256] = "";
     memset(name, 'n', sizeof name - 1);
-    assert_int_equal(hd_image8_write(&image, name, &error), HD_OK);
+    assert_int_equal(hd_picture_write(&frame, &LINEAR_8, name, &error), HD_OK);
     assert_int_equal(access(name, F_OK), 0);
-    hd_image8_free(&image);
+    hd_frame_free(&frame);
 }
 
 /* A limit on the size of files stands for a disk that is full: large pictures fail while they are
@@ -149,21 +273,21 @@ static void long_names_can_be_written(void **state) {
 static void check_full_disk(const char *path, int width, int height, rlim_t room) {
     HdError error = {0};
     unsigned char bytes[6];
-    HdImage8 image = make_image(width, height);
+    HdFrame frame = make_frame(width, height);
     struct rlimit old, small;
     write_bytes(path, "older", 5);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
     small = old;
     small.rlim_cur = room;
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    HdStatus status = hd_image8_write(&image, path, &error);
+    HdStatus status = hd_picture_write(&frame, &LINEAR_8, path, &error);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
     assert_int_equal(status, HD_FAILED);
     expect_contains(error.message, path);
     expect_contains(error.message, "File too large");
     assert_int_equal(read_bytes(path, bytes, sizeof bytes), 5);
     assert_memory_equal(bytes, "older", 5);
-    hd_image8_free(&image);
+    hd_frame_free(&frame);
 }
 
 static void full_disks_leave_older_files(void **state) {
@@ -174,17 +298,19 @@ static void full_disks_leave_older_files(void **state) {
     check_full_disk("full/a.data", 300, 300, 10000);
     check_full_disk("full/a.png", 2, 2, 4);
     check_full_disk("full/a.png", 300, 300, 10000);
+    check_full_disk("full/a.pfm", 2, 2, 4);
+    check_full_disk("full/a.pfm", 300, 300, 10000);
     signal(SIGXFSZ, old);
-    assert_int_equal(count_entries("full"), 2);
+    assert_int_equal(count_entries("full"), 3);
 }
 
 static void check_unwritable(const char *path, HdStatus status, const char *part) {
     HdError error = {0};
-    HdImage8 image = make_image(3, 2);
-    assert_int_equal(hd_image8_write(&image, path, &error), status);
+    HdFrame frame = make_frame(3, 2);
+    assert_int_equal(hd_picture_write(&frame, &LINEAR_8, path, &error), status);
     expect_contains(error.message, part);
     expect_contains(error.message, path);
-    hd_image8_free(&image);
+    hd_frame_free(&frame);
 }
 
 static void targets_that_are_no_files_are_refused(void **state) {
@@ -201,6 +327,7 @@ static void targets_that_are_no_files_are_refused(void **state) {
     assert_int_equal(stat("targets/pipe.png", &found), 0);
     assert_true(S_ISFIFO(found.st_mode));
     check_unwritable("targets/file/a.png", HD_FAILED, "a file has that name");
+    check_unwritable("targets/film.mp4", HD_BAD_INPUT, "its ending is that of a film");
     assert_int_equal(count_entries("targets"), 3);
 }
 
@@ -212,7 +339,8 @@ static void put_int32(unsigned char *bytes, int64_t value) {
 static void check_refused(const void *bytes, size_t size, const char *part) {
     HdError error = {0};
     HdTexture texture = {1, 1, NULL};
-    assert_int_equal(hd_texture_decode(&texture, bytes, size, "a name", &error), HD_BAD_INPUT);
+    assert_int_equal(hd_texture_decode(&texture, bytes, size, "a name", HD_CURVE_LINEAR, &error),
+                     HD_BAD_INPUT);
     assert_int_equal(texture.width, 0);
     assert_null(texture.texels);
     expect_contains(error.message, "a name");
@@ -258,7 +386,8 @@ static void large_data_is_no_texture(void **state) {
     check_refused(bytes, size, "65536 x 1 pixels, expected 1..65535");
     put_int32(bytes, 1);
     put_int32(bytes + 4, 65535);
-    assert_int_equal(hd_texture_decode(&texture, bytes, size - 4, "x", &error), HD_OK);
+    assert_int_equal(hd_texture_decode(&texture, bytes, size - 4, "x", HD_CURVE_LINEAR, &error),
+                     HD_OK);
     assert_int_equal(texture.height, 65535);
     free(texture.texels);
     free(bytes);
@@ -374,8 +503,9 @@ static Sample *make_sample(int type, int depth, int interlace, int width, int he
 static void check_sample(const Sample *sample) {
     HdError error = {0};
     HdTexture texture;
-    assert_int_equal(
-        hd_texture_decode(&texture, sample->file.bytes, sample->file.size, "x", &error), HD_OK);
+    assert_int_equal(hd_texture_decode(&texture, sample->file.bytes, sample->file.size, "x",
+                                       HD_CURVE_LINEAR, &error),
+                     HD_OK);
     assert_int_equal(texture.width, sample->width);
     assert_int_equal(texture.height, sample->height);
     assert_memory_equal(texture.texels, sample->expected,
@@ -429,7 +559,7 @@ static HdStatus decode_copy(const unsigned char *bytes, size_t size) {
     unsigned char *copy = malloc(size + (size == 0));
     assert_non_null(copy);
     memcpy(copy, bytes, size);
-    HdStatus status = hd_texture_decode(&texture, copy, size, "x", &error);
+    HdStatus status = hd_texture_decode(&texture, copy, size, "x", HD_CURVE_LINEAR, &error);
     assert_true((status == HD_OK) == (texture.texels != NULL));
     assert_true(status == HD_OK || error.message[0] != '\0');
     free(texture.texels);
@@ -480,7 +610,7 @@ static void messages_of_libpng_are_passed_on(void **state) {
 static void check_unreadable(const char *path, const char *part) {
     HdError error = {0};
     HdTexture texture = {1, 1, NULL};
-    assert_int_equal(hd_texture_read(&texture, path, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_texture_read(&texture, path, HD_CURVE_LINEAR, &error), HD_BAD_INPUT);
     assert_int_equal(texture.width, 0);
     expect_contains(error.message, path);
     expect_contains(error.message, part);
@@ -503,10 +633,15 @@ static void unreadable_textures_are_named(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formats_follow_the_name),
         cmocka_unit_test(sizes_are_checked),
+        cmocka_unit_test(frames_become_bytes),
         cmocka_unit_test(data_files_hold_the_bytes),
         cmocka_unit_test(png_files_hold_the_colours),
+        cmocka_unit_test(png_files_may_have_16_bits),
+        cmocka_unit_test(textures_come_off_the_curve),
+        cmocka_unit_test(png_files_name_the_curve),
+        cmocka_unit_test(pfm_files_hold_the_values),
+        cmocka_unit_test(other_endings_are_the_data_format),
         cmocka_unit_test(older_files_are_replaced),
         cmocka_unit_test(stale_temporary_files_do_no_harm),
         cmocka_unit_test(long_names_can_be_written),

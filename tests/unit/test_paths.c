@@ -96,9 +96,10 @@ static void files_in_the_way_are_named(void **state) {
 
 static void numbers_are_found(void **state) {
     (void)state;
-    const char *const with[] = {"%d", "a%d.png", "%01d", "%09d", "%%%d", "%x%d", "%d%d", "%5%d"};
-    const char *const without[] = {"",    "a.png", "%",     "%%d", "%%%%d", "%5d",
-                                   "%0d", "%00d",  "%010d", "%i",  "%-3d",  "%0"};
+    const char *const with[] = {"%d",   "a%d.png", "%01d", "%09d", "%%%d",        "%x%d",
+                                "%d%d", "%5%d",    "#",    "a#/b", "#########.x", "##########%d"};
+    const char *const without[] = {"",     "a.png", "%",  "%%d",  "%%%%d", "%5d",       "%0d",
+                                   "%00d", "%010d", "%i", "%-3d", "%0",    "##########"};
     for (size_t i = 0; i < sizeof with / sizeof *with; i++)
         assert_true(hd_pattern_has_number(with[i]));
     for (size_t i = 0; i < sizeof without / sizeof *without; i++)
@@ -107,9 +108,10 @@ static void numbers_are_found(void **state) {
 
 static void wrong_patterns_are_refused(void **state) {
     (void)state;
-    const char *const wrong[] = {"",    "a.png", "%%d", "%d%d", "%d-%03d",
-                                 "%s",  "%d%s",  "%d%", "%n%d", "%5d",
-                                 "%0d", "%010d", "%ld", "%-3d", "%d 50%x"};
+    const char *const wrong[] = {"",     "a.png", "%%d",     "%d%d", "%d-%03d",     "%s",
+                                 "%d%s", "%d%",   "%n%d",    "%5d",  "%0d",         "%010d",
+                                 "%ld",  "%-3d",  "%d 50%x", "#%d",  "out#/%d.png", "#/#",
+                                 "##-#", "#%s",   "#%",      "%0#",  "##########",  "%d##########"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         HdError error = {0};
         char out[HD_MAX_PATH];
@@ -139,6 +141,12 @@ static void frames_are_named(void **state) {
     check_formatted("%09d", INT32_MAX, "2147483647");
     check_formatted("%09d", 42, "000000042");
     check_formatted("100%%/%d%%d", 3, "100%/3%d");
+    check_formatted("out/####.png", 7, "out/0007.png");
+    check_formatted("#", 7, "7");
+    check_formatted("#", 70, "70");
+    check_formatted("f###", 12345, "f12345");
+    check_formatted("#########%%", 42, "000000042%");
+    check_formatted("take ##/a.data", 5, "take 05/a.data");
     check_formatted("\xc3\xa4%d", 3,
                     "\xc3\xa4"
                     "3");

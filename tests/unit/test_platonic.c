@@ -167,6 +167,109 @@ static void test_the_same_every_time(void **state) {
     }
 }
 
+static HdVec3 turned(HdVec3 point, HdVec3 degrees) {
+    HdPlatonic solid = {.vertex_count = 1, .vertex = {point}};
+    hd_platonic_rotate(&solid, degrees);
+    return solid.vertex[0];
+}
+
+static void expect_vector(HdVec3 actual, double x, double y, double z, double off) {
+    expect_near(actual.x, x, off);
+    expect_near(actual.y, y, off);
+    expect_near(actual.z, z, off);
+}
+
+static void test_quarter_turns(void **state) {
+    (void)state;
+    const HdVec3 x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0}, z = {0.0, 0.0, 1.0};
+    const double off = 1e-15;
+    expect_vector(turned(y, hd_vec3(90.0, 0.0, 0.0)), 0.0, 0.0, 1.0, off);
+    expect_vector(turned(z, hd_vec3(0.0, 90.0, 0.0)), 1.0, 0.0, 0.0, off);
+    expect_vector(turned(x, hd_vec3(0.0, 0.0, 90.0)), 0.0, 1.0, 0.0, off);
+    expect_vector(turned(x, hd_vec3(90.0, 0.0, 0.0)), 1.0, 0.0, 0.0, off);
+    expect_vector(turned(y, hd_vec3(0.0, 90.0, 0.0)), 0.0, 1.0, 0.0, off);
+    expect_vector(turned(z, hd_vec3(0.0, 0.0, 90.0)), 0.0, 0.0, 1.0, off);
+    /* About x first: y to z; then about y: z to x; then about z: x to y. */
+    expect_vector(turned(y, hd_vec3(90.0, 90.0, 0.0)), 1.0, 0.0, 0.0, off);
+    expect_vector(turned(z, hd_vec3(0.0, 90.0, 90.0)), 0.0, 1.0, 0.0, off);
+    expect_vector(turned(y, hd_vec3(90.0, 0.0, 90.0)), 0.0, 0.0, 1.0, off);
+    expect_vector(turned(y, hd_vec3(90.0, 90.0, 90.0)), 0.0, 1.0, 0.0, off);
+}
+
+static const HdVec3 rotations[] = {{30.0, 0.0, 0.0},   {0.0, -75.0, 0.0},    {0.0, 0.0, 123.0},
+                                   {10.0, 20.0, 30.0}, {-200.0, 400.0, 1e6}, {1e-7, 0.0, -1e-7}};
+enum { ROTATIONS = sizeof rotations / sizeof rotations[0] };
+
+static void test_rotations_keep_lengths_and_angles(void **state) {
+    (void)state;
+    for (int i = 0; i < ROTATIONS; i++) {
+        const HdVec3 x = turned(hd_vec3(1.0, 0.0, 0.0), rotations[i]);
+        const HdVec3 y = turned(hd_vec3(0.0, 1.0, 0.0), rotations[i]);
+        const HdVec3 z = turned(hd_vec3(0.0, 0.0, 1.0), rotations[i]);
+        expect_near(hd_dot(x, x), 1.0, 1e-15);
+        expect_near(hd_dot(y, y), 1.0, 1e-15);
+        expect_near(hd_dot(z, z), 1.0, 1e-15);
+        const HdVec3 across = hd_cross(x, y); /* right-handed still */
+        expect_vector(z, across.x, across.y, across.z, 1e-15);
+    }
+}
+
+/* Against the matrices, multiplied out with the C library's sine and cosine. */
+static void test_rotations_follow_the_formula(void **state) {
+    (void)state;
+    const double degree = acos(-1.0) / 180.0;
+    for (int i = 0; i < ROTATIONS; i++) {
+        const double a = rotations[i].x * degree, b = rotations[i].y * degree;
+        const double c = rotations[i].z * degree;
+        const HdVec3 x = turned(hd_vec3(1.0, 0.0, 0.0), rotations[i]);
+        const HdVec3 z = turned(hd_vec3(0.0, 0.0, 1.0), rotations[i]);
+        expect_vector(x, cos(c) * cos(b), sin(c) * cos(b), -sin(b), 1e-11);
+        expect_vector(z, cos(c) * sin(b) * cos(a) + sin(c) * sin(a),
+                      sin(c) * sin(b) * cos(a) - cos(c) * sin(a), cos(b) * cos(a), 1e-11);
+    }
+}
+
+static void test_turned_by_nothing(void **state) {
+    (void)state;
+    const HdVec3 nothing[2] = {{0.0, 0.0, 0.0}, {-0.0, 0.0, -0.0}};
+    const HdVec3 point = turned(hd_vec3(-0.0, -0.0, -0.0), nothing[0]); /* signs are kept, too */
+    assert_true(signbit(point.x) && signbit(point.y) && signbit(point.z));
+    for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++)
+        for (int i = 0; i < 2; i++) {
+            HdPlatonic before, after;
+            hd_platonic(kind, &before);
+            hd_platonic(kind, &after);
+            hd_platonic_rotate(&after, nothing[i]);
+            assert_memory_equal(before.vertex, after.vertex, sizeof before.vertex);
+            assert_memory_equal(before.face_normal, after.face_normal, sizeof before.face_normal);
+        }
+}
+
+static void expect_edges_on_their_faces(const HdPlatonic *solid) {
+    for (int e = 0; e < solid->edge_count; e++)
+        for (int i = 0; i < 4; i++)
+            expect_near(hd_dot(solid->face_normal[solid->edge[e].face[i & 1]],
+                               solid->vertex[solid->edge[e].vertex[i >> 1]]),
+                        solid->inradius, tolerance);
+}
+
+static void test_turned_solids_hold_together(void **state) {
+    (void)state;
+    for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++)
+        for (int i = 0; i < ROTATIONS; i++) {
+            HdPlatonic solid, plain;
+            hd_platonic(kind, &plain);
+            hd_platonic(kind, &solid);
+            hd_platonic_rotate(&solid, rotations[i]);
+            expect_edges_on_their_faces(&solid);
+            assert_memory_equal(solid.edge, plain.edge, sizeof solid.edge);
+            for (int v = 0; v < solid.vertex_count; v++) {
+                const HdVec3 vertex = turned(plain.vertex[v], rotations[i]);
+                expect_vector(solid.vertex[v], vertex.x, vertex.y, vertex.z, 0.0);
+            }
+        }
+}
+
 static void test_names(void **state) {
     (void)state;
     assert_string_equal(hd_solid_name(HD_TETRAHEDRON), "tetrahedron");
@@ -185,6 +288,11 @@ int main(void) {
         cmocka_unit_test(test_edges),
         cmocka_unit_test(test_orientations),
         cmocka_unit_test(test_the_same_every_time),
+        cmocka_unit_test(test_quarter_turns),
+        cmocka_unit_test(test_rotations_keep_lengths_and_angles),
+        cmocka_unit_test(test_rotations_follow_the_formula),
+        cmocka_unit_test(test_turned_by_nothing),
+        cmocka_unit_test(test_turned_solids_hold_together),
         cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -99,6 +99,29 @@ static void expect_rejected(const Fixture *f, const char *message) {
         expect_rejected(&f, message);                                                              \
     } while (0)
 
+/* All that is found, a line for each. */
+static void expect_problems(const Fixture *f, HdNaming naming, const char *lines) {
+    static HdProblems problems;
+    problems = (HdProblems){0};
+    hd_scene_check(&f->scene, naming, &problems);
+    assert_string_equal(problems.text, lines);
+    int count = 0;
+    for (const char *at = lines; *at != '\0'; at++)
+        count += *at == '\n';
+    assert_int_equal(problems.count, count);
+}
+
+#define PROBLEMS(change, naming, lines)                                                            \
+    do {                                                                                           \
+        Fixture f;                                                                                 \
+        make(&f);                                                                                  \
+        change;                                                                                    \
+        expect_problems(&f, naming, lines);                                                        \
+    } while (0)
+
+#define IN_PROSE(change, lines) PROBLEMS(change, HD_NAMING_PROSE, lines)
+#define IN_JSON(change, lines)  PROBLEMS(change, HD_NAMING_JSON, lines)
+
 static const double not_a_number = (double)NAN;
 static const double infinite = (double)INFINITY;
 
@@ -311,6 +334,241 @@ static void test_texture(void **state) {
              f.scene.floor.texture.height = 1, "floor: texture width is 65536");
 }
 
+static void test_fixed_paths(void **state) {
+    (void)state;
+    ACCEPTED(f.scene.eye.is_fixed = true; f.scene.eye.point = hd_vec3(-1e12, 1e12, 1e12));
+    REJECTED(f.scene.eye.is_fixed = true;
+             f.scene.eye.point.x = infinite, "eye: point x is inf, expected a number from -10000");
+    REJECTED(f.scene.target.is_fixed = true;
+             f.scene.target.point.y = not_a_number, "target: point y is nan");
+    REJECTED(f.scene.target.is_fixed = true; f.scene.target.point.z = 1.1e12, "target: point z is");
+    /* Only one of the two descriptions counts. */
+    ACCEPTED(f.scene.eye.is_fixed = true; f.scene.eye.point.x = 3.0;
+             f.scene.eye.cylinder.r0 = not_a_number);
+    ACCEPTED(f.scene.eye.point.x = not_a_number);
+}
+
+static void test_inner_sides(void **state) {
+    (void)state;
+    ACCEPTED(f.solids[0].face.has_inner_side = true; f.solids[0].face.inner_reflection = 0.25;
+             f.solids[0].face.inner_transmission = 0.75);
+    REJECTED(f.solids[0].face.has_inner_side = true;
+             f.solids[0].face.inner_reflection = -0.1, "solid 1: inner reflection is -0.1");
+    REJECTED(f.solids[0].face.has_inner_side = true;
+             f.solids[0].face.inner_transmission = not_a_number,
+             "solid 1: inner transmission is nan, expected a number from 0 to 1");
+    REJECTED(f.solids[1].face.has_inner_side = true; f.solids[1].face.inner_reflection = 0.5;
+             f.solids[1].face.inner_transmission = 0.75,
+             "solid 2: inner reflection + transmission is 1.25, expected at most 1");
+    REJECTED(f.scene.floor.material.has_inner_side = true;
+             f.scene.floor.material.inner_reflection = 2.0, "floor: inner reflection is 2");
+    /* Each side is a sum of its own. */
+    ACCEPTED(f.solids[0].face.has_inner_side = true; f.solids[0].face.inner_reflection = 1.0);
+    ACCEPTED(f.solids[0].face.inner_reflection = not_a_number);
+}
+
+static void test_refraction(void **state) {
+    (void)state;
+    const double good[4] = {0.1, 1.0, 1.5, 10.0};
+    for (int i = 0; i < 4; i++)
+        ACCEPTED(f.scene.solid_count = 1; f.scene.floor.present = false;
+                 f.solids[0].face.index_of_refraction = good[i]);
+    REJECTED(f.solids[1].face.index_of_refraction = 0.0,
+             "solid 2: index of refraction is 0, expected a number from 0.1 to 10");
+    REJECTED(f.solids[0].face.index_of_refraction = 10.5, "solid 1: index of refraction is 10.5");
+    REJECTED(f.solids[0].face.index_of_refraction = not_a_number, "index of refraction is nan");
+    REJECTED(f.solids[0].rim.index_of_refraction = 1.5,
+             "solid 1: rim index of refraction is 1.5, expected 1, since only a solid's faces can "
+             "refract");
+    ACCEPTED(f.solids[0].rim.index_of_refraction = 1.5; f.solids[0].rim_width = 0.0);
+    REJECTED(f.scene.floor.material.index_of_refraction = 1.5,
+             "floor: index of refraction is 1.5, expected 1, since only a solid's faces");
+    REJECTED(f.scene.floor.material.index_of_refraction = not_a_number,
+             "floor: index of refraction is nan");
+}
+
+static void test_rims_are_opaque_on_both_sides(void **state) {
+    (void)state;
+    REJECTED(f.solids[0].rim.has_inner_side = true;
+             f.solids[0].rim.inner_transmission = 0.2,
+             "solid 1: rim inner transmission is 0.2, expected 0, since rims are opaque");
+    ACCEPTED(f.solids[0].rim.has_inner_side = true; f.solids[0].rim.inner_reflection = 0.2);
+    ACCEPTED(f.solids[0].rim.inner_transmission = 0.2);
+}
+
+static void test_falloff(void **state) {
+    (void)state;
+    const HdFalloff good[5] = {{0.0, 0.0}, {1e-12, 0.0}, {1e12, 0.0}, {0.0, 1e-12}, {0.0, 1e12}};
+    for (int i = 0; i < 5; i++)
+        ACCEPTED(f.lights[0].falloff = f.solids[0].lights.falloff = good[i]);
+    REJECTED(f.lights[0].falloff.end = -1.0, "light 1: falloff end is -1, expected a number from");
+    REJECTED(f.lights[0].falloff.end = 1e-13, "light 1: falloff end is 1e-13");
+    REJECTED(f.lights[0].falloff.end = not_a_number, "light 1: falloff end is nan");
+    REJECTED(f.lights[0].falloff.end = infinite, "light 1: falloff end is inf");
+    REJECTED(f.lights[0].falloff.distance = 1e-13, "light 1: falloff distance is 1e-13");
+    REJECTED(f.lights[1].falloff = ((HdFalloff){2.0, 3.0}),
+             "light 2: falloff distance is 2 and falloff end is 3, expected one of them");
+    REJECTED(f.solids[1].lights.falloff.end = 3.0,
+             "solid 2: falloff distance is 2 and falloff end is 3, expected one of them");
+}
+
+static void test_edge_colours(void **state) {
+    (void)state;
+    REJECTED(f.solids[1].lights.colour_count = 0,
+             "solid 2: number of edge lights' colours is 0, expected 1 to 30");
+    REJECTED(f.solids[1].lights.colour_count = 31, "number of edge lights' colours is 31");
+    ACCEPTED(f.solids[1].lights.colour_count = 30);
+    REJECTED(f.solids[0].lights.colour_count = 30;
+             f.solids[0].lights.colours[29].y = 1.5,
+             "solid 1: edge lights' colour 30's green is 1.5, expected a number from 0 to 1");
+    REJECTED(f.solids[0].lights.colours[0].z = not_a_number, "edge lights' colour 1's blue is nan");
+    ACCEPTED(f.solids[0].lights.colours[1].x = -1.0);
+    /* Without lights there is nothing to colour. */
+    ACCEPTED(f.solids[0].lights = (HdEdgeLights){0});
+    ACCEPTED(f.solids[0].lights.per_edge = 0; f.solids[0].lights.disc_radius = not_a_number);
+}
+
+static void test_rotation(void **state) {
+    (void)state;
+    ACCEPTED(f.solids[0].rotation_degrees = hd_vec3(1e6, -1e6, 0.5));
+    REJECTED(f.solids[0].rotation_degrees.x = 1000001.0,
+             "solid 1: rotation x is 1000001, expected a number from -1000000 to 1000000");
+    REJECTED(f.solids[1].rotation_degrees.y = not_a_number, "solid 2: rotation y is nan");
+    REJECTED(f.solids[1].rotation_degrees.z = -infinite, "solid 2: rotation z is -inf");
+}
+
+static void test_every_problem_is_told(void **state) {
+    (void)state;
+    IN_PROSE((void)0, "");
+    IN_JSON((void)0, "");
+    IN_PROSE(f.scene.width = 0; f.solids[1].circumradius = -1.0; f.solids[1].face.diffuse = -2.0;
+             f.solids[0].rim.ambient = -3.0; f.lights[1].intensity.x = -4.0;
+             f.scene.floor.material.specular = -5.0;
+             f.scene.eye.cylinder.r0 = not_a_number,
+             "eye: r0 is nan, expected a number from -1000000000000 to 1000000000000\n"
+             "width is 0, expected 1 to 65535\n"
+             "light 2: intensity's red is -4, expected a number from 0 to 1000000000000\n"
+             "solid 1: rim ambient is -3, expected a number from 0 to 1000000\n"
+             "solid 2: radius is -1, expected a number from 1e-12 to 1000000000000\n"
+             "solid 2: diffuse is -2, expected a number from 0 to 1000000\n"
+             "floor: specular is -5, expected a number from 0 to 1000000\n");
+}
+
+static void test_names_as_in_json(void **state) {
+    (void)state;
+    IN_JSON(f.scene.field_of_view_degrees = 0.0; f.scene.eye.is_fixed = true;
+            f.scene.eye.point.z = 2e12; f.scene.target.cylinder.r_phase = 2e12;
+            f.lights[0].intensity.y = -1.0; f.solids[0].rim.reflection = -1.0;
+            f.solids[1].face.transmission = 0.5;
+            set_corner(&f, 3, 2e12, 0.0, 0.0),
+            "camera: field of view is 0, expected more than 0 and at most 179 degrees\n"
+            "camera.eye: point z is 2000000000000, expected a number from -1000000000000 to "
+            "1000000000000\n"
+            "camera.target: r phase is 2000000000000, expected a number from -1000000000000 to "
+            "1000000000000\n"
+            "lights[0]: intensity's green is -1, expected a number from 0 to 1000000000000\n"
+            "solids[0].rim: reflection is -1, expected a number from 0 to 1\n"
+            "solids[1]: reflection + transmission is 1.2, expected at most 1\n"
+            "floor: corner 4 x is 2000000000000, expected a number from -1000000000000 to "
+            "1000000000000\n");
+}
+
+/* One mistake makes one line, also where other checks need the value. */
+static void test_no_problem_follows_from_another(void **state) {
+    (void)state;
+    IN_PROSE(f.solids[1].kind = HD_SOLID_KIND_COUNT; f.solids[1].face.index_of_refraction = 1.5;
+             f.solids[1].rim_width = 100.0, "solid 2: kind is 5, expected 0 to 4\n");
+    IN_PROSE(f.solids[1].centre.x = not_a_number;
+             f.solids[1].face.index_of_refraction = 1.5,
+             "solid 2: centre x is nan, expected a number from -1000000000000 to 1000000000000\n");
+    IN_PROSE(f.solids[0].circumradius = not_a_number;
+             f.solids[1].face.index_of_refraction = 1.5,
+             "solid 1: radius is nan, expected a number from 1e-12 to 1000000000000\n");
+    IN_PROSE(f.solids[1].face.reflection = 1.5,
+             "solid 2: reflection is 1.5, expected a number from 0 to 1\n");
+    IN_PROSE(f.scene.solid_count = 1000, "number of solids is 1000, expected 0 to 256\n");
+    IN_PROSE(f.scene.light_count = 1000000, "number of lights is 1000000, expected 0 to 100000\n");
+    IN_PROSE(f.solids[0].lights.per_edge = 1000000,
+             "solid 1: number of lights per edge is 1000000, expected 0 to 100000\n");
+    IN_PROSE(f.solids[0].lights.colour_count = 1000000,
+             "solid 1: number of edge lights' colours is 1000000, expected 1 to 30\n");
+    IN_PROSE(f.scene.frame_count = 0;
+             f.scene.target = f.scene.eye, "frame count is 0, expected 1 to 10000000\n");
+    IN_PROSE(f.scene.floor.corners[0].z = infinite; f.scene.solid_count = 1;
+             f.solids[0].face.index_of_refraction = 1.5,
+             "floor: corner 1 z is inf, expected a number from -1000000000000 to 1000000000000\n");
+}
+
+static HdPath standing_at(double x, double y, double z) {
+    return (HdPath){.is_fixed = true, .point = hd_vec3(x, y, z)};
+}
+
+static void test_the_eye_never_at_the_target(void **state) {
+    (void)state;
+    IN_PROSE(f.scene.target = f.scene.eye, "frame 0: the eye is at the target (7, 0, 0), expected "
+                                           "two different points\n");
+    IN_JSON(f.scene.eye = f.scene.target = standing_at(1.0, 2.0, 3.0),
+            "camera: frame 0: the eye is at the target (1, 2, 3), expected two different points\n");
+    /* Half way round, 100 frames a turn; the first such frame is told. */
+    REJECTED(f.scene.eye.cylinder.phi_frequency = 1.0;
+             f.scene.target = standing_at(-7.0, 0.0, 0.0), "frame 50: the eye is at the target");
+    /* A negative r is the other side of the axis. */
+    REJECTED(f.scene.eye.cylinder.phi_frequency = 1.0;
+             f.scene.target.cylinder.r0 = -7.0, "frame 50: the eye is at the target");
+    /* Only the oscillations let the two meet: at a quarter of the turn, or at three quarters. */
+    REJECTED(f.scene.eye.cylinder.r_amplitude = -6.0;
+             f.scene.eye.cylinder.r_frequency = 1.0, "frame 25: the eye is at the target");
+    REJECTED(f.scene.target = f.scene.eye; f.scene.eye.cylinder.z_amplitude = 4.0;
+             f.scene.eye.cylinder.z_frequency = 1.0;
+             f.scene.target.cylinder.z0 = -4.0, "frame 75: the eye is at the target");
+    ACCEPTED(f.scene.target = f.scene.eye; f.scene.eye.cylinder.z_amplitude = 4.0;
+             f.scene.eye.cylinder.z_frequency = 1.0; f.scene.target.cylinder.z0 = -4.1);
+}
+
+static void place(HdSolid *solid, HdSolidKind kind, double x, double y, double z) {
+    solid->kind = kind;
+    solid->centre = hd_vec3(x, y, z);
+    solid->circumradius = sqrt(3.0); /* a cube's edges are 2 long */
+}
+
+/* Two cubes side by side on the floor, `apart` between their centres. */
+static void set_cubes(Fixture *f, double apart, double height) {
+    place(&f->solids[0], HD_HEXAHEDRON, 0.0, 0.0, height);
+    place(&f->solids[1], HD_HEXAHEDRON, apart, 0.0, height);
+}
+
+static void test_refracting_solids_overlap_nothing(void **state) {
+    (void)state;
+    ACCEPTED(set_cubes(&f, 1.5, -0.5));
+    ACCEPTED(set_cubes(&f, 2.0, 0.0); f.solids[0].face.index_of_refraction = 1.5);
+    IN_PROSE(set_cubes(&f, 1.5, 0.0);
+             f.solids[0].face.index_of_refraction = 1.5,
+             "solid 1: it refracts and overlaps solid 2, 0.5 deep, expected a refracting solid to "
+             "overlap nothing\n");
+    IN_JSON(set_cubes(&f, 1.5, 0.0);
+            f.solids[1].face.index_of_refraction = 1.5,
+            "solids[1]: it refracts and overlaps solids[0], 0.5 deep, expected a refracting solid "
+            "to overlap nothing\n");
+    /* A pair is told once, whether one refracts or both do. */
+    IN_PROSE(set_cubes(&f, 1.5, -0.25); f.solids[0].face.index_of_refraction = 1.5;
+             f.solids[1].face.index_of_refraction = 0.5,
+             "solid 1: it refracts and overlaps solid 2, 0.5 deep, expected a refracting solid to "
+             "overlap nothing\n"
+             "solid 1: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid "
+             "to overlap nothing\n"
+             "solid 2: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid "
+             "to overlap nothing\n");
+    ACCEPTED(set_cubes(&f, 2.5, -0.25); f.solids[0].face.index_of_refraction = 1.5;
+             f.scene.floor.present = false);
+    /* The eye may be inside. */
+    ACCEPTED(set_cubes(&f, 2.5, 0.0); f.solids[0].face.index_of_refraction = 1.5;
+             f.scene.eye = standing_at(0.0, 0.0, 0.0));
+    /* Turned, the cube's edges stick out. */
+    REJECTED(set_cubes(&f, 2.0, 0.0); f.solids[1].face.index_of_refraction = 1.5;
+             f.solids[1].rotation_degrees.z = 45.0,
+             "solid 2: it refracts and overlaps solid 1, 0.414214 deep");
+}
+
 static void test_free_clears(void **state) {
     (void)state;
     HdScene scene = {.solid_count = 1, .light_count = 1};
@@ -323,6 +581,30 @@ static void test_free_clears(void **state) {
     assert_null(scene.floor.texture.texels);
     assert_int_equal(scene.solid_count, 0);
     hd_scene_free(&scene);
+}
+
+/* What is wrong in one place, or was before, keeps no other check from being made. */
+static void test_no_problem_hides_another(void **state) {
+    (void)state;
+    static HdProblems problems;
+    Fixture f;
+    make(&f);
+    set_cubes(&f, 1.5, -0.25);
+    f.solids[0].face.index_of_refraction = 1.5;
+    f.scene.target = f.scene.eye;
+    f.scene.width = 0;
+    hd_problem(&problems, "an earlier one");
+    hd_scene_check(&f.scene, HD_NAMING_JSON, &problems);
+    assert_int_equal(problems.count, 5);
+    assert_string_equal(
+        problems.text,
+        "an earlier one\n"
+        "width is 0, expected 1 to 65535\n"
+        "camera: frame 0: the eye is at the target (7, 0, 0), expected two different points\n"
+        "solids[0]: it refracts and overlaps solids[1], 0.5 deep, expected a refracting solid to "
+        "overlap nothing\n"
+        "solids[0]: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid to "
+        "overlap nothing\n");
 }
 
 int main(void) {
@@ -342,6 +624,19 @@ int main(void) {
         cmocka_unit_test(test_crossed_floor),
         cmocka_unit_test(test_floor_both_ways_round_and_at_all_sizes),
         cmocka_unit_test(test_texture),
+        cmocka_unit_test(test_fixed_paths),
+        cmocka_unit_test(test_inner_sides),
+        cmocka_unit_test(test_refraction),
+        cmocka_unit_test(test_rims_are_opaque_on_both_sides),
+        cmocka_unit_test(test_falloff),
+        cmocka_unit_test(test_edge_colours),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_every_problem_is_told),
+        cmocka_unit_test(test_names_as_in_json),
+        cmocka_unit_test(test_no_problem_follows_from_another),
+        cmocka_unit_test(test_the_eye_never_at_the_target),
+        cmocka_unit_test(test_refracting_solids_overlap_nothing),
+        cmocka_unit_test(test_no_problem_hides_another),
         cmocka_unit_test(test_free_clears),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -147,20 +147,189 @@ static void odd_sizes_are_padded(void **state) {
                  "2,2\n");
 }
 
-/* Red in BT.709 is 63, 102, 240; BT.601 would give 81, 90, 240. */
+/* Makes a film of these frames, which are of one size. */
+static void film_frames(const char *path, const HdImage8 *frames, int count, int rate) {
+    HdError error = {0};
+    HdVideo *video = NULL;
+    HdStatus status = hd_video_open(&video, path, frames[0].width, frames[0].height, rate, &error);
+    for (int i = 0; i < count && status == HD_OK; i++)
+        status = hd_video_add(video, &frames[i], &error);
+    if (status == HD_OK)
+        status = hd_video_close(video, &error);
+    if (status != HD_OK)
+        fail_msg("%s", error.message);
+}
+
+/* Decodes a film into bytes of this pixel format; all of them must be there. */
+static void decode_film(const char *path, const char *format, uint8_t *bytes, size_t size) {
+    char command[200];
+    uint8_t more;
+    snprintf(command, sizeof command, "ffmpeg -nostdin -v error -i %s -f rawvideo -pix_fmt %s -",
+             path, format);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    assert_int_equal(fread(bytes, 1, size, pipe), size);
+    assert_int_equal(fread(&more, 1, 1, pipe), 0);
+    assert_int_equal(pclose(pipe), 0);
+}
+
+enum { FLAT_COLOURS = 8, FLAT_SIDE = 64, FLAT_PIXELS = FLAT_SIDE * FLAT_SIDE };
+static const uint8_t flat_colours[FLAT_COLOURS][4] = {
+    {255, 0, 0, 255}, {0, 255, 0, 255},    {0, 0, 255, 255},  {255, 255, 255, 255},
+    {0, 0, 0, 255},   {200, 100, 50, 255}, {30, 60, 90, 255}, {128, 128, 128, 255}};
+
+/* A frame for each colour. */
+static void film_colours(const char *path) {
+    HdImage8 frames[FLAT_COLOURS];
+    for (int i = 0; i < FLAT_COLOURS; i++)
+        frames[i] = make_frame(FLAT_SIDE, FLAT_SIDE, flat_colours[i]);
+    film_frames(path, frames, FLAT_COLOURS, 25);
+    for (int i = 0; i < FLAT_COLOURS; i++)
+        hd_image8_free(&frames[i]);
+}
+
+/* ITU-R BT.709 with luma from 16 to 235 and chroma from 16 to 240. BT.601 gives red a luma of 81
+   instead of 63, and the full range gives white one of 255. */
 static void colours_follow_bt709(void **state) {
     (void)state;
-    HdError error = {0};
-    uint8_t planes[64 * 64 * 3 / 2];
+    enum { FRAME = FLAT_PIXELS * 3 / 2, QUARTER = FLAT_PIXELS / 4 };
+    static uint8_t planes[FLAT_COLOURS * FRAME];
     need_ffmpeg();
-    assert_int_equal(make_film("out/film.mp4", 64, 64, 1, &error), HD_OK);
-    FILE *pipe = popen("ffmpeg -v error -i out/film.mp4 -f rawvideo -", "r");
-    assert_non_null(pipe);
-    assert_int_equal(fread(planes, 1, sizeof planes, pipe), sizeof planes);
-    assert_int_equal(pclose(pipe), 0);
-    assert_in_range(planes[64 * 32 + 32], 62, 64);
-    assert_in_range(planes[64 * 64 + 32 * 16 + 16], 101, 103);
-    assert_in_range(planes[64 * 64 + 32 * 32 + 32 * 16 + 16], 239, 241);
+    film_colours("out/film.mp4");
+    decode_film("out/film.mp4", "yuv420p", planes, sizeof planes);
+    for (int i = 0; i < FLAT_COLOURS; i++) {
+        const uint8_t *rgb = flat_colours[i], *frame = planes + i * FRAME;
+        const double luma = (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]) / 255.0;
+        const double blue = (rgb[2] / 255.0 - luma) / 1.8556,
+                     red = (rgb[0] / 255.0 - luma) / 1.5748;
+        expect_near(frame[FLAT_PIXELS / 2 + 32], 16.0 + 219.0 * luma, 1.5);
+        expect_near(frame[FLAT_PIXELS + QUARTER / 2 + 16], 128.0 + 224.0 * blue, 1.5);
+        expect_near(frame[FLAT_PIXELS + QUARTER * 3 / 2 + 16], 128.0 + 224.0 * red, 1.5);
+    }
+}
+
+/* A player that heeds the tags shows what was given. */
+static void colours_come_back(void **state) {
+    (void)state;
+    const char *const paths[] = {"out/film.mp4", "out/film.mkv", "out/film.gif"};
+    const double tolerances[] = {4, 0, 2};
+    static uint8_t rgb[FLAT_COLOURS * FLAT_PIXELS * 3];
+    need_ffmpeg();
+    for (int f = 0; f < 3; f++) {
+        film_colours(paths[f]);
+        decode_film(paths[f], "rgb24", rgb, sizeof rgb);
+        for (int i = 0; i < FLAT_COLOURS; i++)
+            for (int c = 0; c < 3; c++)
+                expect_near(rgb[(i * FLAT_PIXELS + FLAT_PIXELS / 2 + 32) * 3 + c],
+                            flat_colours[i][c], tolerances[f]);
+    }
+}
+
+enum { NOISE_FRAMES = 5 };
+
+static void make_noise(HdImage8 frames[NOISE_FRAMES], int width, int height) {
+    uint32_t seed = 1;
+    for (int i = 0; i < NOISE_FRAMES; i++) {
+        frames[i] = make_frame(width, height, RED);
+        for (size_t j = 0; j < (size_t)width * (size_t)height * 4; j++)
+            if (j % 4 != 3)
+                frames[i].rgba[j] = (uint8_t)((seed = seed * 1664525u + 1013904223u) >> 24);
+    }
+}
+
+static void free_frames(HdImage8 frames[NOISE_FRAMES]) {
+    for (int i = 0; i < NOISE_FRAMES; i++)
+        hd_image8_free(&frames[i]);
+}
+
+static void mkv_files_are_tagged(void **state) {
+    (void)state;
+    HdError error = {0};
+    need_ffmpeg();
+    assert_int_equal(make_film("out/film.MKV", 33, 17, 7, &error), HD_OK);
+    check_output("ffprobe -v error -count_packets -show_entries stream=codec_name,width,height,"
+                 "color_range,color_space,color_transfer,color_primaries,r_frame_rate,"
+                 "nb_read_packets -of default=nk=1:nw=1 out/film.MKV",
+                 "ffv1\n33\n17\npc\ngbr\niec61966-2-1\nbt709\n25/1\n7\n");
+}
+
+static void mkv_loses_nothing(void **state) {
+    (void)state;
+    const int sizes[][2] = {{1, 1}, {1, 100}, {4, 4}, {33, 17}, {63, 200}, {64, 64}, {101, 67}};
+    static uint8_t rgba[NOISE_FRAMES * 63 * 200 * 4];
+    need_ffmpeg();
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        HdImage8 frames[NOISE_FRAMES];
+        size_t size = (size_t)(sizes[s][0] * sizes[s][1] * 4);
+        make_noise(frames, sizes[s][0], sizes[s][1]);
+        film_frames("out/film.mkv", frames, NOISE_FRAMES, 30);
+        decode_film("out/film.mkv", "rgba", rgba, NOISE_FRAMES * size);
+        for (size_t i = 0; i < NOISE_FRAMES; i++)
+            assert_memory_equal(rgba + i * size, frames[i].rgba, size);
+        free_frames(frames);
+    }
+}
+
+static void gif_repeats_for_ever(void **state) {
+    (void)state;
+    unsigned char bytes[900];
+    const char loop[] = "\x21\xff\x0bNETSCAPE2.0\x03\x01\0\0";
+    HdError error = {0};
+    bool found = false;
+    need_ffmpeg();
+    assert_int_equal(make_film("out/film.gif", 33, 17, 3, &error), HD_OK);
+    check_output("ffprobe -v error -count_packets -show_entries stream=codec_name,width,height,"
+                 "nb_read_packets -of csv=p=0 out/film.gif",
+                 "gif,33,17,3\n");
+    FILE *file = fopen("out/film.gif", "rb");
+    assert_non_null(file);
+    size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t i = 0; i + sizeof loop <= size; i++)
+        found |= memcmp(bytes + i, loop, sizeof loop) == 0;
+    assert_true(found);
+    assert_int_equal(make_film("out/tiny.gif", 1, 1, 1, &error), HD_OK);
+    assert_int_equal(count_entries("out"), 2);
+}
+
+/* The format has centiseconds: the whole is as long as it should be, and no frame is lost. */
+static void gif_keeps_the_time(void **state) {
+    (void)state;
+    const struct {
+        int rate;
+        const char *durations;
+    } films[] = {{25, "4\n4\n4\n4\n4\n"}, {30, "3\n4\n3\n3\n3\n"}, {100, "1\n1\n1\n1\n1\n"}};
+    HdImage8 frames[NOISE_FRAMES];
+    need_ffmpeg();
+    make_noise(frames, 33, 17);
+    for (size_t i = 0; i < sizeof films / sizeof *films; i++) {
+        film_frames("out/film.gif", frames, NOISE_FRAMES, films[i].rate);
+        check_output("ffprobe -v error -min_delay 0 -show_entries packet=duration -of csv=p=0 "
+                     "out/film.gif",
+                     films[i].durations);
+    }
+    free_frames(frames);
+}
+
+/* A frame with more colours than a palette. */
+static void gif_is_close_to_the_frame(void **state) {
+    (void)state;
+    enum { SIDE = 128 };
+    HdImage8 frame = make_frame(SIDE, SIDE, RED);
+    static uint8_t rgba[SIDE * SIDE * 4];
+    double sum = 0.0;
+    need_ffmpeg();
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        frame.rgba[4 * i] = (uint8_t)(i % SIDE);
+        frame.rgba[4 * i + 1] = (uint8_t)(i / SIDE);
+        frame.rgba[4 * i + 2] = 60;
+    }
+    film_frames("out/film.gif", &frame, 1, 25);
+    decode_film("out/film.gif", "rgba", rgba, sizeof rgba);
+    for (int i = 0; i < SIDE * SIDE * 4; i++)
+        sum += abs(rgba[i] - frame.rgba[i]);
+    expect_near(sum / (SIDE * SIDE * 3), 0.0, 4.0);
+    hd_image8_free(&frame);
 }
 
 static void names_reach_ffmpeg_unchanged(void **state) {
@@ -170,8 +339,8 @@ static void names_reach_ffmpeg_unchanged(void **state) {
     assert_int_equal(make_film("out/a 'b' $c: %d; \"d\".mp4", 16, 16, 1, &error), HD_OK);
     assert_int_equal(access("out/a 'b' $c: %d; \"d\".mp4", F_OK), 0);
     assert_int_equal(chdir("out"), 0);
-    HdStatus first = make_film("-y", 16, 16, 1, &error);
-    HdStatus second = make_film("http:x", 16, 16, 1, &error);
+    HdStatus first = make_film("-y.mkv", 16, 16, 1, &error);
+    HdStatus second = make_film("http:x.gif", 16, 16, 1, &error);
     assert_int_equal(chdir(".."), 0);
     assert_int_equal(first, HD_OK);
     assert_int_equal(second, HD_OK);
@@ -230,8 +399,10 @@ static void wrong_settings_are_refused(void **state) {
     HdVideo *video;
     check_failure(0, 16, 1, HD_BAD_INPUT, "0 x 16 pixels, expected 1..65535");
     check_failure(16, 65536, 1, HD_BAD_INPUT, "16 x 65536 pixels, expected 1..65535");
-    assert_int_equal(hd_video_open(&video, "out/a", 16, 16, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_video_open(&video, "out/a.mp4", 16, 16, 0, &error), HD_BAD_INPUT);
     expect_contains(error.message, "0 frames a second");
+    assert_int_equal(hd_video_open(&video, "out/a.png", 16, 16, 25, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "out/a.png has another ending, expected .mp4, .mkv or .gif");
 }
 
 static void missing_programs_are_unavailable(void **state) {
@@ -329,12 +500,12 @@ static void targets_in_the_way_are_errors(void **state) {
     (void)state;
     HdError error = {0};
     need_ffmpeg();
-    mkdir("out/folder", 0777);
+    mkdir("out/folder.mp4", 0777);
     write_file("out/file", "", 0666);
-    assert_int_equal(make_film("out/folder", 16, 16, 1, &error), HD_BAD_INPUT);
+    assert_int_equal(make_film("out/folder.mp4", 16, 16, 1, &error), HD_BAD_INPUT);
     assert_int_equal(make_film("out/file/film.mp4", 16, 16, 1, &error), HD_FAILED);
     assert_int_equal(count_entries("out"), 2);
-    assert_int_equal(count_entries("out/folder"), 0);
+    assert_int_equal(count_entries("out/folder.mp4"), 0);
 }
 
 static double now(void) {
@@ -412,6 +583,12 @@ int main(int argc, char **argv) {
         VIDEO_TEST(films_have_all_frames),
         VIDEO_TEST(odd_sizes_are_padded),
         VIDEO_TEST(colours_follow_bt709),
+        VIDEO_TEST(colours_come_back),
+        VIDEO_TEST(mkv_files_are_tagged),
+        VIDEO_TEST(mkv_loses_nothing),
+        VIDEO_TEST(gif_repeats_for_ever),
+        VIDEO_TEST(gif_keeps_the_time),
+        VIDEO_TEST(gif_is_close_to_the_frame),
         VIDEO_TEST(names_reach_ffmpeg_unchanged),
         VIDEO_TEST(large_films_pass_through),
         VIDEO_TEST(films_without_frames_fail),

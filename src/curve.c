@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "curve.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+/* A value has the code c where it lies between the curve's inverse at c - 1/2 and at c + 1/2, and
+   these thresholds alone decide. Where to look is known from the value's bits: floats that share
+   exponent and leading bits of the fraction form a bucket, in which the code grows almost linearly.
+   The curve is concave, so that a straight line from the bucket's first to its last value never
+   lies above it; it lies less than 0.1 of a code below, so that the next code is the only other
+   one. */
+enum {
+    LEADING_BITS_8 = 7,
+    LEADING_BITS_16 = 8,
+    LOWEST_POWER_8 = -13, /* 2 to it lies below the first threshold */
+    LOWEST_POWER_16 = -21,
+    BUCKETS_8 = -LOWEST_POWER_8 << LEADING_BITS_8,
+    BUCKETS_16 = -LOWEST_POWER_16 << LEADING_BITS_16,
+    POSITION_BITS = 8,   /* a position is a code with so many bits after the point */
+    POSITION_MARGIN = 8, /* for what is rounded */
+    FLOAT_FRACTION_BITS = 23,
+    FLOAT_BIAS = 127
+};
+
+typedef struct Search {
+    const float *thresholds; /* by code: its least value; one more, infinite */
+    const uint32_t *buckets; /* by bucket: the position of its least value; one more, that of 1 */
+    uint32_t lowest;         /* the bits of the first bucket's least value */
+    int shift;               /* from bits to buckets */
+    unsigned top;            /* code */
+} Search;
+
+#define LOWEST_BITS(power) ((uint32_t)(FLOAT_BIAS + (power)) << FLOAT_FRACTION_BITS)
+
+static float thresholds8[257], thresholds16[65537];
+static uint32_t buckets8[BUCKETS_8 + 1], buckets16[BUCKETS_16 + 1];
+static uint16_t decoded[65536];
+
+static const Search search8 = {thresholds8, buckets8, LOWEST_BITS(LOWEST_POWER_8),
+                               FLOAT_FRACTION_BITS - LEADING_BITS_8, 255};
+static const Search search16 = {thresholds16, buckets16, LOWEST_BITS(LOWEST_POWER_16),
+                                FLOAT_FRACTION_BITS - LEADING_BITS_16, 65535};
+
+/* For 0 < x <= 1. Newton's steps from above fall until rounding stops them. */
+static double fifth_root(double x) {
+    double root = 1.0;
+    for (;;) {
+        const double square = root * root;
+        const double next = root - (root - x / (square * square)) / 5.0;
+        if (!(next < root))
+            return root;
+        root = next;
+    }
+}
+
+/* IEC 61966-2-1: from the curve to linear light. x^2.4 is x^2 times the fifth root of x^2. */
+static double srgb_to_linear(double value) {
+    if (value <= 0.04045)
+        return value / 12.92;
+    const double x = (value + 0.055) / 1.055;
+    return x * x * fifth_root(x * x);
+}
+
+static uint32_t bits_of(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static float float_of(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The least float that is not below the positive `value`. */
+static float round_up(double value) {
+    const float nearest = (float)value;
+    return (double)nearest < value ? float_of(bits_of(nearest) + 1) : nearest;
+}
+
+static void fill_thresholds(float *thresholds, unsigned top) {
+    thresholds[0] = 0.0f;
+    for (unsigned code = 1; code <= top; code++)
+        thresholds[code] = round_up(srgb_to_linear((code - 0.5) / top));
+    thresholds[top + 1] = INFINITY;
+}
+
+static void fill_buckets(uint32_t *buckets, const Search *search) {
+    const uint32_t count = (bits_of(1.0f) - search->lowest) >> search->shift;
+    unsigned code = 0;
+    for (uint32_t i = 0; i <= count; i++) {
+        const float least = float_of(search->lowest + (i << search->shift));
+        while (least >= search->thresholds[code + 1])
+            code++;
+        const double from = (double)search->thresholds[code];
+        const double step = (double)search->thresholds[code + 1] - from;
+        const double position = code + ((double)least - from) / step;
+        const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
+        buckets[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
+    }
+}
+
+static void fill_search8(void) {
+    fill_thresholds(thresholds8, search8.top);
+    fill_buckets(buckets8, &search8);
+}
+
+static void fill_search16(void) {
+    fill_thresholds(thresholds16, search16.top);
+    fill_buckets(buckets16, &search16);
+}
+
+static void fill_decoded(void) {
+    for (int code = 0; code < 65536; code++)
+        decoded[code] = (uint16_t)(srgb_to_linear(code / 65535.0) * 65535.0 + 0.5);
+}
+
+/* NaN is not above any threshold. */
+static inline unsigned find_code(const Search *search, float value) {
+    if (!(value >= search->thresholds[1]))
+        return 0;
+    if (value >= 1.0f)
+        return search->top;
+    const uint32_t bits = bits_of(value) - search->lowest;
+    const uint32_t rest = bits & ((UINT32_C(1) << search->shift) - 1);
+    const uint32_t *bucket = search->buckets + (bits >> search->shift);
+    const uint32_t position = bucket[0] + ((bucket[1] - bucket[0]) * rest >> search->shift);
+    const unsigned code = position >> POSITION_BITS;
+    return code + (value >= search->thresholds[code + 1]);
+}
+
+static uint8_t linear8(float value) {
+    if (!(value > 0.0f))
+        return 0;
+    if (value >= 1.0f)
+        return 255;
+    return (uint8_t)(value * 255.0f + 0.5f);
+}
+
+/* In double, where the product is exact. */
+static uint16_t linear16(float value) {
+    if (!(value > 0.0f))
+        return 0;
+    if (value >= 1.0f)
+        return 65535;
+    return (uint16_t)((double)value * 65535.0 + 0.5);
+}
+
+void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t *out) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    if (curve == HD_CURVE_LINEAR) {
+        for (size_t i = 0; i < count; i++)
+            out[i] = linear8(values[i]);
+        return;
+    }
+    pthread_once(&once, fill_search8);
+    for (size_t i = 0; i < count; i++)
+        out[i] = (uint8_t)find_code(&search8, values[i]);
+}
+
+void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    if (curve == HD_CURVE_LINEAR) {
+        for (size_t i = 0; i < count; i++)
+            out[i] = linear16(values[i]);
+        return;
+    }
+    pthread_once(&once, fill_search16);
+    for (size_t i = 0; i < count; i++)
+        out[i] = (uint16_t)find_code(&search16, values[i]);
+}
+
+void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    if (curve == HD_CURVE_LINEAR)
+        return;
+    pthread_once(&once, fill_decoded);
+    for (size_t i = 0; i < count; i++)
+        values[i] = decoded[values[i]];
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+/* A program that video.c starts, feeds and listens to. Waiting ends early when the program is
+   interrupted (interrupt.h). */
+#ifndef HD_VIDEO_CHILD_H
+#define HD_VIDEO_CHILD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#include "error.h"
+#include "paths.h"
+
+enum {
+    HD_CHILD_MAX_SAID = 4096,
+    HD_CHILD_FOR_EVER = -1,
+    /* How long a program that stopped reading may stay silent before it is killed. */
+    HD_CHILD_PATIENCE_MS = 3000
+};
+
+/* A program at work. It leads a process group of its own, so that Ctrl-C in the terminal reaches
+   only us and we decide how the film ends. */
+typedef struct HdChild {
+    pid_t pid;  /* 0: none, or waited for */
+    int input;  /* its standard input; -1: closed */
+    int output; /* its standard output and error; -1: closed */
+    size_t said_length;
+    char said[HD_CHILD_MAX_SAID + 1]; /* the end of its output */
+} HdChild;
+
+/* Looks for a program in PATH. HD_UNAVAILABLE where there is none. */
+HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error);
+
+/* Starts the program arguments[0] without a shell. HD_UNAVAILABLE where it is none. */
+HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
+                        HdError *error);
+
+/* Sends everything; false where the child no longer reads. Output is taken in meanwhile, so that
+   neither side waits for the other for ever. */
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size);
+
+/* Ends the input and waits; a child that stays silent for longer than `patience` milliseconds is
+   killed. Describes in `how` how it ended; true for exit code 0. */
+bool hd_child_end(HdChild *child, int patience, char how[64]);
+
+/* Kills it if it runs, and closes its channels. */
+void hd_child_stop(HdChild *child);
+
+/* Its last words without line breaks at their end. */
+const char *hd_child_said(HdChild *child);
+
+#endif
