@@ -112,7 +112,7 @@ static bool has_output_path(const void *owner) {
 
 static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
-        "File of the picture or film; %d or %0Nd stands for the number of a frame"),
+        "File of the picture or film; #### or %04d stands for the number of a frame"),
      .type = HD_FIELD_TEXT, .is_given = has_output_path},
     {AT(HdSceneFile, output.frames_per_second, "frames_per_second", "Speed of a film"),
      INTEGER(1, HD_MAX_FRAMES_PER_SECOND), DEFAULT(30)},

@@ -721,6 +721,22 @@ static void test_textures_count_from_the_folder(void **state) {
     expect_refused(rich_text, change, "floor.texture.file has 4096 bytes, expected fewer than");
 }
 
+/* The reader passes the curve on: middle grey on it is darker in linear light. */
+static void test_curve_of_the_texture(void **state) {
+    (void)state;
+    static const unsigned char grey[12] = {1, 0, 0, 0, 1, 0, 0, 0, 128, 128, 128, 255};
+    static HdError error;
+    write_bytes("grey.data", grey, sizeof grey);
+    expect_scene(&file, rich_text, "floor.texture={\"file\": \"grey.data\"}");
+    assert_int_equal(hd_scene_file_load_texture(&file, &error), HD_OK);
+    assert_in_range(file.scene.floor.texture.texels[0], 14100, 14200);
+    hd_scene_file_free(&file);
+    expect_scene(&file, rich_text, "floor.texture.file=grey.data");
+    assert_int_equal(hd_scene_file_load_texture(&file, &error), HD_OK);
+    assert_int_equal(file.scene.floor.texture.texels[0], 128 * 257);
+    hd_scene_file_free(&file);
+}
+
 static void test_texture_is_loaded(void **state) {
     (void)state;
     static HdError error;
@@ -772,6 +788,7 @@ int main(void) {
         cmocka_unit_test(test_files),
         cmocka_unit_test(test_textures_count_from_the_folder),
         cmocka_unit_test(test_texture_is_loaded),
+        cmocka_unit_test(test_curve_of_the_texture),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
