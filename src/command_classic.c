@@ -1,46 +1,42 @@
 /* SPDX-License-Identifier: MIT */
 #include <inttypes.h>
-#include <stdlib.h>
+#include <stdio.h>
 
+#include "command_scene.h"
 #include "commands.h"
 #include "default_scene.h"
-#include "interrupt.h"
 #include "rendering.h"
 
-/* Far above any classic input, and small enough to read into memory without a thought. */
-enum { MAX_INPUT_BYTES = 1 << 20 };
-
-static HdStatus read_standard_input(char **text, size_t *size, HdError *error) {
-    *text = malloc(MAX_INPUT_BYTES + 1);
-    if (*text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
-    *size = fread(*text, 1, MAX_INPUT_BYTES + 1, stdin);
-    if (hd_interrupt_signal() != 0)
-        return hd_fail(error, HD_INTERRUPTED, "interrupted while reading standard input");
-    if (ferror(stdin))
-        return hd_fail(error, HD_FAILED, "cannot read standard input");
-    if (*size > MAX_INPUT_BYTES)
-        return hd_fail(error, HD_BAD_INPUT, "standard input is longer than %d bytes",
-                       (int)MAX_INPUT_BYTES);
-    return HD_OK;
-}
-
-static HdStatus print_frame_line(int number, const HdFrame *frame, double seconds, HdError *error) {
-    if (printf("%d\t%.3f\t%" PRIu64 "\n", number, seconds * 1e3, hd_frame_rays(frame)) < 0 ||
+/* From the camera to the pixels in memory. */
+static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
+    const HdFrameTimes *times = &stored->times;
+    double seconds = times->prepare + times->trace + times->copy;
+    if (printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
+               hd_frame_rays(stored->frame)) < 0 ||
         fflush(stdout) != 0)
         return hd_fail(error, HD_FAILED, "cannot write to standard output");
     return HD_OK;
 }
 
-static HdStatus render_input(const HdOptions *options, const HdClassicInput *input,
-                             HdError *error) {
+static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, HdError *error) {
+    HdFrameList frames;
+    HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
+    if (status != HD_OK)
+        return status;
     HdRendering rendering = {
-        .scene = &input->scene,
-        .output = input->output_pattern,
+        .name = "standard input",
+        .scene = &file->scene,
+        .frames = &frames,
+        .outputs = {.names = {file->output.path},
+                    .count = 1,
+                    .style = file->output.style,
+                    .frames_per_second = file->output.frames_per_second},
         .device_kind = options->mode == HD_CLASSIC_CPU ? HD_ONLY_CPU : HD_PREFER_GPU,
         .stored = print_frame_line,
     };
-    return hd_render(&rendering, options, error);
+    status = hd_render(&rendering, options, error);
+    hd_frame_list_free(&frames);
+    return status;
 }
 
 static HdStatus print_default(const HdOptions *options, HdError *error) {
@@ -57,20 +53,18 @@ static HdStatus print_default(const HdOptions *options, HdError *error) {
 
 static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
     HdClassicInput input;
-    char *text = NULL;
-    size_t size = 0;
-    HdStatus status = read_standard_input(&text, &size, error);
-    if (status == HD_OK)
-        status = hd_classic_parse(&input, text, size, "standard input", options->variant, error);
-    free(text);
+    HdSceneFile file;
+    HdStatus status = hd_read_classic(&input, NULL, options->variant, error);
     if (status != HD_OK)
         return status;
-    status = hd_apply_scene_options(&input.scene, options, error);
-    if (status == HD_OK)
-        status = hd_load_floor_texture(&input.scene, input.texture_path, HD_CURVE_LINEAR, error);
-    if (status == HD_OK)
-        status = render_input(options, &input, error);
+    hd_scene_file_from_classic(&file, &input);
     hd_classic_free(&input);
+    status = hd_apply_scene_options(&file.scene, options, error);
+    if (status == HD_OK)
+        status = hd_scene_file_load_texture(&file, error);
+    if (status == HD_OK)
+        status = render_file(options, &file, error);
+    hd_scene_file_free(&file);
     return status;
 }
 

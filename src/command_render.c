@@ -1,30 +1,62 @@
 /* SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <string.h>
+
+#include "command_scene.h"
 #include "commands.h"
-#include "default_scene.h"
 #include "rendering.h"
 
-static HdStatus render_frames(const HdOptions *options, const HdScene *scene, HdError *error) {
-    HdRendering rendering = {
-        .scene = scene,
-        .output = options->output ? options->output : "hedron.mp4",
-        .device_kind = HD_WANT_ANY,
+/* The outputs of the command line, else the scene's, else a name that suits the number of frames.
+ */
+static HdOutputPlan plan_outputs(const HdOptions *options, const HdOutputSettings *settings,
+                                 int frame_count) {
+    HdOutputPlan plan = {
+        .count = options->output_count,
+        .style = settings->style,
+        .frames_per_second = settings->frames_per_second,
     };
-    HdStatus status = hd_render(&rendering, options, error);
+    memcpy(plan.names, options->outputs, sizeof plan.names);
+    if (plan.count == 0)
+        plan.names[plan.count++] = settings->path[0] != '\0' ? settings->path
+                                   : frame_count == 1        ? "hedron.png"
+                                                             : "hedron.mp4";
+    return plan;
+}
+
+/* Where standard output has the statistics, it has nothing else. */
+static void print_names(const HdOptions *options, const HdOutputPlan *plan) {
+    if (options->statistics != NULL && strcmp(options->statistics, "-") == 0)
+        return;
+    for (int i = 0; i < plan->count; i++)
+        printf("%s\n", plan->names[i]);
+}
+
+static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, HdError *error) {
+    HdFrameList frames;
+    HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
+    if (status != HD_OK)
+        return status;
+    HdRendering rendering = {
+        .name = hd_scene_name(options),
+        .scene = &file->scene,
+        .frames = &frames,
+        .outputs = plan_outputs(options, &file->output, frames.count),
+        .device_kind = HD_WANT_ANY,
+        .tells_progress = true,
+    };
+    status = hd_render(&rendering, options, error);
     if (status == HD_OK)
-        printf("%s\n", rendering.output);
+        print_names(options, &rendering.outputs);
+    hd_frame_list_free(&frames);
     return status;
 }
 
 HdStatus hd_command_render(const HdOptions *options, HdError *error) {
-    HdClassicInput input;
-    HdStatus status = hd_default_input(&input, error);
+    HdSceneFile file;
+    HdStatus status = hd_read_scene(&file, options, error);
     if (status != HD_OK)
         return status;
-    status = hd_apply_scene_options(&input.scene, options, error);
-    if (status == HD_OK)
-        status = hd_load_floor_texture(&input.scene, input.texture_path, HD_CURVE_LINEAR, error);
-    if (status == HD_OK)
-        status = render_frames(options, &input.scene, error);
-    hd_classic_free(&input);
+    status = render_file(options, &file, error);
+    hd_scene_file_free(&file);
     return status;
 }

@@ -8,13 +8,19 @@
 /* The classic mode: input on standard input, one line for each frame on standard output. */
 HdStatus hd_command_classic(const HdOptions *options, HdError *error);
 
-/* Renders the embedded default scene. */
+/* Renders a scene file, or the built-in scene. */
 HdStatus hd_command_render(const HdOptions *options, HdError *error);
 
-/* Lists backends and devices on standard output. */
-HdStatus hd_command_devices(HdError *error);
+/* Reads scenes and says what is wrong with them. */
+HdStatus hd_command_check(const HdOptions *options, HdError *error);
 
-/* Prints the help of one command, or with 0 of the whole program, on standard output. */
-void hd_command_help(HdCommand topic);
+/* Turns a classic input into a scene file. */
+HdStatus hd_command_convert(const HdOptions *options, HdError *error);
+
+/* Lists backends and devices on standard output. */
+HdStatus hd_command_devices(const HdOptions *options, HdError *error);
+
+/* Prints help, the man page or the completion script on standard output. */
+void hd_command_help(const HdHelpTopic *topic);
 
 #endif

@@ -112,18 +112,39 @@ static void search_wanted(Search *search, HdError *error) {
         search_all(search, error);
 }
 
+static const char *choice_reason(const Search *search) {
+    const HdDeviceWish *wish = search->wish;
+    if (wish->device != NULL)
+        return "named by --device";
+    if (wish->backend != NULL)
+        return "the best device of the backend named by --backend";
+    if (wish->kind == HD_ONLY_CPU)
+        return "the C backend, since only a CPU will do";
+    if (!search->best.is_cpu)
+        return "the first GPU in the order of the backends";
+    return "no GPU can do this";
+}
+
+static void explain(const Search *search, HdDeviceReason *reason) {
+    const HdDevice *best = &search->best;
+    reason->note[0] = '\0';
+    if (search->wish->kind == HD_PREFER_GPU && search->wish->backend == NULL && best->is_cpu)
+        snprintf(reason->note, sizeof reason->note,
+                 "no suitable GPU was found; tracing with %s on %s", best->backend->name,
+                 best->name);
+    snprintf(reason->why, sizeof reason->why, "%s%s%s", choice_reason(search),
+             search->reasons[0] != '\0' ? "; passed over: " : "", search->reasons);
+}
+
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
-                          const HdRenderOptions *options, char note[512], HdError *error) {
+                          const HdRenderOptions *options, HdDeviceReason *reason, HdError *error) {
     Search search = {.wish = wish, .options = options};
-    note[0] = '\0';
     search_wanted(&search, error);
     if (!search.found)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s",
                        wish->device ? " (asked for device '" : "", wish->device ? wish->device : "",
                        wish->device ? "')" : "", search.reasons);
     *device = search.best;
-    if (wish->kind == HD_PREFER_GPU && wish->backend == NULL && device->is_cpu)
-        snprintf(note, 512, "no suitable GPU was found; tracing with %s on %s",
-                 device->backend->name, device->name);
+    explain(&search, reason);
     return HD_OK;
 }

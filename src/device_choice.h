@@ -17,12 +17,17 @@ typedef struct HdDeviceWish {
     HdDeviceKind kind;
 } HdDeviceWish;
 
+typedef struct HdDeviceReason {
+    char note[512]; /* worth telling unasked; empty: nothing is */
+    char why[8192]; /* why this device, and why others were passed over */
+} HdDeviceReason;
+
 /* Chooses a device that can do what `options` ask. GPUs come before CPUs, then backends in the
    order of hd_backends, then the device with the most compute units times clock. CPUs of other
    backends than plain C count only where the backend or a device is named, or a GPU is preferred.
-   Where one was preferred, no backend was named and there is none, `note` says so in a sentence;
-   otherwise it is empty. HD_UNAVAILABLE with every reason where nothing fits. */
+   Where one was preferred, no backend was named and there is none, the reason has a note that says
+   so in a sentence. HD_UNAVAILABLE with every reason where nothing fits. */
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
-                          const HdRenderOptions *options, char note[512], HdError *error);
+                          const HdRenderOptions *options, HdDeviceReason *reason, HdError *error);
 
 #endif

@@ -13,10 +13,14 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_command_classic(options, error);
     case HD_COMMAND_RENDER:
         return hd_command_render(options, error);
+    case HD_COMMAND_CHECK:
+        return hd_command_check(options, error);
+    case HD_COMMAND_CONVERT:
+        return hd_command_convert(options, error);
     case HD_COMMAND_DEVICES:
-        return hd_command_devices(error);
+        return hd_command_devices(options, error);
     case HD_COMMAND_HELP:
-        hd_command_help(options->help_topic);
+        hd_command_help(&options->help_topic);
         return HD_OK;
     case HD_COMMAND_VERSION:
         printf("hedron %s\n", HD_VERSION);

@@ -1,43 +1,52 @@
 /* SPDX-License-Identifier: MIT */
-/* The command line. One table describes every option; parsing and help are made from it. */
+/* The command line. Two tables describe it (command_table.h, option_table.h); parsing, help, man
+   page and completion are made from them. */
 #ifndef HD_OPTIONS_H
 #define HD_OPTIONS_H
 
-#include <stdio.h>
+#include <stdbool.h>
 
 #include "backend.h"
+#include "command_table.h"
 #include "error.h"
+#include "outputs.h"
 
-typedef enum HdCommand {
-    HD_COMMAND_CLASSIC = 1,
-    HD_COMMAND_RENDER = 2,
-    HD_COMMAND_DEVICES = 4,
-    HD_COMMAND_HELP = 8,
-    HD_COMMAND_VERSION = 16
-} HdCommand;
+typedef enum HdClassicMode {
+    HD_CLASSIC_UNSAID, /* as HD_CLASSIC_GPU */
+    HD_CLASSIC_GPU,
+    HD_CLASSIC_CPU,
+    HD_CLASSIC_PRINT
+} HdClassicMode;
 
-typedef enum HdClassicMode { HD_CLASSIC_GPU, HD_CLASSIC_CPU, HD_CLASSIC_PRINT } HdClassicMode;
+enum { HD_MAX_CHANGES = 64 };
 
 /* What the command line said. */
 typedef struct HdOptions {
     HdCommand command;
-    HdCommand help_topic;   /* of HD_COMMAND_HELP; 0: the program as a whole */
-    HdClassicMode mode;     /* HD_CLASSIC_GPU if not given */
-    int variant;            /* HD_CLASSIC_DEFAULT_VARIANT if not given */
-    const char *output;     /* NULL: not given */
+    HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
+    char **operands;        /* what is no option, in order; at the front of main's arguments */
+    int operand_count;
+    HdClassicMode mode;
+    int variant; /* HD_CLASSIC_DEFAULT_VARIANT if not given */
+    const char *outputs[HD_MAX_OUTPUTS];
+    int output_count;
+    const char *changes[HD_MAX_CHANGES]; /* "PATH=VALUE" each */
+    int change_count;
     const char *backend;    /* NULL: auto or not given */
     const char *device;     /* number or part of a name; NULL: not given */
     const char *frames;     /* NULL: not given */
+    const char *statistics; /* a file, "-": standard output; NULL: not given */
+    bool verbose, quiet;    /* not both */
+    bool json;              /* of 'devices' */
+    bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
                                float, strict */
     int depth, samples, width, height; /* each -1: not given */
     double cutoff;                     /* -1: not given */
 } HdOptions;
 
-/* Parses the arguments of main. Fails with HD_BAD_INPUT and a sentence that names the argument. */
+/* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
+   names the argument, and the nearest right one where there is one. */
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error);
-
-/* Prints the options of a command, two columns. */
-void hd_options_print(FILE *out, HdCommand command);
 
 #endif

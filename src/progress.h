@@ -1,22 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* Progress on standard error, where that is a terminal. */
+/* Progress on standard error: a bar where that is a terminal, plain lines elsewhere. */
 #ifndef HD_PROGRESS_H
 #define HD_PROGRESS_H
 
 #include <stdbool.h>
 
+typedef enum HdProgressForm { HD_PROGRESS_NONE, HD_PROGRESS_BAR, HD_PROGRESS_LINES } HdProgressForm;
+
 typedef struct HdProgress {
-    bool shown;
+    HdProgressForm form;
     int total;
     double start_seconds;
+    double line_seconds; /* when the last plain line was written */
 } HdProgress;
 
-HdProgress hd_progress_start(int total);
+/* A bar on a terminal. Elsewhere plain lines where they are wanted, otherwise nothing. */
+HdProgressForm hd_progress_form(bool wants_lines);
 
-/* Redraws the line after `done` frames. */
-void hd_progress_update(const HdProgress *progress, int done);
+HdProgress hd_progress_start(HdProgressForm form, int total);
 
-/* Takes the line away. */
+/* After `done` frames: redraws the bar, or writes a line, if the last one is long enough ago. */
+void hd_progress_update(HdProgress *progress, int done);
+
+/* Takes the bar away, so that a message can be written. */
 void hd_progress_end(const HdProgress *progress);
+
+/* After all frames: a last plain line. */
+void hd_progress_tell_end(const HdProgress *progress);
+
+/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
+void hd_progress_time(double seconds, char text[32]);
+
+/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all". */
+void hd_progress_line(int done, int total, double elapsed_seconds, char text[128]);
 
 #endif

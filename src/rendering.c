@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "progress.h"
-
-enum { FRAMES_PER_SECOND = 30 };
+#include "rendering_notes.h"
+#include "statistics.h"
 
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
     if (options->width > 0) {
@@ -23,63 +23,104 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
 
 typedef struct Run {
     const HdRendering *rendering;
+    const HdOptions *options;
     HdProgress progress;
+    HdStatistics statistics; /* stream NULL: not wanted */
+    HdDevice device;
+    HdRenderer *renderer;
+    char renderer_line[512];
 } Run;
 
-static HdStatus frame_stored(void *context, int number, int done, const HdFrame *frame,
-                             double seconds, HdError *error) {
-    const Run *run = context;
+static void scene_uploaded(void *context, const HdSceneTables *tables) {
+    Run *run = context;
+    hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
+    if (run->options->verbose)
+        hd_note_renderer(&run->device, run->renderer_line, tables);
+}
+
+static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
+    Run *run = context;
+    HdRunFacts facts = {
+        .scene = run->rendering->scene,
+        .device = &run->device,
+        .renderer = run->renderer_line,
+    };
     HdStatus status = HD_OK;
     if (run->rendering->stored != NULL)
-        status = run->rendering->stored(number, frame, seconds, error);
+        status = run->rendering->stored(stored, error);
+    if (status == HD_OK && run->statistics.stream != NULL)
+        status = hd_statistics_add(&run->statistics, &facts, stored, error);
     if (status == HD_OK)
-        hd_progress_update(&run->progress, done);
+        hd_progress_update(&run->progress, stored->done);
     return status;
 }
 
-static HdStatus render_sequence(const HdSequence *sequence, const HdDeviceWish *wish,
-                                const HdRenderOptions *options, HdError *error) {
-    HdDevice device;
-    HdRenderer *renderer;
-    char note[512];
-    HdStatus status = hd_sequence_check(sequence, error);
+static HdStatus open_device(Run *run, HdError *error) {
+    const HdOptions *options = run->options;
+    HdDeviceReason reason;
+    HdDeviceWish wish = {
+        .backend = options->backend,
+        .device = options->device,
+        .kind = run->rendering->device_kind,
+    };
+    HdStatus status = hd_choose_device(&run->device, &wish, &options->render, &reason, error);
+    if (status != HD_OK)
+        return status;
+    if (reason.note[0] != '\0' && !options->quiet)
+        fprintf(stderr, "hedron: %s\n", reason.note);
+    if (options->verbose)
+        hd_note_device(&run->device, reason.why);
+    return hd_renderer_open(&run->renderer, &run->device, &options->render, error);
+}
+
+static HdStatus render_all(Run *run, HdError *error) {
+    const HdRendering *rendering = run->rendering;
+    HdSequence sequence = {
+        .scene = rendering->scene,
+        .frames = rendering->frames,
+        .precision = run->options->render.precision,
+        .outputs = &rendering->outputs,
+        .uploaded = scene_uploaded,
+        .stored = frame_stored,
+        .context = run,
+    };
+    HdStatus status = open_device(run, error);
+    if (status != HD_OK)
+        return status;
+    run->progress = hd_progress_start(
+        run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
+        rendering->frames->count);
+    status = hd_sequence_render(&sequence, run->renderer, error);
+    hd_renderer_close(run->renderer);
+    hd_progress_end(&run->progress);
     if (status == HD_OK)
-        status = hd_choose_device(&device, wish, options, note, error);
+        hd_progress_tell_end(&run->progress);
+    return status;
+}
+
+static HdStatus render_with_statistics(Run *run, HdError *error) {
+    HdError ignored;
+    HdStatus status = HD_OK;
+    if (run->options->statistics != NULL)
+        status = hd_statistics_open(&run->statistics, run->options->statistics, error);
     if (status != HD_OK)
         return status;
-    if (note[0] != '\0')
-        fprintf(stderr, "hedron: %s\n", note);
-    status = hd_renderer_open(&renderer, &device, options, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_sequence_render(sequence, renderer, error);
-    hd_renderer_close(renderer);
+    status = render_all(run, error);
+    if (run->statistics.stream != NULL) {
+        HdStatus closed = hd_statistics_close(&run->statistics, status == HD_OK ? error : &ignored);
+        status = status == HD_OK ? closed : status;
+    }
     return status;
 }
 
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
-    const HdScene *scene = rendering->scene;
-    HdFrameList frames;
-    HdStatus status = hd_frame_list_parse(&frames, options->frames, scene->frame_count, error);
+    Run run = {.rendering = rendering, .options = options};
+    HdStatus status = hd_outputs_check(&rendering->outputs, rendering->frames->count, error);
     if (status != HD_OK)
         return status;
-    Run run = {.rendering = rendering, .progress = hd_progress_start(frames.count)};
-    HdSequence sequence = {
-        .scene = scene,
-        .frames = &frames,
-        .precision = options->render.precision,
-        .output = rendering->output,
-        .frames_per_second = FRAMES_PER_SECOND,
-        .stored = frame_stored,
-        .context = &run,
-    };
-    HdDeviceWish wish = {
-        .backend = options->backend,
-        .device = options->device,
-        .kind = rendering->device_kind,
-    };
-    status = render_sequence(&sequence, &wish, &options->render, error);
-    hd_progress_end(&run.progress);
-    hd_frame_list_free(&frames);
-    return status;
+    if (options->verbose) {
+        hd_note_scene(rendering->name, rendering->scene);
+        hd_note_outputs(&rendering->outputs, rendering->frames->count);
+    }
+    return render_with_statistics(&run, error);
 }

@@ -12,17 +12,20 @@
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error);
 
 typedef struct HdRendering {
+    const char *name;     /* of the scene, for people */
     const HdScene *scene; /* one that hd_apply_scene_options accepted */
-    const char *output;   /* as HdSequence's */
+    const HdFrameList *frames;
+    HdOutputPlan outputs;
     HdDeviceKind device_kind;
+    bool tells_progress; /* in plain lines, where standard error is no terminal */
     /* Called after each frame is stored; NULL: not wanted. Must return HD_OK to go on. */
-    HdStatus (*stored)(int number, const HdFrame *frame, double seconds, HdError *error);
+    HdStatus (*stored)(const HdStoredFrame *stored, HdError *error);
 } HdRendering;
 
-/* Renders the frames that the options name, all of them if they name none, and stores them. The
-   output is checked against the number of frames first, then a device is chosen by the options and
-   `device_kind` and opened. Progress goes to standard error, where that is a terminal, and so does
-   a sentence if a GPU was preferred and none was found. */
+/* Renders the frames and stores them. The outputs are checked against the number of frames first,
+   then a device is chosen by the options and `device_kind` and opened. Progress goes to standard
+   error, and so does a sentence if a GPU was preferred and none was found, and what --verbose asks
+   for; with --quiet nothing does. */
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error);
 
 #endif

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+# The program 'hedron'. All of it but its main function is a library, so that tests can call it.
+add_library(hedron_program STATIC
+    src/command_check.c
+    src/command_classic.c
+    src/command_convert.c
+    src/command_devices.c
+    src/command_render.c
+    src/command_scene.c
+    src/command_table.c
+    src/completion.c
+    src/help.c
+    src/json_text.c
+    src/man_page.c
+    src/option_table.c
+    src/option_values.c
+    src/options.c
+    src/progress.c
+    src/rendering.c
+    src/rendering_notes.c
+    src/statistics.c)
+target_include_directories(hedron_program SYSTEM PUBLIC ${JANSSON_INCLUDE_DIR})
+target_link_libraries(hedron_program PUBLIC hedron_scene_file ${JANSSON_LIBRARY})
+target_compile_definitions(hedron_program PUBLIC HD_VERSION="${PROJECT_VERSION}")
+hedron_compile_options(hedron_program)
+
+add_executable(hedron src/main.c)
+target_link_libraries(hedron PRIVATE hedron_program)
+hedron_compile_options(hedron)
+install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# The man page and the completion script are what the program prints. With the thread sanitizer it starts
+# on some systems only with help, so there are none of it.
+if(HEDRON_SANITIZE MATCHES thread)
+    return()
+endif()
+
+# hedron_text(TOPIC FILE): what 'hedron help TOPIC' prints, in a file that is installed.
+function(hedron_text topic file)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/share/${file})
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:hedron> -DTOPIC=${topic}
+                -DOUTPUT=${output} -P ${PROJECT_SOURCE_DIR}/cmake/write_help.cmake
+        DEPENDS hedron ${PROJECT_SOURCE_DIR}/cmake/write_help.cmake
+        VERBATIM)
+    add_custom_target(hedron_${topic} ALL DEPENDS ${output})
+    get_filename_component(folder ${file} DIRECTORY)
+    install(FILES ${output} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${folder})
+endfunction()
+
+hedron_text(man man/man1/hedron.1)
+hedron_text(completion bash-completion/completions/hedron)

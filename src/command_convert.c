@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "atomic_file.h"
+#include "command_scene.h"
+#include "commands.h"
+#include "default_scene.h"
+
+/* A scene's texture counts from the scene's folder, that of a classic input from the current one.
+   Where the two differ, the name gets the current folder in front. */
+static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *error) {
+    char folder[HD_MAX_PATH], name[HD_MAX_PATH];
+    memcpy(name, file->texture_path, sizeof name);
+    if (output == NULL || strchr(output, '/') == NULL || name[0] == '/' || name[0] == '~' ||
+        name[0] == '\0' || strcmp(name, HD_BUILTIN_TEXTURE) == 0)
+        return HD_OK;
+    if (getcwd(folder, sizeof folder) == NULL)
+        return hd_fail(error, HD_FAILED, "cannot tell the current folder: %s", strerror(errno));
+    if (snprintf(file->texture_path, sizeof file->texture_path, "%s/%s", folder, name) >=
+        (int)sizeof file->texture_path)
+        return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s gets too long", name);
+    return HD_OK;
+}
+
+static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *error) {
+    char path[HD_MAX_PATH];
+    HdAtomicFile out;
+    HdStatus status = hd_path_expand_home(name, path, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_open(&out, path, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_scene_file_print(out.stream, file, error);
+    if (status == HD_OK)
+        return hd_atomic_file_commit(&out, error);
+    hd_atomic_file_discard(&out);
+    return status;
+}
+
+HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
+    const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
+    const char *output = options->output_count > 0 ? options->outputs[0] : NULL;
+    HdClassicInput input;
+    HdSceneFile file;
+    HdStatus status = hd_read_classic(&input, source, options->variant, error);
+    if (status != HD_OK)
+        return status;
+    hd_scene_file_from_classic(&file, &input);
+    hd_classic_free(&input);
+    status = keep_texture(&file, output, error);
+    if (status == HD_OK)
+        status = output != NULL ? write_scene(&file, output, error)
+                                : hd_scene_file_print(stdout, &file, error);
+    hd_scene_file_free(&file);
+    return status;
+}

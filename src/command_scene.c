@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+#include "command_scene.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "default_scene.h"
+#include "interrupt.h"
+#include "rendering.h"
+
+/* Far above any classic input, and small enough to read into memory without a thought. */
+enum { MAX_INPUT_BYTES = 1 << 20, FRAMES_PER_SECOND = 30 };
+
+static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t *size,
+                            HdError *error) {
+    *size = fread(text, 1, MAX_INPUT_BYTES + 1, stream);
+    if (hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);
+    if (ferror(stream))
+        return hd_fail(error, stream == stdin ? HD_FAILED : HD_BAD_INPUT, "cannot read %s: %s",
+                       name, strerror(errno));
+    if (*size > MAX_INPUT_BYTES)
+        return hd_fail(error, HD_BAD_INPUT, "%s is longer than %d bytes", name,
+                       (int)MAX_INPUT_BYTES);
+    return HD_OK;
+}
+
+HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, HdError *error) {
+    const char *name = path != NULL ? path : "standard input";
+    size_t size = 0;
+    char *text = malloc(MAX_INPUT_BYTES + 1);
+    if (text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
+    FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
+    HdStatus status =
+        stream != NULL ? read_stream(stream, name, text, &size, error)
+                       : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
+    if (status == HD_OK)
+        status = hd_classic_parse(input, text, size, name, variant, error);
+    if (stream != NULL && stream != stdin)
+        fclose(stream);
+    free(text);
+    return status;
+}
+
+void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input) {
+    memset(file, 0, sizeof *file);
+    file->scene = input->scene;
+    memset(&input->scene, 0, sizeof input->scene);
+    file->output.frames_per_second = FRAMES_PER_SECOND;
+    file->output.style = (HdPictureStyle){.curve = HD_CURVE_LINEAR, .bits = 8};
+    file->texture_curve = HD_CURVE_LINEAR;
+    memcpy(file->output.path, input->output_pattern, sizeof file->output.path);
+    memcpy(file->texture_path, input->texture_path, sizeof file->texture_path);
+}
+
+HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
+                            int change_count, HdError *error) {
+    HdStatus status = hd_scene_file_read(file, path, changes, change_count, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_scene_file_load_texture(file, error);
+    if (status != HD_OK) {
+        hd_error_prefix(error, path);
+        hd_scene_file_free(file);
+    }
+    return status;
+}
+
+static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    HdClassicInput input;
+    if (options->change_count > 0)
+        return hd_fail(error, HD_BAD_INPUT, "--set '%s' needs a scene file", options->changes[0]);
+    HdStatus status = hd_default_input(&input, error);
+    if (status != HD_OK)
+        return status;
+    hd_scene_file_from_classic(file, &input);
+    file->output.path[0] = '\0';
+    status = hd_scene_file_load_texture(file, error);
+    if (status != HD_OK)
+        hd_scene_file_free(file);
+    return status;
+}
+
+HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    HdStatus status = options->operand_count > 0
+                          ? hd_read_scene_file(file, options->operands[0], options->changes,
+                                               options->change_count, error)
+                          : read_default(file, options, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_apply_scene_options(&file->scene, options, error);
+    if (status != HD_OK)
+        hd_scene_file_free(file);
+    return status;
+}
+
+const char *hd_scene_name(const HdOptions *options) {
+    return options->operand_count > 0 ? options->operands[0] : "the built-in scene";
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* Where commands get their scenes from. */
+#ifndef HD_COMMAND_SCENE_H
+#define HD_COMMAND_SCENE_H
+
+#include "classic_input.h"
+#include "options.h"
+#include "scene_file.h"
+
+/* Reads a classic input from a file, or, `path` being NULL, from standard input. */
+HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, HdError *error);
+
+/* Makes of a classic input what its JSON would be: curves are linear everywhere, as they are in the
+   classic mode. Takes the scene out of `input`. */
+void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input);
+
+/* Reads a scene file with changes, and its texture. Messages begin with the file's name. */
+HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
+                            int change_count, HdError *error);
+
+/* Reads the scene that is named on the command line, or the built-in one, with its texture; lays
+   the options over it. */
+HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error);
+
+/* The name of that scene, for people. */
+const char *hd_scene_name(const HdOptions *options);
+
+#endif

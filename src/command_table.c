@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+#include "command_table.h"
+
+#include <stddef.h>
+#include <string.h>
+
+const char hd_program_summary[] =
+    "renders mirrored, transparent platonic solids with lights along their edges";
+
+const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
+    {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", NULL, 1,
+     "render a scene, or the built-in one, to films and pictures",
+     "Renders the frames of SCENE.json, or of the built-in scene, and prints the name of each "
+     "output.\n\n"
+     "OUT is a picture (.png, .data, .pfm), a numbered sequence of pictures such as out/%04d.png "
+     "or "
+     "out/####.png, or a film (.mp4, .mkv, .gif; made by FFmpeg). A picture without a number takes "
+     "a single frame. Several -o give several outputs of one run. Without -o the output is the one "
+     "that the scene names, else hedron.mp4, or hedron.png for a single frame.\n\n"
+     "--set reaches every value of the scene file by its path, for example --set "
+     "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
+     "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
+     "--samples, --depth and --cutoff come last."},
+    {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", NULL, -1,
+     "look for mistakes in scenes without rendering",
+     "Reads each scene and its texture, and prints a line about each that is right, or every "
+     "mistake that is in it; one wrong scene makes the exit code 2."},
+    {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, NULL, 1,
+     "turn a classic input into a scene file",
+     "Reads the input of the classic mode from a file, or from standard input, and writes the same "
+     "scene as JSON. 'hedron render' makes the same pictures of it, byte for byte."},
+    {HD_COMMAND_DEVICES, "devices", "", NULL, NULL, 0,
+     "list backends and devices, and what is missing",
+     "Lists backends and devices; for what is missing, the reason."},
+    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL, "render check convert devices help man completion",
+     1, "explain a command",
+     "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
+     "of this program."},
+    {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, NULL, 0,
+     "the classic mode: a configuration on standard input",
+     "In the classic mode standard output has one line for each frame and nothing else: frame TAB "
+     "milliseconds TAB rays."},
+};
+
+const HdCommandSpec *hd_command_named(const char *name) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdCommandSpec *hd_command_spec(HdCommand command) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].command == command)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT] = {
+    {"0", "done"},
+    {"1", "failed"},
+    {"2", "wrong usage or input"},
+    {"3", "no such backend, device or program (FFmpeg)"},
+    {"130, 143", "interrupted"},
+};
+
+const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
+    {"hedron render -o film.mp4", "the built-in scene, all frames"},
+    {"hedron render scene.json -o out/%04d.png -o film.mkv", "pictures and a film in one run"},
+    {"hedron render scene.json -o big.png --frames 0 --size 1920x1080 --samples 4",
+     "one frame, large"},
+    {"hedron render scene.json --set camera.field_of_view=40 --set image.exposure=2",
+     "values of the scene replaced"},
+    {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
+     "times and rays of each frame, a line of JSON each"},
+    {"hedron check scene.json", "mistakes of a scene"},
+    {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
+    {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
+    {"source <(hedron help completion)", "completion for this bash"},
+};

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+#include "option_table.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "backend.h"
+#include "classic_input.h"
+#include "command_table.h"
+#include "options.h"
+#include "scene.h"
+
+enum {
+    RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
+    EVERYTHING =
+        RENDERING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES | HD_COMMAND_HELP
+};
+
+const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
+    {HD_OPTION_GPU, "--gpu", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_CLASSIC,
+     "trace on the GPU (this is the default of the classic mode)"},
+    {HD_OPTION_CPU, "--cpu", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_CLASSIC,
+     "trace on the CPU only"},
+    {HD_OPTION_DEFAULT, "--default", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_CLASSIC,
+     "print the most colourful configuration in the input format, and exit"},
+    {HD_OPTION_VARIANT, "--variant", NULL, "1..10", NULL, false, 1, HD_CLASSIC_VARIANTS,
+     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT,
+     "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)"},
+    {HD_OPTION_OUTPUT, "--output", "-o", "OUT", NULL, true, 0, 0, HD_COMMAND_RENDER,
+     "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times"},
+    {HD_OPTION_OUTPUT, "--output", "-o", "SCENE", NULL, true, 0, 0, HD_COMMAND_CONVERT,
+     "the scene file to be written (default: standard output)"},
+    {HD_OPTION_SET, "--set", NULL, "PATH=VALUE", NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times"},
+    {HD_OPTION_FRAMES, "--frames", NULL, "LIST", NULL, false, 0, 0, RENDERING,
+     "render these frames only, for example 0-9,20"},
+    {HD_OPTION_SIZE, "--size", NULL, "WxH", NULL, false, 0, 0, RENDERING,
+     "size of the picture in pixels"},
+    {HD_OPTION_SAMPLES, "--samples", NULL, "N", NULL, false, 1, HD_MAX_SAMPLES_PER_SIDE, RENDERING,
+     "N x N samples for each pixel"},
+    {HD_OPTION_DEPTH, "--depth", NULL, "N", NULL, false, 0, HD_MAX_DEPTH, RENDERING,
+     "how often a ray may be mirrored or pass a face"},
+    {HD_OPTION_CUTOFF, "--cutoff", NULL, "W", NULL, false, 0, 0, RENDERING,
+     "end rays that weigh less than W, 0..1 (0: never)"},
+    {HD_OPTION_BACKEND, "--backend", NULL, "NAME", "auto c opencl cuda", false, 0, 0, RENDERING,
+     "auto, c, opencl or cuda (default auto: the best one found)"},
+    {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, RENDERING,
+     "number of the device as listed by 'hedron devices', or part of its name"},
+    {HD_OPTION_LANES, "--lanes", NULL, "N", "1 4 8 16", false, 0, 0, RENDERING,
+     "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)"},
+    {HD_OPTION_THREADS, "--threads", NULL, "N", NULL, false, 1, HD_MAX_THREADS, RENDERING,
+     "threads of the C backend (default: one for each core)"},
+    {HD_OPTION_PRECISION, "--precision", NULL, "P", "float double", false, 0, 0, RENDERING,
+     "float or double (default float)"},
+    {HD_OPTION_MATH, "--math", NULL, "M", "strict fast", false, 0, 0, RENDERING,
+     "strict: the same bytes everywhere; fast: the device's own (default strict)"},
+    {HD_OPTION_STATS, "--stats", NULL, "FILE", NULL, true, 0, 0, RENDERING,
+     "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
+     "which "
+     "then has nothing else"},
+    {HD_OPTION_VERBOSE, "--verbose", NULL, NULL, NULL, false, 0, 0, RENDERING,
+     "tell what was chosen and why"},
+    {HD_OPTION_QUIET, "--quiet", NULL, NULL, NULL, false, 0, 0, RENDERING,
+     "no progress and no notes; errors only"},
+    {HD_OPTION_SCHEMA, "--schema", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_CHECK,
+     "print the JSON Schema of scene files, and exit"},
+    {HD_OPTION_JSON, "--json", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_DEVICES,
+     "print the list as JSON"},
+    {HD_OPTION_HELP, "--help", "-h", NULL, NULL, false, 0, 0, EVERYTHING, "print this help"},
+    {HD_OPTION_VERSION, "--version", NULL, NULL, NULL, false, 0, 0, RENDERING, "print the version"},
+};
+_Static_assert(HD_CLASSIC_VARIANTS == 10 && HD_CLASSIC_DEFAULT_VARIANT == 4 &&
+                   HD_MAX_OUTPUTS == 8 && HD_MAX_CHANGES == 64,
+               "the help says so");
+
+/* The next word of a list, and its length; false at the end. */
+static bool next_word(const char **list, const char **word, size_t *length) {
+    *list += strspn(*list, " ");
+    *word = *list;
+    *length = strcspn(*list, " ");
+    *list += *length;
+    return *length > 0;
+}
+
+int hd_option_choice(const char *choices, const char *text) {
+    const char *word;
+    size_t length;
+    for (int i = 0; next_word(&choices, &word, &length); i++)
+        if (strlen(text) == length && strncmp(text, word, length) == 0)
+            return i;
+    return -1;
+}
+
+void hd_option_list_choices(const char *choices, char *text, int capacity) {
+    const char *word;
+    size_t length, used = 0, room = (size_t)capacity;
+    text[0] = '\0';
+    for (bool first = true; next_word(&choices, &word, &length) && used < room; first = false) {
+        const char *separator = first ? "" : *choices == '\0' ? " or " : ", ";
+        used += (size_t)snprintf(text + used, room - used, "%s%.*s", separator, (int)length, word);
+    }
+}
+
+void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
+    snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
+             spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
+             spec->value ? spec->value : "");
+}

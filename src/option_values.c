@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT */
+#include "option_values.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+static HdStatus parse_integer(const HdOptionSpec *spec, const char *text, int *out,
+                              HdError *error) {
+    char *end;
+    errno = 0;
+    long value = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || errno != 0 || value < spec->least || value > spec->most)
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a whole number from %d to %d",
+                       spec->name, text, spec->least, spec->most);
+    *out = (int)value;
+    return HD_OK;
+}
+
+static HdStatus parse_size(const HdOptionSpec *spec, const char *text, HdOptions *options,
+                           HdError *error) {
+    char *end;
+    errno = 0;
+    long width = strtol(text, &end, 10), height = 0;
+    bool good = end != text && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9';
+    if (good) {
+        height = strtol(end + 1, &end, 10);
+        good = *end == '\0' && errno == 0 && width >= 1 && width <= HD_MAX_IMAGE_SIDE &&
+               height >= 1 && height <= HD_MAX_IMAGE_SIDE;
+    }
+    if (!good)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is '%s', expected WIDTHxHEIGHT such as 640x480, each 1 to %d",
+                       spec->name, text, (int)HD_MAX_IMAGE_SIDE);
+    options->width = (int)width;
+    options->height = (int)height;
+    return HD_OK;
+}
+
+static HdStatus parse_fraction(const HdOptionSpec *spec, const char *text, double *out,
+                               HdError *error) {
+    char *end;
+    double value = strtod(text, &end);
+    if (end == text || *end != '\0' || !(value >= 0.0 && value < 1.0))
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from 0 to below 1",
+                       spec->name, text);
+    *out = value;
+    return HD_OK;
+}
+
+static HdStatus parse_choice(const HdOptionSpec *spec, const char *text, int *number,
+                             HdError *error) {
+    char list[256];
+    *number = hd_option_choice(spec->choices, text);
+    if (*number >= 0)
+        return HD_OK;
+    hd_option_list_choices(spec->choices, list, sizeof list);
+    return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s", spec->name, text, list);
+}
+
+static HdStatus parse_text(const HdOptionSpec *spec, const char *text, const char *expected,
+                           const char **out, HdError *error) {
+    if (text[0] == '\0')
+        return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected %s", spec->name, expected);
+    *out = text;
+    return HD_OK;
+}
+
+static HdStatus add_output(const HdOptionSpec *spec, const char *text, HdOptions *options,
+                           HdError *error) {
+    int most = options->command == HD_COMMAND_RENDER ? (int)HD_MAX_OUTPUTS : 1;
+    if (options->output_count == most)
+        return hd_fail(error, HD_BAD_INPUT, "%s '%.4000s' is one too many, expected at most %d",
+                       spec->name, text, most);
+    HdStatus status = options->command == HD_COMMAND_RENDER
+                          ? hd_output_check_name(text, spec->name, error)
+                          : HD_OK;
+    if (status == HD_OK)
+        status = parse_text(spec, text, "the name of a file",
+                            &options->outputs[options->output_count], error);
+    if (status == HD_OK)
+        options->output_count++;
+    return status;
+}
+
+static HdStatus add_change(const HdOptionSpec *spec, const char *text, HdOptions *options,
+                           HdError *error) {
+    const char *equals = strchr(text, '=');
+    if (equals == NULL || equals == text)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is '%s', expected PATH=VALUE such as camera.field_of_view=40",
+                       spec->name, text);
+    if (options->change_count == HD_MAX_CHANGES)
+        return hd_fail(error, HD_BAD_INPUT, "%s '%s' is one too many, expected at most %d",
+                       spec->name, text, (int)HD_MAX_CHANGES);
+    options->changes[options->change_count++] = text;
+    return HD_OK;
+}
+
+static HdStatus set_mode(HdOptions *options, HdClassicMode mode, HdError *error) {
+    if (options->mode != HD_CLASSIC_UNSAID && options->mode != mode)
+        return hd_fail(error, HD_BAD_INPUT, "only one of --gpu, --cpu and --default may be given");
+    options->mode = mode;
+    return HD_OK;
+}
+
+static HdStatus set_flag(bool *flag, const bool *opposite, HdError *error) {
+    *flag = true;
+    if (opposite != NULL && *opposite)
+        return hd_fail(error, HD_BAD_INPUT, "only one of --verbose and --quiet may be given");
+    return HD_OK;
+}
+
+static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const char *value,
+                             HdError *error) {
+    static const int lanes[] = {1, 4, 8, 16};
+    int number = 0;
+    HdStatus status = parse_choice(spec, value, &number, error);
+    if (status != HD_OK)
+        return status;
+    if (spec->id == HD_OPTION_BACKEND)
+        options->backend = number == 0 ? NULL : value;
+    else if (spec->id == HD_OPTION_LANES)
+        options->render.lanes = lanes[number];
+    else if (spec->id == HD_OPTION_PRECISION)
+        options->render.precision = number == 0 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE;
+    else
+        options->render.math = number == 0 ? HD_MATH_STRICT : HD_MATH_FAST;
+    return HD_OK;
+}
+
+static HdStatus ask_for_help(HdOptions *options) {
+    options->help_topic.command = options->command;
+    options->command = HD_COMMAND_HELP;
+    return HD_OK;
+}
+
+HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const char *value,
+                         HdError *error) {
+    switch (spec->id) {
+    case HD_OPTION_GPU:
+        return set_mode(options, HD_CLASSIC_GPU, error);
+    case HD_OPTION_CPU:
+        return set_mode(options, HD_CLASSIC_CPU, error);
+    case HD_OPTION_DEFAULT:
+        return set_mode(options, HD_CLASSIC_PRINT, error);
+    case HD_OPTION_VARIANT:
+        return parse_integer(spec, value, &options->variant, error);
+    case HD_OPTION_OUTPUT:
+        return add_output(spec, value, options, error);
+    case HD_OPTION_SET:
+        return add_change(spec, value, options, error);
+    case HD_OPTION_FRAMES:
+        options->frames = value;
+        return HD_OK;
+    case HD_OPTION_SIZE:
+        return parse_size(spec, value, options, error);
+    case HD_OPTION_SAMPLES:
+        return parse_integer(spec, value, &options->samples, error);
+    case HD_OPTION_DEPTH:
+        return parse_integer(spec, value, &options->depth, error);
+    case HD_OPTION_CUTOFF:
+        return parse_fraction(spec, value, &options->cutoff, error);
+    case HD_OPTION_DEVICE:
+        return parse_text(spec, value, "a number or part of a name", &options->device, error);
+    case HD_OPTION_THREADS:
+        return parse_integer(spec, value, &options->render.threads, error);
+    case HD_OPTION_BACKEND:
+    case HD_OPTION_LANES:
+    case HD_OPTION_PRECISION:
+    case HD_OPTION_MATH:
+        return apply_choice(options, spec, value, error);
+    case HD_OPTION_STATS:
+        return parse_text(spec, value, "a file or -", &options->statistics, error);
+    case HD_OPTION_VERBOSE:
+        return set_flag(&options->verbose, &options->quiet, error);
+    case HD_OPTION_QUIET:
+        return set_flag(&options->quiet, &options->verbose, error);
+    case HD_OPTION_SCHEMA:
+        return set_flag(&options->schema, NULL, error);
+    case HD_OPTION_JSON:
+        return set_flag(&options->json, NULL, error);
+    case HD_OPTION_HELP:
+        return ask_for_help(options);
+    case HD_OPTION_VERSION:
+        options->command = HD_COMMAND_VERSION;
+        return HD_OK;
+    }
+    return HD_OK;
+}

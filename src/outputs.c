@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+#include "outputs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+#include "output_kind.h"
+#include "paths.h"
+#include "video.h"
+
+struct HdOutputs {
+    const HdOutputPlan *plan;
+    HdVideo *videos[HD_MAX_OUTPUTS]; /* NULL: pictures */
+    int film_count;
+    HdImage8 image; /* what films get; empty where there is none */
+};
+
+static bool is_film(const char *name) {
+    return hd_output_is_film(hd_output_kind(name));
+}
+
+static bool is_pattern(const char *name) {
+    return strpbrk(name, "%#") != NULL;
+}
+
+HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
+    if (hd_output_kind(name) == HD_OUTPUT_UNKNOWN)
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%.4000s', expected a name such as %s", option,
+                       name, hd_output_endings());
+    return HD_OK;
+}
+
+static HdStatus check_output(const char *name, int frame_count, HdError *error) {
+    if (is_film(name) && hd_pattern_has_number(name))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
+                       "and pictures end in .png, .pfm or .data",
+                       name);
+    if (is_film(name))
+        return HD_OK;
+    if (is_pattern(name))
+        return hd_pattern_check(name, error);
+    if (frame_count == 1)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "'%s' names one picture, but %d frames are to be rendered: put #### into the "
+                   "name, choose a film such as film.mp4, or choose one frame with --frames",
+                   name, frame_count);
+}
+
+HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error) {
+    for (int i = 0; i < plan->count; i++) {
+        HdStatus status = check_output(plan->names[i], frame_count, error);
+        if (status != HD_OK)
+            return status;
+        for (int j = 0; j < i; j++)
+            if (strcmp(plan->names[i], plan->names[j]) == 0)
+                return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice",
+                               plan->names[i]);
+    }
+    return HD_OK;
+}
+
+static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, HdError *error) {
+    char path[HD_MAX_PATH];
+    HdStatus status = hd_path_expand_home(outputs->plan->names[index], path, error);
+    if (status == HD_OK && outputs->film_count == 0)
+        status = hd_image8_create(&outputs->image, width, height, error);
+    if (status == HD_OK)
+        status = hd_video_open(&outputs->videos[index], path, width, height,
+                               outputs->plan->frames_per_second, error);
+    if (status == HD_OK)
+        outputs->film_count++;
+    return status;
+}
+
+HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,
+                         HdError *error) {
+    HdStatus status = HD_OK;
+    *outputs = calloc(1, sizeof **outputs);
+    if (*outputs == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the outputs");
+    (*outputs)->plan = plan;
+    for (int i = 0; i < plan->count && status == HD_OK; i++)
+        if (is_film(plan->names[i]))
+            status = open_film(*outputs, i, width, height, error);
+    if (status != HD_OK) {
+        hd_outputs_abort(*outputs);
+        *outputs = NULL;
+    }
+    return status;
+}
+
+static HdStatus write_picture(const HdOutputPlan *plan, const char *name, const HdFrame *frame,
+                              int number, HdError *error) {
+    char path[HD_MAX_PATH], expanded[HD_MAX_PATH];
+    HdStatus status = HD_OK;
+    if (is_pattern(name))
+        status = hd_pattern_format(name, number, path, error);
+    else if (snprintf(path, sizeof path, "%s", name) >= HD_MAX_PATH)
+        status = hd_fail(error, HD_BAD_INPUT,
+                         "the name of the output has %zu bytes, expected fewer than %d",
+                         strlen(name), (int)HD_MAX_PATH);
+    if (status == HD_OK)
+        status = hd_path_expand_home(path, expanded, error);
+    if (status != HD_OK)
+        return status;
+    return hd_picture_write(frame, &plan->style, expanded, error);
+}
+
+HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
+                          double *convert_seconds, HdError *error) {
+    const HdOutputPlan *plan = outputs->plan;
+    HdStatus status = HD_OK;
+    double start = hd_monotonic_seconds();
+    if (outputs->film_count > 0)
+        hd_frame_to_image8(frame, plan->style.curve, &outputs->image);
+    *convert_seconds = outputs->film_count > 0 ? hd_monotonic_seconds() - start : 0.0;
+    for (int i = 0; i < plan->count && status == HD_OK; i++)
+        status = outputs->videos[i] != NULL
+                     ? hd_video_add(outputs->videos[i], &outputs->image, error)
+                     : write_picture(plan, plan->names[i], frame, number, error);
+    return status;
+}
+
+HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
+        if (outputs->videos[i] == NULL)
+            continue;
+        status = hd_video_close(outputs->videos[i], error);
+        outputs->videos[i] = NULL;
+    }
+    hd_outputs_abort(outputs);
+    return status;
+}
+
+void hd_outputs_abort(HdOutputs *outputs) {
+    if (outputs == NULL)
+        return;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        if (outputs->videos[i] != NULL)
+            hd_video_abort(outputs->videos[i]);
+    hd_image8_free(&outputs->image);
+    free(outputs);
+}

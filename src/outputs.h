@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* Where the frames of a run go: pictures, numbered sequences and films, several at once. */
+#ifndef HD_OUTPUTS_H
+#define HD_OUTPUTS_H
+
+#include "error.h"
+#include "frame.h"
+#include "image.h"
+
+enum { HD_MAX_OUTPUTS = 8 };
+
+typedef struct HdOutputPlan {
+    const char *names[HD_MAX_OUTPUTS]; /* films, patterns of sequences, or pictures' names */
+    int count;
+    HdPictureStyle style;  /* films have its curve and 8 bits */
+    int frames_per_second; /* of films */
+} HdOutputPlan;
+
+/* Checks that the name has an ending that tells what to write; `option` is for the message. */
+HdStatus hd_output_check_name(const char *name, const char *option, HdError *error);
+
+/* Checks that each output suits the number of frames, and that none is there twice. */
+HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error);
+
+typedef struct HdOutputs HdOutputs;
+
+/* Starts the films of a plan that was accepted; the plan must live on. On failure nothing is left
+   behind. */
+HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,
+                         HdError *error);
+
+/* Stores one frame everywhere. `convert_seconds` is the part that went into 8 bits for films. */
+HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
+                          double *convert_seconds, HdError *error);
+
+/* Ends the films and frees `outputs` in every case. A film that fails takes those after it with it;
+   those before it stay. */
+HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error);
+
+/* Drops the films and frees `outputs`; pictures stay. NULL is allowed. */
+void hd_outputs_abort(HdOutputs *outputs);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+#include "rendering_notes.h"
+
+#include <stdio.h>
+
+#include "kernel_source.h"
+
+int hd_scene_count_lights(const HdScene *scene) {
+    HdPlatonic solid;
+    int count = scene->light_count;
+    for (int i = 0; i < scene->solid_count; i++) {
+        hd_platonic(scene->solids[i].kind, &solid);
+        count += solid.edge_count * scene->solids[i].lights.per_edge;
+    }
+    return count;
+}
+
+void hd_note_scene(const char *name, const HdScene *scene) {
+    fprintf(stderr,
+            "scene     %s: %d solids, %s floor, %d lights, %d frames of %d x %d pixels, %d x %d "
+            "samples, depth %d\n",
+            name, scene->solid_count, scene->floor.present ? "a" : "no",
+            hd_scene_count_lights(scene), scene->frame_count, scene->width, scene->height,
+            scene->samples_per_side, scene->samples_per_side, scene->depth);
+}
+
+void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
+    fprintf(stderr, "outputs   ");
+    for (int i = 0; i < plan->count; i++)
+        fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
+    fprintf(stderr, " (%d frames, %d bits where the format has a choice, %s)\n", frame_count,
+            plan->style.bits, plan->style.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
+}
+
+void hd_note_device(const HdDevice *device, const char *why) {
+    fprintf(stderr, "device    %s %d, %s (%s): %s\n", device->backend->name, device->index,
+            device->name, device->driver, why);
+}
+
+void hd_note_renderer(const HdDevice *device, const char *renderer, const HdSceneTables *tables) {
+    char line[256];
+    HdKernelNeeds needs = hd_kernel_needs(tables);
+    fprintf(stderr, "renderer  %s\n", renderer);
+    hd_kernel_needs_describe(&needs, line, sizeof line);
+    fprintf(stderr, "kernels   %d planes; %s\n", tables->plane_count,
+            device->backend == &hd_backend_c ? "compiled ahead, for scenes of any size" : line);
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* What --verbose tells on standard error, a line for each thing. */
+#ifndef HD_RENDERING_NOTES_H
+#define HD_RENDERING_NOTES_H
+
+#include "backend.h"
+#include "outputs.h"
+#include "scene.h"
+
+/* Point lights and lights of edges. */
+int hd_scene_count_lights(const HdScene *scene);
+
+void hd_note_scene(const char *name, const HdScene *scene);
+void hd_note_outputs(const HdOutputPlan *plan, int frame_count);
+void hd_note_device(const HdDevice *device, const char *why);
+
+/* `renderer` is hd_renderer_describe's line. */
+void hd_note_renderer(const HdDevice *device, const char *renderer, const HdSceneTables *tables);
+
+#endif

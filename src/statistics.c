@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+#include "statistics.h"
+
+#include <errno.h>
+#include <string.h>
+
+#include "json_text.h"
+
+/* Nanoseconds are enough for a run of days. */
+enum { SIGNIFICANT_DIGITS = 12 };
+
+static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
+    return hd_fail(error, HD_FAILED, "cannot write the statistics to %s: %s", statistics->name,
+                   strerror(errno));
+}
+
+HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error) {
+    memset(statistics, 0, sizeof *statistics);
+    if (strcmp(path, "-") == 0) {
+        snprintf(statistics->name, sizeof statistics->name, "standard output");
+        statistics->stream = stdout;
+        return HD_OK;
+    }
+    HdStatus status = hd_path_expand_home(path, statistics->name, error);
+    if (status == HD_OK)
+        status = hd_path_make_parents(statistics->name, error);
+    if (status != HD_OK)
+        return status;
+    statistics->stream = fopen(statistics->name, "w");
+    if (statistics->stream == NULL)
+        return fail_to_write(statistics, error);
+    return HD_OK;
+}
+
+/* json_pack gives up as a whole where a part is missing. */
+static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
+    const HdFrame *frame = stored->frame;
+    const HdFrameTimes *times = &stored->times;
+    return json_pack("{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f},"
+                     " s:{s:I, s:I, s:I}, s:I, s:I}",
+                     "frame", stored->number, "backend", facts->device->backend->name, "device",
+                     hd_json_text(facts->device->name), "renderer", hd_json_text(facts->renderer),
+                     "width", frame->width, "height", frame->height, "samples",
+                     facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
+                     "prepare", times->prepare, "trace", times->trace, "copy", times->copy,
+                     "convert", times->convert, "store", times->store, "rays", "primary",
+                     (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
+                     "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
+                     (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
+}
+
+HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
+                           const HdStoredFrame *stored, HdError *error) {
+    json_t *line = describe_frame(facts, stored);
+    if (line == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
+    errno = 0;
+    int failed = json_dumpf(line, statistics->stream,
+                            JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS));
+    json_decref(line);
+    if (failed || fputc('\n', statistics->stream) == EOF || fflush(statistics->stream) != 0)
+        return fail_to_write(statistics, error);
+    return HD_OK;
+}
+
+HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error) {
+    if (statistics->stream == stdout)
+        return HD_OK;
+    errno = 0;
+    return fclose(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* A line of JSON about each frame (docs/formats.md). */
+#ifndef HD_STATISTICS_H
+#define HD_STATISTICS_H
+
+#include <stdio.h>
+
+#include "backend.h"
+#include "error.h"
+#include "paths.h"
+#include "scene.h"
+#include "sequence.h"
+
+/* What is the same for every frame of a run. */
+typedef struct HdRunFacts {
+    const HdScene *scene;
+    const HdDevice *device;
+    const char *renderer; /* hd_renderer_describe's line */
+} HdRunFacts;
+
+typedef struct HdStatistics {
+    FILE *stream;
+    char name[HD_MAX_PATH]; /* for messages */
+} HdStatistics;
+
+/* Opens a file anew, "-" being standard output; makes missing folders. */
+HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error);
+
+/* Writes and flushes one line. Numbers have a decimal point in every locale. */
+HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
+                           const HdStoredFrame *stored, HdError *error);
+
+HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error);
+
+#endif
