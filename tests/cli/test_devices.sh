@@ -45,6 +45,36 @@ for backend in cuda opencl; do
     fi
 done
 
+# ---- the list as JSON: the same devices, every field of each
+if command -v jq >"$logs/which"; then
+    for command in "$hedron" "${nothing[*]} $hedron"; do
+        # shellcheck disable=SC2086 # a command and its arguments
+        expect_exit 0 $command devices
+        listed=$(grep -c '^  [0-9]' "$logs/stdout")
+        missing=$(grep -c '^  not available: .' "$logs/stdout" || true)
+        # shellcheck disable=SC2086
+        expect_exit 0 $command devices --json
+        expect_silent_stderr
+        cp "$logs/stdout" devices.json
+        found=$(jq -c '[([.backends[].name] | join(" ")), ([.backends[].devices[]] | length),
+            ([.backends[] | select(.available | not) | .reason | select(length > 0)] | length)]' devices.json)
+        if [[ $found != "[\"cuda opencl c\",$listed,$missing]" ]]; then
+            fail "the JSON has $found, the list has $listed devices, and $missing backends are missing"
+        fi
+        fields=$(jq -c '[.backends[].devices[] | keys_unsorted] | unique' devices.json)
+        if [[ $fields != '[["backend","index","name","driver","is_cpu","compute_units","clock_mhz","has_double","unusable","not_strict"]]' ]]; then
+            fail "the devices have the fields $fields"
+        fi
+        if [[ $(jq -c '.backends[2].devices[0] | [.backend, .index, .is_cpu, .has_double, .unusable, .not_strict]' \
+            devices.json) != '["c",0,true,true,null,null]' ]]; then
+            fail "the C backend's device is not as expected"
+        fi
+    done
+    rm devices.json
+else
+    echo "not tested: the list as JSON, for there is no jq"
+fi
+
 # ---- a backend that is missing
 render=("$hedron" render "${small[@]}" --frames 0 -o picture.data)
 # once WORD: the sentence says it, but not over and over.
@@ -104,8 +134,11 @@ for key in --gpu ''; do
     expect_same out/img_0.data cpu.data
     rm -r out
 done
+expect_exit 0 "${nothing[@]}" "$hedron" --quiet "${small[@]}" --frames 0 <"$work/official.in"
+expect_silent_stderr
+rm -r out
 # 'render' takes what there is, without a word.
-expect_exit 0 "${nothing[@]}" "${render[@]}"
+expect_exit 0 "${nothing[@]}" "${render[@]}" --quiet
 expect_silent_stderr
 rm picture.data
 

@@ -60,6 +60,12 @@ expect_refusal 3 "${alone[@]}"
 rm "$tools/ffmpeg"
 expect_refusal 3 env PATH= "${film[@]}" --size 32x24 --frames 0-2
 expect_files .
+# Other films need it too, and where one cannot be made the run does not begin.
+for name in film.mkv film.gif; do
+    expect_refusal 3 env PATH="$tools" "$hedron" render --backend c "${small[@]}" --frames 0-2 -o '%d.data' -o "$name"
+    expect_stderr_contains ffmpeg
+    expect_files .
+done
 # Pictures need none of this.
 expect_exit 0 env PATH="$tools" "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.png
 expect_png picture.png 32 24
@@ -104,6 +110,19 @@ if ! grep -q __asan_init "$hedron"; then
     printf '\177ELF' >"$tools/ffmpeg"
     expect_no_film 3 'cannot start'
 fi
+rm "$tools/ffmpeg"
+
+# One film of two fails: neither stays, and the pictures do.
+# shellcheck disable=SC2016 # for the script that is written
+fake ffmpeg 'if [[ $* == *film.gif* ]]; then exit 1; fi; exec '"\"$true_ffmpeg\""' "$@"'
+expect_exit 1 env PATH="$tools:$PATH" "$hedron" render --quiet --backend c "${small[@]}" --frames 0-2 \
+    -o film.gif -o film.mkv -o '%d.data'
+expect_stderr_contains 'exit code 1'
+expect_stdout_lines 0
+if [[ -e film.gif || -e film.mkv || -n $(find . -name '*tmp*') ]]; then
+    fail "a film stayed: $(ls)"
+fi
+rm -rf ./*
 rm "$tools/ffmpeg"
 
 # An old film stays when the new one fails, and goes when it does not.

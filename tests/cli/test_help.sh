@@ -23,11 +23,11 @@ expect_help() {
     fi
 }
 
-rendering='--backend --device --lanes --threads --precision --math --frames --size --samples --depth
+rendering='--stats --verbose --quiet --backend --device --lanes --threads --precision --math --frames --size --samples --depth
     --cutoff --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
 classic="--gpu --cpu --default --variant ${rendering% }"
-render="--output ${rendering% }"
+render="--output --set ${rendering% }"
 
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"
@@ -40,10 +40,16 @@ for command in "$hedron render --help" "$hedron render -h" "$hedron help render"
 done
 for command in "$hedron devices --help" "$hedron devices -h" "$hedron help devices"; do
     # shellcheck disable=SC2086
-    expect_help '--help' $command
+    expect_help '--help --json' $command
 done
+expect_help '--help --schema' "$hedron" check --help
+expect_help '--help --schema' "$hedron" help check
+expect_help '--help --output --variant' "$hedron" convert --help
+expect_help '--help --output --variant' "$hedron" help convert
+expect_help '--help' "$hedron" help --help
+expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render devices help --default '[OPTIONS] < INPUT'; do
+for usage in render check convert devices help --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
 

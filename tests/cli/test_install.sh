@@ -13,7 +13,7 @@ fi
 prefix=$work/prefix
 unset DESTDIR
 expect_exit 0 cmake --install "$build" --prefix "$prefix"
-installed=$(find "$prefix" -type f -name hedron)
+installed=$(find "$prefix" -path '*/bin/hedron' -type f)
 if [[ ! -x $installed ]]; then
     fail "no program was installed"
     installed=$hedron
@@ -21,8 +21,13 @@ fi
 if [[ -z $(find "$prefix" -type f -name LICENSE) ]]; then
     fail "no LICENSE was installed"
 fi
+if ! grep -q -a __tsan_init "$hedron"; then
+    expect_same "$prefix/share/man/man1/hedron.1" <("$hedron" help man)
+    expect_same "$prefix/share/bash-completion/completions/hedron" <("$hedron" help completion)
+fi
 
 # A bare environment: nothing but PATH, a home folder that is empty or not there, and the root folder.
+small+=(--quiet)
 expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 3 -o expected.data
 for home in "$HOME" "$work/no/such/home"; do
     cd /

@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 # A hundred frames that take many seconds together, so that a signal comes in their midst.
-slow=(--size 240x180 --samples 1 --depth 4 --threads 1 --frames 0-99)
+slow=(--quiet --size 240x180 --samples 1 --depth 4 --threads 1 --frames 0-99)
 use_official_input
 
 # Signals come when something shows that it is time for them, never after a fixed while.
@@ -125,6 +125,20 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
             rmdir new
         done
     done
+
+    # Several outputs: the film goes, pictures and statistics stay whole.
+    rm "$work/tools/ffmpeg"
+    start "$hedron" render --backend c "${slow[@]}" -o film.mkv -o 'out/%d.data' --stats "$work/stats.jsonl"
+    wait_for 'the third frame' test -e out/2.data
+    send TERM "$pid"
+    expect_end 143 10
+    expect_sentence
+    expect_first_frames out
+    if (($(grep -c '^{.*}$' "$work/stats.jsonl") != frames || $(wc -l <"$work/stats.jsonl") != frames)); then
+        fail "the statistics have not one line for each of $frames frames"
+    fi
+    rm -r out
+    expect_files .
 
     # An FFmpeg that stopped reading, or that does not come to its end, must not stop us from ending.
     for body in 'head -c 100000 >/dev/null' 'cat >/dev/null'; do

@@ -12,8 +12,10 @@ input=$work/good.in
 # right OPTION...: a render of one frame with these.
 right() {
     rm -f picture.data
-    expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.data "$@"
-    expect_stdout_lines 1 'picture\.data'
+    expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o picture.data "$@"
+    if (($(tail -n 1 "$logs/stdout" | grep -c -x 'picture\.data') != 1)); then
+        fail "the last line of standard output is not the picture's name"
+    fi
     expect_silent_stderr
     if [[ ! -s picture.data ]]; then
         fail "no picture: $*"
@@ -111,7 +113,11 @@ done
 expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "$frame_count"
 expect_refusal 2 "$hedron" render --backend c "${small[@]}" -o none_%d.data --frames "0-$frame_count"
 
-right --output other.data -o picture.data
+# Several outputs are made at once.
+expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 --output other.data -o picture.data
+expect_stdout_lines 2
+expect_same other.data picture.data
+rm other.data
 # The name tells what to write, so it has to have one of the endings.
 for value in '' picture picture.jpg film.avi 'out/%d.jpg' 'out/%s.png' '%d_%d.png' 'out/%5d.png' folder/; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$value"
@@ -152,7 +158,7 @@ for option in --variant --backend --device --lanes --threads --precision --math 
     expect_stderr_contains "$option needs a value"
 done
 for option in --output --backend --device --lanes --threads --precision --math --frames --size \
-    --samples --depth --cutoff; do
+    --samples --depth --cutoff --set --stats; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "$option needs a value"
 done
@@ -160,13 +166,15 @@ expect_refusal 2 "$hedron" render -o
 expect_stderr_contains '--output'
 
 # ---- options of another command
-for option in --gpu --cpu --default --variant=4; do
+for option in --gpu --cpu --default --variant=4 --json --schema; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "${option%=*}"
     expect_stderr_contains "render"
-    expect_refusal 2 "$hedron" devices "$option"
-    expect_stderr_contains "${option%=*}"
-    expect_stderr_contains "devices"
+    if [[ $option != --json ]]; then
+        expect_refusal 2 "$hedron" devices "$option"
+        expect_stderr_contains "${option%=*}"
+        expect_stderr_contains "devices"
+    fi
 done
 for option in --output=x.png '-o x.png'; do
     # shellcheck disable=SC2086 # an option and its value
@@ -174,9 +182,9 @@ for option in --output=x.png '-o x.png'; do
     expect_stderr_contains --output
 done
 for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --precision=float --math=fast \
-    --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0; do
+    --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0 --set=a=1 --stats=x --verbose --quiet; do
     expect_refusal 2 "$hedron" devices "$option"
-    expect_stderr_contains "${option%=*}"
+    expect_stderr_contains "${option%%=*}"
 done
 
 # ---- what is no option
@@ -189,12 +197,51 @@ done
 expect_refusal 2 "$hedron" --nonsense <"$input"
 expect_stderr_contains "'--nonsense'"
 expect_refusal 2 "$hedron" render --frames 0 word
-expect_stderr_contains "'word'"
+expect_stderr_contains 'word'
+expect_refusal 2 "$hedron" render one.json two.json
+expect_stderr_contains "'two.json'"
 expect_refusal 2 "$hedron" --cpu render <"$input"
 expect_refusal 2 "$hedron" --cpu word <"$input"
 expect_refusal 2 "$hedron" render devices
 expect_refusal 2 "$hedron" "--$(printf '%050000d' 0)" <"$input"
 expect_refusal 2 "$hedron" --depth "$(printf '%050000d' 0)x" <"$input"
+
+# ---- what was meant
+# meant WORDS ARGUMENT...: the sentence ends with this.
+meant() {
+    local words=$1
+    shift
+    expect_refusal 2 "$hedron" "$@" </dev/null
+    expect_stderr_contains "did you mean '$words'?"
+}
+meant 'hedron render' rendr
+meant 'hedron devices' device
+meant 'hedron render scene.json' scene.json
+meant 'hedron render' --cpu render
+meant --size render --siz=32x24
+meant --samples --sample 3
+meant --schema check --shema
+meant 'hedron help completion' help completions
+expect_refusal 2 "$hedron" nonsense </dev/null
+expect_stderr_contains "see 'hedron --help'"
+expect_refusal 2 "$hedron" render --nonsense
+expect_stderr_contains "see 'hedron render --help'"
+
+# ---- options that exclude each other
+for command in render ''; do
+    # shellcheck disable=SC2086 # a command or none
+    expect_refusal 2 "$hedron" $command --quiet --verbose </dev/null
+    expect_stderr_contains 'only one of --verbose and --quiet'
+done
+expect_refusal 2 "$hedron" check
+expect_refusal 2 "$hedron" check --schema scene.json
+expect_refusal 2 "$hedron" convert one.in two.in
+expect_refusal 2 "$hedron" convert -o one.json -o two.json
+expect_refusal 2 "$hedron" devices word
+for value in abc =1 ''; do
+    expect_refusal 2 "$hedron" render --set "$value"
+    expect_stderr_contains --set
+done
 
 # ---- nothing at all: neither a terminal nor an input
 expect_refusal 2 "$hedron" </dev/null

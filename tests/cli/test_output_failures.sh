@@ -39,8 +39,13 @@ to_full "$hedron" --default
 to_full "$hedron" --help
 to_full "$hedron" --version
 to_full "$hedron" render --help
+to_full "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o picture.data --stats -
 to_full "$hedron" devices
-to_full "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.data
+to_full "$hedron" devices --json
+to_full "$hedron" help man
+to_full "$hedron" help completion
+to_full "$hedron" convert
+to_full "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o picture.data
 expect_data picture.data 32 24
 rm picture.data
 expect_files .
@@ -127,6 +132,9 @@ rm -rf out
 limited 1 "$hedron" render --backend c --size 64x64 --samples 1 --depth 1 --frames 0 -o x.png
 limited 1 "$hedron" render --backend c --size 64x64 --samples 1 --depth 1 --frames 0 -o x.data
 expect_files .
+limited 1 "$hedron" render --backend c --quiet --size 8x8 --samples 1 --depth 0 --frames 0-9 -o '%d.data' \
+    --stats stats.jsonl
+grep -q -F 'statistics to stats.jsonl' "$logs/stderr" || fail "the message does not name the statistics"
 rm -rf ./*
 
 # ---- a full disk, where this user may mount one

@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 render() {
-    expect_exit 0 "$hedron" render --backend c --samples 1 --depth 2 "$@"
+    expect_exit 0 "$hedron" render --quiet --backend c --samples 1 --depth 2 "$@"
     expect_silent_stderr
 }
 
@@ -51,6 +51,22 @@ for name in '#_##.data' '#/%d.data' '##########.data'; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$name"
     expect_stderr_contains "$name"
 done
+expect_files .
+
+# ---- several outputs of one run; the names are told as they were given
+render --size 32x24 --frames 0-1 -o 'out/%04d.png' --output='out/##.data'
+expect_stdout_lines 2 'out/(%04d\.png|##\.data)'
+expect_files out 0000.png 0001.png 00.data 01.data
+render --size 32x24 --frames 1 -o alone.data
+expect_same alone.data out/01.data
+rm -rf ./*
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-1 -o 'a_%d.png' -o b.png
+expect_stderr_contains b.png
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o a.png -o b.png -o a.png
+expect_stderr_contains "'a.png' is there twice"
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 \
+    -o 1.png -o 2.png -o 3.png -o 4.png -o 5.png -o 6.png -o 7.png -o 8.png -o 9.png
+expect_stderr_contains "'9.png'"
 expect_files .
 
 # ---- one name for several frames
@@ -107,6 +123,21 @@ expect_film new/odd.MP4 1 2 2
 render --size 32x24 --frames 0,7
 expect_stdout_lines 1 'hedron\.mp4'
 expect_film hedron.mp4 2 32 24
+render --size 32x24 --frames 7
+expect_stdout_lines 1 'hedron\.png'
+expect_png hedron.png 32 24
+rm hedron.png
+# Films and pictures at once; a film that fails takes no pictures with it.
+render --size 32x24 --frames 0-1 -o both.mp4 -o both.mkv -o both_%d.data
+expect_stdout_lines 3
+expect_film both.mp4 2 32 24
+expect_files . both.mkv both.mp4 both_0.data both_1.data film.mp4 hedron.mp4 new new/odd.MP4
+expect_exit 1 "$hedron" render --backend c "${small[@]}" --frames 0-1 -o bad_%d.data -o bad.gif \
+    -o film.mp4/x.mkv
+expect_sentence
+expect_stdout_lines 0
+expect_files . both.mkv both.mp4 both_0.data both_1.data film.mp4 hedron.mp4 new new/odd.MP4
+rm both*
 # Names that FFmpeg would take for something else.
 for name in -film.mp4 'a b.mp4' 'pipe:1.mp4' '50%.mp4' "it's.mp4"; do
     render --size 32x24 --frames 0 -o "$name"

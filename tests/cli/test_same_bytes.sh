@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 # Sides that are no multiple of anything.
-scene=(--size 33x25 --samples 2 --depth 3 --frames 40)
+scene=(--quiet --size 33x25 --samples 2 --depth 3 --frames 40)
 
 # picture NAME OPTION...
 picture() {

@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What is told on standard error: progress, --verbose, --quiet.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+use_official_input
+mkdir "$work/no_vendors"
+nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
+render=("$hedron" render --backend c "${small[@]}")
+time='([0-9]+:)?[0-9]+:[0-9]{2}'
+rate='[0-9]+\.[0-9]{2} frames/s'
+
+# expect_note REGEX: one line of standard error matches as a whole.
+expect_note() {
+    if (($(grep -c -x -E -e "$1" "$logs/stderr") != 1)); then
+        fail "standard error has no line, or more than one, that is $1"
+        show_logs
+    fi
+}
+
+# ---- progress: plain lines where there is no terminal; the last one tells the whole time
+expect_exit 0 "${render[@]}" --frames 0-2 -o '%d.data'
+expect_note "3/3 frames, $rate, $time in all"
+if grep -v -q -x -E "[0-9]+/3 frames, $rate, $time (left|in all)" "$logs/stderr" ||
+    grep -q -E $'\r|\033' "$logs/stderr"; then
+    fail "standard error has other lines than those of progress"
+    show_logs
+fi
+rm ./*.data
+# The classic mode has none.
+expect_exit 0 "$hedron" --cpu "${small[@]}" --frames 0-2 <"$work/official.in"
+expect_silent_stderr
+rm -r out
+
+# ---- progress on a terminal: a bar, which goes away
+if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
+    expect_exit 0 script -q -e -c "$hedron render --backend c ${small[*]} --frames 0-2 -o %d.data" /dev/null
+    if ! tr '\r' '\n' <"$logs/stdout" | grep -q -E "^\[#{20}\.{10}\] 2/3 frames, $rate, $time left"; then
+        fail "the terminal has no bar"
+        show_logs
+    fi
+    if [[ $(<"$logs/stdout") != *$'\r\033[K%d.data\r' ]]; then
+        fail "the bar stays"
+    fi
+    expect_exit 0 script -q -e -c "$hedron render --quiet --backend c ${small[*]} --frames 0-2 -o %d.data" \
+        /dev/null
+    if [[ $(tr -d '\r' <"$logs/stdout") != '%d.data' ]]; then
+        fail "--quiet is not quiet on a terminal"
+        show_logs
+    fi
+    rm ./*.data
+else
+    echo "not tested: a terminal, for there is no program 'script'"
+fi
+
+# ---- --quiet
+expect_exit 0 "${render[@]}" --quiet --frames 0-2 -o '%d.data'
+expect_stdout_lines 1 '%d\.data'
+expect_silent_stderr
+rm ./*.data
+expect_exit 0 "${nothing[@]}" "$hedron" --quiet "${small[@]}" --frames 0 <"$work/official.in"
+expect_stdout_lines 1
+expect_silent_stderr
+rm -r out
+expect_refusal 1 "${render[@]}" --quiet --frames 0 -o /dev/null/x.png
+
+# ---- --verbose: scene, outputs, device and the reason, what renders, what it was built for
+expect_exit 0 "${render[@]}" --verbose --frames 0-2 -o '%d.data' -o '%d.png'
+expect_stdout_lines 2
+expect_note 'scene +the built-in scene: [0-9]+ solids, a floor, [0-9]+ lights, [0-9]+ frames of 32 x 24 pixels, .*'
+expect_note 'outputs +%d\.data, %d\.png \(3 frames, .*\)'
+expect_note 'device +c 0, .*: the best device of the backend named by --backend'
+expect_note 'renderer +[0-9]+ lanes?, .*'
+expect_note 'kernels +[0-9]+ planes; compiled ahead, .*'
+rm ./*.data ./*.png
+expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data
+expect_note 'device +c 0, .*: no GPU can do this; passed over: cuda: .*; opencl: .*'
+expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data --device 0
+expect_note 'device +c 0, .*: named by --device; passed over: .*'
+rm a.data
+expect_exit 0 "$hedron" --cpu --verbose "${small[@]}" --frames 0 <"$work/official.in"
+expect_stdout_lines 1 $'0\t[0-9.]+\t[0-9]+'
+expect_note 'scene +standard input: 3 solids, .*'
+expect_note 'device +c 0, .*: the C backend, since only a CPU will do'
+rm -r out
+if has_opencl; then
+    expect_exit 0 "${no_nvidia[@]}" "$hedron" render --backend opencl "${small[@]}" --verbose --frames 0 -o a.data
+    expect_note 'device +opencl [0-9]+, .*'
+    expect_note 'kernels +[0-9]+ planes; built for up to [0-9]+ planes and depth [0-9]+, .*'
+    rm a.data
+fi
+
+expect_files .
+finish

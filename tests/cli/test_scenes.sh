@@ -1,0 +1,186 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Scene files: rendering them, changing values, checking, and making them of classic inputs.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+use_official_input
+mkdir scenes
+make_texture scenes/floor.data
+cat >scenes/cube.json <<'JSON'
+{
+  "hedron": 1,
+  "image": {"width": 32, "height": 24, "samples": 1, "depth": 2},
+  "camera": {"field_of_view": 50, "frames": 3, "eye": {"r0": 5, "z0": 2, "phi_frequency": 1}},
+  "output": {"path": "out/###.png"},
+  "materials": {"glass": {"colour": [0.8, 0.9, 1], "diffuse": 0.5, "reflection": 0.3, "transmission": 0.5}},
+  "solids": [{"kind": "cube", "circumradius": 1.2, "material": "glass",
+              "edge_lights": {"per_edge": 2, "intensity": 0.1, "disc_radius": 0.1, "disc_radiance": 2}}],
+  "lights": [{"position": [3, -4, 5]}],
+  "floor": {"corners": [[-5, 5, -2], [5, 5, -2], [5, -5, -2], [-5, -5, -2]], "material": "glass",
+            "texture": {"file": "floor.data"}}
+}
+JSON
+
+# render OPTION...
+render() {
+    expect_exit 0 "$hedron" render --quiet --backend c "$@"
+    expect_silent_stderr
+}
+
+# ---- the scene says where to; the texture lies beside it, wherever one stands
+render scenes/cube.json
+expect_stdout_lines 1 'out/###\.png'
+expect_files out 000.png 001.png 002.png
+expect_png out/002.png 32 24
+expect_different out/000.png out/001.png
+(cd scenes && render cube.json --frames 1 -o here.png && ((failures == 0))) || failures=$((failures + 1))
+expect_same scenes/here.png out/001.png
+rm scenes/here.png
+
+# ---- options come before the scene or after it, and over its values
+render --size 33x25 scenes/cube.json --frames 0 -o a.data
+expect_data a.data 33 25
+expect_stdout_lines 1 'a\.data'
+render scenes/cube.json --frames 0 -o b.data --set image.width=33 --set image.height=25
+expect_same a.data b.data
+render scenes/cube.json --frames 0 -o b.data --set image.width=99 --size 33x25
+expect_same a.data b.data
+rm ./*.data
+
+# ---- --set reaches every value; what is no JSON is a string
+render scenes/cube.json --frames 0 -o plain.png
+for change in camera.field_of_view=40 'camera.eye=[4,0,2]' output.curve=linear output.bits=16 image.exposure=2 \
+    'background=[0,0,1]' 'solids[0].kind=icosahedron' 'solids[0].edge_lights.per_edge=5' \
+    'materials.glass.reflection=0' 'lights=[]' floor.texture.curve=linear; do
+    render scenes/cube.json --frames 0 -o changed.png --set "$change"
+    expect_png changed.png 32 24
+    expect_different plain.png changed.png
+done
+render scenes/cube.json --set output.path=set.pfm --set camera.frames=1
+expect_stdout_lines 1 'set\.pfm'
+if [[ $(head -c 2 set.pfm) != PF ]]; then
+    fail "the output of --set output.path is not there"
+fi
+rm -r out ./*.png set.pfm
+# bad_change CHANGE WHAT
+bad_change() {
+    expect_exit 2 "$hedron" render scenes/cube.json --frames 0 -o a.png --set "$1"
+    expect_stderr_contains scenes/cube.json
+    expect_stderr_contains "$2"
+    expect_stdout_lines 0
+}
+bad_change camera.field_of_view=180 'camera.field_of_view is 180'
+bad_change camera.field_of_view=0 'camera.field_of_view is 0'
+bad_change camera.field_of_view=wide 'camera.field_of_view'
+bad_change camera.feild_of_view=40 '"field_of_view"'
+bad_change 'solids[1].circumradius=2' 'solids[1]'
+bad_change image.width=99999 'image.width is 99999'
+bad_change output.curve=gamma 'output.curve'
+bad_change output.bits=12 'output.bits'
+bad_change 'camera.eye=[0,0,0]' eye
+bad_change materials.glass.reflection=0.9 'transmission'
+expect_files . scenes scenes/cube.json scenes/floor.data
+
+# ---- 'check'
+expect_exit 0 "$hedron" check scenes/cube.json
+expect_silent_stderr
+expect_stdout_lines 1 'scenes/cube\.json: fine, 1 solid, 25 lights, 3 frames'
+sed 's/1.2/-1.2/' scenes/cube.json >negative.json
+sed 's/floor.data/missing.data/' scenes/cube.json >texture.json
+sed 's/1.2/-1.2/; s/: 50/: 500/' scenes/cube.json >both.json
+expect_refusal 2 "$hedron" check negative.json
+expect_stderr_contains 'negative.json: solids[0].circumradius is -1.2'
+expect_refusal 2 "$hedron" check texture.json
+expect_stderr_contains texture.json
+expect_stderr_contains missing.data
+expect_refusal 2 "$hedron" check missing.json
+expect_stderr_contains missing.json
+expect_exit 2 "$hedron" check both.json
+expect_stderr_contains '2 problems'
+expect_stderr_contains 'circumradius is -1.2'
+expect_stderr_contains 'field_of_view is 500'
+# Each of several is looked at.
+expect_exit 2 "$hedron" check negative.json scenes/cube.json missing.json
+expect_stdout_lines 1 'scenes/cube\.json: fine, .*'
+expect_stderr_contains negative.json
+expect_stderr_contains missing.json
+expect_stderr_contains '2 of 3 scenes are wrong'
+expect_exit 0 "$hedron" check scenes/cube.json scenes/cube.json
+expect_stdout_lines 2
+rm ./*.json
+expect_exit 0 "$hedron" check --schema
+expect_silent_stderr
+expect_stdout_contains 'https://json-schema.org/draft/2020-12/schema'
+if command -v jq >"$logs/which" && ! jq . "$logs/stdout" >"$logs/jq" 2>&1; then
+    fail "the schema is no JSON"
+fi
+
+# ---- 'convert': the same bytes as the classic mode, texture and all
+classic=(--size 33x25 --samples 1 --depth 3 --frames 5)
+for variant in 1 4 10; do
+    expect_exit 0 "$hedron" --cpu "${classic[@]}" --variant "$variant" <"$work/official.in"
+    mv out/img_5.data classic.data
+    rmdir out
+    expect_exit 0 "$hedron" convert "$work/official.in" --variant "$variant" -o new/converted.json
+    expect_stdout_lines 0
+    expect_silent_stderr
+    expect_files new converted.json
+    render new/converted.json "${classic[@]}"
+    expect_stdout_lines 1 'out/img_%d\.data'
+    expect_same out/img_5.data classic.data
+    expect_exit 0 "$hedron" convert --variant "$variant" <"$work/official.in"
+    expect_silent_stderr
+    expect_same "$logs/stdout" new/converted.json
+    expect_exit 0 "$hedron" check new/converted.json
+    # Of the output and of the texture: the classic mode knows no other curve.
+    if (($(grep -c '"curve": "linear"' new/converted.json) != 2)); then
+        fail "the converted scene does not say that its curves are linear"
+    fi
+    rm -r out new
+done
+# The built-in configuration, with the built-in texture.
+"$hedron" --default >default.in
+expect_exit 0 "$hedron" --cpu "${classic[@]}" <default.in
+expect_exit 0 "$hedron" convert default.in -o default.json
+render default.json "${classic[@]}" -o json.png
+expect_same json.png out/frame_5.png
+rm -r out ./*.data ./*.png ./default.*
+# A texture keeps its place when the scene goes to another folder.
+cp scenes/floor.data near.data
+sed 's|~/floor.data|near.data|' "$work/official.in" >near.in
+expect_exit 0 "$hedron" --cpu "${classic[@]}" <near.in
+mv out/img_5.data classic.data
+expect_exit 0 "$hedron" convert near.in -o near.json
+expect_exit 0 "$hedron" convert near.in -o far/near.json
+for scene in near.json far/near.json; do
+    rm -r out
+    render "$scene" "${classic[@]}"
+    expect_same out/img_5.data classic.data
+done
+rm -r out far near.* classic.data
+
+# What is wrong makes no file, and leaves an old one.
+printf 'old' >old.json
+cp old.json "$work/old.json"
+head -c 300 "$work/official.in" >short.in
+expect_refusal 2 "$hedron" convert short.in -o old.json
+expect_stderr_contains short.in
+expect_same old.json "$work/old.json"
+expect_refusal 2 "$hedron" convert missing.in -o new.json
+expect_stderr_contains missing.in
+expect_refusal 2 "$hedron" convert . -o new.json
+: >empty.in
+expect_refusal 2 "$hedron" convert empty.in
+expect_refusal 2 "$hedron" convert </dev/null
+expect_refusal 1 "$hedron" convert "$work/official.in" -o old.json/new.json
+expect_stderr_contains old.json
+expect_refusal 2 "$hedron" convert "$work/official.in" -o scenes
+expect_stderr_contains scenes
+expect_refusal 2 "$hedron" convert "$work/official.in" --variant 11
+expect_refusal 2 "$hedron" convert "$work/official.in" -o /dev/full
+rm old.json ./*.in
+
+expect_files . scenes scenes/cube.json scenes/floor.data
+finish

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# --stats: a line of JSON about each frame, and files that take none.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+if ! command -v jq >"$logs/which"; then
+    skip "there is no jq"
+fi
+use_official_input
+render=("$hedron" render --quiet --backend c "${small[@]}")
+
+# expect_json FILE FILTER EXPECTED: what jq says of all lines together.
+expect_json() {
+    local found
+    found=$(jq -c -s "$2" "$1" 2>&1)
+    if [[ $found != "$3" ]]; then
+        fail "$1: $2 is $found, expected $3"
+    fi
+}
+
+# ---- a file, in a folder that is made
+expect_exit 0 "${render[@]}" --samples 2 --frames 3-5 -o '##.data' --stats new/stats.jsonl
+expect_stdout_lines 1 '##\.data'
+expect_silent_stderr
+if (($(wc -l <new/stats.jsonl) != 3)); then
+    fail "the statistics have $(wc -l <new/stats.jsonl) lines, expected 3"
+fi
+expect_json new/stats.jsonl 'map(.frame)' '[3,4,5]'
+expect_json new/stats.jsonl '.[0] | keys_unsorted' \
+    '["frame","backend","device","renderer","width","height","samples","depth","seconds","rays","shadow_tests","clamps"]'
+expect_json new/stats.jsonl '.[0].seconds | keys_unsorted' '["prepare","trace","copy","convert","store"]'
+expect_json new/stats.jsonl '.[0].rays | keys_unsorted' '["primary","mirrored","transmitted"]'
+expect_json new/stats.jsonl 'map([.backend, .width, .height, .samples, .depth]) | unique' '[["c",32,24,2,2]]'
+expect_json new/stats.jsonl 'map(.rays.primary) | unique' '[3072]'
+expect_json new/stats.jsonl 'all(.[]; .seconds | all(.[]; . >= 0) and .trace > 0 and .store > 0)' true
+# Only films need a frame in 8 bits.
+expect_json new/stats.jsonl 'all(.[]; .seconds.convert == 0)' true
+expect_json new/stats.jsonl 'all(.[]; .renderer | test("lane"))' true
+# Another run writes the file anew.
+expect_exit 0 "${render[@]}" --frames 7 -o a.data --stats new/stats.jsonl
+expect_json new/stats.jsonl 'map(.frame)' '[7]'
+rm -r new ./*.data
+
+# ---- standard output, which then has nothing else
+expect_exit 0 "${render[@]}" --frames 0-1 -o '##.data' --stats -
+expect_stdout_lines 2 '\{.*\}'
+expect_json "$logs/stdout" 'map(.frame)' '[0,1]'
+rm ./*.data
+
+# ---- the classic mode: the same counts as in its lines
+expect_exit 0 "$hedron" --cpu "${small[@]}" --frames 0-2 --stats stats.jsonl <"$work/official.in"
+expect_stdout_lines 3
+expect_same <(cut -f 1,3 "$logs/stdout") \
+    <(jq -r '[.frame, .rays.primary + .rays.mirrored + .rays.transmitted] | @tsv' stats.jsonl)
+rm -r out stats.jsonl
+expect_refusal 2 "$hedron" --cpu "${small[@]}" --frames 0 --stats - <"$work/official.in"
+expect_stderr_contains --stats
+
+# ---- films
+if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
+    expect_exit 0 "${render[@]}" --frames 0-1 -o film.mkv --stats stats.jsonl
+    expect_json stats.jsonl 'all(.[]; .seconds.convert > 0)' true
+    rm film.mkv stats.jsonl
+fi
+
+# ---- files that cannot be written, or are full
+expect_refusal 1 "${render[@]}" --frames 0 -o a.data --stats /dev/null/stats.jsonl
+expect_stderr_contains /dev/null
+mkdir folder
+expect_refusal 1 "${render[@]}" --frames 0 -o a.data --stats folder
+expect_stderr_contains folder
+rmdir folder
+expect_files .
+expect_refusal 1 "${render[@]}" --frames 0-1 -o '##.data' --stats /dev/full
+expect_stderr_contains 'cannot write the statistics to /dev/full: No space left on device'
+# The frame was stored before its line.
+expect_files . 00.data
+expect_data 00.data 32 24
+rm 00.data
+if command -v ffmpeg >"$logs/which"; then
+    expect_refusal 1 "${render[@]}" --frames 0-1 -o film.mkv --stats /dev/full
+    expect_files .
+fi
+expect_refusal 2 "${render[@]}" --frames 0 -o a.data --stats ''
+expect_stderr_contains --stats
+
+expect_files .
+finish
