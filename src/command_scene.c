@@ -70,14 +70,12 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneCh
 }
 
 static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
-    HdClassicInput input;
-    if (options->change_count > 0)
-        return hd_fail(error, HD_BAD_INPUT, "--set '%s' needs a scene file", options->changes[0]);
-    HdStatus status = hd_default_input(&input, error);
+    size_t size;
+    const char *text = hd_default_scene_text(&size);
+    HdStatus status = hd_scene_file_parse(file, text, size, "the built-in scene", "",
+                                          options->changes, options->change_count, error);
     if (status != HD_OK)
         return status;
-    hd_scene_file_from_classic(file, &input);
-    file->output.path[0] = '\0';
     status = hd_scene_file_load_texture(file, error);
     if (status != HD_OK)
         hd_scene_file_free(file);

@@ -6,13 +6,18 @@
 #include "image.h"
 #include "paths.h"
 
-/* Made by the build from scenes/default.in and scenes/default.png. */
-extern const unsigned char hd_default_scene[], hd_default_texture[];
-extern const size_t hd_default_scene_size, hd_default_texture_size;
+/* Made by the build from scenes/default.json, scenes/classic.in and scenes/floor.png. */
+extern const unsigned char hd_default_scene[], hd_default_classic[], hd_default_texture[];
+extern const size_t hd_default_scene_size, hd_default_classic_size, hd_default_texture_size;
+
+const char *hd_default_scene_text(size_t *size) {
+    *size = hd_default_scene_size;
+    return (const char *)hd_default_scene;
+}
 
 HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
-    return hd_classic_parse(input, (const char *)hd_default_scene, hd_default_scene_size,
-                            "the built-in scene", HD_CLASSIC_DEFAULT_VARIANT, error);
+    return hd_classic_parse(input, (const char *)hd_default_classic, hd_default_classic_size,
+                            "the built-in configuration", HD_CLASSIC_DEFAULT_VARIANT, error);
 }
 
 HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {

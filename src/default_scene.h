@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scene and the texture that are part of the program. */
+/* The scenes and the texture that are part of the program. */
 #ifndef HD_DEFAULT_SCENE_H
 #define HD_DEFAULT_SCENE_H
 
@@ -9,7 +9,10 @@
 /* The texture path that stands for the embedded texture. */
 #define HD_BUILTIN_TEXTURE "builtin:floor"
 
-/* The most colourful configuration, without its texture. */
+/* The default scene, JSON (docs/formats.md) of `*size` bytes. */
+const char *hd_default_scene_text(size_t *size);
+
+/* The most colourful configuration that the classic input can tell, without its texture. */
 HdStatus hd_default_input(HdClassicInput *input, HdError *error);
 
 /* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder),

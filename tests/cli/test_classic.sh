@@ -189,10 +189,5 @@ lights=$(xargs -n 1 <"$work/default.in" | sed -n 73p)
 if ((tokens != 73 + 6 * lights + 2)); then
     fail "the default configuration has $tokens tokens, expected $((73 + 6 * lights + 2))"
 fi
-# It is the built-in scene.
-sed '2s|.*|%d.data|' "$work/default.in" >"$work/default_data.in"
-expect_exit 0 "$hedron" --cpu "${small[@]}" --frames 5 <"$work/default_data.in"
-expect_exit 0 "$hedron" render -o render.data --backend c "${small[@]}" --frames 5
-expect_same 5.data render.data
 
 finish

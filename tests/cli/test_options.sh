@@ -100,7 +100,7 @@ done
 right --device 0
 right --device=0
 
-frame_count=$("$hedron" --default | head -n 1)
+frame_count=$("$hedron" convert <("$hedron" --default) | jq .camera.frames)
 right --frames $((frame_count - 1))
 right --frames=7
 right --frames 7,7
