@@ -3,7 +3,8 @@
 #ifndef HD_OPTION_NEAREST_H
 #define HD_OPTION_NEAREST_H
 
-/* Keeps the nearest of the names that are offered one after the other. Start with the word alone. */
+/* Keeps the nearest of the names that are offered one after the other. Start with the word alone.
+ */
 typedef struct HdNearest {
     const char *word;
     const char *name; /* NULL: nothing is near */

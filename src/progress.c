@@ -8,7 +8,7 @@
 
 #include "clock.h"
 
-enum { BAR_WIDTH = 30, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999 };
+enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999 };
 
 HdProgressForm hd_progress_form(bool wants_lines) {
     if (isatty(STDERR_FILENO))

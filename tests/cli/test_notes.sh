@@ -37,7 +37,7 @@ rm -r out
 # ---- progress on a terminal: a bar, which goes away
 if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     expect_exit 0 script -q -e -c "$hedron render --backend c ${small[*]} --frames 0-2 -o %d.data" /dev/null
-    if ! tr '\r' '\n' <"$logs/stdout" | grep -q -E "^\[#{20}\.{10}\] 2/3 frames, $rate, $time left"; then
+    if ! tr '\r' '\n' <"$logs/stdout" | grep -q -E "^\[#{16}\.{8}\] 2/3 frames, $rate, $time left"; then
         fail "the terminal has no bar"
         show_logs
     fi

@@ -63,6 +63,20 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     expect_exit 0 "${render[@]}" --frames 0-1 -o film.mkv --stats stats.jsonl
     expect_json stats.jsonl 'all(.[]; .seconds.convert > 0)' true
     rm film.mkv stats.jsonl
+    # A reader that goes away ends the program, but not before it has cleaned up.
+    mkfifo "$work/pipe"
+    exec 3<>"$work/pipe"
+    exec 4>"$work/pipe"
+    exec 3<&-
+    code=0
+    "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr" || code=$?
+    exec 4>&-
+    if ((code != 1)); then
+        fail "exit code $code, expected 1"
+    fi
+    expect_sentence
+    expect_stderr_contains 'cannot write the statistics to standard output'
+    expect_files .
 fi
 
 # ---- files that cannot be written, or are full
