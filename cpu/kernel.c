@@ -15,6 +15,6 @@ void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, float 
     HD_FRAME_TABLES(TABLE_FROM_FRAME)
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
-    counts[item] = (HdRayCounts){counted.mirrored, counted.transmitted, counted.shadow_tests,
-                                 counted.clamps};
+    counts[item] =
+        (HdRayCounts){counted.mirrored, counted.transmitted, counted.shadow_tests, counted.clamps};
 }

@@ -71,8 +71,7 @@ static HdVec3 grey(double value) {
 }
 
 static HdMaterial classic_material(void) {
-    return (HdMaterial){
-        .mirror_tint = {1.0, 1.0, 1.0},
+    return (HdMaterial){.mirror_tint = {1.0, 1.0, 1.0},
                         .diffuse = classic_diffuse,
                         .shininess = classic_shininess,
                         .index_of_refraction = 1.0};
