@@ -34,8 +34,8 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
    format; a film's ending is an error. It is written under a temporary name beside `path` that is
    then renamed; missing folders are made. On failure nothing is left behind under either name, and
    a file that was there before is untouched. The data format: int32 width, int32 height, then r g b
-   a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk where the curve is sRGB's and a gAMA
-   chunk of 1 where it is linear. PFM: float, little endian, rows from the bottom. */
+   a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk
+   where the values are on that curve. PFM: float, little endian, rows from the bottom. */
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
 

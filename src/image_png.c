@@ -134,14 +134,6 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     return HD_OK;
 }
 
-/* What tells a viewer which curve the values are on. */
-static void set_curve(PngJob *job, HdCurve curve) {
-    if (curve == HD_CURVE_SRGB)
-        png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
-    else
-        png_set_gAMA(job->png, job->info, 1.0);
-}
-
 /* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
 static void encode_row(const HdPictureStyle *style, const float *rgb, size_t values,
                        uint16_t *row) {
@@ -168,7 +160,8 @@ static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *
     png_set_IHDR(job->png, job->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
                  style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    set_curve(job, style->curve);
+    if (style->curve == HD_CURVE_SRGB)
+        png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job->png, job->info);
     for (int y = 0; y < frame->height; y++) {
         encode_row(style, frame->rgb + values * (size_t)y, values, row);

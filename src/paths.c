@@ -105,9 +105,21 @@ static Part read_directive(const char **text, int *digits) {
     return PART_NUMBER;
 }
 
+/* True where the path has "%d" or "%0Nd"; then '#' is a character like any other. */
+static bool has_directive(const char *path) {
+    int digits;
+    while ((path = strchr(path, '%')) != NULL) {
+        Part part = read_directive(&path, &digits);
+        if (part == PART_NUMBER)
+            return true;
+        path += part == PART_WRONG;
+    }
+    return false;
+}
+
 /* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
-static Part read_part(const char **text, int *digits) {
-    size_t marks = strspn(*text, "#");
+static Part read_part(const char **text, bool takes_marks, int *digits) {
+    size_t marks = takes_marks ? strspn(*text, "#") : 0;
     *digits = 1;
     if (**text == '%')
         return read_directive(text, digits);
@@ -121,9 +133,10 @@ static Part read_part(const char **text, int *digits) {
 }
 
 bool hd_pattern_has_number(const char *path) {
+    const bool takes_marks = !has_directive(path);
     int digits;
     while (*path != '\0') {
-        Part part = read_part(&path, &digits);
+        Part part = read_part(&path, takes_marks, &digits);
         if (part == PART_NUMBER)
             return true;
         if (part == PART_WRONG)
@@ -133,10 +146,11 @@ bool hd_pattern_has_number(const char *path) {
 }
 
 HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+    const bool takes_marks = !has_directive(pattern);
     const char *text = pattern;
     int numbers = 0, digits;
     while (*text != '\0') {
-        Part part = read_part(&text, &digits);
+        Part part = read_part(&text, takes_marks, &digits);
         if (part == PART_WRONG)
             return hd_fail(error, HD_BAD_INPUT,
                            "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
@@ -154,9 +168,9 @@ HdStatus hd_pattern_check(const char *pattern, HdError *error) {
 }
 
 /* Writes what stands for the next part and moves past it. */
-static void expand_next(const char **text, int frame, char piece[16]) {
+static void expand_next(const char **text, bool takes_marks, int frame, char piece[16]) {
     int digits;
-    if (read_part(text, &digits) == PART_NUMBER)
+    if (read_part(text, takes_marks, &digits) == PART_NUMBER)
         snprintf(piece, 16, "%0*d", digits, frame);
     else
         snprintf(piece, 16, "%c", (*text)[-1]);
@@ -169,10 +183,11 @@ HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH]
     if (frame < 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
+    const bool takes_marks = !has_directive(pattern);
     size_t length = 0;
     for (const char *text = pattern; *text != '\0';) {
         char piece[16];
-        expand_next(&text, frame, piece);
+        expand_next(&text, takes_marks, frame, piece);
         size_t piece_length = strlen(piece);
         if (length + piece_length >= HD_MAX_PATH)
             return fail_too_long(pattern, error);

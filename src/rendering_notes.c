@@ -5,6 +5,10 @@
 
 #include "kernel_source.h"
 
+static const char *plural(int count) {
+    return count == 1 ? "" : "s";
+}
+
 int hd_scene_count_lights(const HdScene *scene) {
     HdPlatonic solid;
     int count = scene->light_count;
@@ -16,20 +20,22 @@ int hd_scene_count_lights(const HdScene *scene) {
 }
 
 void hd_note_scene(const char *name, const HdScene *scene) {
+    const int lights = hd_scene_count_lights(scene);
     fprintf(stderr,
-            "scene     %s: %d solids, %s floor, %d lights, %d frames of %d x %d pixels, %d x %d "
+            "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",
-            name, scene->solid_count, scene->floor.present ? "a" : "no",
-            hd_scene_count_lights(scene), scene->frame_count, scene->width, scene->height,
-            scene->samples_per_side, scene->samples_per_side, scene->depth);
+            name, scene->solid_count, plural(scene->solid_count), scene->floor.present ? "a" : "no",
+            lights, plural(lights), scene->frame_count, plural(scene->frame_count), scene->width,
+            scene->height, scene->samples_per_side, scene->samples_per_side, scene->depth);
 }
 
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
     fprintf(stderr, "outputs   ");
     for (int i = 0; i < plan->count; i++)
         fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
-    fprintf(stderr, " (%d frames, %d bits where the format has a choice, %s)\n", frame_count,
-            plan->style.bits, plan->style.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
+    fprintf(stderr, " (%d frame%s, %d bits where the format has a choice, %s)\n", frame_count,
+            plural(frame_count), plan->style.bits,
+            plan->style.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
 void hd_note_device(const HdDevice *device, const char *why) {

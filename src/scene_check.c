@@ -151,6 +151,9 @@ static void check_camera(Checker *checker, const HdScene *scene) {
 static void check_picture(Checker *checker, const HdScene *scene) {
     check_int(checker, "width", scene->width, 1, HD_MAX_IMAGE_SIDE);
     check_int(checker, "height", scene->height, 1, HD_MAX_IMAGE_SIDE);
+    if ((int64_t)scene->width * scene->height > HD_MAX_IMAGE_PIXELS)
+        hd_problem(checker->problems, "%s%d x %d pixels are too many, expected at most %d in all",
+                   checker->place, scene->width, scene->height, (int)HD_MAX_IMAGE_PIXELS);
     check_int(checker, "samples per side", scene->samples_per_side, 1, HD_MAX_SAMPLES_PER_SIDE);
     check_int(checker, "depth", scene->depth, 0, HD_MAX_DEPTH);
     if (!(scene->cutoff >= 0.0 && scene->cutoff < 1.0))
@@ -369,6 +372,11 @@ static void check_floor(Checker *checker, const HdFloor *floor) {
     checker->floor_is_sound = checker->problems->count == before;
     check_material(checker, &floor->material);
     check_no_refraction(checker, &floor->material);
+    if (floor->material.has_inner_side)
+        hd_problem(
+            checker->problems,
+            "%sits material has an inner side, expected none: a floor is alike on both sides",
+            checker->place);
     if (floor->texture.width != 0) {
         check_int(checker, "texture width", floor->texture.width, 1, HD_MAX_TEXTURE_SIDE);
         check_int(checker, "texture height", floor->texture.height, 1, HD_MAX_TEXTURE_SIDE);

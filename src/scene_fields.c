@@ -295,7 +295,13 @@ static const HdField floor_fields[] = {
 };
 static const HdObjectType floor_object = TYPE(HdSceneFile, floor_fields);
 
+static bool has_schema(const void *owner) {
+    return ((const HdSceneFile *)owner)->schema[0] != '\0';
+}
+
 static const HdField scene_fields[] = {
+    {AT(HdSceneFile, schema, "$schema", "Where the JSON Schema is, for editors"),
+     .type = HD_FIELD_TEXT, .is_given = has_schema},
     {.key = "hedron",
      .about = "Version of the format",
      .type = HD_FIELD_CHOICE,

@@ -12,7 +12,7 @@
 #include "paths.h"
 #include "scene.h"
 
-enum { HD_MAX_SCENE_BYTES = 64 << 20, HD_MAX_FRAMES_PER_SECOND = 240 };
+enum { HD_MAX_SCENE_BYTES = 32 << 20, HD_MAX_FRAMES_PER_SECOND = 240 };
 
 /* What becomes of the frames. */
 typedef struct HdOutputSettings {
@@ -22,7 +22,8 @@ typedef struct HdOutputSettings {
 } HdOutputSettings;
 
 typedef struct HdSceneFile {
-    HdScene scene; /* the floor's texture is loaded by hd_scene_file_load_texture */
+    char schema[HD_MAX_PATH]; /* where the JSON Schema is, for editors; empty: not said */
+    HdScene scene;            /* the floor's texture is loaded by hd_scene_file_load_texture */
     HdOutputSettings output;
     char texture_path[HD_MAX_PATH]; /* empty: none; ready to open, "~" aside */
     HdCurve texture_curve;

@@ -47,7 +47,7 @@ render --size 32x24 --frames 0,10 -o 'take ##/a.data'
 expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
 expect_data 'take 10/a.data' 32 24
 rm -rf ./*
-for name in '#_##.data' '#/%d.data' '##########.data'; do
+for name in '#_##.data' '##########.data'; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$name"
     expect_stderr_contains "$name"
 done

@@ -140,7 +140,7 @@ static void turn_floor_over(HdFloor *floor) {
     floor->corners[3] = corner;
 }
 
-/* A floor seen from above and lit from below, through a cube or not. It has no inner side, wherever
+/* A floor seen from above and lit from below, through a cube or not. It is alike on both sides, wherever
    its normal looks. */
 static void check_floor_lit_from_behind(Check *check) {
     const HdVec3 target = hd_vec3(0.25, 0.125, -1.0);
@@ -156,6 +156,7 @@ static void check_floor_lit_from_behind(Check *check) {
         if (shaded)
             turn_floor_over(&scene.floor);
         set_sides(&scene.floor.material);
+        scene.floor.material.has_inner_side = false;
         scene.floor.material.diffuse = diffuse;
         scene.floor.material.specular = 0.0;
         scene.floor.material.lit_from_behind = true;

@@ -108,10 +108,10 @@ static void numbers_are_found(void **state) {
 
 static void wrong_patterns_are_refused(void **state) {
     (void)state;
-    const char *const wrong[] = {"",     "a.png", "%%d",     "%d%d", "%d-%03d",     "%s",
-                                 "%d%s", "%d%",   "%n%d",    "%5d",  "%0d",         "%010d",
-                                 "%ld",  "%-3d",  "%d 50%x", "#%d",  "out#/%d.png", "#/#",
-                                 "##-#", "#%s",   "#%",      "%0#",  "##########",  "%d##########"};
+    const char *const wrong[] = {"",     "a.png", "%%d",     "%d%d",  "%d-%03d",   "%s",
+                                 "%d%s", "%d%",   "%n%d",    "%5d",   "%0d",       "%010d",
+                                 "%ld",  "%-3d",  "%d 50%x", "%d%d#", "#%d#%d",    "#/#",
+                                 "##-#", "#%s",   "#%",      "%0#",   "##########"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         HdError error = {0};
         char out[HD_MAX_PATH];
@@ -143,6 +143,7 @@ static void frames_are_named(void **state) {
     check_formatted("100%%/%d%%d", 3, "100%/3%d");
     check_formatted("out/####.png", 7, "out/0007.png");
     check_formatted("#", 7, "7");
+    check_formatted("#1/##_%03d%%.png", 7, "#1/##_007%.png");
     check_formatted("#", 70, "70");
     check_formatted("f###", 12345, "f12345");
     check_formatted("#########%%", 42, "000000042%");

@@ -140,7 +140,9 @@ static void test_picture(void **state) {
     REJECTED(f.scene.width = 65536, "width is 65536");
     REJECTED(f.scene.height = -1, "height is -1, expected 1 to 65535");
     REJECTED(f.scene.height = 65536, "height is 65536");
-    ACCEPTED(f.scene.width = f.scene.height = 65535; f.scene.samples_per_side = 64);
+    ACCEPTED(f.scene.width = 65535; f.scene.height = 8192; f.scene.samples_per_side = 64);
+    REJECTED(f.scene.width = 65535;
+             f.scene.height = 8193, "65535 x 8193 pixels are too many, expected at most 536870912");
     REJECTED(f.scene.samples_per_side = 0, "samples per side is 0, expected 1 to 64");
     REJECTED(f.scene.samples_per_side = 65, "samples per side is 65");
     REJECTED(f.scene.depth = -1, "depth is -1, expected 0 to 1000");
@@ -350,6 +352,7 @@ static void test_fixed_paths(void **state) {
 
 static void test_inner_sides(void **state) {
     (void)state;
+    REJECTED(f.scene.floor.material.has_inner_side = true, "floor: its material has an inner side");
     ACCEPTED(f.solids[0].face.has_inner_side = true; f.solids[0].face.inner_reflection = 0.25;
              f.solids[0].face.inner_transmission = 0.75);
     REJECTED(f.solids[0].face.has_inner_side = true;

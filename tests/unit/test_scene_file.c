@@ -412,7 +412,7 @@ static void test_unknown_keys(void **state) {
         expect_refused(rich_text, change, message);
     }
     expect_refused(rich_text, "quaternion=1",
-                   "quaternion is an unknown key, expected \"hedron\", ");
+                   "quaternion is an unknown key, expected \"$schema\", \"hedron\", ");
     expect_refused(rich_text, "image.widthh=1",
                    "a.json: --set image.widthh=1: image.widthh is an unknown key, expected "
                    "\"width\"");
@@ -559,7 +559,7 @@ static void test_all_problems_at_once(void **state) {
     expect_contains(message, "\n  materials[\"my glass\"].reflection is 2, expected a number");
     expect_contains(message, "\n  solids[0].material is 1, expected the name of one of the");
     expect_contains(message, "\n  solids[1].kind is missing, expected");
-    expect_contains(message, "\n  colour is an unknown key, expected \"hedron\", ");
+    expect_contains(message, "\n  colour is an unknown key, expected \"$schema\", \"hedron\", ");
 }
 
 static void test_checks_of_the_whole_scene(void **state) {
@@ -687,7 +687,7 @@ static void test_files(void **state) {
     write_bytes("huge.json", "{", 1);
     assert_int_equal(truncate("huge.json", (off_t)HD_MAX_SCENE_BYTES + 1), 0);
     assert_int_equal(hd_scene_file_read(&file, "huge.json", NULL, 0, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "it has 67108865 bytes, expected at most 67108864");
+    expect_contains(error.message, "it has 33554433 bytes, expected at most 33554432");
 }
 
 static void expect_texture(const char *path, const char *change, const char *expected) {
