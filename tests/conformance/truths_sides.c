@@ -140,8 +140,8 @@ static void turn_floor_over(HdFloor *floor) {
     floor->corners[3] = corner;
 }
 
-/* A floor seen from above and lit from below, through a cube or not. It is alike on both sides, wherever
-   its normal looks. */
+/* A floor seen from above and lit from below, through a cube or not. It is alike on both sides,
+   wherever its normal looks. */
 static void check_floor_lit_from_behind(Check *check) {
     const HdVec3 target = hd_vec3(0.25, 0.125, -1.0);
     const HdVec3 lights[2] = {hd_vec3(0.5, 0.25, -9.0), hd_vec3(1.0, -1.0, 3.0)};
