@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Runs hedron. Its statistics are the one source of times: no start of a program, no compiling of
+kernels is in them."""
+import hashlib
+import json
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+
+class Problem(Exception):
+    """Ends the bench with an exit code and a sentence."""
+
+    def __init__(self, code, sentence):
+        super().__init__(sentence)
+        self.code = code
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a run; `run` has the frames that were done."""
+
+    def __init__(self, run):
+        super().__init__()
+        self.run = run
+
+
+class Program:
+    def __init__(self, path):
+        self.path = path.resolve()
+        if not self.path.is_file():
+            raise Problem(2, f"there is no program {path}: build it with ./dev build, or name it with --hedron")
+        self.version = self._ask("--version").removeprefix("hedron ").strip()
+
+    def _ask(self, *words):
+        try:
+            answer = subprocess.run([self.path, *words], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        except OSError as error:
+            raise Problem(2, f"cannot run {self.path}: {error.strerror}") from error
+        if answer.returncode != 0:
+            raise Problem(2, f"{self.path} {' '.join(words)} fails: {message_in(answer.stderr)}")
+        return answer.stdout
+
+    def backends(self):
+        """The list of `hedron devices --json`."""
+        try:
+            return json.loads(self._ask("devices", "--json"))["backends"]
+        except (ValueError, KeyError, TypeError) as error:
+            raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
+
+    def render(self, device, scene, frames, options, folder):
+        """One run, in a new folder within the temporary one, so that no name in the path counts as a
+        pattern. Returns {"code", "message", "frames", "digests"}: the exit code (None where a run was
+        interrupted), what hedron said, the lines of the statistics, and for each frame the digest of its picture.
+        """
+        place = Path(folder, "run")
+        place.mkdir()
+        command = [self.path, "render", "--quiet", *options, "--backend", device["backend"],
+                   "--device", str(device["index"]), "--frames", frames, "--stats", "stats.jsonl",
+                   "-o", "#######.data"]
+        if scene is not None:
+            command.append(scene)
+        try:
+            # A session of its own: Ctrl-C then reaches hedron once, from here.
+            child = subprocess.Popen(command, cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                     stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
+            try:
+                message = child.communicate()[1]
+            except KeyboardInterrupt:
+                stop(child)
+                raise Interrupted(collect(place, None, "")) from None
+            return collect(place, child.returncode, message)
+        finally:
+            shutil.rmtree(place)
+
+
+def stop(child):
+    """Hedron ends after the frame that it is at; a device that hangs is not waited for."""
+    child.send_signal(signal.SIGINT)
+    try:
+        child.communicate(timeout=30)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.communicate()
+
+
+def collect(place, code, message):
+    frames = []
+    stats = place / "stats.jsonl"
+    if stats.exists():
+        for line in stats.read_text(encoding="utf-8").splitlines(keepends=True):
+            if line.endswith("\n"):  # else it was cut off
+                frames.append(json.loads(line))
+    digests = {frame["frame"]: digest(place / f"{frame['frame']:07}.data") for frame in frames}
+    return {"code": code, "message": message_in(message), "frames": frames, "digests": digests}
+
+
+def digest(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def message_in(text):
+    lines = [line for line in text.splitlines() if line.strip()]
+    return lines[0].removeprefix("hedron: ") if lines else "it says nothing"
