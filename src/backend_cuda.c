@@ -248,6 +248,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     renderer->shape = (HdKernelShape){
         .lanes = 1,
         .pixels_per_item = 1,
+        .group_size = BLOCK_THREADS,
         .precision = options->precision,
         .math = options->math,
     };
@@ -387,16 +388,16 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     return status;
 }
 
-static HdStatus launch(const Renderer *renderer, HdCuFunction function, int threads,
-                       void **arguments, HdError *error) {
-    unsigned int blocks = ((unsigned int)threads + BLOCK_THREADS - 1) / BLOCK_THREADS;
+static HdStatus launch(const Renderer *renderer, HdCuFunction function, int items,
+                       int items_per_block, void **arguments, HdError *error) {
+    unsigned int blocks = (unsigned int)((items + items_per_block - 1) / items_per_block);
     return CALL(renderer, launch, cuLaunchKernel,
                 (function, blocks, 1, 1, BLOCK_THREADS, 1, 1, 0, NULL, arguments, NULL), error);
 }
 
-static HdStatus launch_render(Renderer *renderer, int items, HdError *error) {
-    int first, count;
-    void *arguments[HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 4];
+static HdStatus launch_render(Renderer *renderer, int items, int samples_per_side, HdError *error) {
+    int first, count, parts = hd_gpu_sample_parts(samples_per_side, BLOCK_THREADS);
+    void *arguments[HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 5];
     int n = 0;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
         arguments[n++] = &renderer->scene[i].pointer;
@@ -404,26 +405,28 @@ static HdStatus launch_render(Renderer *renderer, int items, HdError *error) {
         arguments[n++] = &renderer->frame[i].pointer;
     arguments[n++] = &first;
     arguments[n++] = &count;
+    arguments[n++] = &parts;
     arguments[n++] = &renderer->pixels.pointer;
     arguments[n++] = &renderer->counts.pointer;
     HdStatus status = HD_OK;
     for (first = 0; status == HD_OK && first < items; first += count) {
         count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
-        status = launch(renderer, renderer->render, count, arguments, error);
+        status = launch(renderer, renderer->render, count, BLOCK_THREADS / parts, arguments, error);
     }
     return status;
 }
 
 static HdStatus launch_sum(Renderer *renderer, int items, HdError *error) {
     void *arguments[] = {&renderer->counts.pointer, &items, &renderer->sums.pointer};
-    return launch(renderer, renderer->sum, HD_SUM_WORKERS, arguments, error);
+    return launch(renderer, renderer->sum, HD_SUM_WORKERS, BLOCK_THREADS, arguments, error);
 }
 
-static HdStatus trace(Renderer *renderer, int items, double *seconds, HdError *error) {
+static HdStatus trace(Renderer *renderer, int items, int samples_per_side, double *seconds,
+                      HdError *error) {
     float milliseconds = 0.0f;
     HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->start, NULL), error);
     if (status == HD_OK)
-        status = launch_render(renderer, items, error);
+        status = launch_render(renderer, items, samples_per_side, error);
     if (status == HD_OK)
         status = launch_sum(renderer, items, error);
     if (status == HD_OK)
@@ -453,7 +456,7 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
         return status;
     status = prepare(renderer, tables, items, error);
     if (status == HD_OK)
-        status = trace(renderer, items, &frame->trace_seconds, error);
+        status = trace(renderer, items, tables->samples_per_side, &frame->trace_seconds, error);
     if (status == HD_OK)
         status = read_back(renderer, &renderer->pixels, frame->rgb, error);
     if (status == HD_OK)

@@ -15,6 +15,7 @@ enum { CPU_PIXELS_PER_ITEM = HD_BLOCK_PIXELS, GPU_LOCAL_SIZE = 64 };
 enum {
     ARGUMENT_FIRST_ITEM = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT,
     ARGUMENT_ITEM_COUNT,
+    ARGUMENT_PARTS,
     ARGUMENT_PIXELS,
     ARGUMENT_COUNTS
 };
@@ -60,6 +61,7 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
     renderer->shape = (HdKernelShape){
         .lanes = lanes,
         .pixels_per_item = is_cpu ? CPU_PIXELS_PER_ITEM : 1,
+        .group_size = is_cpu ? 0 : GPU_LOCAL_SIZE,
         .precision = options->precision,
         .math = options->math,
     };
@@ -248,30 +250,35 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     return status;
 }
 
-static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, cl_event *event,
-                       HdError *error) {
-    size_t local = renderer->local_size;
-    size_t global = ((size_t)items + local - 1) / local * local;
+static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int items_per_group,
+                       cl_event *event, HdError *error) {
+    size_t local = renderer->local_size, share = (size_t)items_per_group;
+    size_t global = ((size_t)items + share - 1) / share * local;
     cl_int code =
         clEnqueueNDRangeKernel(renderer->queue, kernel, 1, NULL, &global, &local, 0, NULL, event);
     return check(code, "clEnqueueNDRangeKernel", error);
 }
 
 /* events[0] is the first launch's, events[1] the last one's. */
-static HdStatus launch_all(Renderer *renderer, int items, cl_event events[2], HdError *error) {
+static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, cl_event events[2],
+                           HdError *error) {
     cl_kernel render = renderer->program.render;
-    HdStatus status = HD_OK;
+    int group_size = (int)renderer->local_size;
+    int parts = renderer->device.is_cpu ? 1 : hd_gpu_sample_parts(samples_per_side, group_size);
     int count;
+    HdStatus status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
         count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
         status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
         if (status == HD_OK)
             status = set_int(render, ARGUMENT_ITEM_COUNT, count, error);
         if (status == HD_OK)
-            status = launch(renderer, render, count, first == 0 ? &events[0] : NULL, error);
+            status = launch(renderer, render, count, group_size / parts,
+                            first == 0 ? &events[0] : NULL, error);
     }
     if (status == HD_OK)
-        status = launch(renderer, renderer->program.sum, HD_SUM_WORKERS, &events[1], error);
+        status =
+            launch(renderer, renderer->program.sum, HD_SUM_WORKERS, group_size, &events[1], error);
     if (status == HD_OK)
         status = check(clFinish(renderer->queue), "clFinish", error);
     return status;
@@ -287,10 +294,11 @@ static double seconds_between(const cl_event events[2], double otherwise) {
     return has_start && has_end && end > start ? 1e-9 * (double)(end - start) : otherwise;
 }
 
-static HdStatus trace(Renderer *renderer, int items, double *seconds, HdError *error) {
+static HdStatus trace(Renderer *renderer, int items, int samples_per_side, double *seconds,
+                      HdError *error) {
     cl_event events[2] = {NULL, NULL};
     double start = hd_monotonic_seconds();
-    HdStatus status = launch_all(renderer, items, events, error);
+    HdStatus status = launch_all(renderer, items, samples_per_side, events, error);
     *seconds = hd_monotonic_seconds() - start;
     if (status == HD_OK && renderer->has_profiling)
         *seconds = seconds_between(events, *seconds);
@@ -314,7 +322,7 @@ static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame 
     HdRayCounts sums[HD_SUM_WORKERS];
     HdStatus status = prepare(renderer, tables, items, error);
     if (status == HD_OK)
-        status = trace(renderer, items, &frame->trace_seconds, error);
+        status = trace(renderer, items, tables->samples_per_side, &frame->trace_seconds, error);
     if (status == HD_OK)
         status = read_back(renderer, &renderer->pixels, frame->rgb, error);
     if (status == HD_OK)

@@ -6,6 +6,15 @@
 
 _Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied as they are");
 
+int hd_gpu_sample_parts(int samples_per_side, int group_size) {
+    enum { MAX_PARTS = 64 };
+    int samples = samples_per_side * samples_per_side;
+    int parts = group_size < MAX_PARTS ? group_size : MAX_PARTS;
+    while (samples % parts != 0)
+        parts--;
+    return parts;
+}
+
 int hd_gpu_launch_items(int compute_units) {
     enum { ITEMS_PER_UNIT = 1 << 14, MIN_ITEMS = 1 << 16 };
     if (compute_units >= HD_MAX_LAUNCH_ITEMS / ITEMS_PER_UNIT)

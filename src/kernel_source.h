@@ -25,6 +25,7 @@ typedef struct HdKernelNeeds {
 typedef struct HdKernelShape {
     int lanes;
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
+    int group_size;      /* most threads of a group that share items; 0: none do */
     HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
@@ -35,7 +36,7 @@ typedef struct HdKernelShape {
    and all; 56 and 72 are no better. */
 enum { HD_REGISTER_LIMIT = 64 };
 
-enum { HD_KERNEL_DEFINE_COUNT = 8, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINE_COUNT = 9, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
    -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */

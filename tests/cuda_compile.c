@@ -27,6 +27,7 @@ static bool parse(Options *options, int argc, char **argv) {
     *options = (Options){
         .shape = {.lanes = 1,
                   .pixels_per_item = 1,
+                  .group_size = 128,
                   .needs = {.plane_bound = 32, .depth_bound = 16}},
     };
     for (int i = 1; i < argc; i++) {

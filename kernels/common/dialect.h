@@ -31,6 +31,8 @@
 #endif
 #define FN         static inline
 #define GLOBAL     __global
+#define LOCAL      __local
+#define BARRIER()  barrier(CLK_LOCAL_MEM_FENCE)
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef ulong uint64;
@@ -40,6 +42,8 @@ typedef long fixed64;
 
 #define FN static __device__ __forceinline__
 #define GLOBAL
+#define LOCAL
+#define BARRIER()  __syncthreads()
 #define RESTRICT   __restrict__
 #define ALIGNED_16 __align__(16)
 typedef unsigned int uint;
@@ -58,6 +62,8 @@ typedef long long fixed64;
 #endif
 #define FN static inline __attribute__((always_inline, unused))
 #define GLOBAL
+#define LOCAL
+#define BARRIER()  ((void)0) /* there is one work item in a group */
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef uint32_t uint;

@@ -61,7 +61,52 @@ FN Sample empty_sample(void) {
     return sample;
 }
 
-FN void store_pixels(GLOBAL const View *view, int item, const fixed64 *sums, GLOBAL float *pixels) {
+/* What the samples of an item's pixels, or a part of them, add up to. */
+typedef struct {
+    fixed64 sums[HD_PIXELS_PER_ITEM * 3];
+    RayCounts counts;
+} Gathered;
+
+FN void clear_gathered(Gathered *gathered) {
+    for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
+        gathered->sums[i] = 0;
+    gathered->counts.mirrored = gathered->counts.transmitted = 0;
+    gathered->counts.shadow_tests = gathered->counts.clamps = 0;
+}
+
+/* `first` is the number of the first lane's sample within the item. */
+FN void add_sample(GLOBAL const View *view, const Sample *sample, int first, Gathered *gathered) {
+    int per_pixel = view->samples_per_side * view->samples_per_side;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        int place = (first + lane) / per_pixel;
+        if (place >= HD_PIXELS_PER_ITEM)
+            break;
+        gathered->sums[place * 3] += lane_fix(&sample->r, lane) >> view->pixel_shift;
+        gathered->sums[place * 3 + 1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
+        gathered->sums[place * 3 + 2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
+        gathered->counts.mirrored += (uint64)lane_int(&sample->mirrored, lane);
+        gathered->counts.transmitted += (uint64)lane_int(&sample->transmitted, lane);
+        gathered->counts.shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
+        gathered->counts.clamps += (uint64)lane_int(&sample->clamps, lane);
+    }
+}
+
+/* Traces every `parts`-th bundle of the item's samples, from bundle number `part` on. */
+FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, Gathered *gathered) {
+    int count = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    for (int first = part * HD_LANES; first < count; first += parts * HD_LANES) {
+        Vec3 direction;
+        vmask alive = sample_directions(view, item, first, &direction);
+        if (!any_lane(alive))
+            continue;
+        Sample sample = empty_sample();
+        trace(SCENE_ARGUMENTS direction, alive, &sample);
+        add_sample(view, &sample, first, gathered);
+    }
+}
+
+FN void store_pixels(GLOBAL const View *view, int item, const Gathered *gathered,
+                     GLOBAL float *pixels) {
     real samples = (real)(view->samples_per_side * view->samples_per_side);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
         Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
@@ -69,42 +114,52 @@ FN void store_pixels(GLOBAL const View *view, int item, const fixed64 *sums, GLO
             continue;
         GLOBAL float *rgb = pixels + ((uint64)pixel.y * (uint64)view->width + (uint64)pixel.x) * 3;
         for (int channel = 0; channel < 3; channel++)
-            rgb[channel] = (float)((real)sums[place * 3 + channel] * view->from_fixed / samples);
+            rgb[channel] =
+                (float)((real)gathered->sums[place * 3 + channel] * view->from_fixed / samples);
     }
 }
 
 /* Renders the pixels of one item: three floats for each pixel, and what was counted. */
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
-    fixed64 sums[HD_PIXELS_PER_ITEM * 3];
+    Gathered gathered;
+    clear_gathered(&gathered);
+    gather_samples(SCENE_ARGUMENTS item, 0, 1, &gathered);
+    store_pixels(view, item, &gathered, pixels);
+    *counts = gathered.counts;
+}
+
+FN void add_part(Gathered *whole, LOCAL const Gathered *part) {
     for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
-        sums[i] = 0;
-    uint64 mirrored = 0, transmitted = 0, shadow_tests = 0, clamps = 0;
-    int per_pixel = view->samples_per_side * view->samples_per_side;
-    for (int first = 0; first < HD_PIXELS_PER_ITEM * per_pixel; first += HD_LANES) {
-        Vec3 direction;
-        vmask alive = sample_directions(view, item, first, &direction);
-        if (!any_lane(alive))
-            continue;
-        Sample sample = empty_sample();
-        trace(SCENE_ARGUMENTS direction, alive, &sample);
-        for (int lane = 0; lane < HD_LANES; lane++) {
-            int place = (first + lane) / per_pixel;
-            if (place >= HD_PIXELS_PER_ITEM)
-                break;
-            sums[place * 3] += lane_fix(&sample.r, lane) >> view->pixel_shift;
-            sums[place * 3 + 1] += lane_fix(&sample.g, lane) >> view->pixel_shift;
-            sums[place * 3 + 2] += lane_fix(&sample.b, lane) >> view->pixel_shift;
-            mirrored += (uint64)lane_int(&sample.mirrored, lane);
-            transmitted += (uint64)lane_int(&sample.transmitted, lane);
-            shadow_tests += (uint64)lane_int(&sample.shadow_tests, lane);
-            clamps += (uint64)lane_int(&sample.clamps, lane);
-        }
-    }
-    store_pixels(view, item, sums, pixels);
-    counts->mirrored = mirrored;
-    counts->transmitted = transmitted;
-    counts->shadow_tests = shadow_tests;
-    counts->clamps = clamps;
+        whole->sums[i] += part->sums[i];
+    whole->counts.mirrored += part->counts.mirrored;
+    whole->counts.transmitted += part->counts.transmitted;
+    whole->counts.shadow_tests += part->counts.shadow_tests;
+    whole->counts.clamps += part->counts.clamps;
+}
+
+/* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
+   threads share the samples of an item, and the first of them adds up what all of them gathered.
+   `group` has room for each of the group's threads, all of which must call this. Sums are integers:
+   how the samples are shared changes no bit. */
+FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
+                        int thread, int thread_count, LOCAL Gathered *group, GLOBAL float *pixels,
+                        GLOBAL RayCounts *counts) {
+    int items_per_group = thread_count / parts;
+    int place = thread / parts, part = thread % parts;
+    int item = group_index * items_per_group + place;
+    int has_item = place < items_per_group && item < item_count;
+    Gathered gathered;
+    clear_gathered(&gathered);
+    if (has_item)
+        gather_samples(SCENE_ARGUMENTS first_item + item, part, parts, &gathered);
+    group[thread] = gathered;
+    BARRIER();
+    if (!has_item || part > 0)
+        return;
+    for (int i = 1; i < parts; i++)
+        add_part(&gathered, group + thread + i);
+    store_pixels(view, first_item + item, &gathered, pixels);
+    counts[first_item + item] = gathered.counts;
 }
 
 /* Adds up every `workers`-th count from number `worker` on. */

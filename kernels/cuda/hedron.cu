@@ -3,11 +3,11 @@
 #include "../common/render.h"
 
 extern "C" __global__ void hedron_render(SCENE_PARAMETERS int first_item, int item_count,
-                                         float *__restrict__ pixels,
+                                         int parts, float *__restrict__ pixels,
                                          RayCounts *__restrict__ counts) {
-    int item = (int)(blockIdx.x * blockDim.x + threadIdx.x);
-    if (item < item_count)
-        render_item(SCENE_ARGUMENTS first_item + item, pixels, counts + first_item + item);
+    __shared__ Gathered group[HD_GROUP_SIZE];
+    render_by_group(SCENE_ARGUMENTS first_item, item_count, parts, (int)blockIdx.x,
+                    (int)threadIdx.x, (int)blockDim.x, group, pixels, counts);
 }
 
 extern "C" __global__ void hedron_sum_counts(const RayCounts *__restrict__ counts, int count,
