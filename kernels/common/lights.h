@@ -60,11 +60,15 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     GLOBAL const Material *face = materials + solid->face_material;
     vreal passes = splat(transmission);
     if (solid->rim_depth > R(0.0)) {
-        TwoGreatest greatest = two_greatest();
-        for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++)
-            add_to_greatest(&greatest,
-                            multiply_add(t, splat(light_row[k]) - distances[k], distances[k]));
-        passes = pick(lt(splat(-solid->rim_depth), greatest.second), splat(R(0.0)), passes);
+        /* The second greatest distance exceeds a number when two of them do. */
+        vreal depth = splat(-solid->rim_depth);
+        vint near = splat_int(0);
+        for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
+            vreal distance =
+                multiply_add(t, splat(light_row[k]) - distances[k], distances[k]);
+            near = near - lt(depth, distance);
+        }
+        passes = pick(lt_int(splat_int(1), near), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*transmittance, passes);
     filtered = vec3_mul(filtered, vec3_splat(face->colour[0], face->colour[1], face->colour[2]));
