@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints JSON for people: an indent of 2, and three numbers that belong together on one line. */
+/* Prints JSON for people: an indent of 2, and three numbers that belong together on one line. Scenes
+   and their schema go this way, since jansson, which prints what programs read (statistics, devices),
+   would give every number of a vector a line of its own. */
 #ifndef HD_JSON_PRINT_H
 #define HD_JSON_PRINT_H
 

@@ -8,7 +8,7 @@
 
 #include "default_scene.h"
 #include "json_words.h"
-#include "option_nearest.h"
+#include "nearest_name.h"
 #include "scene_changes.h"
 #include "scene_fields.h"
 

@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "json_text.h"
+#include "json_device_text.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
@@ -39,7 +39,7 @@ static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stor
     return json_pack("{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f},"
                      " s:{s:I, s:I, s:I}, s:I, s:I}",
                      "frame", stored->number, "backend", facts->device->backend->name, "device",
-                     hd_json_text(facts->device->name), "renderer", hd_json_text(facts->renderer),
+                     hd_json_device_text(facts->device->name), "renderer", hd_json_device_text(facts->renderer),
                      "width", frame->width, "height", frame->height, "samples",
                      facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
                      "prepare", times->prepare, "trace", times->trace, "copy", times->copy,
