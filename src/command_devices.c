@@ -46,8 +46,8 @@ static json_t *describe_backend(const HdBackend *backend, const HdDevice *device
             return NULL;
         }
     return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available", obstacle == NULL,
-                     "reason", obstacle != NULL ? hd_json_device_text(obstacle) : json_null(), "devices",
-                     list);
+                     "reason", obstacle != NULL ? hd_json_device_text(obstacle) : json_null(),
+                     "devices", list);
 }
 
 static HdStatus print_json(json_t *backends, HdError *error) {

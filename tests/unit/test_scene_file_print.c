@@ -6,7 +6,6 @@
 #include <jansson.h>
 
 #include "classic_text.h"
-#include "json_print.h"
 #include "scene_fields.h"
 #include "scene_text.h"
 
@@ -272,30 +271,6 @@ static void test_a_stream_that_fails(void **state) {
     hd_scene_file_free(&first);
 }
 
-static void test_numbers(void **state) {
-    (void)state;
-    static const struct {
-        double value;
-        const char *exact, *brief;
-    } numbers[] = {{0.1, "0.1", "0.1"},
-                   {1e12, "1000000000000", "1e12"},
-                   {1e-12, "1e-12", "1e-12"},
-                   {-1e6, "-1000000", "-1e6"},
-                   {100.0, "100", "100"},
-                   {1.0 / 3.0, "0.3333333333333333", "0.3333333333333333"},
-                   {0.1 + 0.2, "0.30000000000000004", "0.30000000000000004"},
-                   {-0.0, "-0.0", "-0"},
-                   {1e100, "1e+100", "1e100"},
-                   {1e300, "1e+300", "1e300"}};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        char text[HD_NUMBER_SIZE];
-        hd_exact_number(numbers[i].value, text);
-        assert_string_equal(text, numbers[i].exact);
-        hd_short_number(numbers[i].value, text);
-        assert_string_equal(text, numbers[i].brief);
-    }
-}
-
 static char *read_schema(void) {
     char path[4096];
     char *text = calloc(1, 1 << 20);
@@ -396,7 +371,6 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_layout),
         cmocka_unit_test(test_paths_that_are_not_utf8),
         cmocka_unit_test(test_a_stream_that_fails),
-        cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_committed_schema),
         cmocka_unit_test(test_schema_has_every_field),
         cmocka_unit_test(test_table_is_sound),
