@@ -255,8 +255,7 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
 /* A relative path counts from the folder of the scene. */
 static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
     const char *folder = reader->source->folder;
-    if (path[0] == '\0' || path[0] == '/' || folder[0] == '\0' || strcmp(path, "~") == 0 ||
-        begins_with(path, "~/") || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+    if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
         return;
     const bool has_slash = folder[strlen(folder) - 1] == '/';
     const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);

@@ -159,7 +159,15 @@ for scene in near.json far/near.json; do
     render "$scene" "${classic[@]}"
     expect_same out/img_5.data classic.data
 done
-rm -r out far near.* classic.data
+rm -r out far near.*
+# A name that begins with ~ is no home folder.
+mkdir '~near'
+cp scenes/floor.data '~near/floor.data'
+sed 's|~/floor.data|~near/floor.data|' "$work/official.in" >near.in
+expect_exit 0 "$hedron" convert near.in -o far/near.json
+render far/near.json "${classic[@]}"
+expect_same out/img_5.data classic.data
+rm -r out far near.in '~near' classic.data
 
 # What is wrong makes no file, and leaves an old one.
 printf 'old' >old.json

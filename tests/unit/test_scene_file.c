@@ -707,6 +707,8 @@ static void test_textures_count_from_the_folder(void **state) {
     expect_texture("./folder//a.json", NULL, "./folder//floor.png");
     expect_texture("folder/a.json", "floor.texture.file=/b.png", "/b.png");
     expect_texture("folder/a.json", "floor.texture.file=~/b.png", "~/b.png");
+    expect_texture("folder/a.json", "floor.texture.file=~", "~");
+    expect_texture("folder/a.json", "floor.texture.file=~b/c.png", "folder/~b/c.png");
     expect_texture("folder/a.json", "floor.texture.file=builtin:floor", "builtin:floor");
     static char change[HD_MAX_PATH + 64] = "floor.texture.file=";
     memset(change + strlen(change), 'x', HD_MAX_PATH - 1);
