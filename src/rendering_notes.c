@@ -9,18 +9,8 @@ static const char *plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-int hd_scene_count_lights(const HdScene *scene) {
-    HdPlatonic solid;
-    int count = scene->light_count;
-    for (int i = 0; i < scene->solid_count; i++) {
-        hd_platonic(scene->solids[i].kind, &solid);
-        count += solid.edge_count * scene->solids[i].lights.per_edge;
-    }
-    return count;
-}
-
 void hd_note_scene(const char *name, const HdScene *scene) {
-    const int lights = hd_scene_count_lights(scene);
+    const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",

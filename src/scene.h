@@ -112,6 +112,12 @@ typedef struct HdScene {
     HdFloor floor;
 } HdScene;
 
+/* The lights on the edges of a solid whose values are valid. */
+int hd_edge_light_count(const HdSolid *solid);
+
+/* Point lights and lights of edges of a valid scene, those that light nothing included. */
+int hd_scene_light_count(const HdScene *scene);
+
 /* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
 typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
 

@@ -133,13 +133,22 @@ static void check_path(Checker *checker, const HdPath *path) {
         check_cylinder(checker, &path->cylinder);
 }
 
+/* More than 0, and at most the limit. */
+static void check_positive(Checker *checker, const char *what, double value, double most,
+                           const char *unit) {
+    char expected[80];
+    if (value > 0.0 && value <= most)
+        return;
+    snprintf(expected, sizeof expected, "more than 0 and at most %.15g%s", most, unit);
+    add_value(checker, what, "", value, expected);
+}
+
 static void check_camera(Checker *checker, const HdScene *scene) {
     const int before = checker->problems->count;
-    const double view = scene->field_of_view_degrees;
     check_int(checker, "frame count", scene->frame_count, 1, HD_MAX_FRAMES);
     enter(checker, "", "camera");
-    if (!(view > 0.0 && view <= HD_MAX_FIELD_OF_VIEW))
-        add_value(checker, "field of view", "", view, "more than 0 and at most 179 degrees");
+    check_positive(checker, "field of view", scene->field_of_view_degrees, HD_MAX_FIELD_OF_VIEW,
+                   " degrees");
     enter(checker, "eye", "camera.eye");
     check_path(checker, &scene->eye);
     enter(checker, "target", "camera.target");
@@ -158,8 +167,7 @@ static void check_picture(Checker *checker, const HdScene *scene) {
     check_int(checker, "depth", scene->depth, 0, HD_MAX_DEPTH);
     if (!(scene->cutoff >= 0.0 && scene->cutoff < 1.0))
         add_value(checker, "cutoff", "", scene->cutoff, "at least 0 and less than 1");
-    if (!(scene->exposure > 0.0 && scene->exposure <= HD_MAX_EXPOSURE))
-        add_value(checker, "exposure", "", scene->exposure, "more than 0 and at most 1000000");
+    check_positive(checker, "exposure", scene->exposure, HD_MAX_EXPOSURE, "");
     check_light(checker, "background", scene->background);
 }
 
@@ -304,23 +312,19 @@ static void check_solids(Checker *checker, const HdScene *scene) {
         check_solid(checker, &scene->solids[i], i);
 }
 
-/* None where their number is wrong. */
-static int64_t edge_light_count(const HdSolid *solid) {
-    HdPlatonic platonic;
-    if (solid->lights.per_edge < 0 || solid->lights.per_edge > HD_MAX_LIGHTS)
-        return 0;
-    hd_platonic(solid->kind, &platonic);
-    return (int64_t)platonic.edge_count * solid->lights.per_edge;
+static bool has_sound_number(const HdEdgeLights *lights) {
+    return lights->per_edge >= 0 && lights->per_edge <= HD_MAX_LIGHTS;
 }
 
 static void check_all_lights(Checker *checker, const HdScene *scene) {
-    int64_t lights = scene->light_count;
+    int lights = scene->light_count;
     for (int i = 0; i < checker->solid_count; i++)
-        if (checker->solid_is_sound[i])
-            lights += edge_light_count(&scene->solids[i]);
+        if (checker->solid_is_sound[i] && has_sound_number(&scene->solids[i].lights))
+            lights += hd_edge_light_count(&scene->solids[i]);
     if (scene->light_count <= HD_MAX_LIGHTS && lights > HD_MAX_LIGHTS)
-        add_value(checker, "number of lights, those on the edges included,", "", (double)lights,
-                  "at most 100000");
+        hd_problem(checker->problems,
+                   "%snumber of lights, those on the edges included, is %d, expected at most %d",
+                   checker->place, lights, (int)HD_MAX_LIGHTS);
 }
 
 /* Convex and flat, with room inside. The cross product of the diagonals is normal to both, so two
