@@ -574,6 +574,26 @@ static void test_checks_of_the_whole_scene(void **state) {
     expect_contains(error.message, "2 problems");
 }
 
+/* The sum of a material's shares is told once, with the material's name, however many wear it. */
+static void test_shares_of_a_material(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
+        " \"materials\": {\"blue glass\": {\"reflection\": 0.5}, \"m\": {\"reflection\": 0.5}},\n"
+        " \"solids\": [{\"kind\": \"cube\", \"material\": \"m\"},\n"
+        "            {\"kind\": \"cube\", \"material\": \"m\"}]}";
+    assert_string_equal(
+        expect_refused(text, "materials.m.transmission=0.75", ""),
+        "a.json: materials.m: reflection + transmission is 1.25, expected at most 1");
+    assert_string_equal(
+        expect_refused(text, "materials.blue glass.inner_transmission=0.75", ""),
+        "a.json: materials[\"blue glass\"]: inner reflection + transmission is 1.25, expected at "
+        "most 1");
+    assert_string_equal(
+        expect_refused(rich_text, "materials.glass.transmission=0.99", ""),
+        "a.json: materials.glass: reflection + transmission is 1.03, expected at most 1");
+}
+
 /* A default that stands in for a wrong value makes nothing else look wrong. */
 static void test_one_problem_stays_one(void **state) {
     (void)state;
@@ -624,6 +644,29 @@ static void test_changes(void **state) {
     expect_scene(&file, least_text, "output.path=x.png");
     assert_string_equal(file.output.path, "x.png");
     hd_scene_file_free(&file);
+}
+
+/* Messages spell a key in their own way, and name the change all the same. */
+static void test_changes_of_keys_with_quotes(void **state) {
+    (void)state;
+    static const char text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
+                               " \"materials\": {\"blue glass\": {}, \"blue\": {}}}";
+    static const char expected[] = "expected a number from 0 to 1";
+    char message[256];
+    snprintf(message, sizeof message,
+             "a.json: --set materials.blue glass.reflection=2: "
+             "materials[\"blue glass\"].reflection is 2, %s",
+             expected);
+    assert_string_equal(expect_refused(text, "materials.blue glass.reflection=2", ""), message);
+    static HdError error;
+    const HdSceneChange changes[] = {"materials.blue glass={\"reflection\": 2}",
+                                     "materials.blue={\"diffuse\": 1}"};
+    assert_int_equal(parse_scene(&file, text, strlen(text), changes, 2, &error), HD_BAD_INPUT);
+    snprintf(message, sizeof message,
+             "a.json: --set materials.blue glass={\"reflection\": 2}: "
+             "materials[\"blue glass\"].reflection is 2, %s",
+             expected);
+    assert_string_equal(error.message, message);
 }
 
 static void test_changes_that_cannot_be_made(void **state) {
@@ -782,8 +825,10 @@ int main(void) {
         cmocka_unit_test(test_too_many_materials),
         cmocka_unit_test(test_all_problems_at_once),
         cmocka_unit_test(test_checks_of_the_whole_scene),
+        cmocka_unit_test(test_shares_of_a_material),
         cmocka_unit_test(test_one_problem_stays_one),
         cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_changes_of_keys_with_quotes),
         cmocka_unit_test(test_changes_that_cannot_be_made),
         cmocka_unit_test(test_changes_that_are_not_understood),
         cmocka_unit_test(test_files),
