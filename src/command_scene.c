@@ -11,7 +11,7 @@
 #include "rendering.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
-enum { MAX_INPUT_BYTES = 1 << 20, FRAMES_PER_SECOND = 30 };
+enum { MAX_INPUT_BYTES = 1 << 20 };
 
 static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t *size,
                             HdError *error) {
@@ -49,8 +49,8 @@ void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input) {
     memset(file, 0, sizeof *file);
     file->scene = input->scene;
     memset(&input->scene, 0, sizeof input->scene);
-    file->output.frames_per_second = FRAMES_PER_SECOND;
-    file->output.style = (HdPictureStyle){.curve = HD_CURVE_LINEAR, .bits = 8};
+    file->output.style = (HdOutputStyle){.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
+                                         .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND};
     file->texture_curve = HD_CURVE_LINEAR;
     memcpy(file->output.path, input->output_pattern, sizeof file->output.path);
     memcpy(file->texture_path, input->texture_path, sizeof file->texture_path);
@@ -72,7 +72,7 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneCh
 static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
     size_t size;
     const char *text = hd_default_scene_text(&size);
-    HdStatus status = hd_scene_file_parse(file, text, size, "the built-in scene", "",
+    HdStatus status = hd_scene_file_parse(file, text, size, hd_scene_name(options), "",
                                           options->changes, options->change_count, error);
     if (status != HD_OK)
         return status;

@@ -24,8 +24,8 @@ void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
     for (int i = 0; i < plan->count; i++)
         fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
     fprintf(stderr, " (%d frame%s, %d bits where the format has a choice, %s)\n", frame_count,
-            plural(frame_count), plan->style.bits,
-            plan->style.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
+            plural(frame_count), plan->style.picture.bits,
+            plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
 void hd_note_device(const HdDevice *device, const char *why) {

@@ -71,7 +71,7 @@ HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, c
                              HdError *error) {
     const HdSceneSource source = {folder, changes, change_count};
     json_t *root = NULL;
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
     HdStatus status = parse_json(&root, text, size, name, error);
     if (status == HD_OK)
         status = build(file, root, &source, name, error);
@@ -86,7 +86,7 @@ HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneCh
     char folder[HD_MAX_PATH] = "";
     unsigned char *bytes = NULL;
     size_t size = 0;
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
     const char *slash = strrchr(path, '/');
     HdStatus status = hd_file_read(path, "scene", HD_MAX_SCENE_BYTES, &bytes, &size, error);
     if (status == HD_OK && slash != NULL)
@@ -106,5 +106,5 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
 
 void hd_scene_file_free(HdSceneFile *file) {
     hd_scene_free(&file->scene);
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
 }

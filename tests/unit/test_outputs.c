@@ -9,8 +9,7 @@ static HdOutputPlan plan_of(const char *first, const char *second) {
     HdOutputPlan plan = {
         .names = {first, second},
         .count = second != NULL ? 2 : 1,
-        .style = {.curve = HD_CURVE_LINEAR, .bits = 8},
-        .frames_per_second = 30,
+        .style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8}, .frames_per_second = 30},
     };
     return plan;
 }

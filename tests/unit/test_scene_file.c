@@ -48,9 +48,9 @@ static void test_defaults_of_the_least_scene(void **state) {
     assert_int_equal(scene->light_count, 0);
     assert_false(scene->floor.present);
     assert_string_equal(file.output.path, "");
-    assert_int_equal(file.output.frames_per_second, 30);
-    assert_int_equal(file.output.style.curve, HD_CURVE_SRGB);
-    assert_int_equal(file.output.style.bits, 8);
+    assert_int_equal(file.output.style.frames_per_second, 30);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_SRGB);
+    assert_int_equal(file.output.style.picture.bits, 8);
     assert_string_equal(file.texture_path, "");
     hd_scene_file_free(&file);
 }
@@ -111,9 +111,9 @@ static void test_rich_picture_and_camera(void **state) {
     expect_vector(scene->target.point, 0.5, 0.25, 0.125);
     expect_vector(scene->background, 0.1, 0.2, 3.0);
     assert_string_equal(file.output.path, "out/%04d.png");
-    assert_int_equal(file.output.frames_per_second, 25);
-    assert_int_equal(file.output.style.curve, HD_CURVE_LINEAR);
-    assert_int_equal(file.output.style.bits, 16);
+    assert_int_equal(file.output.style.frames_per_second, 25);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
+    assert_int_equal(file.output.style.picture.bits, 16);
     assert_string_equal(file.texture_path, "floor.png");
     assert_int_equal(file.texture_curve, HD_CURVE_LINEAR);
     hd_scene_file_free(&file);
@@ -633,7 +633,7 @@ static void test_changes(void **state) {
     assert_int_equal(file.scene.width, 200);
     expect_near(file.scene.solids[1].circumradius, 3.5, 0.0);
     expect_vector(file.scene.eye.point, 1.0, 2.0, 4.0);
-    assert_int_equal(file.output.style.curve, HD_CURVE_LINEAR);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
     assert_string_equal(file.texture_path, "a=b.png");
     assert_string_equal(file.output.path, "7");
     expect_near(file.scene.solids[0].face.colour.y, 0.0, 0.0);

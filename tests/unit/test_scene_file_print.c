@@ -98,9 +98,9 @@ static void expect_same_scene(const HdScene *a, const HdScene *b) {
 static void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     expect_same_scene(&a->scene, &b->scene);
     assert_string_equal(a->output.path, b->output.path);
-    assert_int_equal(a->output.frames_per_second, b->output.frames_per_second);
-    assert_int_equal(a->output.style.curve, b->output.style.curve);
-    assert_int_equal(a->output.style.bits, b->output.style.bits);
+    assert_int_equal(a->output.style.frames_per_second, b->output.style.frames_per_second);
+    assert_int_equal(a->output.style.picture.curve, b->output.style.picture.curve);
+    assert_int_equal(a->output.style.picture.bits, b->output.style.picture.bits);
     assert_string_equal(a->texture_path, b->texture_path);
     if (a->texture_path[0] != '\0')
         assert_int_equal(a->texture_curve, b->texture_curve);
@@ -211,7 +211,7 @@ static void test_classic_scenes(void **state) {
     for (int variant = 1; variant <= HD_CLASSIC_VARIANTS; variant++) {
         expect_parsed(&input, official, variant);
         first = (HdSceneFile){.scene = input.scene,
-                              .output = {.frames_per_second = 30, .style = {HD_CURVE_LINEAR, 8}},
+                              .output = {.style = {{HD_CURVE_LINEAR, 8}, 30}},
                               .texture_curve = HD_CURVE_LINEAR};
         memcpy(first.output.path, input.output_pattern, sizeof first.output.path);
         memcpy(first.texture_path, input.texture_path, sizeof first.texture_path);
