@@ -8,7 +8,6 @@
 
 #include "default_scene.h"
 #include "interrupt.h"
-#include "rendering.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
@@ -66,6 +65,41 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneCh
         hd_error_prefix(error, path);
         hd_scene_file_free(file);
     }
+    return status;
+}
+
+/* As they stand on the command line; nothing where none was given. */
+static void spell_scene_options(const HdOptions *options, char text[128]) {
+    char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "";
+    if (options->width > 0)
+        snprintf(size, sizeof size, " --size %dx%d", options->width, options->height);
+    if (options->samples > 0)
+        snprintf(samples, sizeof samples, " --samples %d", options->samples);
+    if (options->depth >= 0)
+        snprintf(depth, sizeof depth, " --depth %d", options->depth);
+    if (options->cutoff >= 0.0)
+        snprintf(cutoff, sizeof cutoff, " --cutoff %g", options->cutoff);
+    snprintf(text, 128, "%s%s%s%s", size, samples, depth, cutoff);
+}
+
+HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
+    char given[128];
+    spell_scene_options(options, given);
+    if (given[0] == '\0')
+        return HD_OK;
+    if (options->width > 0) {
+        scene->width = options->width;
+        scene->height = options->height;
+    }
+    if (options->samples > 0)
+        scene->samples_per_side = options->samples;
+    if (options->depth >= 0)
+        scene->depth = options->depth;
+    if (options->cutoff >= 0.0)
+        scene->cutoff = options->cutoff;
+    HdStatus status = hd_scene_validate(scene, error);
+    if (status != HD_OK)
+        hd_error_prefix(error, given + 1);
     return status;
 }
 
