@@ -109,6 +109,14 @@ expect_stderr_contains missing.json
 expect_stderr_contains '2 of 3 scenes are wrong'
 expect_exit 0 "$hedron" check scenes/cube.json scenes/cube.json
 expect_stdout_lines 2
+# Those that come with the program.
+ours=("$cli_folder"/../../scenes/*.json)
+if ((${#ours[@]} < 2)); then
+    fail "the project's scenes are not where they were"
+fi
+expect_exit 0 "$hedron" check "${ours[@]}"
+expect_silent_stderr
+expect_stdout_lines ${#ours[@]} '.*\.json: fine, .*'
 rm ./*.json
 expect_exit 0 "$hedron" check --schema
 expect_silent_stderr
