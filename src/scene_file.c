@@ -7,7 +7,6 @@
 
 #include "default_scene.h"
 #include "file_bytes.h"
-#include "json_words.h"
 #include "scene_changes.h"
 #include "scene_read.h"
 

@@ -10,6 +10,7 @@ static void numbers_read_back(void **state) {
         double value;
         const char *exact, *brief;
     } numbers[] = {{0.1, "0.1", "0.1"},
+                   {0.07, "0.07", "0.07"}, /* 16 digits would be one too many */
                    {1e12, "1000000000000", "1e12"},
                    {1e-12, "1e-12", "1e-12"},
                    {-1e6, "-1000000", "-1e6"},
