@@ -5,12 +5,12 @@ add_library(hedron_program STATIC
     src/command_classic.c
     src/command_convert.c
     src/command_devices.c
+    src/command_help.c
     src/command_render.c
     src/command_scene.c
     src/command_table.c
     src/completion.c
-    src/help.c
-    src/json_text.c
+    src/json_device_text.c
     src/man_page.c
     src/option_table.c
     src/option_values.c

@@ -78,14 +78,12 @@ static HdMaterial classic_material(void) {
 }
 
 static void fill_solid(HdSolid *solid) {
-    HdPlatonic platonic;
-    hd_platonic(solid->kind, &platonic);
     solid->face.specular = solid->face.transmission;
     solid->rim_width = classic_rim_width * solid->circumradius;
     solid->rim = classic_material();
     solid->rim.colour = grey(classic_rim_colour);
     solid->rim.specular = classic_rim_specular;
-    const int count = platonic.edge_count * solid->lights.per_edge;
+    const int count = hd_edge_light_count(solid);
     solid->lights.colour_count = 1;
     solid->lights.colours[0] = grey(1.0);
     solid->lights.intensity = count > 0 ? classic_edge_power / count : 0.0;
@@ -157,13 +155,6 @@ static void read_lights(HdTokenReader *reader, HdScene *scene) {
     }
 }
 
-/* Puts `prefix` before the message of another module. */
-static void prefix_message(HdError *error, const char *prefix) {
-    char message[sizeof error->message];
-    memcpy(message, error->message, sizeof message);
-    hd_fail(error, error->status, "%s: %s", prefix, message);
-}
-
 static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]) {
     char prefix[HD_MAX_PATH];
     hd_read_path(reader, "output path", pattern);
@@ -172,7 +163,7 @@ static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]
     reader->status = hd_pattern_check(pattern, reader->error);
     if (reader->status != HD_OK) {
         snprintf(prefix, sizeof prefix, "%s:%d: output path", reader->name, reader->line);
-        prefix_message(reader->error, prefix);
+        hd_error_prefix(reader->error, prefix);
     }
 }
 
@@ -197,7 +188,7 @@ static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdClassi
         return;
     reader->status = hd_scene_validate(scene, reader->error);
     if (reader->status != HD_OK)
-        prefix_message(reader->error, reader->name);
+        hd_error_prefix(reader->error, reader->name);
 }
 
 const HdSolidKind *hd_classic_variant_kinds(int variant) {

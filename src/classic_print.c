@@ -2,19 +2,14 @@
 /* Writes the classic task's input format. */
 #include <errno.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "classic_input.h"
+#include "number_text.h"
 
-/* With as few digits as it takes to read the same double back. */
 static void print_number(FILE *out, double value) {
-    char text[40];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
+    char text[HD_NUMBER_SIZE];
+    hd_exact_number(value, text);
     fputs(text, out);
 }
 

@@ -3,7 +3,6 @@
 
 #include "command_scene.h"
 #include "commands.h"
-#include "rendering_notes.h"
 
 static const char *plural(int count) {
     return count == 1 ? "" : "s";
@@ -14,7 +13,7 @@ static HdStatus check_scene(const char *name, HdError *error) {
     HdStatus status = hd_read_scene_file(&file, name, NULL, 0, error);
     if (status != HD_OK)
         return status;
-    int solids = file.scene.solid_count, lights = hd_scene_count_lights(&file.scene);
+    int solids = file.scene.solid_count, lights = hd_scene_light_count(&file.scene);
     int frames = file.scene.frame_count;
     printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, plural(solids), lights,
            plural(lights), frames, plural(frames));

@@ -27,10 +27,7 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
         .name = "standard input",
         .scene = &file->scene,
         .frames = &frames,
-        .outputs = {.names = {file->output.path},
-                    .count = 1,
-                    .style = file->output.style,
-                    .frames_per_second = file->output.frames_per_second},
+        .outputs = {.names = {file->output.path}, .count = 1, .style = file->output.style},
         .device_kind = options->mode == HD_CLASSIC_CPU ? HD_ONLY_CPU : HD_PREFER_GPU,
         .stored = print_frame_line,
     };

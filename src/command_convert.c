@@ -15,8 +15,7 @@
 static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *error) {
     char folder[HD_MAX_PATH], name[HD_MAX_PATH];
     memcpy(name, file->texture_path, sizeof name);
-    if (output == NULL || strchr(output, '/') == NULL || name[0] == '/' || name[0] == '~' ||
-        name[0] == '\0' || strcmp(name, HD_BUILTIN_TEXTURE) == 0)
+    if (output == NULL || strchr(output, '/') == NULL || !hd_texture_path_is_relative(name))
         return HD_OK;
     if (getcwd(folder, sizeof folder) == NULL)
         return hd_fail(error, HD_FAILED, "cannot tell the current folder: %s", strerror(errno));

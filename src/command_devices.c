@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "commands.h"
-#include "json_text.h"
+#include "json_device_text.h"
 
 static void print_device(const HdDevice *device) {
     printf("  %d  %s\n", device->index, device->name);
@@ -25,14 +25,14 @@ static void print_backend(const HdBackend *backend, const HdDevice *devices, int
 }
 
 static json_t *text_or_null(const char *text) {
-    return text[0] != '\0' ? hd_json_text(text) : json_null();
+    return text[0] != '\0' ? hd_json_device_text(text) : json_null();
 }
 
 static json_t *describe_device(const HdDevice *device) {
     return json_pack(
         "{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:o}", "backend", device->backend->name,
-        "index", device->index, "name", hd_json_text(device->name), "driver",
-        hd_json_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
+        "index", device->index, "name", hd_json_device_text(device->name), "driver",
+        hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
         device->compute_units, "clock_mhz", device->clock_mhz, "has_double", device->has_double,
         "unusable", text_or_null(device->unusable), "not_strict", text_or_null(device->not_strict));
 }
@@ -46,8 +46,8 @@ static json_t *describe_backend(const HdBackend *backend, const HdDevice *device
             return NULL;
         }
     return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available", obstacle == NULL,
-                     "reason", obstacle != NULL ? hd_json_text(obstacle) : json_null(), "devices",
-                     list);
+                     "reason", obstacle != NULL ? hd_json_device_text(obstacle) : json_null(),
+                     "devices", list);
 }
 
 static HdStatus print_json(json_t *backends, HdError *error) {

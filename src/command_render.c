@@ -13,7 +13,6 @@ static HdOutputPlan plan_outputs(const HdOptions *options, const HdOutputSetting
     HdOutputPlan plan = {
         .count = options->output_count,
         .style = settings->style,
-        .frames_per_second = settings->frames_per_second,
     };
     memcpy(plan.names, options->outputs, sizeof plan.names);
     if (plan.count == 0)

@@ -8,10 +8,9 @@
 
 #include "default_scene.h"
 #include "interrupt.h"
-#include "rendering.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
-enum { MAX_INPUT_BYTES = 1 << 20, FRAMES_PER_SECOND = 30 };
+enum { MAX_INPUT_BYTES = 1 << 20 };
 
 static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t *size,
                             HdError *error) {
@@ -49,8 +48,8 @@ void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input) {
     memset(file, 0, sizeof *file);
     file->scene = input->scene;
     memset(&input->scene, 0, sizeof input->scene);
-    file->output.frames_per_second = FRAMES_PER_SECOND;
-    file->output.style = (HdPictureStyle){.curve = HD_CURVE_LINEAR, .bits = 8};
+    file->output.style = (HdOutputStyle){.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
+                                         .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND};
     file->texture_curve = HD_CURVE_LINEAR;
     memcpy(file->output.path, input->output_pattern, sizeof file->output.path);
     memcpy(file->texture_path, input->texture_path, sizeof file->texture_path);
@@ -69,10 +68,45 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneCh
     return status;
 }
 
+/* As they stand on the command line; nothing where none was given. */
+static void spell_scene_options(const HdOptions *options, char text[128]) {
+    char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "";
+    if (options->width > 0)
+        snprintf(size, sizeof size, " --size %dx%d", options->width, options->height);
+    if (options->samples > 0)
+        snprintf(samples, sizeof samples, " --samples %d", options->samples);
+    if (options->depth >= 0)
+        snprintf(depth, sizeof depth, " --depth %d", options->depth);
+    if (options->cutoff >= 0.0)
+        snprintf(cutoff, sizeof cutoff, " --cutoff %g", options->cutoff);
+    snprintf(text, 128, "%s%s%s%s", size, samples, depth, cutoff);
+}
+
+HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
+    char given[128];
+    spell_scene_options(options, given);
+    if (given[0] == '\0')
+        return HD_OK;
+    if (options->width > 0) {
+        scene->width = options->width;
+        scene->height = options->height;
+    }
+    if (options->samples > 0)
+        scene->samples_per_side = options->samples;
+    if (options->depth >= 0)
+        scene->depth = options->depth;
+    if (options->cutoff >= 0.0)
+        scene->cutoff = options->cutoff;
+    HdStatus status = hd_scene_validate(scene, error);
+    if (status != HD_OK)
+        hd_error_prefix(error, given + 1);
+    return status;
+}
+
 static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
     size_t size;
     const char *text = hd_default_scene_text(&size);
-    HdStatus status = hd_scene_file_parse(file, text, size, "the built-in scene", "",
+    HdStatus status = hd_scene_file_parse(file, text, size, hd_scene_name(options), "",
                                           options->changes, options->change_count, error);
     if (status != HD_OK)
         return status;

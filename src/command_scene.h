@@ -18,6 +18,10 @@ void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input);
 HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
                             int change_count, HdError *error);
 
+/* Lays size, samples, depth and cut-off of the command line over a valid scene. Where they do not
+   suit it, the message begins with them, as "--size 60000x60000: ". */
+HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error);
+
 /* Reads the scene that is named on the command line, or the built-in one, with its texture; lays
    the options over it. */
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error);

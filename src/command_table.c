@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "output_kind.h"
+
 const char hd_program_summary[] =
     "renders mirrored, transparent platonic solids with lights along their edges";
 
@@ -12,9 +14,9 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "render a scene, or the built-in one, to films and pictures",
      "Renders the frames of SCENE.json, or of the built-in scene, and prints the name of each "
      "output.\n\n"
-     "OUT is a picture (.png, .data, .pfm), a numbered sequence of pictures such as out/%04d.png "
-     "or "
-     "out/####.png, or a film (.mp4, .mkv, .gif; made by FFmpeg). A picture without a number takes "
+     "OUT is a picture (" HD_PICTURE_ENDINGS "), a numbered sequence of pictures such as "
+     "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS
+     "; made by FFmpeg). A picture without a number takes "
      "a single frame. Several -o give several outputs of one run. Without -o the output is the one "
      "that the scene names, else hedron.mp4, or hedron.png for a single frame.\n\n"
      "--set reaches every value of the scene file by its path, for example --set "

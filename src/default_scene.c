@@ -20,6 +20,12 @@ HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
                             "the built-in configuration", HD_CLASSIC_DEFAULT_VARIANT, error);
 }
 
+bool hd_texture_path_is_relative(const char *path) {
+    const bool is_at_home = path[0] == '~' && (path[1] == '\0' || path[1] == '/');
+    return path[0] != '\0' && path[0] != '/' && !is_at_home &&
+           strcmp(path, HD_BUILTIN_TEXTURE) != 0;
+}
+
 HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {
     char expanded[HD_MAX_PATH];
     if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)

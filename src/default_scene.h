@@ -3,11 +3,17 @@
 #ifndef HD_DEFAULT_SCENE_H
 #define HD_DEFAULT_SCENE_H
 
+#include <stdbool.h>
+
 #include "classic_input.h"
 #include "curve.h"
 
 /* The texture path that stands for the embedded texture. */
 #define HD_BUILTIN_TEXTURE "builtin:floor"
+
+/* Whether the path of a texture counts from some folder: it is there, not absolute, not in the home
+   folder ("~", "~/..."; "~name" is a name like others) and not the embedded texture. */
+bool hd_texture_path_is_relative(const char *path);
 
 /* The default scene, JSON (docs/formats.md) of `*size` bytes. */
 const char *hd_default_scene_text(size_t *size);

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "image.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "atomic_file.h"
+#include "file_bytes.h"
 #include "image_files.h"
 #include "output_kind.h"
 
@@ -127,64 +121,11 @@ HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_
     return status;
 }
 
-static HdStatus check_file(int descriptor, const char *path, size_t *size, HdError *error) {
-    struct stat found;
-    if (fstat(descriptor, &found) != 0)
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
-                       strerror(errno));
-    if (!S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: it is not a regular file",
-                       path);
-    if (found.st_size > MAX_TEXTURE_FILE || (uintmax_t)found.st_size >= SIZE_MAX)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "cannot read the texture %s: it has %lld bytes, expected at most %lld", path,
-                       (long long)found.st_size, (long long)MAX_TEXTURE_FILE);
-    *size = (size_t)found.st_size;
-    return HD_OK;
-}
-
-static HdStatus read_exactly(int descriptor, unsigned char *bytes, size_t size, const char *path,
-                             HdError *error) {
-    size_t done = 0;
-    while (done < size) {
-        ssize_t count = read(descriptor, bytes + done, size - done);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
-                           strerror(errno));
-        if (count == 0)
-            return hd_fail(error, HD_BAD_INPUT,
-                           "cannot read the texture %s: it ended after %zu of %zu bytes", path,
-                           done, size);
-        done += (size_t)count;
-    }
-    return HD_OK;
-}
-
-static HdStatus read_file(int descriptor, const char *path, unsigned char **bytes, size_t *size,
-                          HdError *error) {
-    HdStatus status = check_file(descriptor, path, size, error);
-    if (status != HD_OK)
-        return status;
-    *bytes = malloc(*size + 1); /* an empty file is the decoder's to refuse */
-    if (*bytes == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for the %zu bytes of the texture %s",
-                       *size, path);
-    return read_exactly(descriptor, *bytes, *size, path, error);
-}
-
 HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error) {
     unsigned char *bytes = NULL;
     size_t size = 0;
     *texture = (HdTexture){0};
-    /* Not blocking, lest a named pipe stops the program before it is refused. */
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the texture %s: %s", path,
-                       strerror(errno));
-    HdStatus status = read_file(descriptor, path, &bytes, &size, error);
-    close(descriptor);
+    HdStatus status = hd_file_read(path, "texture", MAX_TEXTURE_FILE, &bytes, &size, error);
     if (status == HD_OK)
         status = hd_texture_decode(texture, bytes, size, path, curve, error);
     free(bytes);

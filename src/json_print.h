@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints JSON for people: an indent of 2, and three numbers that belong together on one line. */
+/* Prints JSON for people: an indent of 2, and three numbers that belong together on one line.
+   Scenes and their schema go this way, since jansson, which prints what programs read (statistics,
+   devices), would give every number of a vector a line of its own. */
 #ifndef HD_JSON_PRINT_H
 #define HD_JSON_PRINT_H
 
@@ -7,14 +9,6 @@
 #include <stdio.h>
 
 #include "vec3.h"
-
-enum { HD_NUMBER_SIZE = 32 };
-
-/* With as few digits, 15 to 17, as it takes to read the same double back; 0's sign is kept. */
-void hd_exact_number(double value, char out[HD_NUMBER_SIZE]);
-
-/* The same for messages, which say 1e12 rather than 1000000000000. */
-void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
 
 /* Start with the stream alone. */
 typedef struct HdJsonPrinter {

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "json_print.h"
+#include "number_text.h"
 
 static bool continues_character(char c) {
     return ((unsigned char)c & 0xc0) == 0x80;

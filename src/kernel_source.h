@@ -17,8 +17,8 @@ extern const size_t hd_cuda_source_size;
 /* What a build for one scene can do; what it cannot is not compiled in. */
 typedef struct HdKernelNeeds {
     int plane_bound, depth_bound; /* private arrays are this large */
-    int refracts;                 /* 0 or 1 */
-    int lit_from_behind;          /* 0 or 1 */
+    bool refracts;
+    bool lit_from_behind;
 } HdKernelNeeds;
 
 /* What the text is specialised by. */

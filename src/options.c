@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "classic_input.h"
-#include "option_nearest.h"
+#include "nearest_name.h"
 #include "option_table.h"
 #include "option_values.h"
 #include "paths.h"

@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 #include "output_kind.h"
 
-#include <stddef.h>
-
 #include "paths.h"
 
+static const struct Format {
+    const char *ending;
+    HdOutputKind kind;
+    bool is_film;
+} formats[] = {
+    {".mp4", HD_OUTPUT_MP4, true},  {".mkv", HD_OUTPUT_MKV, true},
+    {".gif", HD_OUTPUT_GIF, true},  {".png", HD_OUTPUT_PNG, false},
+    {".pfm", HD_OUTPUT_PFM, false}, {".data", HD_OUTPUT_DATA, false},
+};
+
+enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+
 HdOutputKind hd_output_kind(const char *path) {
-    static const struct {
-        const char *ending;
-        HdOutputKind kind;
-    } endings[] = {{".data", HD_OUTPUT_DATA}, {".png", HD_OUTPUT_PNG}, {".pfm", HD_OUTPUT_PFM},
-                   {".mp4", HD_OUTPUT_MP4},   {".mkv", HD_OUTPUT_MKV}, {".gif", HD_OUTPUT_GIF}};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (hd_path_has_ending(path, endings[i].ending))
-            return endings[i].kind;
+    for (int i = 0; i < FORMAT_COUNT; i++)
+        if (hd_path_has_ending(path, formats[i].ending))
+            return formats[i].kind;
     return HD_OUTPUT_UNKNOWN;
 }
 
 bool hd_output_is_film(HdOutputKind kind) {
-    return kind == HD_OUTPUT_MP4 || kind == HD_OUTPUT_MKV || kind == HD_OUTPUT_GIF;
-}
-
-const char *hd_output_endings(void) {
-    return "film.mp4, film.mkv, film.gif, picture.png, picture.pfm or picture.data";
+    for (int i = 0; i < FORMAT_COUNT; i++)
+        if (formats[i].kind == kind)
+            return formats[i].is_film;
+    return false;
 }

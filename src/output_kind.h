@@ -20,7 +20,8 @@ HdOutputKind hd_output_kind(const char *path);
 
 bool hd_output_is_film(HdOutputKind kind);
 
-/* "film.mp4, film.mkv, ..." for messages and help. */
-const char *hd_output_endings(void);
+/* For messages and help. */
+#define HD_FILM_ENDINGS    ".mp4, .mkv or .gif"
+#define HD_PICTURE_ENDINGS ".png, .pfm or .data"
 
 #endif

@@ -27,8 +27,10 @@ static bool is_pattern(const char *name) {
 
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
     if (hd_output_kind(name) == HD_OUTPUT_UNKNOWN)
-        return hd_fail(error, HD_BAD_INPUT, "%s is '%.4000s', expected a name such as %s", option,
-                       name, hd_output_endings());
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is '%.4000s', expected the name of a film (" HD_FILM_ENDINGS
+                       ") or of a picture (" HD_PICTURE_ENDINGS ")",
+                       option, name);
     return HD_OK;
 }
 
@@ -36,7 +38,7 @@ static HdStatus check_output(const char *name, int frame_count, HdError *error) 
     if (is_film(name) && hd_pattern_has_number(name))
         return hd_fail(error, HD_BAD_INPUT,
                        "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
-                       "and pictures end in .png, .pfm or .data",
+                       "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
     if (is_film(name))
         return HD_OK;
@@ -70,7 +72,7 @@ static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, 
         status = hd_image8_create(&outputs->image, width, height, error);
     if (status == HD_OK)
         status = hd_video_open(&outputs->videos[index], path, width, height,
-                               outputs->plan->frames_per_second, error);
+                               outputs->plan->style.frames_per_second, error);
     if (status == HD_OK)
         outputs->film_count++;
     return status;
@@ -107,7 +109,7 @@ static HdStatus write_picture(const HdOutputPlan *plan, const char *name, const 
         status = hd_path_expand_home(path, expanded, error);
     if (status != HD_OK)
         return status;
-    return hd_picture_write(frame, &plan->style, expanded, error);
+    return hd_picture_write(frame, &plan->style.picture, expanded, error);
 }
 
 HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
@@ -116,7 +118,7 @@ HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
     HdStatus status = HD_OK;
     double start = hd_monotonic_seconds();
     if (outputs->film_count > 0)
-        hd_frame_to_image8(frame, plan->style.curve, &outputs->image);
+        hd_frame_to_image8(frame, plan->style.picture.curve, &outputs->image);
     *convert_seconds = outputs->film_count > 0 ? hd_monotonic_seconds() - start : 0.0;
     for (int i = 0; i < plan->count && status == HD_OK; i++)
         status = outputs->videos[i] != NULL

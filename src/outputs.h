@@ -9,11 +9,16 @@
 
 enum { HD_MAX_OUTPUTS = 8 };
 
+/* How the frames are stored. */
+typedef struct HdOutputStyle {
+    HdPictureStyle picture; /* films have its curve and 8 bits */
+    int frames_per_second;  /* of films */
+} HdOutputStyle;
+
 typedef struct HdOutputPlan {
     const char *names[HD_MAX_OUTPUTS]; /* films, patterns of sequences, or pictures' names */
     int count;
-    HdPictureStyle style;  /* films have its curve and 8 bits */
-    int frames_per_second; /* of films */
+    HdOutputStyle style;
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */

@@ -144,12 +144,6 @@ static void find_edges(HdPlatonic *solid) {
     }
 }
 
-const char *hd_solid_name(HdSolidKind kind) {
-    static const char *const names[HD_SOLID_KIND_COUNT] = {"tetrahedron", "cube", "octahedron",
-                                                           "dodecahedron", "icosahedron"};
-    return (unsigned)kind < HD_SOLID_KIND_COUNT ? names[kind] : "unknown solid";
-}
-
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
     Points vertices, normals;
     *solid = (HdPlatonic){0};

@@ -37,9 +37,6 @@ typedef struct HdPlatonic {
     double sine_of_dihedral; /* sine of the angle between two neighbouring faces */
 } HdPlatonic;
 
-/* The name in lower case English, "tetrahedron", "cube" and so on. */
-const char *hd_solid_name(HdSolidKind kind);
-
 /* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid);
 

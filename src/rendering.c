@@ -9,20 +9,6 @@
 #include "rendering_notes.h"
 #include "statistics.h"
 
-HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
-    if (options->width > 0) {
-        scene->width = options->width;
-        scene->height = options->height;
-    }
-    if (options->samples > 0)
-        scene->samples_per_side = options->samples;
-    if (options->depth >= 0)
-        scene->depth = options->depth;
-    if (options->cutoff >= 0.0)
-        scene->cutoff = options->cutoff;
-    return hd_scene_validate(scene, error);
-}
-
 typedef struct Run {
     const HdRendering *rendering;
     const HdOptions *options;

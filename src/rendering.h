@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the commands that render share: options applied to a scene, frames rendered and stored. */
+/* What the commands that render share: frames rendered and stored. */
 #ifndef HD_RENDERING_H
 #define HD_RENDERING_H
 
@@ -7,13 +7,9 @@
 #include "options.h"
 #include "sequence.h"
 
-/* Lays size, samples, depth and cut-off of the command line over the scene, and checks the result.
- */
-HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error);
-
 typedef struct HdRendering {
     const char *name;     /* of the scene, for people */
-    const HdScene *scene; /* one that hd_apply_scene_options accepted */
+    const HdScene *scene; /* valid */
     const HdFrameList *frames;
     HdOutputPlan outputs;
     HdDeviceKind device_kind;

@@ -9,18 +9,8 @@ static const char *plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-int hd_scene_count_lights(const HdScene *scene) {
-    HdPlatonic solid;
-    int count = scene->light_count;
-    for (int i = 0; i < scene->solid_count; i++) {
-        hd_platonic(scene->solids[i].kind, &solid);
-        count += solid.edge_count * scene->solids[i].lights.per_edge;
-    }
-    return count;
-}
-
 void hd_note_scene(const char *name, const HdScene *scene) {
-    const int lights = hd_scene_count_lights(scene);
+    const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",
@@ -34,8 +24,8 @@ void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
     for (int i = 0; i < plan->count; i++)
         fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
     fprintf(stderr, " (%d frame%s, %d bits where the format has a choice, %s)\n", frame_count,
-            plural(frame_count), plan->style.bits,
-            plan->style.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
+            plural(frame_count), plan->style.picture.bits,
+            plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
 void hd_note_device(const HdDevice *device, const char *why) {

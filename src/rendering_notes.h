@@ -7,9 +7,6 @@
 #include "outputs.h"
 #include "scene.h"
 
-/* Point lights and lights of edges. */
-int hd_scene_count_lights(const HdScene *scene);
-
 void hd_note_scene(const char *name, const HdScene *scene);
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count);
 void hd_note_device(const HdDevice *device, const char *why);

@@ -112,6 +112,12 @@ typedef struct HdScene {
     HdFloor floor;
 } HdScene;
 
+/* The lights on the edges of a solid whose values are valid. */
+int hd_edge_light_count(const HdSolid *solid);
+
+/* Point lights and lights of edges of a valid scene, those that light nothing included. */
+int hd_scene_light_count(const HdScene *scene);
+
 /* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
 typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
 
@@ -120,7 +126,11 @@ typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
    all that is wrong to `problems`. Library code may rely on a scene in which nothing was found. */
 void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems);
 
-/* The same, in prose; on failure the error names the first value that is wrong. */
+/* Checks the shares of both sides of a material alone; `place` begins the messages. */
+void hd_material_check_shares(const HdMaterial *material, const char *place, HdProblems *problems);
+
+/* The same as hd_scene_check, in prose; on failure the error names the first value that is wrong.
+ */
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error);
 
 /* Frees what the scene owns and clears it. */

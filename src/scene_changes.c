@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json_path.h"
 #include "json_words.h"
 #include "scene_fields.h"
 
@@ -17,9 +18,9 @@ typedef struct Step {
 
 typedef struct Walk {
     HdSceneChange change;
-    const char *at;  /* what is left of the path */
-    const char *end; /* the sign = */
-    HdProblems *problems;
+    const char *at;       /* what is left of the path */
+    const char *end;      /* the sign = */
+    HdProblems *problems; /* NULL where nothing is told */
 } Walk;
 
 void hd_scene_change_name(HdSceneChange change, char out[256]) {
@@ -65,7 +66,8 @@ static bool read_key(Walk *walk, Step *step) {
     return true;
 }
 
-/* The next step, which begins the path or follows a dot, or is an index. */
+/* The next step, which begins the path or follows a dot, or is an index; false where there is none.
+ */
 static bool read_step(Walk *walk, Step *step) {
     const bool is_first = walk->at == walk->change;
     bool is_read = false;
@@ -75,12 +77,7 @@ static bool read_step(Walk *walk, Step *step) {
         walk->at += !is_first;
         is_read = read_key(walk, step);
     }
-    if (!is_read || walk->at > walk->end) {
-        complain(walk, "the path is not understood, expected one such as camera.field_of_view or "
-                       "solids[0].circumradius");
-        return false;
-    }
-    return true;
+    return is_read && walk->at <= walk->end;
 }
 
 static bool may_be_made(const Step *step, bool is_first) {
@@ -148,7 +145,12 @@ void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *probl
     }
     for (json_t *parent = root; parent != NULL;) {
         const int length = (int)(walk.at - walk.change);
-        if (!read_step(&walk, &step) || !check_parent(&walk, parent, &step, length))
+        if (!read_step(&walk, &step)) {
+            complain(&walk, "the path is not understood, expected one such as camera.field_of_view "
+                            "or solids[0].circumradius");
+            return;
+        }
+        if (!check_parent(&walk, parent, &step, length))
             return;
         if (walk.at == walk.end) {
             put(&walk, parent, &step);
@@ -158,10 +160,26 @@ void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *probl
     }
 }
 
+/* Spells the path of a change as messages do; false where it is not understood. */
+static bool spell_path(HdSceneChange change, char path[HD_JSON_PATH_SIZE]) {
+    Walk walk = {.change = change, .at = change, .end = strchr(change, '=')};
+    Step step;
+    path[0] = '\0';
+    while (walk.end != NULL && walk.at != walk.end) {
+        if (!read_step(&walk, &step))
+            return false;
+        if (step.key[0] == '\0')
+            hd_json_path_index(path, step.index);
+        else
+            hd_json_path_key(path, step.key);
+    }
+    return path[0] != '\0';
+}
+
 bool hd_scene_change_made(HdSceneChange change, const char *path) {
-    const size_t length = strcspn(change, "=");
-    if (length == 0 || strncmp(change, path, length) != 0)
+    char changed[HD_JSON_PATH_SIZE];
+    if (!spell_path(change, changed) || strncmp(changed, path, strlen(changed)) != 0)
         return false;
-    const char after = path[length];
+    const char after = path[strlen(changed)];
     return after == '\0' || after == '.' || after == '[';
 }

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "json_print.h"
+#include "number_text.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
@@ -114,12 +114,13 @@ static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
         "File of the picture or film; #### or %04d stands for the number of a frame"),
      .type = HD_FIELD_TEXT, .is_given = has_output_path},
-    {AT(HdSceneFile, output.frames_per_second, "frames_per_second", "Speed of a film"),
-     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), DEFAULT(30)},
-    {AT(HdSceneFile, output.style.curve, "curve", "Transfer curve of the numbers in the file"),
+    {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Speed of a film"),
+     INTEGER(1, HD_MAX_FRAMES_PER_SECOND), DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
+    {AT(HdSceneFile, output.style.picture.curve, "curve",
+        "Transfer curve of the numbers in the file"),
      .type = HD_FIELD_CHOICE, .choices = curves, DEFAULT(HD_CURVE_SRGB)},
-    {AT(HdSceneFile, output.style.bits, "bits", "Bits of a channel"), .type = HD_FIELD_CHOICE,
-     .choices = bits, DEFAULT(8)},
+    {AT(HdSceneFile, output.style.picture.bits, "bits", "Bits of a channel"),
+     .type = HD_FIELD_CHOICE, .choices = bits, DEFAULT(8)},
 };
 static const HdObjectType output = {.fields = output_fields,
                                     .field_count = COUNT_OF(output_fields),
@@ -165,38 +166,14 @@ const HdObjectType hd_material_fields = TYPE(HdMaterial, material_fields);
 #define MATERIAL .type = HD_FIELD_MATERIAL, REQUIRED
 #define LENGTH   NUMBER(HD_MIN_LENGTH, HD_MAX_NUMBER)
 
-static bool has_falloff_distance(const void *owner) {
-    return ((const HdFalloff *)owner)->distance != 0.0;
-}
-
-static bool has_falloff_end(const void *owner) {
-    return ((const HdFalloff *)owner)->end != 0.0;
-}
-
-static bool has_light_distance(const void *owner) {
-    return has_falloff_distance(&((const HdLight *)owner)->falloff);
-}
-
-static bool has_light_end(const void *owner) {
-    return has_falloff_end(&((const HdLight *)owner)->falloff);
-}
-
-static bool has_edge_light_distance(const void *owner) {
-    return has_falloff_distance(&((const HdEdgeLights *)owner)->falloff);
-}
-
-static bool has_edge_light_end(const void *owner) {
-    return has_falloff_end(&((const HdEdgeLights *)owner)->falloff);
-}
-
-#define FALLOFF(struct_name, has_distance, has_end)                                                \
+#define FALLOFF(struct_name)                                                                       \
     {AT(struct_name, falloff.distance, "falloff_distance",                                         \
         "d0 of the falloff 1 / (1 + (d / d0)^2); no falloff unless given"),                        \
-     LENGTH, .is_given = (has_distance)},                                                          \
+     LENGTH, .zero_is_absent = true},                                                              \
     {                                                                                              \
         AT(struct_name, falloff.end, "falloff_end",                                                \
            "d1 of the falloff (1 - (d / d1)^2)^2, which ends at d1; no falloff unless given"),     \
-            LENGTH, .is_given = (has_end), .instead_of = "falloff_distance"                        \
+            LENGTH, .zero_is_absent = true, .instead_of = "falloff_distance"                       \
     }
 
 static const HdField rim_fields[] = {
@@ -219,7 +196,7 @@ static const HdField edge_light_fields[] = {
      NUMBER(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radiance, "disc_radiance", "Brightness of the disc, times the colour"),
      NUMBER(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
-    FALLOFF(HdEdgeLights, has_edge_light_distance, has_edge_light_end),
+    FALLOFF(HdEdgeLights),
 };
 static const HdObjectType edge_lights = TYPE(HdEdgeLights, edge_light_fields);
 
@@ -241,8 +218,7 @@ static const HdField solid_fields[] = {
         "Degrees about the x axis, then the y axis, then the z axis"),
      VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
     {AT(HdSolid, face, "material", "Name of the faces' material"), MATERIAL},
-    {.offset = 0,
-     .key = "rim",
+    {.key = "rim",
      .about = "A frame along the edges of every face",
      .type = HD_FIELD_OBJECT,
      .object = &rim,
@@ -258,7 +234,7 @@ static const HdField light_fields[] = {
      WHITE},
     {AT(HdLight, intensity, "intensity", "What the colour is multiplied by"),
      .type = HD_FIELD_FACTOR, .low = 0.0, .high = HD_MAX_NUMBER, DEFAULT(1.0)},
-    FALLOFF(HdLight, has_light_distance, has_light_end),
+    FALLOFF(HdLight),
 };
 static const HdObjectType light = TYPE(HdLight, light_fields);
 
@@ -286,8 +262,7 @@ static const HdField floor_fields[] = {
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
      REQUIRED},
     {AT(HdSceneFile, scene.floor.material, "material", "Name of its material"), MATERIAL},
-    {.offset = 0,
-     .key = "texture",
+    {.key = "texture",
      .about = "Picture that tints the floor",
      .type = HD_FIELD_OBJECT,
      .object = &texture,
@@ -307,19 +282,12 @@ static const HdField scene_fields[] = {
      .type = HD_FIELD_CHOICE,
      .choices = versions,
      REQUIRED},
-    {.offset = 0,
-     .key = "image",
+    {.key = "image",
      .about = "The picture and what it may cost",
      .type = HD_FIELD_OBJECT,
      .object = &image},
-    {.offset = 0,
-     .key = "camera",
-     .about = "The view",
-     .type = HD_FIELD_OBJECT,
-     .object = &camera,
-     REQUIRED},
-    {.offset = 0,
-     .key = "output",
+    {.key = "camera", .about = "The view", .type = HD_FIELD_OBJECT, .object = &camera, REQUIRED},
+    {.key = "output",
      .about = "What becomes of the frames",
      .type = HD_FIELD_OBJECT,
      .object = &output},
@@ -336,8 +304,7 @@ static const HdField scene_fields[] = {
     {AT(HdSceneFile, scene.lights, "lights", "Point lights"), .type = HD_FIELD_LIST,
      .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
-    {.offset = 0,
-     .key = "floor",
+    {.key = "floor",
      .about = "A flat floor; none unless given",
      .type = HD_FIELD_OBJECT,
      .object = &floor_object,
@@ -350,6 +317,16 @@ const HdField *hd_field(const HdObjectType *type, const char *key) {
         if (strcmp(type->fields[i].key, key) == 0)
             return &type->fields[i];
     return NULL;
+}
+
+bool hd_field_may_be_absent(const HdField *field) {
+    return field->zero_is_absent || field->is_given != NULL;
+}
+
+bool hd_field_is_given(const HdField *field, const void *owner) {
+    if (field->zero_is_absent)
+        return *(const double *)(const void *)((const char *)owner + field->offset) != 0.0;
+    return field->is_given == NULL || field->is_given(owner);
 }
 
 bool hd_field_holds(const HdField *field, double value) {

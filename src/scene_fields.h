@@ -50,6 +50,7 @@ typedef struct HdField {
     const HdChoice *choices;
     const HdObjectType *object;
     const char *instead_of; /* key that must not be given beside this one */
+    bool zero_is_absent;    /* the scene has 0 where this number is not given */
     /* Whether the scene has what may be missing; NULL: it always does, and a missing object reads
        as an empty one. */
     bool (*is_given)(const void *owner);
@@ -70,6 +71,12 @@ extern const HdObjectType hd_material_fields;
 
 /* NULL where there is no such key. */
 const HdField *hd_field(const HdObjectType *type, const char *key);
+
+/* Whether a scene may lack the field rather than have its default. */
+bool hd_field_may_be_absent(const HdField *field);
+
+/* Whether the struct at `owner` has it. */
+bool hd_field_is_given(const HdField *field, const void *owner);
 
 /* Whether the number is in the field's range. */
 bool hd_field_holds(const HdField *field, double value);

@@ -1,18 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "scene_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "default_scene.h"
-#include "json_words.h"
+#include "file_bytes.h"
 #include "scene_changes.h"
 #include "scene_read.h"
 
@@ -76,7 +70,7 @@ HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, c
                              HdError *error) {
     const HdSceneSource source = {folder, changes, change_count};
     json_t *root = NULL;
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
     HdStatus status = parse_json(&root, text, size, name, error);
     if (status == HD_OK)
         status = build(file, root, &source, name, error);
@@ -86,67 +80,20 @@ HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, c
     return status;
 }
 
-static HdStatus check_file(int descriptor, const char *path, size_t *size, HdError *error) {
-    struct stat found;
-    if (fstat(descriptor, &found) != 0)
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path, strerror(errno));
-    if (!S_ISREG(found.st_mode))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: it is not a regular file",
-                       path);
-    if (found.st_size > HD_MAX_SCENE_BYTES)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "cannot read the scene %s: it has %lld bytes, expected at most %d", path,
-                       (long long)found.st_size, (int)HD_MAX_SCENE_BYTES);
-    *size = (size_t)found.st_size;
-    return HD_OK;
-}
-
-/* Up to `size` bytes; a file that has become shorter ends before them. */
-static HdStatus read_bytes(int descriptor, char *text, size_t *size, const char *path,
-                           HdError *error) {
-    size_t done = 0;
-    ssize_t count = 1;
-    while (done < *size && count != 0) {
-        count = read(descriptor, text + done, *size - done);
-        if (count < 0 && errno != EINTR)
-            return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path,
-                           strerror(errno));
-        done += count > 0 ? (size_t)count : 0;
-    }
-    *size = done;
-    return HD_OK;
-}
-
-static HdStatus load(const char *path, char **text, size_t *size, HdError *error) {
-    /* Not blocking, lest a named pipe stops the program before it is refused. */
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-        return hd_fail(error, HD_BAD_INPUT, "cannot read the scene %s: %s", path, strerror(errno));
-    HdStatus status = check_file(descriptor, path, size, error);
-    if (status == HD_OK) {
-        *text = malloc(*size + 1);
-        status = *text != NULL
-                     ? read_bytes(descriptor, *text, size, path, error)
-                     : hd_fail(error, HD_FAILED,
-                               "not enough memory for the %zu bytes of the scene %s", *size, path);
-    }
-    close(descriptor);
-    return status;
-}
-
 HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneChange *changes,
                             int change_count, HdError *error) {
     char folder[HD_MAX_PATH] = "";
-    char *text = NULL;
+    unsigned char *bytes = NULL;
     size_t size = 0;
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
     const char *slash = strrchr(path, '/');
-    HdStatus status = load(path, &text, &size, error);
+    HdStatus status = hd_file_read(path, "scene", HD_MAX_SCENE_BYTES, &bytes, &size, error);
     if (status == HD_OK && slash != NULL)
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
     if (status == HD_OK)
-        status = hd_scene_file_parse(file, text, size, path, folder, changes, change_count, error);
-    free(text);
+        status = hd_scene_file_parse(file, (const char *)bytes, size, path, folder, changes,
+                                     change_count, error);
+    free(bytes);
     return status;
 }
 
@@ -158,5 +105,5 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
 
 void hd_scene_file_free(HdSceneFile *file) {
     hd_scene_free(&file->scene);
-    *file = (HdSceneFile){.output.frames_per_second = 0};
+    *file = (HdSceneFile){.schema = ""};
 }

@@ -8,17 +8,20 @@
 #include <stdio.h>
 
 #include "curve.h"
-#include "image.h"
+#include "outputs.h"
 #include "paths.h"
 #include "scene.h"
 
-enum { HD_MAX_SCENE_BYTES = 32 << 20, HD_MAX_FRAMES_PER_SECOND = 240 };
+enum {
+    HD_MAX_SCENE_BYTES = 32 << 20,
+    HD_DEFAULT_FRAMES_PER_SECOND = 30,
+    HD_MAX_FRAMES_PER_SECOND = 240
+};
 
 /* What becomes of the frames. */
 typedef struct HdOutputSettings {
     char path[HD_MAX_PATH]; /* empty: not said */
-    int frames_per_second;  /* of a film */
-    HdPictureStyle style;
+    HdOutputStyle style;
 } HdOutputSettings;
 
 typedef struct HdSceneFile {

@@ -2,15 +2,14 @@
 #include "scene_read.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "default_scene.h"
 #include "json_words.h"
-#include "option_nearest.h"
-#include "scene_changes.h"
+#include "nearest_name.h"
 #include "scene_fields.h"
+#include "scene_report.h"
 
 typedef struct NamedMaterial {
     const char *name; /* of the tree */
@@ -18,133 +17,19 @@ typedef struct NamedMaterial {
 } NamedMaterial;
 
 typedef struct Reader {
-    const HdSceneSource *source;
-    HdProblems *problems;
+    HdSceneReport report;
     HdError *error;
     HdStatus status;
-    char path[512]; /* of the value that is read: "solids[1].rim" */
     NamedMaterial *materials;
     int material_count;
     bool knows_materials; /* otherwise no name of one can be checked */
-    /* What is wrong in these places makes the checks of the whole scene meaningless for them. */
-    bool is_view_wrong, is_floor_wrong, is_solid_wrong[HD_MAX_SOLIDS];
 } Reader;
 
-static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner);
-
-/* Path */
-
-static bool is_plain(const char *key) {
-    static const char letters[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    const size_t length = strlen(key);
-    return length > 0 && length <= 64 && strspn(key, letters) == length;
-}
-
-/* Goes on to a key; returns the length to go back to. */
-static size_t enter_key(Reader *reader, const char *key) {
-    char quoted[HD_WORDS_SIZE];
-    const size_t length = strlen(reader->path);
-    char *end = reader->path + length;
-    const size_t room = sizeof reader->path - length;
-    if (is_plain(key)) {
-        snprintf(end, room, "%s%s", length > 0 ? "." : "", key);
-    } else {
-        hd_quoted(key, quoted);
-        snprintf(end, room, "[%s]", quoted);
-    }
-    return length;
-}
-
-static size_t enter_index(Reader *reader, size_t index) {
-    const size_t length = strlen(reader->path);
-    snprintf(reader->path + length, sizeof reader->path - length, "[%zu]", index);
-    return length;
-}
-
 static void leave_to(Reader *reader, size_t length) {
-    reader->path[length] = '\0';
+    reader->report.path[length] = '\0';
 }
 
-/* Problems */
-
-static bool begins_with(const char *text, const char *beginning) {
-    return strncmp(text, beginning, strlen(beginning)) == 0;
-}
-
-static void note_place(Reader *reader) {
-    const char *path = reader->path;
-    if (strcmp(path, "camera") == 0 || begins_with(path, "camera.eye") ||
-        begins_with(path, "camera.target"))
-        reader->is_view_wrong = true;
-    if (begins_with(path, "floor"))
-        reader->is_floor_wrong = true;
-    if (begins_with(path, "solids[")) {
-        const unsigned long index = strtoul(path + strlen("solids["), NULL, 10);
-        if (index < HD_MAX_SOLIDS)
-            reader->is_solid_wrong[index] = true;
-    }
-}
-
-/* The problem of the value at the path; what comes from a change says so. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-complain(Reader *reader, const char *format, ...) {
-    const HdSceneSource *source = reader->source;
-    char name[256] = "", text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    note_place(reader);
-    for (int i = 0; i < source->change_count; i++)
-        if (hd_scene_change_made(source->changes[i], reader->path))
-            hd_scene_change_name(source->changes[i], name);
-    const char *path = reader->path[0] != '\0' ? reader->path : "the scene";
-    hd_problem(reader->problems, "%s%s %s", name, path, text);
-}
-
-static void complain_of_value(Reader *reader, const json_t *value, const char *expected) {
-    char words[HD_WORDS_SIZE];
-    hd_json_words(value, words);
-    complain(reader, "is %s, expected %s", words, expected);
-}
-
-static void refuse(Reader *reader, const HdField *field, const json_t *value, bool is_part) {
-    char expected[HD_EXPECTED_SIZE];
-    hd_field_expected(field, is_part, expected);
-    complain_of_value(reader, value, expected);
-}
-
-static void list_keys(const HdObjectType *type, char out[HD_EXPECTED_SIZE * 2]) {
-    size_t used = 0;
-    for (int i = 0; i < type->field_count; i++) {
-        const char *between = i == 0 ? "" : i + 1 < type->field_count ? ", " : " or ";
-        used += (size_t)snprintf(out + used, HD_EXPECTED_SIZE * 2 - used, "%s\"%s\"", between,
-                                 type->fields[i].key);
-    }
-}
-
-static void refuse_unknown_keys(Reader *reader, const HdObjectType *type, const json_t *json) {
-    const char *key;
-    json_t *value;
-    json_object_foreach((json_t *)json, key, value) {
-        if (hd_field(type, key) != NULL)
-            continue;
-        HdNearest nearest = {.word = key};
-        for (int i = 0; i < type->field_count; i++)
-            hd_nearest_offer(&nearest, type->fields[i].key);
-        char keys[HD_EXPECTED_SIZE * 2];
-        snprintf(keys, sizeof keys, "\"%s\"", nearest.name != NULL ? nearest.name : "");
-        if (nearest.name == NULL)
-            list_keys(type, keys);
-        const size_t length = enter_key(reader, key);
-        complain(reader, "is an unknown key, expected %s", keys);
-        leave_to(reader, length);
-    }
-}
+static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner);
 
 /* Numbers */
 
@@ -153,7 +38,7 @@ static bool read_number(Reader *reader, const HdField *field, const json_t *valu
                         double *out) {
     const double number = json_number_value(value);
     if (!json_is_number(value) || !hd_field_holds(field, number)) {
-        refuse(reader, field, value, is_part);
+        hd_report_field(&reader->report, field, value, is_part);
         return false;
     }
     *out = number;
@@ -164,7 +49,7 @@ static bool read_number(Reader *reader, const HdField *field, const json_t *valu
 static void read_integer(Reader *reader, const HdField *field, const json_t *value, int *out) {
     const double number = json_number_value(value);
     if (!json_is_number(value) || floor(number) != number || !hd_field_holds(field, number))
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
     else
         *out = (int)number;
 }
@@ -173,7 +58,7 @@ static void refuse_vector(Reader *reader, const HdField *field, const json_t *va
     char number[HD_EXPECTED_SIZE], expected[HD_EXPECTED_SIZE + 32];
     hd_field_expected(field, true, number);
     snprintf(expected, sizeof expected, "three numbers, each %s", number);
-    complain_of_value(reader, value, expected);
+    hd_report_value(&reader->report, value, expected);
 }
 
 static void read_vector(Reader *reader, const HdField *field, const json_t *value, HdVec3 *out) {
@@ -184,7 +69,7 @@ static void read_vector(Reader *reader, const HdField *field, const json_t *valu
         return;
     }
     for (size_t i = 0; i < 3; i++) {
-        const size_t length = enter_index(reader, i);
+        const size_t length = hd_json_path_index(reader->report.path, i);
         is_read &= read_number(reader, field, json_array_get(value, i), true, &parts[i]);
         leave_to(reader, length);
     }
@@ -197,13 +82,13 @@ static bool check_count(Reader *reader, const HdField *field, const json_t *valu
     char expected[HD_EXPECTED_SIZE];
     const size_t count = json_array_size(value);
     if (!json_is_array(value)) {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
         return false;
     }
     if (count >= (size_t)field->least && count <= (size_t)field->most)
         return true;
     hd_field_expected_count(field, expected);
-    complain(reader, "has %zu elements, expected %s", count, expected);
+    hd_report(&reader->report, "has %zu elements, expected %s", count, expected);
     return false;
 }
 
@@ -213,7 +98,7 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
     if (!check_count(reader, field, value))
         return;
     for (size_t i = 0; i < count; i++) {
-        const size_t length = enter_index(reader, i);
+        const size_t length = hd_json_path_index(reader->report.path, i);
         vectors[i] = vectors[0]; /* a default, should it be refused */
         read_vector(reader, field, json_array_get(value, i), &vectors[i]);
         leave_to(reader, length);
@@ -233,7 +118,7 @@ static void read_choice(Reader *reader, const HdField *field, const json_t *valu
         choice++;
     free(json);
     if (choice->json == NULL)
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
     else if (field->choices[1].json != NULL)
         *(int *)place = choice->value;
 }
@@ -241,12 +126,12 @@ static void read_choice(Reader *reader, const HdField *field, const json_t *valu
 static void read_text(Reader *reader, const HdField *field, const json_t *value,
                       char out[HD_MAX_PATH]) {
     if (!json_is_string(value) || json_string_length(value) == 0) {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
         return;
     }
     if (json_string_length(value) >= HD_MAX_PATH) {
-        complain(reader, "has %zu bytes, expected fewer than %d", json_string_length(value),
-                 HD_MAX_PATH);
+        hd_report(&reader->report, "has %zu bytes, expected fewer than %d",
+                  json_string_length(value), HD_MAX_PATH);
         return;
     }
     memcpy(out, json_string_value(value), json_string_length(value) + 1);
@@ -254,15 +139,14 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
 
 /* A relative path counts from the folder of the scene. */
 static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
-    const char *folder = reader->source->folder;
-    if (path[0] == '\0' || path[0] == '/' || folder[0] == '\0' || strcmp(path, "~") == 0 ||
-        begins_with(path, "~/") || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+    const char *folder = reader->report.source->folder;
+    if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
         return;
     const bool has_slash = folder[strlen(folder) - 1] == '/';
     const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);
     if (length >= HD_MAX_PATH) {
-        complain(reader, "has %zu bytes with the scene's folder, expected fewer than %d", length,
-                 HD_MAX_PATH);
+        hd_report(&reader->report, "has %zu bytes with the scene's folder, expected fewer than %d",
+                  length, HD_MAX_PATH);
         return;
     }
     memmove(path + before, path, strlen(path) + 1);
@@ -275,7 +159,7 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
     char quoted[HD_WORDS_SIZE];
     const char *name = json_string_value(value);
     if (name == NULL) {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
         return;
     }
     HdNearest nearest = {.word = name};
@@ -289,11 +173,11 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
     if (!reader->knows_materials)
         return;
     if (nearest.name == NULL) {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
         return;
     }
     hd_quoted(nearest.name, quoted);
-    complain_of_value(reader, value, quoted);
+    hd_report_value(&reader->report, value, quoted);
 }
 
 /* Objects */
@@ -305,7 +189,7 @@ static void read_path(Reader *reader, const HdField *field, const json_t *value,
         *out = (HdPath){.is_fixed = false};
         read_object(reader, field->object, value, out);
     } else {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
     }
 }
 
@@ -326,7 +210,7 @@ static void read_list(Reader *reader, const HdField *field, const json_t *value,
     *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
     memcpy((char *)owner + field->offset, &elements, sizeof elements);
     for (size_t i = 0; i < count; i++) {
-        const size_t length = enter_index(reader, i);
+        const size_t length = hd_json_path_index(reader->report.path, i);
         read_object(reader, field->object, json_array_get(value, i), elements + i * size);
         leave_to(reader, length);
     }
@@ -343,16 +227,27 @@ static void settle_inner_side(HdMaterial *material, const json_t *json) {
         material->inner_transmission = material->transmission;
 }
 
+/* Here, so that the message names the material and comes once; what is wrong is set aside, lest the
+   check of the scene tells it again for each solid. */
+static void check_shares(Reader *reader, HdMaterial *material) {
+    char place[HD_JSON_PATH_SIZE + 2];
+    const int before = reader->report.problems->count;
+    snprintf(place, sizeof place, "%s: ", reader->report.path);
+    hd_material_check_shares(material, place, reader->report.problems);
+    if (reader->report.problems->count != before)
+        material->reflection = material->inner_reflection = 0.0;
+}
+
 static void read_materials(Reader *reader, const HdField *field, const json_t *value) {
     const size_t count = json_object_size(value);
     const char *name;
     json_t *json;
     if (!json_is_object(value)) {
-        refuse(reader, field, value, false);
+        hd_report_field(&reader->report, field, value, false);
         return;
     }
     if (count > (size_t)field->most) {
-        complain(reader, "has %zu materials, expected at most %d", count, field->most);
+        hd_report(&reader->report, "has %zu materials, expected at most %d", count, field->most);
         return;
     }
     reader->knows_materials = true;
@@ -362,9 +257,10 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
     json_object_foreach((json_t *)value, name, json) {
         NamedMaterial *named = &reader->materials[reader->material_count++];
         named->name = name;
-        const size_t length = enter_key(reader, name);
+        const size_t length = hd_json_path_key(reader->report.path, name);
         read_object(reader, field->object, json, &named->material);
         settle_inner_side(&named->material, json);
+        check_shares(reader, &named->material);
         leave_to(reader, length);
     }
 }
@@ -377,7 +273,7 @@ static void read_field(Reader *reader, const HdField *field, const json_t *value
         if (json_is_boolean(value))
             *(bool *)place = json_is_true(value);
         else
-            refuse(reader, field, value, false);
+            hd_report_field(&reader->report, field, value, false);
         break;
     case HD_FIELD_INTEGER:
         read_integer(reader, field, value, place);
@@ -437,11 +333,12 @@ static const json_t *find_value(Reader *reader, const HdField *field, const json
     const json_t *value = json_object_get(json, field->key);
     if (value == NULL && field->required) {
         hd_field_expected(field, false, expected);
-        complain(reader, "is missing, expected %s", expected);
+        hd_report(&reader->report, "is missing, expected %s", expected);
     }
     if (value != NULL && field->instead_of != NULL &&
         json_object_get(json, field->instead_of) != NULL) {
-        complain(reader, "is given beside \"%s\", expected only one of them", field->instead_of);
+        hd_report(&reader->report, "is given beside \"%s\", expected only one of them",
+                  field->instead_of);
         return NULL;
     }
     return value;
@@ -450,18 +347,18 @@ static const json_t *find_value(Reader *reader, const HdField *field, const json
 static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner) {
     reset_object(type, owner);
     if (!json_is_object(json)) {
-        complain_of_value(reader, json, "an object");
+        hd_report_value(&reader->report, json, "an object");
         return;
     }
     for (int i = 0; i < type->field_count && reader->status == HD_OK; i++) {
         const HdField *field = &type->fields[i];
-        const size_t length = enter_key(reader, field->key);
+        const size_t length = hd_json_path_key(reader->report.path, field->key);
         const json_t *value = find_value(reader, field, json);
         if (value != NULL)
             read_field(reader, field, value, owner);
         leave_to(reader, length);
     }
-    refuse_unknown_keys(reader, type, json);
+    hd_report_unknown_keys(&reader->report, type, json);
 }
 
 /* The scene */
@@ -471,14 +368,14 @@ static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
     const HdObjectType *camera = hd_field(&hd_scene_fields, "camera")->object;
     HdScene *scene = &file->scene;
     bool is_any_wrong = false;
-    if (reader->is_view_wrong) {
+    if (reader->report.is_view_wrong) {
         hd_field_reset(hd_field(camera, "eye"), file);
         hd_field_reset(hd_field(camera, "target"), file);
     }
-    if (reader->is_floor_wrong)
+    if (reader->report.is_floor_wrong)
         scene->floor.present = false;
     for (int i = 0; i < scene->solid_count; i++)
-        if (reader->is_solid_wrong[i]) {
+        if (reader->report.is_solid_wrong[i]) {
             scene->solids[i].rim_width = 0.0;
             is_any_wrong = true;
         }
@@ -489,11 +386,12 @@ static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
 
 HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
                             HdProblems *problems, HdError *error) {
-    Reader reader = {.source = source, .problems = problems, .error = error, .status = HD_OK};
+    Reader reader = {
+        .report = {.source = source, .problems = problems}, .error = error, .status = HD_OK};
     reader.knows_materials = json_object_get(root, "materials") == NULL;
     read_object(&reader, &hd_scene_fields, root, file);
     file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
-    snprintf(reader.path, sizeof reader.path, "floor.texture.file");
+    snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
     place_texture(&reader, file->texture_path);
     free(reader.materials);
     if (reader.status != HD_OK)

@@ -132,7 +132,7 @@ static void print_default_choice(HdJsonPrinter *printer, const HdField *field) {
 static void print_default(HdJsonPrinter *printer, const HdField *field) {
     const HdVec3 vector = hd_vec3(field->standard[0], field->standard[1], field->standard[2]);
     const bool is_object = field->object != NULL && field->type != HD_FIELD_PATH;
-    if (field->required || field->is_given != NULL || is_object)
+    if (field->required || hd_field_may_be_absent(field) || is_object)
         return;
     hd_json_key(printer, "default");
     switch (field->type) {

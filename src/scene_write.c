@@ -48,8 +48,7 @@ static bool is_same_material(const HdMaterial *a, const HdMaterial *b) {
         return false;
     for (int i = 0; i < hd_material_fields.field_count; i++) {
         const HdField *field = &hd_material_fields.fields[i];
-        const bool is_there = field->is_given == NULL || field->is_given(a);
-        if (is_there && !is_same_field(field, a, b))
+        if (hd_field_is_given(field, a) && !is_same_field(field, a, b))
             return false;
     }
     return true;
@@ -217,8 +216,8 @@ static bool is_standard_vector(const HdField *field, HdVec3 vector) {
 /* Whether reading nothing gives the same. */
 static bool is_default(const HdField *field, const void *owner) {
     const void *place = place_of(field, owner);
-    if (field->is_given != NULL)
-        return !field->is_given(owner);
+    if (hd_field_may_be_absent(field))
+        return !hd_field_is_given(field, owner);
     switch (field->type) {
     case HD_FIELD_BOOLEAN:
         return !*(const bool *)place;
@@ -247,7 +246,7 @@ static void write_object(Writer *writer, const HdObjectType *type, const void *o
     hd_json_open(&writer->printer, '{');
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
-        const bool is_absent = field->is_given != NULL && !field->is_given(owner);
+        const bool is_absent = !hd_field_is_given(field, owner);
         const bool is_wanted = field->required || type->is_complete;
         if (is_absent || (!is_wanted && is_default(field, owner)))
             continue;

@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "json_text.h"
+#include "json_device_text.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
@@ -36,17 +36,17 @@ HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError 
 static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
     const HdFrameTimes *times = &stored->times;
-    return json_pack("{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f},"
-                     " s:{s:I, s:I, s:I}, s:I, s:I}",
-                     "frame", stored->number, "backend", facts->device->backend->name, "device",
-                     hd_json_text(facts->device->name), "renderer", hd_json_text(facts->renderer),
-                     "width", frame->width, "height", frame->height, "samples",
-                     facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
-                     "prepare", times->prepare, "trace", times->trace, "copy", times->copy,
-                     "convert", times->convert, "store", times->store, "rays", "primary",
-                     (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
-                     "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
-                     (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
+    return json_pack(
+        "{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f},"
+        " s:{s:I, s:I, s:I}, s:I, s:I}",
+        "frame", stored->number, "backend", facts->device->backend->name, "device",
+        hd_json_device_text(facts->device->name), "renderer", hd_json_device_text(facts->renderer),
+        "width", frame->width, "height", frame->height, "samples", facts->scene->samples_per_side,
+        "depth", facts->scene->depth, "seconds", "prepare", times->prepare, "trace", times->trace,
+        "copy", times->copy, "convert", times->convert, "store", times->store, "rays", "primary",
+        (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
+        "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
+        (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
 }
 
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,

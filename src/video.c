@@ -30,7 +30,7 @@ static HdStatus check_settings(const char *path, int width, int height, int fram
                        path, width, height, HD_MAX_IMAGE_SIDE);
     if (!hd_output_is_film(hd_output_kind(path)))
         return hd_fail(error, HD_BAD_INPUT,
-                       "the film %s has another ending, expected .mp4, .mkv or .gif", path);
+                       "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
     if (frames_per_second < 1)
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has %d frames a second, expected at least 1", path,

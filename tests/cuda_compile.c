@@ -37,9 +37,9 @@ static bool parse(Options *options, int argc, char **argv) {
         else if (strcmp(argv[i], "--fast") == 0)
             options->shape.math = HD_MATH_FAST;
         else if (strcmp(argv[i], "--refracts") == 0)
-            options->shape.needs.refracts = 1;
+            options->shape.needs.refracts = true;
         else if (strcmp(argv[i], "--lit-from-behind") == 0)
-            options->shape.needs.lit_from_behind = 1;
+            options->shape.needs.lit_from_behind = true;
         else if (strcmp(argv[i], "--log") == 0)
             options->show_log = true;
         else if (!value)

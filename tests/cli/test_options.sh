@@ -42,6 +42,9 @@ for value in 0x24 32x0 -32x24 32x-24 32 32x 'x24' 32x24x3 65536x1 1x65536 abc ''
     wrong --size "$value"
     wrong "--size=$value"
 done
+# Right by itself, but too many pixels in all.
+wrong --size 65535x65535 --samples 2
+expect_stderr_contains 'hedron: --size 65535x65535 --samples 2: 65535 x 65535 pixels are too many'
 
 right --samples 1
 right --samples 3

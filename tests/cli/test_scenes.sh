@@ -109,6 +109,14 @@ expect_stderr_contains missing.json
 expect_stderr_contains '2 of 3 scenes are wrong'
 expect_exit 0 "$hedron" check scenes/cube.json scenes/cube.json
 expect_stdout_lines 2
+# Those that come with the program.
+ours=("$cli_folder"/../../scenes/*.json)
+if ((${#ours[@]} < 2)); then
+    fail "the project's scenes are not where they were"
+fi
+expect_exit 0 "$hedron" check "${ours[@]}"
+expect_silent_stderr
+expect_stdout_lines ${#ours[@]} '.*\.json: fine, .*'
 rm ./*.json
 expect_exit 0 "$hedron" check --schema
 expect_silent_stderr
@@ -159,7 +167,15 @@ for scene in near.json far/near.json; do
     render "$scene" "${classic[@]}"
     expect_same out/img_5.data classic.data
 done
-rm -r out far near.* classic.data
+rm -r out far near.*
+# A name that begins with ~ is no home folder.
+mkdir '~near'
+cp scenes/floor.data '~near/floor.data'
+sed 's|~/floor.data|~near/floor.data|' "$work/official.in" >near.in
+expect_exit 0 "$hedron" convert near.in -o far/near.json
+render far/near.json "${classic[@]}"
+expect_same out/img_5.data classic.data
+rm -r out far near.in '~near' classic.data
 
 # What is wrong makes no file, and leaves an old one.
 printf 'old' >old.json

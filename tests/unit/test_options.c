@@ -25,8 +25,7 @@ static HdStatus parse(const char *line) {
 
 static void check_refused(const char *line, const char *part) {
     assert_int_equal(parse(line), HD_BAD_INPUT);
-    if (strstr(error.message, part) == NULL)
-        fail_msg("'%s' lacks '%s'", error.message, part);
+    expect_contains(error.message, part);
     if (strchr(error.message, '\n') != NULL)
         fail_msg("'%s' has more than one line", error.message);
 }

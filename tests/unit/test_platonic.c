@@ -270,15 +270,6 @@ static void test_turned_solids_hold_together(void **state) {
         }
 }
 
-static void test_names(void **state) {
-    (void)state;
-    assert_string_equal(hd_solid_name(HD_TETRAHEDRON), "tetrahedron");
-    assert_string_equal(hd_solid_name(HD_HEXAHEDRON), "cube");
-    assert_string_equal(hd_solid_name(HD_OCTAHEDRON), "octahedron");
-    assert_string_equal(hd_solid_name(HD_DODECAHEDRON), "dodecahedron");
-    assert_string_equal(hd_solid_name(HD_ICOSAHEDRON), "icosahedron");
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_counts_and_euler),
@@ -293,7 +284,6 @@ int main(void) {
         cmocka_unit_test(test_rotations_follow_the_formula),
         cmocka_unit_test(test_turned_by_nothing),
         cmocka_unit_test(test_turned_solids_hold_together),
-        cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,9 +48,9 @@ static void test_defaults_of_the_least_scene(void **state) {
     assert_int_equal(scene->light_count, 0);
     assert_false(scene->floor.present);
     assert_string_equal(file.output.path, "");
-    assert_int_equal(file.output.frames_per_second, 30);
-    assert_int_equal(file.output.style.curve, HD_CURVE_SRGB);
-    assert_int_equal(file.output.style.bits, 8);
+    assert_int_equal(file.output.style.frames_per_second, 30);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_SRGB);
+    assert_int_equal(file.output.style.picture.bits, 8);
     assert_string_equal(file.texture_path, "");
     hd_scene_file_free(&file);
 }
@@ -111,9 +111,9 @@ static void test_rich_picture_and_camera(void **state) {
     expect_vector(scene->target.point, 0.5, 0.25, 0.125);
     expect_vector(scene->background, 0.1, 0.2, 3.0);
     assert_string_equal(file.output.path, "out/%04d.png");
-    assert_int_equal(file.output.frames_per_second, 25);
-    assert_int_equal(file.output.style.curve, HD_CURVE_LINEAR);
-    assert_int_equal(file.output.style.bits, 16);
+    assert_int_equal(file.output.style.frames_per_second, 25);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
+    assert_int_equal(file.output.style.picture.bits, 16);
     assert_string_equal(file.texture_path, "floor.png");
     assert_int_equal(file.texture_curve, HD_CURVE_LINEAR);
     hd_scene_file_free(&file);
@@ -215,7 +215,6 @@ static void test_kinds(void **state) {
     for (int kind = 0; kind < HD_SOLID_KIND_COUNT; kind++) {
         char change[64];
         snprintf(change, sizeof change, "solids[0].kind=%s", names[kind]);
-        assert_string_equal(hd_solid_name((HdSolidKind)kind), names[kind]);
         expect_scene(&file, rich_text, change);
         assert_int_equal(file.scene.solids[0].kind, kind);
         hd_scene_file_free(&file);
@@ -575,6 +574,26 @@ static void test_checks_of_the_whole_scene(void **state) {
     expect_contains(error.message, "2 problems");
 }
 
+/* The sum of a material's shares is told once, with the material's name, however many wear it. */
+static void test_shares_of_a_material(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
+        " \"materials\": {\"blue glass\": {\"reflection\": 0.5}, \"m\": {\"reflection\": 0.5}},\n"
+        " \"solids\": [{\"kind\": \"cube\", \"material\": \"m\"},\n"
+        "            {\"kind\": \"cube\", \"material\": \"m\"}]}";
+    assert_string_equal(
+        expect_refused(text, "materials.m.transmission=0.75", ""),
+        "a.json: materials.m: reflection + transmission is 1.25, expected at most 1");
+    assert_string_equal(
+        expect_refused(text, "materials.blue glass.inner_transmission=0.75", ""),
+        "a.json: materials[\"blue glass\"]: inner reflection + transmission is 1.25, expected at "
+        "most 1");
+    assert_string_equal(
+        expect_refused(rich_text, "materials.glass.transmission=0.99", ""),
+        "a.json: materials.glass: reflection + transmission is 1.03, expected at most 1");
+}
+
 /* A default that stands in for a wrong value makes nothing else look wrong. */
 static void test_one_problem_stays_one(void **state) {
     (void)state;
@@ -614,7 +633,7 @@ static void test_changes(void **state) {
     assert_int_equal(file.scene.width, 200);
     expect_near(file.scene.solids[1].circumradius, 3.5, 0.0);
     expect_vector(file.scene.eye.point, 1.0, 2.0, 4.0);
-    assert_int_equal(file.output.style.curve, HD_CURVE_LINEAR);
+    assert_int_equal(file.output.style.picture.curve, HD_CURVE_LINEAR);
     assert_string_equal(file.texture_path, "a=b.png");
     assert_string_equal(file.output.path, "7");
     expect_near(file.scene.solids[0].face.colour.y, 0.0, 0.0);
@@ -625,6 +644,29 @@ static void test_changes(void **state) {
     expect_scene(&file, least_text, "output.path=x.png");
     assert_string_equal(file.output.path, "x.png");
     hd_scene_file_free(&file);
+}
+
+/* Messages spell a key in their own way, and name the change all the same. */
+static void test_changes_of_keys_with_quotes(void **state) {
+    (void)state;
+    static const char text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
+                               " \"materials\": {\"blue glass\": {}, \"blue\": {}}}";
+    static const char expected[] = "expected a number from 0 to 1";
+    char message[256];
+    snprintf(message, sizeof message,
+             "a.json: --set materials.blue glass.reflection=2: "
+             "materials[\"blue glass\"].reflection is 2, %s",
+             expected);
+    assert_string_equal(expect_refused(text, "materials.blue glass.reflection=2", ""), message);
+    static HdError error;
+    const HdSceneChange changes[] = {"materials.blue glass={\"reflection\": 2}",
+                                     "materials.blue={\"diffuse\": 1}"};
+    assert_int_equal(parse_scene(&file, text, strlen(text), changes, 2, &error), HD_BAD_INPUT);
+    snprintf(message, sizeof message,
+             "a.json: --set materials.blue glass={\"reflection\": 2}: "
+             "materials[\"blue glass\"].reflection is 2, %s",
+             expected);
+    assert_string_equal(error.message, message);
 }
 
 static void test_changes_that_cannot_be_made(void **state) {
@@ -708,6 +750,8 @@ static void test_textures_count_from_the_folder(void **state) {
     expect_texture("./folder//a.json", NULL, "./folder//floor.png");
     expect_texture("folder/a.json", "floor.texture.file=/b.png", "/b.png");
     expect_texture("folder/a.json", "floor.texture.file=~/b.png", "~/b.png");
+    expect_texture("folder/a.json", "floor.texture.file=~", "~");
+    expect_texture("folder/a.json", "floor.texture.file=~b/c.png", "folder/~b/c.png");
     expect_texture("folder/a.json", "floor.texture.file=builtin:floor", "builtin:floor");
     static char change[HD_MAX_PATH + 64] = "floor.texture.file=";
     memset(change + strlen(change), 'x', HD_MAX_PATH - 1);
@@ -781,8 +825,10 @@ int main(void) {
         cmocka_unit_test(test_too_many_materials),
         cmocka_unit_test(test_all_problems_at_once),
         cmocka_unit_test(test_checks_of_the_whole_scene),
+        cmocka_unit_test(test_shares_of_a_material),
         cmocka_unit_test(test_one_problem_stays_one),
         cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_changes_of_keys_with_quotes),
         cmocka_unit_test(test_changes_that_cannot_be_made),
         cmocka_unit_test(test_changes_that_are_not_understood),
         cmocka_unit_test(test_files),

@@ -6,7 +6,6 @@
 #include <jansson.h>
 
 #include "classic_text.h"
-#include "json_print.h"
 #include "scene_fields.h"
 #include "scene_text.h"
 
@@ -99,9 +98,9 @@ static void expect_same_scene(const HdScene *a, const HdScene *b) {
 static void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     expect_same_scene(&a->scene, &b->scene);
     assert_string_equal(a->output.path, b->output.path);
-    assert_int_equal(a->output.frames_per_second, b->output.frames_per_second);
-    assert_int_equal(a->output.style.curve, b->output.style.curve);
-    assert_int_equal(a->output.style.bits, b->output.style.bits);
+    assert_int_equal(a->output.style.frames_per_second, b->output.style.frames_per_second);
+    assert_int_equal(a->output.style.picture.curve, b->output.style.picture.curve);
+    assert_int_equal(a->output.style.picture.bits, b->output.style.picture.bits);
     assert_string_equal(a->texture_path, b->texture_path);
     if (a->texture_path[0] != '\0')
         assert_int_equal(a->texture_curve, b->texture_curve);
@@ -212,7 +211,7 @@ static void test_classic_scenes(void **state) {
     for (int variant = 1; variant <= HD_CLASSIC_VARIANTS; variant++) {
         expect_parsed(&input, official, variant);
         first = (HdSceneFile){.scene = input.scene,
-                              .output = {.frames_per_second = 30, .style = {HD_CURVE_LINEAR, 8}},
+                              .output = {.style = {{HD_CURVE_LINEAR, 8}, 30}},
                               .texture_curve = HD_CURVE_LINEAR};
         memcpy(first.output.path, input.output_pattern, sizeof first.output.path);
         memcpy(first.texture_path, input.texture_path, sizeof first.texture_path);
@@ -270,30 +269,6 @@ static void test_a_stream_that_fails(void **state) {
     expect_contains(error.message, "cannot write the schema: ");
     fclose(full);
     hd_scene_file_free(&first);
-}
-
-static void test_numbers(void **state) {
-    (void)state;
-    static const struct {
-        double value;
-        const char *exact, *brief;
-    } numbers[] = {{0.1, "0.1", "0.1"},
-                   {1e12, "1000000000000", "1e12"},
-                   {1e-12, "1e-12", "1e-12"},
-                   {-1e6, "-1000000", "-1e6"},
-                   {100.0, "100", "100"},
-                   {1.0 / 3.0, "0.3333333333333333", "0.3333333333333333"},
-                   {0.1 + 0.2, "0.30000000000000004", "0.30000000000000004"},
-                   {-0.0, "-0.0", "-0"},
-                   {1e100, "1e+100", "1e100"},
-                   {1e300, "1e+300", "1e300"}};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        char text[HD_NUMBER_SIZE];
-        hd_exact_number(numbers[i].value, text);
-        assert_string_equal(text, numbers[i].exact);
-        hd_short_number(numbers[i].value, text);
-        assert_string_equal(text, numbers[i].brief);
-    }
 }
 
 static char *read_schema(void) {
@@ -396,7 +371,6 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_layout),
         cmocka_unit_test(test_paths_that_are_not_utf8),
         cmocka_unit_test(test_a_stream_that_fails),
-        cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_committed_schema),
         cmocka_unit_test(test_schema_has_every_field),
         cmocka_unit_test(test_table_is_sound),

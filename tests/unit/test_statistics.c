@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-#include "json_text.h"
+#include "json_device_text.h"
 #include "statistics.h"
 #include "test_folder.h"
 

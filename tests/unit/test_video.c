@@ -5,7 +5,6 @@
 #include <limits.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <time.h>
 
 #include "test_folder.h"
 #include "video.h"
@@ -508,24 +507,17 @@ static void targets_in_the_way_are_errors(void **state) {
     assert_int_equal(count_entries("out/folder.mp4"), 0);
 }
 
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
+/* Were they waited for, the test would run into its time limit. */
 static void programs_that_hang_are_stopped(void **state) {
     (void)state;
     HdError error = {0};
     HdVideo *video;
-    double start = now();
     fake("ffprobe", "exit 0");
-    fake("ffmpeg", "sleep 60; exit 0");
+    fake("ffmpeg", "sleep 600; exit 0");
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 64, 48, 25, &error), HD_OK);
     hd_video_abort(video);
-    fake("ffmpeg", "exec <&-; sleep 60");
+    fake("ffmpeg", "exec <&-; sleep 600");
     check_failure(640, 480, 10, HD_FAILED, "(signal 9)");
-    assert_true(now() - start < 30);
 }
 
 /* A shell would clear the signals that it finds blocked, so that this program itself plays FFmpeg.

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "json_text.h"
+#include "json_device_text.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-json_t *hd_json_text(const char *bytes) {
+json_t *hd_json_device_text(const char *bytes) {
     json_t *text = json_string(bytes); /* refuses what is no UTF-8 */
     if (text != NULL)
         return text;

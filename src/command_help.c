@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "help.h"
-
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "commands.h"
+#include "help.h"
 #include "option_table.h"
 
 enum { LINE_WIDTH = 96, OPTION_COLUMN = 22, USAGE_COLUMN = 34, EXAMPLE_COLUMN = 6 };

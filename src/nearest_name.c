@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "option_nearest.h"
+#include "nearest_name.h"
 
 #include <limits.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The name that somebody may have meant. */
-#ifndef HD_OPTION_NEAREST_H
-#define HD_OPTION_NEAREST_H
+#ifndef HD_NEAREST_NAME_H
+#define HD_NEAREST_NAME_H
 
 /* Keeps the nearest of the names that are offered one after the other. Start with the word alone.
  */

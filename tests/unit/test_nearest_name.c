@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "expect.h"
-#include "option_nearest.h"
+#include "nearest_name.h"
 
 #include <limits.h>
 

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* Numbers as text that reads back as the same double. */
+#ifndef HD_NUMBER_TEXT_H
+#define HD_NUMBER_TEXT_H
+
+enum { HD_NUMBER_SIZE = 32 };
+
+/* With as few digits, 15 to 17, as it takes to read the same double back; 0's sign is kept. */
+void hd_exact_number(double value, char out[HD_NUMBER_SIZE]);
+
+/* The same for messages, which say 1e12 rather than 1000000000000. */
+void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
+
+#endif
