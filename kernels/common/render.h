@@ -25,7 +25,7 @@ FN Pixel pixel_in_block(Pixel corner, int place) {
 /* Where the block begins that an item belongs to; no item crosses blocks. */
 FN Pixel block_of_item(GLOBAL const View *view, int item) {
     int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
-    int block = item / (HD_BLOCK_PIXELS / HD_PIXELS_PER_ITEM);
+    int block = item * HD_PIXELS_PER_ITEM / HD_BLOCK_PIXELS;
     Pixel corner;
     corner.x = block % blocks_per_row * HD_BLOCK_SIDE;
     corner.y = block / blocks_per_row * HD_BLOCK_SIDE;
