@@ -2,8 +2,8 @@
 /* Entry points for CUDA. Arguments: the tables in the order of scene_tables.h, then as listed. */
 #include "../common/render.h"
 
-extern "C" __global__ void hedron_render(SCENE_PARAMETERS int first_item, int item_count,
-                                         int parts, float *__restrict__ pixels,
+extern "C" __global__ void hedron_render(SCENE_PARAMETERS int first_item, int item_count, int parts,
+                                         float *__restrict__ pixels,
                                          RayCounts *__restrict__ counts) {
     __shared__ Gathered group[HD_GROUP_SIZE];
     render_by_group(SCENE_ARGUMENTS first_item, item_count, parts, (int)blockIdx.x,
