@@ -115,20 +115,27 @@ static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, bo
     return child;
 }
 
-/* The value, a string where it is no JSON; NULL where it is no UTF-8 either. */
-static json_t *read_value(const char *text) {
-    json_error_t ignored;
-    const size_t flags = JSON_DECODE_ANY | JSON_REJECT_DUPLICATES;
-    json_t *value = json_loadb(text, strlen(text), flags, &ignored);
-    return value != NULL ? value : json_string(text);
+/* The value, a string where it is no JSON; NULL, and complains, where it is neither. */
+static json_t *read_value(const Walk *walk) {
+    const char *text = walk->end + 1;
+    json_error_t found;
+    json_t *value = json_loadb(text, strlen(text), HD_JSON_FLAGS | JSON_DECODE_ANY, &found);
+    if (value != NULL)
+        return value;
+    if (json_error_code(&found) == json_error_numeric_overflow) {
+        complain(walk, "the value is too large, expected a number that a double can hold");
+        return NULL;
+    }
+    value = json_string(text);
+    if (value == NULL)
+        complain(walk, "the value is not UTF-8, expected JSON or text");
+    return value;
 }
 
 static void put(const Walk *walk, json_t *parent, const Step *step) {
-    json_t *value = read_value(walk->end + 1);
-    if (value == NULL) {
-        complain(walk, "the value is not UTF-8, expected JSON or text");
+    json_t *value = read_value(walk);
+    if (value == NULL)
         return;
-    }
     const int failed = step->key[0] == '\0' ? json_array_set_new(parent, step->index, value)
                                             : json_object_set_new(parent, step->key, value);
     if (failed)

@@ -7,6 +7,7 @@
 
 #include "default_scene.h"
 #include "file_bytes.h"
+#include "json_words.h"
 #include "scene_changes.h"
 #include "scene_read.h"
 
@@ -26,10 +27,8 @@ static HdStatus check_no_zero(const char *text, size_t size, const char *name, H
 
 static HdStatus fail_syntax(const json_error_t *found, const char *name, HdError *error) {
     char text[JSON_ERROR_TEXT_LENGTH * 2];
-    size_t used = 0;
-    for (const char *c = found->text; *c != '\0'; c++)
-        text[used++] = (char)((unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c);
-    text[used] = '\0';
+    hd_escape(found->text, text, sizeof text);
+    const size_t used = strlen(text);
     if (json_error_code(found) == json_error_out_of_memory)
         return hd_fail(error, HD_FAILED, "%s: out of memory: no room for the scene", name);
     if (json_error_code(found) == json_error_null_character)
@@ -50,7 +49,7 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
     HdStatus status = check_no_zero(text, size, name, error);
     if (status != HD_OK)
         return status;
-    *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &found);
+    *root = json_loadb(text, size, HD_JSON_FLAGS, &found);
     return *root != NULL ? HD_OK : fail_syntax(&found, name, error);
 }
 

@@ -10,6 +10,7 @@
 #include "nearest_name.h"
 #include "scene_fields.h"
 #include "scene_report.h"
+#include "scene_texts.h"
 
 typedef struct NamedMaterial {
     const char *name; /* of the tree */
@@ -109,14 +110,19 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
 
 /* Words */
 
+/* Numbers by their value: 16.0 is 16. A word stands in quotes in the table. */
+static bool is_choice(const HdChoice *choice, const json_t *value) {
+    const char *word = json_string_value(value);
+    if (json_is_number(value))
+        return choice->json[0] != '"' && strtod(choice->json, NULL) == json_number_value(value);
+    return word != NULL && choice->json[0] == '"' && strlen(choice->json) == strlen(word) + 2 &&
+           memcmp(choice->json + 1, word, strlen(word)) == 0;
+}
+
 static void read_choice(Reader *reader, const HdField *field, const json_t *value, void *place) {
-    char *json = NULL;
-    if (json_is_string(value) || json_is_integer(value))
-        json = json_dumps(value, JSON_ENCODE_ANY);
     const HdChoice *choice = field->choices;
-    while (choice->json != NULL && (json == NULL || strcmp(choice->json, json) != 0))
+    while (choice->json != NULL && !is_choice(choice, value))
         choice++;
-    free(json);
     if (choice->json == NULL)
         hd_report_field(&reader->report, field, value, false);
     else if (field->choices[1].json != NULL)
@@ -129,12 +135,8 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
         hd_report_field(&reader->report, field, value, false);
         return;
     }
-    if (json_string_length(value) >= HD_MAX_PATH) {
-        hd_report(&reader->report, "has %zu bytes, expected fewer than %d",
-                  json_string_length(value), HD_MAX_PATH);
-        return;
-    }
-    memcpy(out, json_string_value(value), json_string_length(value) + 1);
+    if (hd_check_file_name(&reader->report, value))
+        memcpy(out, json_string_value(value), json_string_length(value) + 1);
 }
 
 /* A relative path counts from the folder of the scene. */
@@ -393,6 +395,8 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
     snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
     place_texture(&reader, file->texture_path);
+    snprintf(reader.report.path, sizeof reader.report.path, "output.path");
+    hd_check_output_path(&reader.report, file->output.path);
     free(reader.materials);
     if (reader.status != HD_OK)
         return reader.status;

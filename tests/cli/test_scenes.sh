@@ -155,6 +155,20 @@ expect_exit 0 "$hedron" convert default.in -o default.json
 render default.json "${classic[@]}" -o json.png
 expect_same json.png out/frame_5.png
 rm -r out ./*.data ./*.png ./default.*
+# What the classic mode writes in the data format for want of an ending has one in the scene.
+for name in img_%d 'img_%d.jpg' 'img_%d.mp4'; do
+    sed "s|out/img_%d.data|out/$name|" "$work/official.in" >bare.in
+    expect_exit 0 "$hedron" convert bare.in -o bare.json
+    render bare.json "${classic[@]}"
+    expect_files out "${name/\%d/5}.data"
+    rm -r out
+done
+expect_exit 0 "$hedron" --cpu "${classic[@]}" < <(sed 's|out/img_%d.data|out/img_%d|' "$work/official.in")
+mv out/img_5 bare
+expect_exit 0 "$hedron" convert bare.in -o bare.json --variant 4
+render bare.json "${classic[@]}"
+expect_same out/img_5.mp4.data bare
+rm -r out bare*
 # A texture keeps its place when the scene goes to another folder.
 cp scenes/floor.data near.data
 sed 's|~/floor.data|near.data|' "$work/official.in" >near.in
