@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "default_scene.h"
-#include "json_words.h"
 #include "nearest_name.h"
 #include "scene_fields.h"
 #include "scene_report.h"
@@ -124,7 +123,7 @@ static void read_choice(Reader *reader, const HdField *field, const json_t *valu
     while (choice->json != NULL && !is_choice(choice, value))
         choice++;
     if (choice->json == NULL)
-        hd_report_field(&reader->report, field, value, false);
+        hd_report_choice(&reader->report, field, value);
     else if (field->choices[1].json != NULL)
         *(int *)place = choice->value;
 }
@@ -158,7 +157,6 @@ static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value,
                           HdMaterial *out) {
-    char quoted[HD_WORDS_SIZE];
     const char *name = json_string_value(value);
     if (name == NULL) {
         hd_report_field(&reader->report, field, value, false);
@@ -178,8 +176,7 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
         hd_report_field(&reader->report, field, value, false);
         return;
     }
-    hd_quoted(nearest.name, quoted);
-    hd_report_value(&reader->report, value, quoted);
+    hd_report_mistaken(&reader->report, value, nearest.name);
 }
 
 /* Objects */

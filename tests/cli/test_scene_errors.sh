@@ -116,7 +116,7 @@ wrong '.solids[0].kind = "sphere"' 'bad.json: solids[0].kind is a string, "spher
 wrong '.solids[0].material = "gold"' 'bad.json: solids[0].material is a string, "gold"'
 wrong '.solids[0].radius = 1' 'bad.json: solids[0].radius is an unknown key'
 render_says_the_same
-wrong '.image.widht = 1' 'bad.json: image.widht is an unknown key, expected "width"'
+wrong '.image.widht = 1' 'bad.json: image.widht is an unknown key; did you mean "width"?'
 
 # ---- values out of range
 wrong '.image.width = 0' 'bad.json: image.width is 0'

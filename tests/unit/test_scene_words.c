@@ -64,11 +64,85 @@ static void test_control_characters(void **state) {
     assert_null(strchr(message, '\x1b'));
 }
 
+static void expect_meant(const char *object, const char *word, const char *meant) {
+    char path[64], change[80], message[256];
+    snprintf(path, sizeof path, "%s%s%s", object, object[0] != '\0' ? "." : "", word);
+    snprintf(change, sizeof change, "%s=1", path);
+    snprintf(message, sizeof message,
+             "a.json: --set %s: %s is an unknown key; did you mean \"%s\"?", change, path, meant);
+    assert_string_equal(expect_refused(rich_text, change, ""), message);
+}
+
+static void test_synonyms_of_keys(void **state) {
+    (void)state;
+    static const char *const words[][3] = {
+        {"camera", "fov", "field_of_view"},
+        {"camera", "position", "eye"},
+        {"solids[0]", "position", "centre"},
+        {"solids[0]", "center", "centre"},
+        {"solids[0]", "radius", "circumradius"},
+        {"solids[1].edge_lights", "count", "per_edge"},
+        {"solids[1].edge_lights", "lights", "per_edge"},
+        {"solids[1].edge_lights", "radius", "disc_radius"},
+        {"materials.glass", "color", "colour"},
+        {"materials.glass", "Color", "colour"},
+        {"materials.glass", "ior", "index_of_refraction"},
+        {"materials.glass", "transparency", "transmission"},
+        {"materials.glass", "opacity", "transmission"},
+        {"materials.glass", "emission", "ambient"},
+        {"materials.glass", "Diffuse", "diffuse"},
+        {"lights[0]", "color", "colour"},
+        {"output", "fps", "frames_per_second"},
+        {"output", "gamma", "curve"},
+        {"floor.texture", "gamma", "curve"},
+        {"image", "widht", "width"},
+        {"", "field_of_view", "camera.field_of_view"},
+        {"", "fov", "camera.field_of_view"},
+        {"", "width", "image.width"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        expect_meant(words[i][0], words[i][1], words[i][2]);
+    expect_refused(rich_text, "lights[0].radius=1",
+                   "lights[0].radius is an unknown key, expected \"position\", ");
+}
+
+static void test_synonyms_of_kinds(void **state) {
+    (void)state;
+    expect_refused(rich_text, "solids[0].kind=hexahedron",
+                   "solids[0].kind is a string, \"hexahedron\"; did you mean \"cube\"?");
+    expect_refused(rich_text, "solids[0].kind=Cube", "\"Cube\"; did you mean \"cube\"?");
+    expect_refused(rich_text, "solids[0].kind=icosaedron", "; did you mean \"icosahedron\"?");
+    expect_refused(rich_text, "output.curve=sRGB", "\"sRGB\"; did you mean \"srgb\"?");
+    expect_refused(rich_text, "solids[0].kind=ball", "\"ball\", expected \"tetrahedron\", ");
+}
+
+static void test_paths_of_changes(void **state) {
+    (void)state;
+    static const char dotted[] = "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
+                                 " \"materials\": {\"my.glass\": {}, \"a[0]=b\": {}}}";
+    expect_refused(rich_text, "solids.0.centre=[1,2,3]",
+                   "solids is an array of 3 elements; write solids[0]");
+    expect_refused(rich_text, "solids[1].edge_lights.colours.1=[1,2,3]",
+                   "write solids[1].edge_lights.colours[1]");
+    expect_refused(
+        rich_text, "materials.glas.diffuse=1",
+        "a.json: --set materials.glas.diffuse=1: materials.glas is missing; did you mean "
+        "\"glass\"?");
+    expect_refused(dotted, "materials.\"my.glass\".diffuse=-1",
+                   "diffuse=-1: materials[\"my.glass\"].diffuse is -1, expected");
+    expect_refused(dotted, "materials.\"a[0]=b\".diffuse=-1",
+                   "materials[\"a[0]=b\"].diffuse is -1");
+    expect_refused(dotted, "materials.\"my.glass.diffuse=1", "the path is not understood");
+    expect_refused(dotted, "materials.\"\".diffuse=1", "the path is not understood");
+    expect_scene(&file, dotted, "materials.\"my.glass\".diffuse=0.5");
+    hd_scene_file_free(&file);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_output_paths),
-        cmocka_unit_test(test_numbers_by_value),
-        cmocka_unit_test(test_control_characters),
+        cmocka_unit_test(test_output_paths),       cmocka_unit_test(test_numbers_by_value),
+        cmocka_unit_test(test_control_characters), cmocka_unit_test(test_synonyms_of_keys),
+        cmocka_unit_test(test_synonyms_of_kinds),  cmocka_unit_test(test_paths_of_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
