@@ -15,8 +15,8 @@ static HdStatus check_scene(const char *name, HdError *error) {
         return status;
     int solids = file.scene.solid_count, lights = hd_scene_light_count(&file.scene);
     int frames = file.scene.frame_count;
-    printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, plural(solids), lights,
-           plural(lights), frames, plural(frames));
+    printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", hd_operand_name(name), solids,
+           plural(solids), lights, plural(lights), frames, plural(frames));
     hd_scene_file_free(&file);
     return HD_OK;
 }

@@ -14,7 +14,11 @@ HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, H
    classic mode. Takes the scene out of `input`. */
 void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input);
 
-/* Reads a scene file with changes, and its texture. Messages begin with the file's name. */
+/* What messages call a scene file that the command line names: "-" is standard input. */
+const char *hd_operand_name(const char *operand);
+
+/* Reads a scene file, or, `path` being "-", standard input, with changes, and its texture. Messages
+   begin with its name. */
 HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
                             int change_count, HdError *error);
 

@@ -138,21 +138,22 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
         memcpy(out, json_string_value(value), json_string_length(value) + 1);
 }
 
-/* A relative path counts from the folder of the scene. */
-static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
+/* A relative path counts from the folder of the scene. False where there is no room for it. */
+static bool place_texture(Reader *reader, char path[HD_MAX_PATH]) {
     const char *folder = reader->report.source->folder;
     if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
-        return;
+        return true;
     const bool has_slash = folder[strlen(folder) - 1] == '/';
     const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);
     if (length >= HD_MAX_PATH) {
         hd_report(&reader->report, "has %zu bytes with the scene's folder, expected fewer than %d",
                   length, HD_MAX_PATH);
-        return;
+        return false;
     }
     memmove(path + before, path, strlen(path) + 1);
     memcpy(path, folder, strlen(folder));
     path[before - 1] = '/';
+    return true;
 }
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value,
@@ -391,7 +392,9 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     read_object(&reader, &hd_scene_fields, root, file);
     file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
     snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
-    place_texture(&reader, file->texture_path);
+    if (!hd_check_texture_path(&reader.report, file->texture_path) ||
+        !place_texture(&reader, file->texture_path))
+        file->texture_path[0] = '\0';
     snprintf(reader.report.path, sizeof reader.report.path, "output.path");
     hd_check_output_path(&reader.report, file->output.path);
     free(reader.materials);

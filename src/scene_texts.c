@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "default_scene.h"
 #include "json_words.h"
 #include "output_kind.h"
 #include "paths.h"
@@ -41,4 +42,15 @@ void hd_check_output_path(HdSceneReport *report, const char *path) {
     else if (!hd_output_is_film(kind) && strpbrk(path, "%#") != NULL &&
              hd_pattern_check(path, &error) != HD_OK)
         hd_report(report, "cannot be used: %s", error.message);
+}
+
+bool hd_check_texture_path(HdSceneReport *report, const char *path) {
+    static const char built_in[] = "builtin:";
+    char quoted[HD_WORDS_SIZE];
+    if (strncmp(path, built_in, strlen(built_in)) != 0 || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return true;
+    hd_quoted(path, quoted);
+    hd_report(report, "is %s, which is unknown, expected \"" HD_BUILTIN_TEXTURE "\" or a file",
+              quoted);
+    return false;
 }

@@ -13,4 +13,8 @@ bool hd_check_file_name(HdSceneReport *report, const json_t *value);
    a number only where it may. */
 void hd_check_output_path(HdSceneReport *report, const char *path);
 
+/* Checks that the path of a texture, which may be empty, names no part that the program lacks.
+   False where it tells a problem. */
+bool hd_check_texture_path(HdSceneReport *report, const char *path);
+
 #endif

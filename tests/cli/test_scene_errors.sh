@@ -142,12 +142,12 @@ wrong '.materials["my glass"] = {"transmission": 0.5, "inner_reflection": 0.75}'
     'bad.json: materials["my glass"]: inner reflection + transmission is 1.25, expected at most 1'
 wrong '.solids[0].rim.material = "glass"' 'bad.json: solids[0].rim: transmission is 0.5'
 wrong '.solids[0].edge_lights = {"per_edge": 100000}' \
-    'bad.json: number of lights, those on the edges included, is 1200001'
+    'bad.json: solids[0]: edge_lights.per_edge is 100000, which makes 1200000 lights on its 12 edges'
 wrong '.floor.corners[1][2] = 3' 'bad.json: floor: its diagonals pass each other'
 wrong '.floor.corners[1] = [5,-5,-1] | .floor.corners[2] = [5,5,-1]' 'bad.json: floor: '
 wrong '.floor.corners[1] = .floor.corners[0]' 'floor: corner 1 is not a convex corner'
 wrong '.materials.glass.index_of_refraction = 1.5 | .materials.plain = {} | .floor.material = "plain" |
-    .solids[1].centre = [0.5,0,0]' 'solids[0]: it refracts and overlaps solids[1]'
+    .solids[1].centre = [0.5,0,0]' 'solids[0] (cube): it refracts and overlaps solids[1] (octahedron)'
 # Two that merely touch no glass may lie in each other.
 jq '.solids[1].centre = [0.5,0,0]' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json
@@ -159,7 +159,7 @@ render_says_the_same
 # ---- textures
 wrong '.floor.texture.file = 7' 'bad.json: floor.texture.file is 7'
 wrong '.floor.texture.curve = "gamma"' 'bad.json: floor.texture.curve is a string, "gamma"'
-wrong '.floor.texture.file = "missing.png"' 'bad.json: cannot read the texture missing.png'
+wrong '.floor.texture.file = "missing.png"' 'bad.json: floor.texture.file: cannot read the texture missing.png'
 render_says_the_same
 head -c 20 floor.data >short.data
 wrong '.floor.texture.file = "short.data"' short.data
@@ -172,6 +172,28 @@ wrong '.floor.texture.file = "text.png"' text.png
 } >large.data
 wrong '.floor.texture.file = "large.data"' large.data
 rm short.data text.png large.data
+
+# ---- one kind of input for the other
+cp "$cli_folder/official.in" bad.json
+refuse 'bad.json: this looks like a classic input'
+expect_refusal 2 "$hedron" convert good.json
+expect_stderr_contains 'good.json: this looks like a scene file'
+expect_refusal 2 "$hedron" --cpu <good.json
+expect_stderr_contains 'standard input: this looks like a scene file'
+
+# ---- a scene on standard input: textures count from the current folder
+mkdir folder
+jq . good.json >folder/piped.json
+expect_exit 0 "$hedron" check - <folder/piped.json
+expect_stdout_contains 'standard input: fine, 2 solids'
+expect_exit 0 "${render[@]}" --quiet - <folder/piped.json
+expect_data picture.data 8 8
+rm -r picture.data folder
+jq '.image.width = 0' good.json >bad.json
+expect_refusal 2 "${render[@]}" - <bad.json
+expect_stderr_contains 'hedron: standard input: image.width is 0'
+expect_refusal 2 "$hedron" check - </dev/null
+expect_stderr_contains 'standard input is empty'
 
 # ---- outputs that do not suit
 for path in a.png a_%d_%d.png a_%s.png '###_#.png' film_%d.mp4 a.jpg; do

@@ -87,6 +87,7 @@ expect_files . scenes scenes/cube.json scenes/floor.data
 expect_exit 0 "$hedron" check scenes/cube.json
 expect_silent_stderr
 expect_stdout_lines 1 'scenes/cube\.json: fine, 1 solid, 25 lights, 3 frames'
+cp scenes/floor.data .
 sed 's/1.2/-1.2/' scenes/cube.json >negative.json
 sed 's/floor.data/missing.data/' scenes/cube.json >texture.json
 sed 's/1.2/-1.2/; s/: 50/: 500/' scenes/cube.json >both.json
@@ -94,7 +95,7 @@ expect_refusal 2 "$hedron" check negative.json
 expect_stderr_contains 'negative.json: solids[0].circumradius is -1.2'
 expect_refusal 2 "$hedron" check texture.json
 expect_stderr_contains texture.json
-expect_stderr_contains missing.data
+expect_stderr_contains 'floor.texture.file: cannot read the texture missing.data'
 expect_refusal 2 "$hedron" check missing.json
 expect_stderr_contains missing.json
 expect_exit 2 "$hedron" check both.json

@@ -225,7 +225,7 @@ static void test_solids(void **state) {
     (void)state;
     REJECTED(f.scene.solid_count = -1, "number of solids is -1, expected 0 to 256");
     REJECTED(f.scene.solid_count = 257, "number of solids is 257");
-    REJECTED(f.solids[1].kind = HD_SOLID_KIND_COUNT, "solid 2: kind is 5, expected 0 to 4");
+    REJECTED(f.solids[1].kind = HD_SOLID_cube_COUNT, "solid 2: kind is 5, expected 0 to 4");
     REJECTED(f.solids[0].centre.z = infinite, "solid 1: centre z is inf");
     REJECTED(f.solids[0].circumradius = 0.0, "solid 1: radius is 0");
     REJECTED(f.solids[0].circumradius = -1.0, "solid 1: radius is -1");
@@ -479,7 +479,7 @@ static void test_names_as_in_json(void **state) {
 /* One mistake makes one line, also where other checks need the value. */
 static void test_no_problem_follows_from_another(void **state) {
     (void)state;
-    IN_PROSE(f.solids[1].kind = HD_SOLID_KIND_COUNT; f.solids[1].face.index_of_refraction = 1.5;
+    IN_PROSE(f.solids[1].kind = HD_SOLID_cube_COUNT; f.solids[1].face.index_of_refraction = 1.5;
              f.solids[1].rim_width = 100.0, "solid 2: kind is 5, expected 0 to 4\n");
     IN_PROSE(f.solids[1].centre.x = not_a_number;
              f.solids[1].face.index_of_refraction = 1.5,
@@ -546,21 +546,22 @@ static void test_refracting_solids_overlap_nothing(void **state) {
     ACCEPTED(set_cubes(&f, 2.0, 0.0); f.solids[0].face.index_of_refraction = 1.5);
     IN_PROSE(set_cubes(&f, 1.5, 0.0);
              f.solids[0].face.index_of_refraction = 1.5,
-             "solid 1: it refracts and overlaps solid 2, 0.5 deep, expected a refracting solid to "
-             "overlap nothing\n");
-    IN_JSON(set_cubes(&f, 1.5, 0.0);
-            f.solids[1].face.index_of_refraction = 1.5,
-            "solids[1]: it refracts and overlaps solids[0], 0.5 deep, expected a refracting solid "
-            "to overlap nothing\n");
+             "solid 1 (cube): it refracts and overlaps solid 2 (cube), 0.5 deep; move them apart "
+             "or give it an index of refraction of 1\n");
+    IN_JSON(
+        set_cubes(&f, 1.5, 0.0);
+        f.solids[1].face.index_of_refraction = 1.5,
+        "solids[1] (cube): it refracts and overlaps solids[0] (cube), 0.5 deep; move them apart "
+        "or give it index_of_refraction 1\n");
     /* A pair is told once, whether one refracts or both do. */
     IN_PROSE(set_cubes(&f, 1.5, -0.25); f.solids[0].face.index_of_refraction = 1.5;
              f.solids[1].face.index_of_refraction = 0.5,
-             "solid 1: it refracts and overlaps solid 2, 0.5 deep, expected a refracting solid to "
-             "overlap nothing\n"
-             "solid 1: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid "
-             "to overlap nothing\n"
-             "solid 2: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid "
-             "to overlap nothing\n");
+             "solid 1 (cube): it refracts and overlaps solid 2 (cube), 0.5 deep; move them apart "
+             "or give it an index of refraction of 1\n"
+             "solid 1 (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or "
+             "give it an index of refraction of 1\n"
+             "solid 2 (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or "
+             "give it an index of refraction of 1\n");
     ACCEPTED(set_cubes(&f, 2.5, -0.25); f.solids[0].face.index_of_refraction = 1.5;
              f.scene.floor.present = false);
     /* The eye may be inside. */
@@ -569,7 +570,7 @@ static void test_refracting_solids_overlap_nothing(void **state) {
     /* Turned, the cube's edges stick out. */
     REJECTED(set_cubes(&f, 2.0, 0.0); f.solids[1].face.index_of_refraction = 1.5;
              f.solids[1].rotation_degrees.z = 45.0,
-             "solid 2: it refracts and overlaps solid 1, 0.414214 deep");
+             "solid 2 (cube): it refracts and overlaps solid 1 (cube), 0.414 deep; move");
 }
 
 static void test_free_clears(void **state) {
@@ -604,10 +605,10 @@ static void test_no_problem_hides_another(void **state) {
         "an earlier one\n"
         "width is 0, expected 1 to 65535\n"
         "camera: frame 0: the eye is at the target (7, 0, 0), expected two different points\n"
-        "solids[0]: it refracts and overlaps solids[1], 0.5 deep, expected a refracting solid to "
-        "overlap nothing\n"
-        "solids[0]: it refracts and overlaps the floor, 0.25 deep, expected a refracting solid to "
-        "overlap nothing\n");
+        "solids[0] (cube): it refracts and overlaps solids[1] (cube), 0.5 deep; move them apart "
+        "or give it index_of_refraction 1\n"
+        "solids[0] (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or give "
+        "it index_of_refraction 1\n");
 }
 
 int main(void) {

@@ -6,6 +6,7 @@
 #include "test_folder.h"
 
 static HdSceneFile file;
+static const HdSceneSource plain;
 
 static void expect_vector(HdVec3 actual, double x, double y, double z) {
     expect_near(actual.x, x, 0.0);
@@ -717,25 +718,26 @@ static void test_changes_that_are_not_understood(void **state) {
 static void test_files(void **state) {
     (void)state;
     static HdError error;
-    assert_int_equal(hd_scene_file_read(&file, "missing.json", NULL, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_scene_file_read(&file, "missing.json", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "cannot read the scene missing.json: ");
-    assert_int_equal(hd_scene_file_read(&file, "/", NULL, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_scene_file_read(&file, "/", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "cannot read the scene /: it is not a regular file");
     write_bytes("empty.json", "", 0);
-    assert_int_equal(hd_scene_file_read(&file, "empty.json", NULL, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_scene_file_read(&file, "empty.json", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "empty.json is empty");
     assert_int_equal(mkfifo("pipe", 0600), 0);
-    assert_int_equal(hd_scene_file_read(&file, "pipe", NULL, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_scene_file_read(&file, "pipe", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "it is not a regular file");
     write_bytes("huge.json", "{", 1);
     assert_int_equal(truncate("huge.json", (off_t)HD_MAX_SCENE_BYTES + 1), 0);
-    assert_int_equal(hd_scene_file_read(&file, "huge.json", NULL, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_scene_file_read(&file, "huge.json", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "it has 33554433 bytes, expected at most 33554432");
 }
 
 static void expect_texture(const char *path, const char *change, const char *expected) {
     static HdError error;
-    assert_int_equal(hd_scene_file_read(&file, path, &change, change != NULL, &error), HD_OK);
+    const HdSceneSource source = {.changes = &change, .change_count = change != NULL};
+    assert_int_equal(hd_scene_file_read(&file, path, &source, &error), HD_OK);
     assert_string_equal(file.texture_path, expected);
     hd_scene_file_free(&file);
 }
@@ -760,7 +762,8 @@ static void test_textures_count_from_the_folder(void **state) {
     expect_scene(&file, rich_text, change);
     hd_scene_file_free(&file);
     const char *changed = change;
-    assert_int_equal(hd_scene_file_read(&file, "folder/a.json", &changed, 1, &error), HD_BAD_INPUT);
+    const HdSceneSource source = {.changes = &changed, .change_count = 1};
+    assert_int_equal(hd_scene_file_read(&file, "folder/a.json", &source, &error), HD_BAD_INPUT);
     expect_contains(error.message, "floor.texture.file has 4102 bytes with the scene's folder");
     strcat(change, "x");
     expect_refused(rich_text, change, "floor.texture.file has 4096 bytes, expected fewer than");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What messages about scene files say to people who are used to other words. */
+#include "classic_input.h"
 #include "scene_text.h"
 
 static HdSceneFile file;
@@ -138,11 +139,74 @@ static void test_paths_of_changes(void **state) {
     hd_scene_file_free(&file);
 }
 
+static void test_hints_for_json(void **state) {
+    (void)state;
+    expect_refused("{\"hedron\": 1,\n }", NULL, "; JSON has no comma before '}'");
+    expect_refused("{\"solids\": [1, ]}", NULL, "; JSON has no comma before ']'");
+    expect_refused("{\"hedron\": 1 // one\n}", NULL, "a.json:1:14: ");
+    expect_refused("{\"hedron\": 1 // one\n}", NULL, "; JSON has no comments");
+    expect_refused("# a scene\n{}", NULL, "; JSON has no comments");
+    expect_refused("{'hedron': 1}", NULL, "; use double quotes");
+    assert_null(strchr(expect_refused("{\"hedron\": }", NULL, "a.json:1:12: "), ';'));
+    char marked[sizeof least_text + 3];
+    snprintf(marked, sizeof marked, "\xef\xbb\xbf%s", least_text);
+    expect_scene(&file, marked, NULL);
+    hd_scene_file_free(&file);
+    assert_string_equal(expect_refused(" 10\nout/%d.data 640 480", NULL, ""),
+                        "a.json: this looks like a classic input, which 'hedron convert FILE -o "
+                        "scene.json' makes a scene of");
+}
+
+static void test_scene_as_classic_input(void **state) {
+    (void)state;
+    static HdError error;
+    static HdClassicInput input;
+    static const char text[] = "\xef\xbb\xbf \n{\"hedron\": 1}";
+    assert_int_equal(hd_classic_parse(&input, text, strlen(text), "a.in", 4, &error), HD_BAD_INPUT);
+    assert_string_equal(error.message, "a.in: this looks like a scene file, which 'hedron render "
+                                       "FILE' renders");
+}
+
+static void test_textures(void **state) {
+    (void)state;
+    static HdError error;
+    static const HdSceneChange changes[] = {"floor.texture.file=no such.png", "image.width=0"};
+    const HdSceneSource source = {.name = "a.json",
+                                  .folder = "",
+                                  .changes = changes,
+                                  .change_count = 2,
+                                  .loads_texture = true};
+    assert_int_equal(hd_scene_file_parse(&file, rich_text, strlen(rich_text), &source, &error),
+                     HD_BAD_INPUT);
+    expect_contains(error.message, "a.json: 2 problems\n");
+    expect_contains(error.message, "\n  --set image.width=0: image.width is 0, expected");
+    expect_contains(error.message,
+                    "\n  floor.texture.file: cannot read the texture no such.png: No such file");
+    expect_refused(rich_text, "floor.texture.file=builtin:wood",
+                   "floor.texture.file is \"builtin:wood\", which is unknown, expected "
+                   "\"builtin:floor\" or a file");
+}
+
+static void test_too_many_edge_lights(void **state) {
+    (void)state;
+    assert_string_equal(
+        expect_refused(rich_text, "solids[1].edge_lights.per_edge=3334", ""),
+        "a.json: solids[1]: edge_lights.per_edge is 3334, which makes 100020 lights "
+        "on its 30 edges, expected at most 100000 lights in the scene");
+    assert_string_equal(
+        expect_refused(rich_text, "solids[2].edge_lights.per_edge=16666", ""),
+        "a.json: number of lights, those on the edges included, is 100088, expected "
+        "at most 100000");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_output_paths),       cmocka_unit_test(test_numbers_by_value),
         cmocka_unit_test(test_control_characters), cmocka_unit_test(test_synonyms_of_keys),
         cmocka_unit_test(test_synonyms_of_kinds),  cmocka_unit_test(test_paths_of_changes),
+        cmocka_unit_test(test_hints_for_json),     cmocka_unit_test(test_scene_as_classic_input),
+        cmocka_unit_test(test_textures),           cmocka_unit_test(test_too_many_edge_lights),
+
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
