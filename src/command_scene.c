@@ -73,11 +73,13 @@ const char *hd_operand_name(const char *operand) {
     return strcmp(operand, "-") == 0 ? standard_input : operand;
 }
 
-HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
-                            int change_count, HdError *error) {
-    const HdSceneSource source = {hd_operand_name(path), "", changes, change_count, true};
-    return strcmp(path, "-") == 0 ? read_standard_input(file, &source, error)
-                                  : hd_scene_file_read(file, path, &source, error);
+HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                            HdError *error) {
+    HdSceneSource named = *source;
+    named.name = standard_input;
+    named.folder = "";
+    return strcmp(path, "-") == 0 ? read_standard_input(file, &named, error)
+                                  : hd_scene_file_read(file, path, source, error);
 }
 
 /* As they stand on the command line; nothing where none was given. */
@@ -115,19 +117,21 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
     return status;
 }
 
-static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
-    const HdSceneSource source = {hd_scene_name(options), "", options->changes,
-                                  options->change_count, true};
+static HdStatus read_default(HdSceneFile *file, const HdSceneSource *source, HdError *error) {
     size_t size;
     const char *text = hd_default_scene_text(&size);
-    return hd_scene_file_parse(file, text, size, &source, error);
+    return hd_scene_file_parse(file, text, size, source, error);
 }
 
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    const HdSceneSource source = {.name = hd_scene_name(options),
+                                  .folder = "",
+                                  .changes = options->changes,
+                                  .change_count = options->change_count,
+                                  .loads_texture = true};
     HdStatus status = options->operand_count > 0
-                          ? hd_read_scene_file(file, options->operands[0], options->changes,
-                                               options->change_count, error)
-                          : read_default(file, options, error);
+                          ? hd_read_scene_file(file, options->operands[0], &source, error)
+                          : read_default(file, &source, error);
     if (status != HD_OK)
         return status;
     status = hd_apply_scene_options(&file->scene, options, error);

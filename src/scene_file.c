@@ -10,6 +10,7 @@
 #include "json_hints.h"
 #include "json_words.h"
 #include "scene_changes.h"
+#include "scene_notes.h"
 #include "scene_read.h"
 
 /* JSON text has no zero bytes, and the parser takes one for the end of a token. */
@@ -98,8 +99,12 @@ static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *sour
     HdStatus status = hd_scene_from_json(file, root, source, &problems, error);
     if (status == HD_OK && source->loads_texture)
         status = load_texture(file, &problems, error);
+    if (status == HD_OK && source->notes != NULL)
+        hd_scene_check_sequence(file, &problems);
     if (status == HD_OK)
         status = hd_problems_status(&problems, source->name, error);
+    if (status == HD_OK && source->notes != NULL)
+        hd_scene_notes(&file->scene, source->notes);
     return status;
 }
 

@@ -43,6 +43,8 @@ typedef struct HdSceneSource {
     const HdSceneChange *changes; /* applied before anything is checked; messages name them */
     int change_count;
     bool loads_texture; /* and tells what is wrong with it along with the rest */
+    HdProblems *notes;  /* gets what is seldom meant (scene_notes.h), and the whole sequence is
+                           checked; NULL: neither */
 } HdSceneSource;
 
 /* Reads a scene from `size` bytes of JSON, fills in every default, and checks all of it. Messages

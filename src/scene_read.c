@@ -14,6 +14,7 @@
 typedef struct NamedMaterial {
     const char *name; /* of the tree */
     HdMaterial material;
+    bool is_used;
 } NamedMaterial;
 
 typedef struct Reader {
@@ -168,6 +169,7 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
         hd_nearest_offer(&nearest, reader->materials[i].name);
         if (strcmp(reader->materials[i].name, name) == 0) {
             *out = reader->materials[i].material;
+            reader->materials[i].is_used = true;
             return;
         }
     }
@@ -384,6 +386,16 @@ static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
         scene->solids[i].face.index_of_refraction = 1.0;
 }
 
+static void note_unused_materials(const Reader *reader, HdProblems *notes) {
+    char path[HD_JSON_PATH_SIZE];
+    for (int i = 0; i < reader->material_count; i++) {
+        snprintf(path, sizeof path, "materials");
+        hd_json_path_key(path, reader->materials[i].name);
+        if (!reader->materials[i].is_used)
+            hd_problem(notes, "%s is used nowhere", path);
+    }
+}
+
 HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
                             HdProblems *problems, HdError *error) {
     Reader reader = {
@@ -397,6 +409,8 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
         file->texture_path[0] = '\0';
     snprintf(reader.report.path, sizeof reader.report.path, "output.path");
     hd_check_output_path(&reader.report, file->output.path);
+    if (source->notes != NULL)
+        note_unused_materials(&reader, source->notes);
     free(reader.materials);
     if (reader.status != HD_OK)
         return reader.status;

@@ -173,6 +173,23 @@ wrong '.floor.texture.file = "text.png"' text.png
 wrong '.floor.texture.file = "large.data"' large.data
 rm short.data text.png large.data
 
+# ---- one picture for many frames: a rendering may choose one
+jq '.output.path = "picture.data"' good.json >bad.json
+refuse 'bad.json: output.path is "picture.data", which names one picture, but camera.frames is 3'
+expect_exit 0 "$hedron" render --backend c --frames 0 --quiet bad.json
+rm picture.data
+jq '.output.path = "####.data"' good.json >bad.json
+expect_exit 0 "$hedron" check bad.json
+
+# ---- what is seldom meant is a note, and no mistake
+jq '.camera.field_of_view = 1.2 | .materials.paper = {}' good.json >bad.json
+expect_exit 0 "$hedron" check bad.json
+expect_silent_stderr
+expect_stdout_lines 3 'bad\.json: (fine, .*|note: .*)'
+expect_stdout_contains 'bad.json: note: materials.paper is used nowhere'
+expect_exit 2 "$hedron" check bad.json missing.json
+expect_stdout_lines 3
+
 # ---- one kind of input for the other
 cp "$cli_folder/official.in" bad.json
 refuse 'bad.json: this looks like a classic input'

@@ -199,13 +199,72 @@ static void test_too_many_edge_lights(void **state) {
         "at most 100000");
 }
 
+/* The notes on a scene that is fine, a line for each. */
+static const char *notes_on(const char *text, HdSceneChange change) {
+    static HdError error;
+    static HdProblems notes;
+    notes = (HdProblems){.count = 0};
+    const HdSceneSource source = {.name = "a.json",
+                                  .folder = "",
+                                  .changes = &change,
+                                  .change_count = change != NULL,
+                                  .notes = &notes};
+    if (hd_scene_file_parse(&file, text, strlen(text), &source, &error) != HD_OK)
+        fail_msg("%s", error.message);
+    hd_scene_file_free(&file);
+    return notes.text;
+}
+
+static const char quiet_text[] =
+    "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 1]}, \"materials\": {\"m\": {}},\n"
+    " \"solids\": [{\"kind\": \"cube\", \"circumradius\": 1.7320508075688772, \"material\": "
+    "\"m\",\n"
+    "   \"edge_lights\": {\"per_edge\": 4, \"disc_radius\": 0.24, \"disc_radiance\": 1}}],\n"
+    " \"floor\": {\"corners\": [[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]],\n"
+    "   \"material\": \"m\"}}";
+
+static void test_notes(void **state) {
+    (void)state;
+    static const char black[] = "every picture is black: there is no light, no ambient material, "
+                                "no disc of an edge light, and the background is black\n";
+    assert_string_equal(notes_on(quiet_text, NULL), "");
+    assert_string_equal(notes_on(least_text, NULL), black);
+    assert_string_equal(notes_on(least_text, "background=[0,0,0.1]"), "");
+    assert_string_equal(notes_on(least_text, "lights=[{\"position\": [1,2,3]}]"), "");
+    assert_string_equal(notes_on(least_text, "lights=[{\"position\": [1,2,3], \"intensity\": 0}]"),
+                        black);
+    assert_string_equal(notes_on(quiet_text, "materials.my n={}"),
+                        "materials[\"my n\"] is used nowhere\n");
+    assert_string_equal(notes_on(quiet_text, "camera.field_of_view=1.2"),
+                        "camera.field_of_view is 1.2, which are degrees, not radians\n");
+    assert_string_equal(notes_on(quiet_text, "camera.field_of_view=5"), "");
+    assert_string_equal(notes_on(quiet_text, "camera.eye=[9,0,-1.5]"),
+                        "camera.eye is below the floor in frame 0\n");
+    assert_string_equal(notes_on(quiet_text, "solids[0].edge_lights.disc_radius=0.26"),
+                        "solids[0].edge_lights overlap: their discs are 0.52 wide, and from light "
+                        "to light it is 0.5\n");
+    assert_string_equal(notes_on(quiet_text, "solids[0].edge_lights.intensity=1"), "");
+    expect_contains(notes_on(quiet_text, "solids[0].edge_lights.disc_radiance=0"), black);
+    expect_contains(notes_on(quiet_text, "solids[0].edge_lights.disc_radiance=0"),
+                    "solids[0].edge_lights neither light nor show: they lack an intensity, and a "
+                    "disc_radius with a disc_radiance\n");
+    assert_string_equal(notes_on(quiet_text, "solids[0].edge_lights.per_edge=0"), black);
+    assert_null(strstr(notes_on(quiet_text, "materials.m.ambient=1"), "black"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_output_paths),       cmocka_unit_test(test_numbers_by_value),
-        cmocka_unit_test(test_control_characters), cmocka_unit_test(test_synonyms_of_keys),
-        cmocka_unit_test(test_synonyms_of_kinds),  cmocka_unit_test(test_paths_of_changes),
-        cmocka_unit_test(test_hints_for_json),     cmocka_unit_test(test_scene_as_classic_input),
-        cmocka_unit_test(test_textures),           cmocka_unit_test(test_too_many_edge_lights),
+        cmocka_unit_test(test_output_paths),
+        cmocka_unit_test(test_numbers_by_value),
+        cmocka_unit_test(test_control_characters),
+        cmocka_unit_test(test_synonyms_of_keys),
+        cmocka_unit_test(test_synonyms_of_kinds),
+        cmocka_unit_test(test_paths_of_changes),
+        cmocka_unit_test(test_hints_for_json),
+        cmocka_unit_test(test_scene_as_classic_input),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_too_many_edge_lights),
+        cmocka_unit_test(test_notes),
 
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
