@@ -110,6 +110,12 @@ expect_stderr_contains missing.json
 expect_stderr_contains '2 of 3 scenes are wrong'
 expect_exit 0 "$hedron" check scenes/cube.json scenes/cube.json
 expect_stdout_lines 2
+# Those in the manual, which give no cause for a note either.
+awk -v folder="$PWD" '/^```json/ { name = folder "/manual" ++count ".json"; next } /^```/ { name = "" }
+    name != "" { print >name }' "$cli_folder/../../docs/formats.md"
+expect_exit 0 "$hedron" check manual*.json
+expect_stdout_lines 3 'manual.\.json: fine, .*'
+rm manual*.json
 # Those that come with the program.
 ours=("$cli_folder"/../../scenes/*.json)
 if ((${#ours[@]} < 2)); then
