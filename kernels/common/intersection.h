@@ -52,6 +52,16 @@ FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint plane, 
     hit->entering = pick_int(closer, entering, hit->entering);
 }
 
+/* Lanes whose rays certainly miss a sphere about the object's centre: they pass it by, or are
+   outside and run away from it. The margin covers the rounding of both sides and directions that
+   are not quite unit, so that no ray is taken for a miss that the planes would call a hit. */
+FN vmask misses_sphere(vreal radius_squared, Vec3 origin, Vec3 direction) {
+    vreal along = vec3_dot(origin, direction), away = vec3_dot(origin, origin);
+    vreal bound = multiply_add(away, splat(R(0.001)), radius_squared);
+    vmask runs_away = lt(bound, away) & lt(splat(R(0.0)), along);
+    return runs_away | lt(bound, multiply_add(-along, along, away));
+}
+
 FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
     GLOBAL const Object *solid = objects + object;
     vmask own = reference.is_eye ? mask_none() : eq_int(ray->touched, splat_int(object));
@@ -60,6 +70,10 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
         return; /* a convex solid is not met again from its outside */
 
     Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
+    vmask far =
+        ~own_inside & misses_sphere(splat(solid->circumradius_squared), origin, ray->direction);
+    if (!any_lane(ray->alive & ~far & (~own | own_inside)))
+        return;
     vreal zero = splat(R(0.0));
     vreal entry = splat(R(-1.0)), exit = splat(REAL_LARGE);
     vint entry_plane = splat_int(-1), exit_plane = splat_int(0);

@@ -64,8 +64,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
         vreal depth = splat(-solid->rim_depth);
         vint near = splat_int(0);
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
-            vreal distance =
-                multiply_add(t, splat(light_row[k]) - distances[k], distances[k]);
+            vreal distance = multiply_add(t, splat(light_row[k]) - distances[k], distances[k]);
             near = near - lt(depth, distance);
         }
         passes = pick(lt_int(splat_int(1), near), splat(R(0.0)), passes);
@@ -138,14 +137,16 @@ FN vreal power(vreal x, vint n, int common) {
 }
 
 /* Phong's model for one light: the share of the arriving light that leaves towards the viewer, for
-   each channel. `cosine` is N.L times the light's distance, `squared` that distance squared. */
-FN Vec3 phong(const LaneMaterial *material, vint shininess, int common_shininess, vreal cosine,
-              vreal mirror_cosine, vreal squared) {
+   each channel. `cosine` is N.L times the light's distance, `squared` that distance squared;
+   without `shines` no lane has a highlight. */
+FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int common_shininess,
+              vreal cosine, vreal mirror_cosine, vreal squared) {
     vreal inverse = splat(R(1.0)) / square_root(squared);
-    vreal highlight =
-        power(greater(mirror_cosine * inverse, splat(R(0.0))), shininess, common_shininess);
-    vreal specular = material->specular * highlight;
     vreal diffuse = material->diffuse * (cosine * inverse);
+    vreal specular = splat(R(0.0));
+    if (shines)
+        specular = material->specular * power(greater(mirror_cosine * inverse, splat(R(0.0))),
+                                              shininess, common_shininess);
     return vec3_scale_add(material->colour, diffuse, vec3(specular, specular, specular));
 }
 
@@ -202,6 +203,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     int same_object = all_same(points->object);
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
+    int shines = any_lane(points->active & lt(zero, surface->material.specular));
     for (int i = 0; i < header->light_count; i++) {
         Vec3 position =
             fetch_vector(light_offsets, points->object * header->light_count + i, same_object);
@@ -213,9 +215,9 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (!any_lane(lit))
             continue;
         *shadow_tests = *shadow_tests - lit;
-        Vec3 arriving = vec3_mul(transmittance_to(SCENE_ARGUMENTS i, distances, points, lit),
-                                 intensity_at(lights + i, squared));
-        Vec3 reflected = phong(&surface->material, shininess, common_shininess, cosine,
+        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, distances, points, lit);
+        Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
+        Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared);
         sum = vec3_pick(lit, vec3_add(sum, vec3_mul(arriving, reflected)), sum);
     }

@@ -13,37 +13,53 @@ typedef struct {
     int x, y;
 } Pixel;
 
-/* The pixel at a place of the order described at HD_BLOCK_SIDE. */
-FN Pixel pixel_at(GLOBAL const View *view, int place) {
-    int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
-    int block = place / HD_BLOCK_PIXELS, z = place % HD_BLOCK_PIXELS;
+/* The pixel at a place of the order described at HD_BLOCK_SIDE, whose block begins at `corner`. */
+FN Pixel pixel_in_block(Pixel corner, int place) {
+    int z = place % HD_BLOCK_PIXELS;
     Pixel pixel;
-    pixel.x = block % blocks_per_row * HD_BLOCK_SIDE + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
-    pixel.y = block / blocks_per_row * HD_BLOCK_SIDE + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+    pixel.x = corner.x + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
+    pixel.y = corner.y + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
     return pixel;
+}
+
+/* Where the block begins that an item belongs to; no item crosses blocks. */
+FN Pixel block_of_item(GLOBAL const View *view, int item) {
+    int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int block = item / (HD_BLOCK_PIXELS / HD_PIXELS_PER_ITEM);
+    Pixel corner;
+    corner.x = block % blocks_per_row * HD_BLOCK_SIDE;
+    corner.y = block / blocks_per_row * HD_BLOCK_SIDE;
+    return corner;
 }
 
 FN int in_picture(GLOBAL const View *view, Pixel pixel) {
     return pixel.x < view->width && pixel.y < view->height;
 }
 
-/* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel; returns the
-   lanes that hold one. */
+/* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel and row by
+   row; returns the lanes that hold one. */
 FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *direction) {
     int n = view->samples_per_side;
+    int place = first / (n * n), column = first % n, row = first / n % n;
+    Pixel corner = block_of_item(view, item);
     vreal right = splat(R(0.0)), down = splat(R(0.0));
     vint alive = splat_int(0);
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        int place = (first + lane) / (n * n), part = (first + lane) % (n * n);
-        if (place >= HD_PIXELS_PER_ITEM)
-            break;
-        Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
-        if (!in_picture(view, pixel))
-            continue;
-        int column = pixel.x * n + part % n, row = pixel.y * n + part / n;
-        set_lane_real(&right, lane, (real)(2 * column + 1 - view->width * n));
-        set_lane_real(&down, lane, (real)(2 * row + 1 - view->height * n));
-        set_lane_int(&alive, lane, -1);
+    for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
+        Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
+        if (in_picture(view, pixel)) {
+            set_lane_real(&right, lane, (real)(2 * (pixel.x * n + column) + 1 - view->width * n));
+            set_lane_real(&down, lane, (real)(2 * (pixel.y * n + row) + 1 - view->height * n));
+            set_lane_int(&alive, lane, -1);
+        }
+        column++;
+        if (column == n) {
+            column = 0;
+            row++;
+        }
+        if (row == n) {
+            row = 0;
+            place++;
+        }
     }
     Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
     Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
@@ -77,10 +93,8 @@ FN void clear_gathered(Gathered *gathered) {
 /* `first` is the number of the first lane's sample within the item. */
 FN void add_sample(GLOBAL const View *view, const Sample *sample, int first, Gathered *gathered) {
     int per_pixel = view->samples_per_side * view->samples_per_side;
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        int place = (first + lane) / per_pixel;
-        if (place >= HD_PIXELS_PER_ITEM)
-            break;
+    int place = first / per_pixel, left = per_pixel - first % per_pixel;
+    for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
         gathered->sums[place * 3] += lane_fix(&sample->r, lane) >> view->pixel_shift;
         gathered->sums[place * 3 + 1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         gathered->sums[place * 3 + 2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
@@ -88,6 +102,11 @@ FN void add_sample(GLOBAL const View *view, const Sample *sample, int first, Gat
         gathered->counts.transmitted += (uint64)lane_int(&sample->transmitted, lane);
         gathered->counts.shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
         gathered->counts.clamps += (uint64)lane_int(&sample->clamps, lane);
+        left--;
+        if (left == 0) {
+            left = per_pixel;
+            place++;
+        }
     }
 }
 
@@ -108,8 +127,9 @@ FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, Gathered 
 FN void store_pixels(GLOBAL const View *view, int item, const Gathered *gathered,
                      GLOBAL float *pixels) {
     real samples = (real)(view->samples_per_side * view->samples_per_side);
+    Pixel corner = block_of_item(view, item);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
-        Pixel pixel = pixel_at(view, item * HD_PIXELS_PER_ITEM + place);
+        Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
         if (!in_picture(view, pixel))
             continue;
         GLOBAL float *rgb = pixels + ((uint64)pixel.y * (uint64)view->width + (uint64)pixel.x) * 3;

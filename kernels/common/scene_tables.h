@@ -38,6 +38,8 @@ typedef struct ALIGNED_16 {
     real disc_depth; /* likewise for the radius of the edge lights' discs */
     real disc_radius_squared;
     real edge_half_length;
+    real circumradius_squared;
+    real unused[3];
     int first_plane, plane_count;
     int first_edge, edge_count;
     int face_material, rim_material;
@@ -106,7 +108,7 @@ typedef struct ALIGNED_16 {
 HD_ASSERT_SIZE(Vector, 4, 0);
 HD_ASSERT_SIZE(Header, 4, 8);
 HD_ASSERT_SIZE(Plane, 4, 0);
-HD_ASSERT_SIZE(Object, 4, 8);
+HD_ASSERT_SIZE(Object, 8, 8);
 HD_ASSERT_SIZE(Edge, 12, 0);
 HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);

@@ -364,7 +364,7 @@ static void every_pixel_has_one_place(void **state) {
     View view = {.width = WIDTH, .height = HEIGHT};
     int seen[HEIGHT][WIDTH] = {{0}};
     for (int place = 0; place < BLOCKS * HD_BLOCK_PIXELS; place++) {
-        Pixel pixel = pixel_at(&view, place);
+        Pixel pixel = pixel_in_block(block_of_item(&view, place / HD_BLOCK_PIXELS), place);
         if (in_picture(&view, pixel))
             seen[pixel.y][pixel.x]++;
     }
