@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "classic_input.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -207,6 +208,14 @@ const HdSolidKind *hd_classic_variant_kinds(int variant) {
     return variant >= 1 && variant <= HD_CLASSIC_VARIANTS ? kinds[variant - 1] : NULL;
 }
 
+static bool is_json(const char *text, size_t size) {
+    static const char before[] = " \t\r\n\xef\xbb\xbf"; /* white space and the byte order mark */
+    size_t start = 0;
+    while (start < size && text[start] != '\0' && strchr(before, text[start]) != NULL)
+        start++;
+    return start < size && text[start] == '{';
+}
+
 HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, const char *name,
                           int variant, HdError *error) {
     *input = (HdClassicInput){0};
@@ -216,6 +225,10 @@ HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, 
                        HD_CLASSIC_VARIANTS);
     if (text == NULL) /* an empty input may come without memory */
         text = "";
+    if (is_json(text, size))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s: this looks like a scene file, which 'hedron render FILE' renders",
+                       name);
     HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
     read_input(&reader, kinds, input);
     if (reader.status != HD_OK)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdio.h>
+#include <string.h>
 
 #include "command_scene.h"
 #include "commands.h"
@@ -8,15 +9,24 @@ static const char *plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-static HdStatus check_scene(const char *name, HdError *error) {
+static void print_notes(const char *name, const HdProblems *notes) {
+    for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        printf("%s: note: %.*s\n", name, (int)strcspn(line, "\n"), line);
+}
+
+static HdStatus check_scene(const char *operand, HdError *error) {
+    HdProblems notes = {.count = 0};
+    const HdSceneSource source = {.loads_texture = true, .notes = &notes};
+    const char *name = hd_operand_name(operand);
     HdSceneFile file;
-    HdStatus status = hd_read_scene_file(&file, name, NULL, 0, error);
+    HdStatus status = hd_read_scene_file(&file, operand, &source, error);
     if (status != HD_OK)
         return status;
     int solids = file.scene.solid_count, lights = hd_scene_light_count(&file.scene);
     int frames = file.scene.frame_count;
     printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, plural(solids), lights,
            plural(lights), frames, plural(frames));
+    print_notes(name, &notes);
     hd_scene_file_free(&file);
     return HD_OK;
 }
@@ -40,6 +50,7 @@ HdStatus hd_command_check(const HdOptions *options, HdError *error) {
     }
     if (wrong == 0)
         return HD_OK;
+    fflush(stdout);
     return hd_fail(error, worst, "%d of %d scenes %s wrong", wrong, options->operand_count,
                    wrong == 1 ? "is" : "are");
 }

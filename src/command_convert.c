@@ -9,6 +9,7 @@
 #include "command_scene.h"
 #include "commands.h"
 #include "default_scene.h"
+#include "output_kind.h"
 
 /* A scene's texture counts from the scene's folder, that of a classic input from the current one.
    Where the two differ, the name gets the current folder in front. */
@@ -22,6 +23,20 @@ static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *err
     if (snprintf(file->texture_path, sizeof file->texture_path, "%s/%s", folder, name) >=
         (int)sizeof file->texture_path)
         return hd_fail(error, HD_BAD_INPUT, "the path of the texture %s gets too long", name);
+    return HD_OK;
+}
+
+/* The classic mode writes any other name in the data format; a scene says it by the ending. */
+static HdStatus keep_output(HdSceneFile *file, HdError *error) {
+    static const char ending[] = ".data";
+    char *path = file->output.path;
+    const HdOutputKind kind = hd_output_kind(path);
+    if (kind != HD_OUTPUT_UNKNOWN && !hd_output_is_film(kind))
+        return HD_OK;
+    if (strlen(path) + sizeof ending > HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT, "the output path has %zu bytes, too many for %s",
+                       strlen(path), ending);
+    memcpy(path + strlen(path), ending, sizeof ending);
     return HD_OK;
 }
 
@@ -51,6 +66,8 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
     hd_scene_file_from_classic(&file, &input);
     hd_classic_free(&input);
     status = keep_texture(&file, output, error);
+    if (status == HD_OK)
+        status = keep_output(&file, error);
     if (status == HD_OK)
         status = output != NULL ? write_scene(&file, output, error)
                                 : hd_scene_file_print(stdout, &file, error);

@@ -12,34 +12,48 @@
 /* Far above any classic input, and small enough to read into memory without a thought. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
 
-static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t *size,
+static const char standard_input[] = "standard input";
+
+static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t most, size_t *size,
                             HdError *error) {
-    *size = fread(text, 1, MAX_INPUT_BYTES + 1, stream);
+    *size = fread(text, 1, most + 1, stream);
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);
     if (ferror(stream))
         return hd_fail(error, stream == stdin ? HD_FAILED : HD_BAD_INPUT, "cannot read %s: %s",
                        name, strerror(errno));
-    if (*size > MAX_INPUT_BYTES)
-        return hd_fail(error, HD_BAD_INPUT, "%s is longer than %d bytes", name,
-                       (int)MAX_INPUT_BYTES);
+    if (*size > most)
+        return hd_fail(error, HD_BAD_INPUT, "%s is longer than %zu bytes", name, most);
     return HD_OK;
 }
 
 HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, HdError *error) {
-    const char *name = path != NULL ? path : "standard input";
+    const char *name = path != NULL ? path : standard_input;
     size_t size = 0;
     char *text = malloc(MAX_INPUT_BYTES + 1);
     if (text == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
     FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
     HdStatus status =
-        stream != NULL ? read_stream(stream, name, text, &size, error)
+        stream != NULL ? read_stream(stream, name, text, MAX_INPUT_BYTES, &size, error)
                        : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
     if (status == HD_OK)
         status = hd_classic_parse(input, text, size, name, variant, error);
     if (stream != NULL && stream != stdin)
         fclose(stream);
+    free(text);
+    return status;
+}
+
+static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *source,
+                                    HdError *error) {
+    size_t size = 0;
+    char *text = malloc(HD_MAX_SCENE_BYTES + 1);
+    if (text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
+    HdStatus status = read_stream(stdin, source->name, text, HD_MAX_SCENE_BYTES, &size, error);
+    if (status == HD_OK)
+        status = hd_scene_file_parse(file, text, size, source, error);
     free(text);
     return status;
 }
@@ -55,17 +69,17 @@ void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input) {
     memcpy(file->texture_path, input->texture_path, sizeof file->texture_path);
 }
 
-HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
-                            int change_count, HdError *error) {
-    HdStatus status = hd_scene_file_read(file, path, changes, change_count, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_scene_file_load_texture(file, error);
-    if (status != HD_OK) {
-        hd_error_prefix(error, path);
-        hd_scene_file_free(file);
-    }
-    return status;
+const char *hd_operand_name(const char *operand) {
+    return strcmp(operand, "-") == 0 ? standard_input : operand;
+}
+
+HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                            HdError *error) {
+    HdSceneSource named = *source;
+    named.name = standard_input;
+    named.folder = "";
+    return strcmp(path, "-") == 0 ? read_standard_input(file, &named, error)
+                                  : hd_scene_file_read(file, path, source, error);
 }
 
 /* As they stand on the command line; nothing where none was given. */
@@ -103,24 +117,21 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
     return status;
 }
 
-static HdStatus read_default(HdSceneFile *file, const HdOptions *options, HdError *error) {
+static HdStatus read_default(HdSceneFile *file, const HdSceneSource *source, HdError *error) {
     size_t size;
     const char *text = hd_default_scene_text(&size);
-    HdStatus status = hd_scene_file_parse(file, text, size, hd_scene_name(options), "",
-                                          options->changes, options->change_count, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_scene_file_load_texture(file, error);
-    if (status != HD_OK)
-        hd_scene_file_free(file);
-    return status;
+    return hd_scene_file_parse(file, text, size, source, error);
 }
 
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    const HdSceneSource source = {.name = hd_scene_name(options),
+                                  .folder = "",
+                                  .changes = options->changes,
+                                  .change_count = options->change_count,
+                                  .loads_texture = true};
     HdStatus status = options->operand_count > 0
-                          ? hd_read_scene_file(file, options->operands[0], options->changes,
-                                               options->change_count, error)
-                          : read_default(file, options, error);
+                          ? hd_read_scene_file(file, options->operands[0], &source, error)
+                          : read_default(file, &source, error);
     if (status != HD_OK)
         return status;
     status = hd_apply_scene_options(&file->scene, options, error);
@@ -130,5 +141,6 @@ HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *err
 }
 
 const char *hd_scene_name(const HdOptions *options) {
-    return options->operand_count > 0 ? options->operands[0] : "the built-in scene";
+    return options->operand_count > 0 ? hd_operand_name(options->operands[0])
+                                      : "the built-in scene";
 }

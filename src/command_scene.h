@@ -14,9 +14,13 @@ HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, H
    classic mode. Takes the scene out of `input`. */
 void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input);
 
-/* Reads a scene file with changes, and its texture. Messages begin with the file's name. */
-HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneChange *changes,
-                            int change_count, HdError *error);
+/* What messages call a scene file that the command line names: "-" is standard input. */
+const char *hd_operand_name(const char *operand);
+
+/* Reads a scene file, or, `path` being "-", standard input; the name and the folder of `source` are
+   those that suit it. */
+HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                            HdError *error);
 
 /* Lays size, samples, depth and cut-off of the command line over a valid scene. Where they do not
    suit it, the message begins with them, as "--size 60000x60000: ". */

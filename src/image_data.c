@@ -72,11 +72,40 @@ static HdStatus check_head(const unsigned char *bytes, size_t size, const char *
     return HD_OK;
 }
 
+static bool has_bytes(const unsigned char *bytes, size_t size, size_t at, const char *expected) {
+    return size >= at + strlen(expected) && memcmp(bytes + at, expected, strlen(expected)) == 0;
+}
+
+/* By the first bytes, where they are no picture in the data format; NULL: unknown. */
+static const char *foreign_format(const unsigned char *bytes, size_t size) {
+    if (has_bytes(bytes, size, 0, "\xff\xd8\xff"))
+        return "JPEG";
+    if (has_bytes(bytes, size, 0, "GIF8"))
+        return "GIF";
+    if (has_bytes(bytes, size, 0, "RIFF") && has_bytes(bytes, size, 8, "WEBP"))
+        return "WebP";
+    if (has_bytes(bytes, size, 0, "BM"))
+        return "BMP";
+    if (has_bytes(bytes, size, 0, "II*") ||
+        (has_bytes(bytes, size, 0, "MM") && has_bytes(bytes, size, 3, "*")))
+        return "TIFF";
+    return NULL;
+}
+
+static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const char *name,
+                               HdError *error) {
+    const char *format = foreign_format(bytes, size);
+    if (format == NULL)
+        return HD_BAD_INPUT;
+    return hd_fail(error, HD_BAD_INPUT, "%s is a %s picture, expected PNG or the data format", name,
+                   format);
+}
+
 HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                               const char *name, HdError *error) {
     HdStatus status = check_head(bytes, size, name, error);
     if (status != HD_OK)
-        return status;
+        return refuse_foreign(bytes, size, name, error);
     status = hd_texture_create(texture, (uint32_t)get_int32(bytes), (uint32_t)get_int32(bytes + 4),
                                name, error);
     if (status != HD_OK)

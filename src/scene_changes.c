@@ -8,6 +8,7 @@
 
 #include "json_path.h"
 #include "json_words.h"
+#include "nearest_name.h"
 #include "scene_fields.h"
 
 /* One step of a path: a key, or, where that is empty, an index. */
@@ -56,14 +57,28 @@ static bool read_index(Walk *walk, Step *step) {
     return true;
 }
 
+/* A key in quotes may have any character but a quote. */
 static bool read_key(Walk *walk, Step *step) {
-    const size_t length = strcspn(walk->at, ".[=");
-    if (length == 0 || length >= sizeof step->key)
+    const bool is_quoted = *walk->at == '"';
+    const char *key = walk->at + is_quoted;
+    const size_t length = strcspn(key, is_quoted ? "\"" : ".[=");
+    if (length == 0 || length >= sizeof step->key || (is_quoted && key[length] != '"'))
         return false;
-    memcpy(step->key, walk->at, length);
+    memcpy(step->key, key, length);
     step->key[length] = '\0';
-    walk->at += length;
+    walk->at = key + length + is_quoted;
     return true;
+}
+
+/* The sign = that ends the path, not one in a quoted key; NULL where there is none. */
+static const char *find_end(HdSceneChange change) {
+    const char *c = change;
+    while (*c != '\0' && *c != '=') {
+        const bool begins_key = c == change || c[-1] == '.';
+        const char *close = begins_key && *c == '"' ? strchr(c + 1, '"') : NULL;
+        c = close != NULL ? close + 1 : c + 1;
+    }
+    return *c == '=' ? c : NULL;
 }
 
 /* The next step, which begins the path or follows a dot, or is an index; false where there is none.
@@ -96,9 +111,31 @@ static bool check_parent(const Walk *walk, const json_t *parent, const Step *ste
     if (is_index)
         snprintf(expected, sizeof expected, "an array with an element %zu", step->index);
     hd_json_words(parent, words);
+    if (!is_index && json_is_array(parent) && step->key[strspn(step->key, "0123456789")] == '\0') {
+        complain(walk, "%.*s is %s; write %.*s[%s]", length, walk->change, words, length,
+                 walk->change, step->key);
+        return false;
+    }
     complain(walk, "%.*s is %s, expected %s", length > 0 ? length : (int)sizeof root,
              length > 0 ? walk->change : root, words, expected);
     return false;
+}
+
+static void complain_of_missing(const Walk *walk, json_t *parent, const char *missing) {
+    const int length = (int)(walk->at - walk->change);
+    char quoted[HD_WORDS_SIZE];
+    HdNearest nearest = {.word = missing};
+    const char *key;
+    json_t *ignored;
+    json_object_foreach(parent, key, ignored) {
+        hd_nearest_offer(&nearest, key);
+    }
+    if (nearest.name == NULL) {
+        complain(walk, "%.*s is missing, expected it in the scene", length, walk->change);
+        return;
+    }
+    hd_quoted(nearest.name, quoted);
+    complain(walk, "%.*s is missing; did you mean %s?", length, walk->change, quoted);
 }
 
 static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, bool is_first) {
@@ -110,25 +147,31 @@ static json_t *find_child(const Walk *walk, json_t *parent, const Step *step, bo
         child = json_object_get(parent, step->key);
     }
     if (child == NULL)
-        complain(walk, "%.*s is missing, expected it in the scene", (int)(walk->at - walk->change),
-                 walk->change);
+        complain_of_missing(walk, parent, step->key);
     return child;
 }
 
-/* The value, a string where it is no JSON; NULL where it is no UTF-8 either. */
-static json_t *read_value(const char *text) {
-    json_error_t ignored;
-    const size_t flags = JSON_DECODE_ANY | JSON_REJECT_DUPLICATES;
-    json_t *value = json_loadb(text, strlen(text), flags, &ignored);
-    return value != NULL ? value : json_string(text);
+/* The value, a string where it is no JSON; NULL, and complains, where it is neither. */
+static json_t *read_value(const Walk *walk) {
+    const char *text = walk->end + 1;
+    json_error_t found;
+    json_t *value = json_loadb(text, strlen(text), HD_JSON_FLAGS | JSON_DECODE_ANY, &found);
+    if (value != NULL)
+        return value;
+    if (json_error_code(&found) == json_error_numeric_overflow) {
+        complain(walk, "the value is too large, expected a number that a double can hold");
+        return NULL;
+    }
+    value = json_string(text);
+    if (value == NULL)
+        complain(walk, "the value is not UTF-8, expected JSON or text");
+    return value;
 }
 
 static void put(const Walk *walk, json_t *parent, const Step *step) {
-    json_t *value = read_value(walk->end + 1);
-    if (value == NULL) {
-        complain(walk, "the value is not UTF-8, expected JSON or text");
+    json_t *value = read_value(walk);
+    if (value == NULL)
         return;
-    }
     const int failed = step->key[0] == '\0' ? json_array_set_new(parent, step->index, value)
                                             : json_object_set_new(parent, step->key, value);
     if (failed)
@@ -137,7 +180,7 @@ static void put(const Walk *walk, json_t *parent, const Step *step) {
 }
 
 void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *problems) {
-    Walk walk = {.change = change, .at = change, .end = strchr(change, '='), .problems = problems};
+    Walk walk = {.change = change, .at = change, .end = find_end(change), .problems = problems};
     Step step;
     if (walk.end == NULL) {
         complain(&walk, "there is no sign =, expected PATH=VALUE");
@@ -162,7 +205,7 @@ void hd_scene_change_apply(json_t *root, HdSceneChange change, HdProblems *probl
 
 /* Spells the path of a change as messages do; false where it is not understood. */
 static bool spell_path(HdSceneChange change, char path[HD_JSON_PATH_SIZE]) {
-    Walk walk = {.change = change, .at = change, .end = strchr(change, '=')};
+    Walk walk = {.change = change, .at = change, .end = find_end(change)};
     Step step;
     path[0] = '\0';
     while (walk.end != NULL && walk.at != walk.end) {

@@ -8,6 +8,9 @@
 
 #include "scene_file.h"
 
+/* How JSON is read here: an integer is a number like others, however long it is. */
+#define HD_JSON_FLAGS (JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL)
+
 /* What messages call a change. */
 #define HD_CHANGE_OPTION "--set"
 

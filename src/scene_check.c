@@ -299,12 +299,32 @@ static bool has_sound_number(const HdEdgeLights *lights) {
     return lights->per_edge >= 0 && lights->per_edge <= HD_MAX_LIGHTS;
 }
 
+/* Whether the solid's lights alone are too many, which it then tells. */
+static bool check_light_count(HdSceneChecker *checker, const HdSolid *solid, int index) {
+    const int count = hd_edge_light_count(solid), per_edge = solid->lights.per_edge;
+    const bool is_json = checker->naming == HD_NAMING_JSON;
+    if (count <= HD_MAX_LIGHTS)
+        return false;
+    hd_checker_enter_item(checker, "solid", "solids", index);
+    hd_problem(checker->problems,
+               "%s%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
+               "the scene",
+               checker->place, is_json ? "edge_lights.per_edge" : "number of lights per edge",
+               per_edge, count, count / per_edge, (int)HD_MAX_LIGHTS);
+    hd_checker_leave(checker);
+    return true;
+}
+
 static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
     int lights = scene->light_count;
-    for (int i = 0; i < checker->solid_count; i++)
-        if (checker->solid_is_sound[i] && has_sound_number(&scene->solids[i].lights))
-            lights += hd_edge_light_count(&scene->solids[i]);
-    if (scene->light_count <= HD_MAX_LIGHTS && lights > HD_MAX_LIGHTS)
+    bool is_told = scene->light_count > HD_MAX_LIGHTS;
+    for (int i = 0; i < checker->solid_count; i++) {
+        if (!checker->solid_is_sound[i] || !has_sound_number(&scene->solids[i].lights))
+            continue;
+        lights += hd_edge_light_count(&scene->solids[i]);
+        is_told |= check_light_count(checker, &scene->solids[i], i);
+    }
+    if (!is_told && lights > HD_MAX_LIGHTS)
         hd_problem(checker->problems,
                    "%snumber of lights, those on the edges included, is %d, expected at most %d",
                    checker->place, lights, (int)HD_MAX_LIGHTS);

@@ -401,6 +401,8 @@ static void expected_choice(const HdField *field, char out[HD_EXPECTED_SIZE]) {
 void hd_field_expected_count(const HdField *field, char out[HD_EXPECTED_SIZE]) {
     if (field->least == field->most)
         snprintf(out, HD_EXPECTED_SIZE, "%d elements", field->most);
+    else if (field->least == 0)
+        snprintf(out, HD_EXPECTED_SIZE, "at most %d elements", field->most);
     else
         snprintf(out, HD_EXPECTED_SIZE, "%d to %d elements", field->least, field->most);
 }

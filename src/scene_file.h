@@ -4,6 +4,7 @@
 #ifndef HD_SCENE_FILE_H
 #define HD_SCENE_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -36,19 +37,26 @@ typedef struct HdSceneFile {
    not, a string. What holds the value must be there, but for "image", "camera" and "output". */
 typedef const char *HdSceneChange;
 
-/* Reads a scene from `size` bytes of JSON, the changes applied before anything is checked, fills in
-   every default, and checks all of it. Messages begin with `name` and tell every problem: with line
-   and column where the text is not JSON or repeats a key, otherwise with the JSON path, as
-   "solids[1].circumradius is -1, expected ...", behind "--set CHANGE: " where a change brought the
-   value. A relative path of a texture counts from `folder` ("" is the current one). On failure
-   `file` is left empty. */
-HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size, const char *name,
-                             const char *folder, const HdSceneChange *changes, int change_count,
-                             HdError *error);
+typedef struct HdSceneSource {
+    const char *name;   /* for messages */
+    const char *folder; /* where a relative path of a texture counts from; "": the current one */
+    const HdSceneChange *changes; /* applied before anything is checked; messages name them */
+    int change_count;
+    bool loads_texture; /* and tells what is wrong with it along with the rest */
+    HdProblems *notes;  /* gets what is seldom meant (scene_notes.h), and the whole sequence is
+                           checked; NULL: neither */
+} HdSceneSource;
 
-/* The same from a file of at most HD_MAX_SCENE_BYTES; textures count from the file's folder. */
-HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneChange *changes,
-                            int change_count, HdError *error);
+/* Reads a scene from `size` bytes of JSON, fills in every default, and checks all of it. Messages
+   begin with the name and tell every problem: with line and column where the text is not JSON or
+   repeats a key, otherwise with the JSON path, as "solids[1].circumradius is -1, expected ...",
+   behind "--set CHANGE: " where a change brought the value. On failure `file` is left empty. */
+HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size,
+                             const HdSceneSource *source, HdError *error);
+
+/* The same from a file of at most HD_MAX_SCENE_BYTES, which gives the name and the folder. */
+HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                            HdError *error);
 
 /* Reads the texture that the scene names, if any: the embedded "builtin:floor", or a file. */
 HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);

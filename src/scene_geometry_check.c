@@ -105,42 +105,62 @@ static bool refracts(const HdSolid *solid) {
     return solid->face.index_of_refraction != 1.0;
 }
 
-static void add_overlap(HdSceneChecker *checker, int refracting, const char *other, double depth) {
-    hd_checker_enter_item(checker, "solid", "solids", refracting);
+/* "solids[1] (cube)" */
+static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
+                       char out[48]) {
+    static const char *const kinds[HD_SOLID_KIND_COUNT] = {
+        [HD_TETRAHEDRON] = "tetrahedron", [HD_HEXAHEDRON] = "cube",
+        [HD_OCTAHEDRON] = "octahedron",   [HD_DODECAHEDRON] = "dodecahedron",
+        [HD_ICOSAHEDRON] = "icosahedron",
+    };
+    const char *kind = kinds[solid->kind];
+    if (checker->naming == HD_NAMING_JSON)
+        snprintf(out, 48, "solids[%d] (%s)", index, kind);
+    else
+        snprintf(out, 48, "solid %d (%s)", index + 1, kind);
+}
+
+static void add_overlap(HdSceneChecker *checker, const char *refracting, const char *other,
+                        double depth) {
+    const bool is_json = checker->naming == HD_NAMING_JSON;
     hd_problem(checker->problems,
-               "%sit refracts and overlaps %s, %.6g deep, expected a refracting solid to overlap "
-               "nothing",
-               checker->place, other, depth);
-    hd_checker_leave(checker);
+               "%s: it refracts and overlaps %s, %.3g deep; move them apart or give it %s",
+               refracting, other, depth,
+               is_json ? "index_of_refraction 1" : "an index of refraction of 1");
 }
 
 static void check_pair(HdSceneChecker *checker, const HdSolid *solids, int first, int second) {
-    char name[32];
+    char name[48], other_name[48];
     if (!checker->solid_is_sound[second] ||
         !(refracts(&solids[first]) || refracts(&solids[second])))
         return;
     const double depth = hd_solid_overlap(&solids[first], &solids[second]);
     const int subject = refracts(&solids[first]) ? first : second;
     const int other = first + second - subject;
-    if (checker->naming == HD_NAMING_JSON)
-        snprintf(name, sizeof name, "solids[%d]", other);
-    else
-        snprintf(name, sizeof name, "solid %d", other + 1);
-    if (depth > 0.0)
-        add_overlap(checker, subject, name, depth);
+    if (depth <= 0.0)
+        return;
+    name_solid(checker, &solids[subject], subject, name);
+    name_solid(checker, &solids[other], other, other_name);
+    add_overlap(checker, name, other_name, depth);
+}
+
+static void check_above_floor(HdSceneChecker *checker, const HdScene *scene, int index) {
+    char name[48];
+    if (!checker->floor_is_sound || !refracts(&scene->solids[index]))
+        return;
+    const double depth = hd_floor_overlap(&scene->solids[index], &scene->floor);
+    if (depth <= 0.0)
+        return;
+    name_solid(checker, &scene->solids[index], index, name);
+    add_overlap(checker, name, "the floor", depth);
 }
 
 void hd_check_overlaps(HdSceneChecker *checker, const HdScene *scene) {
     for (int i = 0; i < checker->solid_count; i++) {
-        const HdSolid *solid = &scene->solids[i];
         if (!checker->solid_is_sound[i])
             continue;
         for (int j = i + 1; j < checker->solid_count; j++)
             check_pair(checker, scene->solids, i, j);
-        if (!checker->floor_is_sound || !refracts(solid))
-            continue;
-        const double depth = hd_floor_overlap(solid, &scene->floor);
-        if (depth > 0.0)
-            add_overlap(checker, i, "the floor", depth);
+        check_above_floor(checker, scene, i);
     }
 }

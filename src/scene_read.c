@@ -6,14 +6,15 @@
 #include <string.h>
 
 #include "default_scene.h"
-#include "json_words.h"
 #include "nearest_name.h"
 #include "scene_fields.h"
 #include "scene_report.h"
+#include "scene_texts.h"
 
 typedef struct NamedMaterial {
     const char *name; /* of the tree */
     HdMaterial material;
+    bool is_used;
 } NamedMaterial;
 
 typedef struct Reader {
@@ -109,16 +110,21 @@ static void read_vectors(Reader *reader, const HdField *field, const json_t *val
 
 /* Words */
 
+/* Numbers by their value: 16.0 is 16. A word stands in quotes in the table. */
+static bool is_choice(const HdChoice *choice, const json_t *value) {
+    const char *word = json_string_value(value);
+    if (json_is_number(value))
+        return choice->json[0] != '"' && strtod(choice->json, NULL) == json_number_value(value);
+    return word != NULL && choice->json[0] == '"' && strlen(choice->json) == strlen(word) + 2 &&
+           memcmp(choice->json + 1, word, strlen(word)) == 0;
+}
+
 static void read_choice(Reader *reader, const HdField *field, const json_t *value, void *place) {
-    char *json = NULL;
-    if (json_is_string(value) || json_is_integer(value))
-        json = json_dumps(value, JSON_ENCODE_ANY);
     const HdChoice *choice = field->choices;
-    while (choice->json != NULL && (json == NULL || strcmp(choice->json, json) != 0))
+    while (choice->json != NULL && !is_choice(choice, value))
         choice++;
-    free(json);
     if (choice->json == NULL)
-        hd_report_field(&reader->report, field, value, false);
+        hd_report_choice(&reader->report, field, value);
     else if (field->choices[1].json != NULL)
         *(int *)place = choice->value;
 }
@@ -129,34 +135,30 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
         hd_report_field(&reader->report, field, value, false);
         return;
     }
-    if (json_string_length(value) >= HD_MAX_PATH) {
-        hd_report(&reader->report, "has %zu bytes, expected fewer than %d",
-                  json_string_length(value), HD_MAX_PATH);
-        return;
-    }
-    memcpy(out, json_string_value(value), json_string_length(value) + 1);
+    if (hd_check_file_name(&reader->report, value))
+        memcpy(out, json_string_value(value), json_string_length(value) + 1);
 }
 
-/* A relative path counts from the folder of the scene. */
-static void place_texture(Reader *reader, char path[HD_MAX_PATH]) {
+/* A relative path counts from the folder of the scene. False where there is no room for it. */
+static bool place_texture(Reader *reader, char path[HD_MAX_PATH]) {
     const char *folder = reader->report.source->folder;
     if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
-        return;
+        return true;
     const bool has_slash = folder[strlen(folder) - 1] == '/';
     const size_t before = strlen(folder) + !has_slash, length = before + strlen(path);
     if (length >= HD_MAX_PATH) {
         hd_report(&reader->report, "has %zu bytes with the scene's folder, expected fewer than %d",
                   length, HD_MAX_PATH);
-        return;
+        return false;
     }
     memmove(path + before, path, strlen(path) + 1);
     memcpy(path, folder, strlen(folder));
     path[before - 1] = '/';
+    return true;
 }
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value,
                           HdMaterial *out) {
-    char quoted[HD_WORDS_SIZE];
     const char *name = json_string_value(value);
     if (name == NULL) {
         hd_report_field(&reader->report, field, value, false);
@@ -167,6 +169,7 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
         hd_nearest_offer(&nearest, reader->materials[i].name);
         if (strcmp(reader->materials[i].name, name) == 0) {
             *out = reader->materials[i].material;
+            reader->materials[i].is_used = true;
             return;
         }
     }
@@ -176,8 +179,7 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
         hd_report_field(&reader->report, field, value, false);
         return;
     }
-    hd_quoted(nearest.name, quoted);
-    hd_report_value(&reader->report, value, quoted);
+    hd_report_mistaken(&reader->report, value, nearest.name);
 }
 
 /* Objects */
@@ -384,6 +386,16 @@ static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
         scene->solids[i].face.index_of_refraction = 1.0;
 }
 
+static void note_unused_materials(const Reader *reader, HdProblems *notes) {
+    char path[HD_JSON_PATH_SIZE];
+    for (int i = 0; i < reader->material_count; i++) {
+        snprintf(path, sizeof path, "materials");
+        hd_json_path_key(path, reader->materials[i].name);
+        if (!reader->materials[i].is_used)
+            hd_problem(notes, "%s is used nowhere", path);
+    }
+}
+
 HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdSceneSource *source,
                             HdProblems *problems, HdError *error) {
     Reader reader = {
@@ -392,7 +404,13 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     read_object(&reader, &hd_scene_fields, root, file);
     file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
     snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
-    place_texture(&reader, file->texture_path);
+    if (!hd_check_texture_path(&reader.report, file->texture_path) ||
+        !place_texture(&reader, file->texture_path))
+        file->texture_path[0] = '\0';
+    snprintf(reader.report.path, sizeof reader.report.path, "output.path");
+    hd_check_output_path(&reader.report, file->output.path);
+    if (source->notes != NULL)
+        note_unused_materials(&reader, source->notes);
     free(reader.materials);
     if (reader.status != HD_OK)
         return reader.status;

@@ -7,12 +7,6 @@
 
 #include "scene_file.h"
 
-typedef struct HdSceneSource {
-    const char *folder; /* where a relative path of a texture counts from; "": the current one */
-    const HdSceneChange *changes; /* applied already; messages name them */
-    int change_count;
-} HdSceneSource;
-
 /* Fills `file`, which must be empty, and adds everything that is wrong to `problems`: what the
    table of fields refuses, and what the checks of the scene find in the rest. A value that is
    refused has its default instead. Fails only for lack of memory. */

@@ -6,8 +6,11 @@
 #include <string.h>
 
 #include "json_words.h"
-#include "nearest_name.h"
 #include "scene_changes.h"
+#include "scene_synonyms.h"
+
+/* The longest word, with room. */
+enum { HD_CHOICE_SIZE = 32 };
 
 static bool begins_with(const char *text, const char *beginning) {
     return strncmp(text, beginning, strlen(beginning)) == 0;
@@ -64,21 +67,71 @@ static void list_keys(const HdObjectType *type, char out[HD_EXPECTED_SIZE * 2]) 
     }
 }
 
+void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *meant) {
+    char words[HD_WORDS_SIZE], quoted[HD_WORDS_SIZE];
+    hd_json_words(value, words);
+    hd_quoted(meant, quoted);
+    hd_report(report, "is %s; did you mean %s?", words, quoted);
+}
+
+void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value) {
+    char words[16][HD_CHOICE_SIZE];
+    HdNearest nearest = {.word = json_is_string(value) ? json_string_value(value) : ""};
+    for (int i = 0; i < 16 && field->choices[i].json != NULL; i++) {
+        const char *json = field->choices[i].json;
+        if (json[0] != '"')
+            continue;
+        snprintf(words[i], sizeof words[i], "%.*s", (int)strlen(json) - 2, json + 1);
+        hd_synonym_offer(&nearest, words[i]);
+    }
+    if (nearest.name != NULL)
+        hd_report_mistaken(report, value, nearest.name);
+    else
+        hd_report_field(report, field, value, false);
+}
+
+static void offer_keys(HdNearest *nearest, const HdObjectType *type) {
+    for (int i = 0; i < type->field_count; i++)
+        hd_synonym_offer(nearest, type->fields[i].key);
+}
+
+/* At the top people also write what belongs into one of the objects there. */
+static bool find_in_part(const HdObjectType *type, const char *key, char path[64]) {
+    for (int i = 0; i < type->field_count; i++) {
+        const HdField *part = &type->fields[i];
+        HdNearest nearest = {.word = key};
+        if (part->type != HD_FIELD_OBJECT || part->is_given != NULL)
+            continue;
+        offer_keys(&nearest, part->object);
+        if (nearest.name == NULL || nearest.distance > 0)
+            continue;
+        snprintf(path, 64, "%s.%s", part->key, nearest.name);
+        return true;
+    }
+    return false;
+}
+
+static void report_unknown_key(HdSceneReport *report, const HdObjectType *type, const char *key) {
+    char keys[HD_EXPECTED_SIZE * 2], path[64];
+    HdNearest nearest = {.word = key};
+    offer_keys(&nearest, type);
+    if (nearest.name == NULL && type == &hd_scene_fields && find_in_part(type, key, path))
+        nearest.name = path;
+    const size_t length = hd_json_path_key(report->path, key);
+    if (nearest.name != NULL) {
+        hd_report(report, "is an unknown key; did you mean \"%s\"?", nearest.name);
+    } else {
+        list_keys(type, keys);
+        hd_report(report, "is an unknown key, expected %s", keys);
+    }
+    report->path[length] = '\0';
+}
+
 void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json) {
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)json, key, value) {
-        if (hd_field(type, key) != NULL)
-            continue;
-        HdNearest nearest = {.word = key};
-        for (int i = 0; i < type->field_count; i++)
-            hd_nearest_offer(&nearest, type->fields[i].key);
-        char keys[HD_EXPECTED_SIZE * 2];
-        snprintf(keys, sizeof keys, "\"%s\"", nearest.name != NULL ? nearest.name : "");
-        if (nearest.name == NULL)
-            list_keys(type, keys);
-        const size_t length = hd_json_path_key(report->path, key);
-        hd_report(report, "is an unknown key, expected %s", keys);
-        report->path[length] = '\0';
+        if (hd_field(type, key) == NULL)
+            report_unknown_key(report, type, key);
     }
 }

@@ -33,6 +33,12 @@ void hd_report_value(HdSceneReport *report, const json_t *value, const char *exp
 void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value,
                      bool is_part);
 
+/* The value at the path is a word that seems to mean another one. */
+void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *meant);
+
+/* The value is none of the field's choices; tells the one that may be meant, or all of them. */
+void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value);
+
 /* Tells every key of the object at the path that its type does not know. */
 void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json);
 

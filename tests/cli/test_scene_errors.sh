@@ -116,13 +116,13 @@ wrong '.solids[0].kind = "sphere"' 'bad.json: solids[0].kind is a string, "spher
 wrong '.solids[0].material = "gold"' 'bad.json: solids[0].material is a string, "gold"'
 wrong '.solids[0].radius = 1' 'bad.json: solids[0].radius is an unknown key'
 render_says_the_same
-wrong '.image.widht = 1' 'bad.json: image.widht is an unknown key, expected "width"'
+wrong '.image.widht = 1' 'bad.json: image.widht is an unknown key; did you mean "width"?'
 
 # ---- values out of range
 wrong '.image.width = 0' 'bad.json: image.width is 0'
 wrong '.image.height = 1.5' 'bad.json: image.height is 1.5'
 wrong '.camera.field_of_view = 179.5' 'bad.json: camera.field_of_view is 179.5'
-wrong '.solids[0].circumradius = 1e13' 'bad.json: solids[0].circumradius is 10000000000000'
+wrong '.solids[0].circumradius = 1e13' 'bad.json: solids[0].circumradius is 1e13'
 wrong '.materials.glass.colour = [1.5,0,0]' 'bad.json: materials.glass.colour[0] is 1.5'
 wrong '.materials.glass.index_of_refraction = 0' 'bad.json: materials.glass.index_of_refraction is 0'
 wrong '.solids[0].rim.width = -1' 'bad.json: solids[0].rim.width is -1'
@@ -142,12 +142,12 @@ wrong '.materials["my glass"] = {"transmission": 0.5, "inner_reflection": 0.75}'
     'bad.json: materials["my glass"]: inner reflection + transmission is 1.25, expected at most 1'
 wrong '.solids[0].rim.material = "glass"' 'bad.json: solids[0].rim: transmission is 0.5'
 wrong '.solids[0].edge_lights = {"per_edge": 100000}' \
-    'bad.json: number of lights, those on the edges included, is 1200001'
+    'bad.json: solids[0]: edge_lights.per_edge is 100000, which makes 1200000 lights on its 12 edges'
 wrong '.floor.corners[1][2] = 3' 'bad.json: floor: its diagonals pass each other'
 wrong '.floor.corners[1] = [5,-5,-1] | .floor.corners[2] = [5,5,-1]' 'bad.json: floor: '
 wrong '.floor.corners[1] = .floor.corners[0]' 'floor: corner 1 is not a convex corner'
 wrong '.materials.glass.index_of_refraction = 1.5 | .materials.plain = {} | .floor.material = "plain" |
-    .solids[1].centre = [0.5,0,0]' 'solids[0]: it refracts and overlaps solids[1]'
+    .solids[1].centre = [0.5,0,0]' 'solids[0] (cube): it refracts and overlaps solids[1] (octahedron)'
 # Two that merely touch no glass may lie in each other.
 jq '.solids[1].centre = [0.5,0,0]' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json
@@ -159,7 +159,7 @@ render_says_the_same
 # ---- textures
 wrong '.floor.texture.file = 7' 'bad.json: floor.texture.file is 7'
 wrong '.floor.texture.curve = "gamma"' 'bad.json: floor.texture.curve is a string, "gamma"'
-wrong '.floor.texture.file = "missing.png"' 'bad.json: cannot read the texture missing.png'
+wrong '.floor.texture.file = "missing.png"' 'bad.json: floor.texture.file: cannot read the texture missing.png'
 render_says_the_same
 head -c 20 floor.data >short.data
 wrong '.floor.texture.file = "short.data"' short.data
@@ -172,6 +172,45 @@ wrong '.floor.texture.file = "text.png"' text.png
 } >large.data
 wrong '.floor.texture.file = "large.data"' large.data
 rm short.data text.png large.data
+
+# ---- one picture for many frames: a rendering may choose one
+jq '.output.path = "picture.data"' good.json >bad.json
+refuse 'bad.json: output.path is "picture.data", which names one picture, but camera.frames is 3'
+expect_exit 0 "$hedron" render --backend c --frames 0 --quiet bad.json
+rm picture.data
+jq '.output.path = "####.data"' good.json >bad.json
+expect_exit 0 "$hedron" check bad.json
+
+# ---- what is seldom meant is a note, and no mistake
+jq '.camera.field_of_view = 1.2 | .materials.paper = {}' good.json >bad.json
+expect_exit 0 "$hedron" check bad.json
+expect_silent_stderr
+expect_stdout_lines 3 'bad\.json: (fine, .*|note: .*)'
+expect_stdout_contains 'bad.json: note: materials.paper is used nowhere'
+expect_exit 2 "$hedron" check bad.json missing.json
+expect_stdout_lines 3
+
+# ---- one kind of input for the other
+cp "$cli_folder/official.in" bad.json
+refuse 'bad.json: this looks like a classic input'
+expect_refusal 2 "$hedron" convert good.json
+expect_stderr_contains 'good.json: this looks like a scene file'
+expect_refusal 2 "$hedron" --cpu <good.json
+expect_stderr_contains 'standard input: this looks like a scene file'
+
+# ---- a scene on standard input: textures count from the current folder
+mkdir folder
+jq . good.json >folder/piped.json
+expect_exit 0 "$hedron" check - <folder/piped.json
+expect_stdout_contains 'standard input: fine, 2 solids'
+expect_exit 0 "${render[@]}" --quiet - <folder/piped.json
+expect_data picture.data 8 8
+rm -r picture.data folder
+jq '.image.width = 0' good.json >bad.json
+expect_refusal 2 "${render[@]}" - <bad.json
+expect_stderr_contains 'hedron: standard input: image.width is 0'
+expect_refusal 2 "$hedron" check - </dev/null
+expect_stderr_contains 'standard input is empty'
 
 # ---- outputs that do not suit
 for path in a.png a_%d_%d.png a_%s.png '###_#.png' film_%d.mp4 a.jpg; do

@@ -87,6 +87,7 @@ expect_files . scenes scenes/cube.json scenes/floor.data
 expect_exit 0 "$hedron" check scenes/cube.json
 expect_silent_stderr
 expect_stdout_lines 1 'scenes/cube\.json: fine, 1 solid, 25 lights, 3 frames'
+cp scenes/floor.data .
 sed 's/1.2/-1.2/' scenes/cube.json >negative.json
 sed 's/floor.data/missing.data/' scenes/cube.json >texture.json
 sed 's/1.2/-1.2/; s/: 50/: 500/' scenes/cube.json >both.json
@@ -94,7 +95,7 @@ expect_refusal 2 "$hedron" check negative.json
 expect_stderr_contains 'negative.json: solids[0].circumradius is -1.2'
 expect_refusal 2 "$hedron" check texture.json
 expect_stderr_contains texture.json
-expect_stderr_contains missing.data
+expect_stderr_contains 'floor.texture.file: cannot read the texture missing.data'
 expect_refusal 2 "$hedron" check missing.json
 expect_stderr_contains missing.json
 expect_exit 2 "$hedron" check both.json
@@ -109,6 +110,12 @@ expect_stderr_contains missing.json
 expect_stderr_contains '2 of 3 scenes are wrong'
 expect_exit 0 "$hedron" check scenes/cube.json scenes/cube.json
 expect_stdout_lines 2
+# Those in the manual, which give no cause for a note either.
+awk -v folder="$PWD" '/^```json/ { name = folder "/manual" ++count ".json"; next } /^```/ { name = "" }
+    name != "" { print >name }' "$cli_folder/../../docs/formats.md"
+expect_exit 0 "$hedron" check manual*.json
+expect_stdout_lines 3 'manual.\.json: fine, .*'
+rm manual*.json
 # Those that come with the program.
 ours=("$cli_folder"/../../scenes/*.json)
 if ((${#ours[@]} < 2)); then
@@ -155,6 +162,20 @@ expect_exit 0 "$hedron" convert default.in -o default.json
 render default.json "${classic[@]}" -o json.png
 expect_same json.png out/frame_5.png
 rm -r out ./*.data ./*.png ./default.*
+# What the classic mode writes in the data format for want of an ending has one in the scene.
+for name in img_%d 'img_%d.jpg' 'img_%d.mp4'; do
+    sed "s|out/img_%d.data|out/$name|" "$work/official.in" >bare.in
+    expect_exit 0 "$hedron" convert bare.in -o bare.json
+    render bare.json "${classic[@]}"
+    expect_files out "${name/\%d/5}.data"
+    rm -r out
+done
+expect_exit 0 "$hedron" --cpu "${classic[@]}" < <(sed 's|out/img_%d.data|out/img_%d|' "$work/official.in")
+mv out/img_5 bare
+expect_exit 0 "$hedron" convert bare.in -o bare.json --variant 4
+render bare.json "${classic[@]}"
+expect_same out/img_5.mp4.data bare
+rm -r out bare*
 # A texture keeps its place when the scene goes to another folder.
 cp scenes/floor.data near.data
 sed 's|~/floor.data|near.data|' "$work/official.in" >near.in

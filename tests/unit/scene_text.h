@@ -63,8 +63,9 @@ static inline HdStatus parse_scene(HdSceneFile *file, const char *text, size_t s
     char *copy = malloc(size > 0 ? size : 1);
     assert_non_null(copy);
     memcpy(copy, text, size);
-    const HdStatus status =
-        hd_scene_file_parse(file, copy, size, "a.json", "", changes, change_count, error);
+    const HdSceneSource source = {
+        .name = "a.json", .folder = "", .changes = changes, .change_count = change_count};
+    const HdStatus status = hd_scene_file_parse(file, copy, size, &source, error);
     free(copy);
     return status;
 }

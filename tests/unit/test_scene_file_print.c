@@ -160,7 +160,7 @@ static void test_values_that_are_hard_to_write(void **state) {
         "background=[-0.0, 0, 1e-300]",
         "background=[0, -0.0, 0]",
         "materials.plain={\"diffuse\": 0.125, \"inner_reflection\": 0.5}",
-        "output.path=\"a\\\"b\\\\c \\u00e9\\n\\t\\u007f.png\"",
+        "output.path=\"a\\\"b\\\\c \\u00e9.png\"",
         "materials.glass.inner_reflection=0",
         "materials.glass.inner_transmission=0",
         "materials.glass={\"transmission\": 0.5, \"inner_reflection\": 0}",
