@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "leftovers.h"
+
 enum { MAX_ATTEMPTS = 1000 };
 
 static HdStatus check_target(const char *path, HdError *error) {
@@ -52,8 +54,10 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         if (status != HD_OK)
             break;
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (*descriptor >= 0)
+        if (*descriptor >= 0) {
+            hd_leftovers_add_file(temporary);
             return HD_OK;
+        }
         if (errno != EEXIST)
             return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path,
                            temporary, strerror(errno));
@@ -64,11 +68,18 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
                    path, MAX_ATTEMPTS, temporary);
 }
 
-HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
-    if (rename(temporary, path) == 0)
-        return HD_OK;
-    int reason = errno;
+void hd_temporary_remove(const char *temporary) {
     unlink(temporary);
+    hd_leftovers_forget_file(temporary);
+}
+
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
+    if (rename(temporary, path) == 0) {
+        hd_leftovers_forget_file(temporary);
+        return HD_OK;
+    }
+    int reason = errno;
+    hd_temporary_remove(temporary);
     return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", temporary, path,
                    strerror(reason));
 }
@@ -84,7 +95,7 @@ HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *erro
         return HD_OK;
     int reason = errno;
     close(descriptor);
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
 
@@ -96,12 +107,12 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
     file->stream = NULL;
     if (reason == 0)
         return hd_temporary_publish(file->temporary, file->path, error);
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {
     fclose(file->stream);
     file->stream = NULL;
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "rendering.h"
 
-#include <signal.h>
 #include <stdio.h>
 
 #include "progress.h"
@@ -91,9 +89,6 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     HdStatus status = HD_OK;
     if (run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
-    /* A reader of the statistics that goes away is a failed write, so that films are cleaned up. */
-    if (run->statistics.stream == stdout)
-        signal(SIGPIPE, SIG_IGN);
     if (status != HD_OK)
         return status;
     status = render_all(run, error);

@@ -1,17 +1,40 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "statistics.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "interrupt.h"
 #include "json_device_text.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
 
+/* Writing waits where the file is a pipe whose reader is slow, and opening where it has none. */
 static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
+    if (errno == EINTR && hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while writing the statistics to %s",
+                       statistics->name);
     return hd_fail(error, HD_FAILED, "cannot write the statistics to %s: %s", statistics->name,
                    strerror(errno));
+}
+
+static HdStatus open_file(HdStatistics *statistics, HdError *error) {
+    errno = EINTR;
+    int descriptor = hd_interrupt_signal() != 0
+                         ? -1
+                         : open(statistics->name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return fail_to_write(statistics, error);
+    statistics->stream = fdopen(descriptor, "w");
+    if (statistics->stream != NULL)
+        return HD_OK;
+    HdStatus status = fail_to_write(statistics, error);
+    close(descriptor);
+    return status;
 }
 
 HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error) {
@@ -24,12 +47,7 @@ HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError 
     HdStatus status = hd_path_expand_home(path, statistics->name, error);
     if (status == HD_OK)
         status = hd_path_make_parents(statistics->name, error);
-    if (status != HD_OK)
-        return status;
-    statistics->stream = fopen(statistics->name, "w");
-    if (statistics->stream == NULL)
-        return fail_to_write(statistics, error);
-    return HD_OK;
+    return status == HD_OK ? open_file(statistics, error) : status;
 }
 
 /* json_pack gives up as a whole where a part is missing. */

@@ -65,18 +65,35 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     rm film.mkv stats.jsonl
     # A reader that goes away ends the program, but not before it has cleaned up.
     mkfifo "$work/pipe"
-    exec 3<>"$work/pipe"
-    exec 4>"$work/pipe"
-    exec 3<&-
-    code=0
-    "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr" || code=$?
-    exec 4>&-
+    # without_reader COMMAND...: descriptor 4 is a pipe that nobody reads.
+    without_reader() {
+        exec 3<>"$work/pipe"
+        exec 4>"$work/pipe"
+        exec 3<&-
+        code=0
+        "$@" || code=$?
+        exec 4>&-
+    }
+    to_lost_output() {
+        "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr"
+    }
+    without_reader to_lost_output
     if ((code != 1)); then
         fail "exit code $code, expected 1"
     fi
     expect_sentence
     expect_stderr_contains 'cannot write the statistics to standard output'
     expect_files .
+    # Where only the messages are lost, the film is made.
+    to_lost_error() {
+        "$hedron" render --verbose --backend c "${small[@]}" --frames 0-1 -o film.mkv >"$logs/stdout" 2>&4
+    }
+    without_reader to_lost_error
+    if ((code != 0)); then
+        fail "exit code $code without a reader of standard error, expected 0"
+    fi
+    expect_files . film.mkv
+    rm film.mkv
 fi
 
 # ---- files that cannot be written, or are full
