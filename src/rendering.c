@@ -70,38 +70,39 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    HdStatus status = open_device(run, error);
-    if (status != HD_OK)
-        return status;
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
         rendering->frames->count);
-    status = hd_sequence_render(&sequence, run->renderer, error);
-    hd_renderer_close(run->renderer);
+    HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
     hd_progress_end(&run->progress);
     if (status == HD_OK)
         hd_progress_tell_end(&run->progress);
     return status;
 }
 
+/* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
     HdError ignored;
-    HdStatus status = HD_OK;
-    if (run->options->statistics != NULL)
+    HdStatus status = open_device(run, error);
+    if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
-    if (status != HD_OK)
-        return status;
-    status = render_all(run, error);
+    if (status == HD_OK)
+        status = render_all(run, error);
     if (run->statistics.stream != NULL) {
         HdStatus closed = hd_statistics_close(&run->statistics, status == HD_OK ? error : &ignored);
         status = status == HD_OK ? closed : status;
     }
+    hd_renderer_close(run->renderer);
     return status;
 }
 
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
     Run run = {.rendering = rendering, .options = options};
+    const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
     HdStatus status = hd_outputs_check(&rendering->outputs, rendering->frames->count, error);
+    if (status == HD_OK && options->statistics != NULL)
+        status = hd_statistics_check(options->statistics, scene, &rendering->outputs,
+                                     rendering->frames->frames[0], error);
     if (status != HD_OK)
         return status;
     if (options->verbose) {

@@ -123,6 +123,16 @@ expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 --ou
 expect_stdout_lines 2
 expect_same other.data picture.data
 rm other.data
+# One file is one output, whatever the spelling.
+for names in './same.data same.data' 'same.mkv ./no/../same.mkv' '##.data ./%02d.data'; do
+    # shellcheck disable=SC2086 # two names
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-1 -o ${names/ / -o }
+done
+# A percent sign, and the name that the only frame of a pattern has.
+expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 3 -o 'a%%.data' -o 'b%03d.data'
+expect_same "$logs/stdout" <(printf '%s\n' 'a%.data' b003.data)
+rm 'a%.data' b003.data
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 3 -o 'a%.data'
 # The name tells what to write, so it has to have one of the endings.
 for value in '' picture picture.jpg film.avi 'out/%d.jpg' 'out/%s.png' '%d_%d.png' 'out/%5d.png' folder/; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$value"

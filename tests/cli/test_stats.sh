@@ -117,5 +117,28 @@ fi
 expect_refusal 2 "${render[@]}" --frames 0 -o a.data --stats ''
 expect_stderr_contains --stats
 
+# ---- files that the run reads or writes otherwise, and what is no statistics
+"$hedron" convert "$work/official.in" -o scene.json
+cp scene.json "$work/scene.json"
+ln -s scene.json link.json
+for file in scene.json ./scene.json link.json; do
+    expect_refusal 2 "${render[@]}" scene.json --frames 0 -o a.data --stats "$file"
+    expect_stderr_contains 'which is the scene'
+done
+expect_refusal 2 "${render[@]}" --frames 0 -o a.data --stats scene.json
+expect_stderr_contains "--stats is 'scene.json', which has other JSON in it"
+expect_same scene.json "$work/scene.json"
+for file in a07.data ./new/../a07.data; do
+    expect_refusal 2 "${render[@]}" --frames 7 -o 'a##.data' --stats "$file"
+    expect_stderr_contains 'which is an output'
+done
+# A start that fails leaves an earlier file alone.
+echo '{"frame":0}' >stats.jsonl
+expect_refusal 3 "${render[@]}" --device 'no such device' --frames 0 -o a.data --stats stats.jsonl
+if [[ $(<stats.jsonl) != '{"frame":0}' ]]; then
+    fail 'a start that failed wrote to the statistics'
+fi
+rm scene.json link.json stats.jsonl
+
 expect_files .
 finish
