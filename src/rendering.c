@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "rendering.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
+#include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
 #include "statistics.h"
@@ -15,6 +18,7 @@ typedef struct Run {
     HdDevice device;
     HdRenderer *renderer;
     char renderer_line[512];
+    uint64_t rays; /* of all frames so far */
 } Run;
 
 static void scene_uploaded(void *context, const HdSceneTables *tables) {
@@ -22,6 +26,7 @@ static void scene_uploaded(void *context, const HdSceneTables *tables) {
     hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
     if (run->options->verbose)
         hd_note_renderer(&run->device, run->renderer_line, tables);
+    hd_progress_update(&run->progress, 0);
 }
 
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
@@ -36,6 +41,7 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
+    run->rays += hd_frame_rays(stored->frame);
     if (status == HD_OK)
         hd_progress_update(&run->progress, stored->done);
     return status;
@@ -59,6 +65,15 @@ static HdStatus open_device(Run *run, HdError *error) {
     return hd_renderer_open(&run->renderer, &run->device, &options->render, error);
 }
 
+/* Only where somebody may be waiting at a terminal. */
+static void announce_interrupt(const Run *run) {
+    if (run->options->quiet || !isatty(STDERR_FILENO))
+        return;
+    hd_interrupt_announce(run->progress.form == HD_PROGRESS_BAR
+                              ? "\r\033[Khedron: stopping; press Ctrl-C again to stop now\n"
+                              : "hedron: stopping; press Ctrl-C again to stop now\n");
+}
+
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
@@ -73,10 +88,14 @@ static HdStatus render_all(Run *run, HdError *error) {
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
         rendering->frames->count);
+    if (run->device.backend != &hd_backend_c && !run->options->verbose)
+        hd_progress_prepare(&run->progress, "building kernels");
+    announce_interrupt(run);
     HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
+    hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
     if (status == HD_OK)
-        hd_progress_tell_end(&run->progress);
+        hd_progress_tell_end(&run->progress, run->rays);
     return status;
 }
 

@@ -202,5 +202,13 @@ send INT "$pid"
 expect_end 130 3
 expect_sentence
 
+# ---- in the midst of a frame of many minutes
+start "$hedron" render --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
+wait_for 'it to compute' has_computed 30
+send INT "$pid"
+expect_end 130 3
+expect_sentence
+expect_stderr_contains 'interrupted after 0 of 1 frames'
+
 expect_files .
 finish
