@@ -43,11 +43,30 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
     return HD_OK;
 }
 
+/* The temporary name is cut to fit, so that the final one would be found too long only at the end.
+ */
+static HdStatus check_length(const char *path, HdError *error) {
+    const char *slash = strrchr(path, '/');
+    const char *name = slash == NULL ? path : slash + 1;
+    char folder[HD_MAX_PATH] = ".";
+    if (slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    long most = pathconf(folder, _PC_NAME_MAX);
+    if (most > 0 && strlen(name) > (size_t)most)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write \"%s\": the name of the file has %zu bytes, expected at most "
+                       "%ld",
+                       path, strlen(name), most);
+    return HD_OK;
+}
+
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
     if (status == HD_OK)
         status = hd_path_make_parents(path, error);
+    if (status == HD_OK)
+        status = check_length(path, error);
     /* A process id comes back after a crash, and containers that share a folder repeat them. */
     for (int attempt = 0; status == HD_OK && attempt < MAX_ATTEMPTS; attempt++) {
         status = temporary_name(path, attempt, temporary, error);

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "outputs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "atomic_file.h"
 #include "clock.h"
 #include "output_kind.h"
 #include "video.h"
@@ -101,6 +104,27 @@ static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, 
                                outputs->plan->style.frames_per_second, error);
     if (status == HD_OK)
         outputs->film_count++;
+    return status;
+}
+
+static HdStatus probe_picture(const char *name, int number, HdError *error) {
+    char path[HD_MAX_PATH], temporary[HD_MAX_PATH];
+    int descriptor;
+    HdStatus status = hd_output_file(name, number, path, error);
+    if (status == HD_OK)
+        status = hd_temporary_create(path, temporary, &descriptor, error);
+    if (status != HD_OK)
+        return status;
+    close(descriptor);
+    hd_temporary_remove(temporary);
+    return HD_OK;
+}
+
+HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < plan->count && status == HD_OK; i++)
+        if (!is_film(plan->names[i]))
+            status = probe_picture(plan->names[i], first_number, error);
     return status;
 }
 

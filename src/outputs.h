@@ -36,6 +36,10 @@ HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdE
 
 typedef struct HdOutputs HdOutputs;
 
+/* Finds out before the first frame whether its pictures can be written, which makes their folders.
+ */
+HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error);
+
 /* Starts the films of a plan that was accepted; the plan must live on. On failure nothing is left
    behind. */
 HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,

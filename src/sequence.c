@@ -72,6 +72,8 @@ static HdStatus prepare(Run *run, HdError *error) {
         sequence->uploaded(sequence->context, &tables);
     hd_scene_tables_free(&tables);
     if (status == HD_OK)
+        status = hd_outputs_probe(sequence->outputs, sequence->frames->frames[0], error);
+    if (status == HD_OK)
         status =
             hd_outputs_open(&run->outputs, sequence->outputs, scene->width, scene->height, error);
     return status;
