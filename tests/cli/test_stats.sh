@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # --stats: a line of JSON about each frame, and files that take none.
+# shellcheck disable=SC2317 # without_reader calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
