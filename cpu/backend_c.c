@@ -10,6 +10,7 @@
 #include "../kernels/common/scene_tables.h"
 #include "../src/backend.h"
 #include "../src/clock.h"
+#include "../src/interrupt.h"
 #include "../src/kernel_source.h"
 #include "instruction_set.h"
 #include "kernel.h"
@@ -121,6 +122,10 @@ static void render_one_item(void *context, int item) {
                            work->c->counts);
 }
 
+static bool is_interrupted(void) {
+    return hd_interrupt_signal() != 0;
+}
+
 static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                          HdError *error) {
     CRenderer *c = renderer;
@@ -130,7 +135,8 @@ static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *f
         return status;
     FrameWork work = {c, tables, frame->rgb};
     double start = hd_monotonic_seconds();
-    hd_thread_pool_run(c->pool, items, render_one_item, &work);
+    if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, is_interrupted))
+        return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     frame->trace_seconds = hd_monotonic_seconds() - start;
     hd_frame_set_counts(frame, tables->samples_per_side, c->counts, items);
     return HD_OK;

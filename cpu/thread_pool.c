@@ -21,6 +21,8 @@ struct HdThreadPool {
     int count;
     void (*work)(void *context, int item);
     void *context;
+    bool (*must_stop)(void);
+    atomic_bool stopped; /* before all items were done */
 };
 
 static void work_off(HdThreadPool *pool) {
@@ -28,6 +30,10 @@ static void work_off(HdThreadPool *pool) {
         int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (item >= pool->count)
             return;
+        if (pool->must_stop()) {
+            atomic_store(&pool->stopped, true);
+            return;
+        }
         pool->work(pool->context, item);
     }
 }
@@ -99,12 +105,14 @@ HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) 
     return status;
 }
 
-void hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
-                        void *context) {
+bool hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
+                        void *context, bool (*must_stop)(void)) {
     pthread_mutex_lock(&pool->mutex);
     pool->count = count;
     pool->work = work;
     pool->context = context;
+    pool->must_stop = must_stop;
+    atomic_store(&pool->stopped, false);
     atomic_store(&pool->next, 0);
     pool->busy = pool->thread_count;
     pool->generation++;
@@ -112,6 +120,7 @@ void hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *contex
     while (pool->busy > 0)
         pthread_cond_wait(&pool->work_done, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+    return !atomic_load(&pool->stopped);
 }
 
 void hd_thread_pool_destroy(HdThreadPool *pool) {

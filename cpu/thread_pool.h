@@ -3,6 +3,8 @@
 #ifndef HD_THREAD_POOL_H
 #define HD_THREAD_POOL_H
 
+#include <stdbool.h>
+
 #include "../src/error.h"
 
 typedef struct HdThreadPool HdThreadPool;
@@ -11,9 +13,10 @@ typedef struct HdThreadPool HdThreadPool;
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
 /* Calls work(context, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
-   order, and waits for all of them. One caller at a time. */
-void hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
-                        void *context);
+   order, and waits for all of them. One caller at a time. Once must_stop() is true no further item
+   is begun; false where some were left out so. */
+bool hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
+                        void *context, bool (*must_stop)(void));
 
 /* Ends the threads. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "leftovers.h"
+
 enum { MAX_ATTEMPTS = 1000 };
 
 static HdStatus check_target(const char *path, HdError *error) {
@@ -41,19 +43,40 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
     return HD_OK;
 }
 
+/* The temporary name is cut to fit, so that the final one would be found too long only at the end.
+ */
+static HdStatus check_length(const char *path, HdError *error) {
+    const char *slash = strrchr(path, '/');
+    const char *name = slash == NULL ? path : slash + 1;
+    char folder[HD_MAX_PATH] = ".";
+    if (slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    long most = pathconf(folder, _PC_NAME_MAX);
+    if (most > 0 && strlen(name) > (size_t)most)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write \"%s\": the name of the file has %zu bytes, expected at most "
+                       "%ld",
+                       path, strlen(name), most);
+    return HD_OK;
+}
+
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
     if (status == HD_OK)
         status = hd_path_make_parents(path, error);
+    if (status == HD_OK)
+        status = check_length(path, error);
     /* A process id comes back after a crash, and containers that share a folder repeat them. */
     for (int attempt = 0; status == HD_OK && attempt < MAX_ATTEMPTS; attempt++) {
         status = temporary_name(path, attempt, temporary, error);
         if (status != HD_OK)
             break;
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (*descriptor >= 0)
+        if (*descriptor >= 0) {
+            hd_leftovers_add_file(temporary);
             return HD_OK;
+        }
         if (errno != EEXIST)
             return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path,
                            temporary, strerror(errno));
@@ -64,11 +87,18 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
                    path, MAX_ATTEMPTS, temporary);
 }
 
-HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
-    if (rename(temporary, path) == 0)
-        return HD_OK;
-    int reason = errno;
+void hd_temporary_remove(const char *temporary) {
     unlink(temporary);
+    hd_leftovers_forget_file(temporary);
+}
+
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
+    if (rename(temporary, path) == 0) {
+        hd_leftovers_forget_file(temporary);
+        return HD_OK;
+    }
+    int reason = errno;
+    hd_temporary_remove(temporary);
     return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", temporary, path,
                    strerror(reason));
 }
@@ -84,7 +114,7 @@ HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *erro
         return HD_OK;
     int reason = errno;
     close(descriptor);
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
 
@@ -96,12 +126,12 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
     file->stream = NULL;
     if (reason == 0)
         return hd_temporary_publish(file->temporary, file->path, error);
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {
     fclose(file->stream);
     file->stream = NULL;
-    unlink(file->temporary);
+    hd_temporary_remove(file->temporary);
 }

@@ -9,10 +9,12 @@
 #include "paths.h"
 
 /* Makes missing folders and an empty file beside `path`, "NAME.tmp-PID-N", that no other process
-   uses. The caller closes the descriptor. A `path` that stands for a folder or a device is refused,
-   because renaming would replace it. */
+   uses. It does not outlive the program (leftovers.h). The caller closes the descriptor. A `path`
+   that stands for a folder or a device is refused, because renaming would replace it. */
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error);
+
+void hd_temporary_remove(const char *temporary);
 
 /* Renames the temporary file to its final name; removes it where that fails. */
 HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error);

@@ -56,7 +56,8 @@ struct HdBackend {
     HdStatus (*upload)(void *renderer, const HdSceneTables *tables, HdError *error);
 
     /* Renders one frame of the uploaded scene and waits for it: fills every pixel, the counts and
-       trace_seconds of `frame`. */
+       trace_seconds of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then
+       `frame` is worth nothing. */
     HdStatus (*render)(void *renderer, const HdFrameTables *tables, HdFrame *frame, HdError *error);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */

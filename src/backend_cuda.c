@@ -7,6 +7,7 @@
 #include "../kernels/common/scene_tables.h"
 #include "cuda_compile.h"
 #include "device_launch.h"
+#include "interrupt.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -395,6 +396,16 @@ static HdStatus launch(const Renderer *renderer, HdCuFunction function, int item
                 (function, blocks, 1, 1, BLOCK_THREADS, 1, 1, 0, NULL, arguments, NULL), error);
 }
 
+/* Launches are queued one by one, so that a signal ends the frame between two of them. */
+static HdStatus wait_between(const Renderer *renderer, HdError *error) {
+    HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->end, NULL), error);
+    if (status == HD_OK)
+        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->end), error);
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    return status;
+}
+
 static HdStatus launch_render(Renderer *renderer, int items, int samples_per_side, HdError *error) {
     int first, count, parts = hd_gpu_sample_parts(samples_per_side, BLOCK_THREADS);
     void *arguments[HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 5];
@@ -410,6 +421,9 @@ static HdStatus launch_render(Renderer *renderer, int items, int samples_per_sid
     arguments[n++] = &renderer->counts.pointer;
     HdStatus status = HD_OK;
     for (first = 0; status == HD_OK && first < items; first += count) {
+        status = first > 0 ? wait_between(renderer, error) : HD_OK;
+        if (status != HD_OK)
+            break;
         count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
         status = launch(renderer, renderer->render, count, BLOCK_THREADS / parts, arguments, error);
     }

@@ -7,6 +7,7 @@
 #include "../kernels/common/scene_tables.h"
 #include "clock.h"
 #include "device_launch.h"
+#include "interrupt.h"
 #include "opencl_program.h"
 
 enum { CPU_PIXELS_PER_ITEM = HD_BLOCK_PIXELS, GPU_LOCAL_SIZE = 64 };
@@ -259,6 +260,14 @@ static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int item
     return check(code, "clEnqueueNDRangeKernel", error);
 }
 
+/* Launches are queued one by one, so that a signal ends the frame between two of them. */
+static HdStatus wait_between(const Renderer *renderer, HdError *error) {
+    HdStatus status = check(clFinish(renderer->queue), "clFinish", error);
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    return status;
+}
+
 /* events[0] is the first launch's, events[1] the last one's. */
 static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, cl_event events[2],
                            HdError *error) {
@@ -268,6 +277,9 @@ static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, 
     int count;
     HdStatus status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
+        status = first > 0 ? wait_between(renderer, error) : HD_OK;
+        if (status != HD_OK)
+            break;
         count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
         status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
         if (status == HD_OK)

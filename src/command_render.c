@@ -23,11 +23,20 @@ static HdOutputPlan plan_outputs(const HdOptions *options, const HdOutputSetting
 }
 
 /* Where standard output has the statistics, it has nothing else. */
-static void print_names(const HdOptions *options, const HdOutputPlan *plan) {
+static HdStatus print_names(const HdOptions *options, const HdOutputPlan *plan,
+                            const HdFrameList *frames, HdError *error) {
+    char file[HD_MAX_PATH];
     if (options->statistics != NULL && strcmp(options->statistics, "-") == 0)
-        return;
-    for (int i = 0; i < plan->count; i++)
-        printf("%s\n", plan->names[i]);
+        return HD_OK;
+    for (int i = 0; i < plan->count; i++) {
+        HdStatus status = HD_OK;
+        if (frames->count == 1)
+            status = hd_output_name(plan->names[i], frames->frames[0], file, error);
+        if (status != HD_OK)
+            return status;
+        printf("%s\n", frames->count == 1 ? file : plan->names[i]);
+    }
+    return HD_OK;
 }
 
 static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, HdError *error) {
@@ -45,7 +54,7 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
     };
     status = hd_render(&rendering, options, error);
     if (status == HD_OK)
-        print_names(options, &rendering.outputs);
+        status = print_names(options, &rendering.outputs, &frames, error);
     hd_frame_list_free(&frames);
     return status;
 }

@@ -31,13 +31,32 @@ static bool contains(const char *text, const char *part) {
     return length == 0;
 }
 
+static bool is_number(const char *text) {
+    return *text != '\0' && text[strspn(text, "0123456789")] == '\0';
+}
+
+/* "c:0" names the backend as well. */
+static HdStatus split_name(HdDeviceWish *wish, HdError *error) {
+    for (int i = 0; i < HD_BACKEND_COUNT && wish->device != NULL; i++) {
+        const char *name = hd_backends[i]->name;
+        size_t length = strlen(name);
+        if (strncmp(wish->device, name, length) != 0 || wish->device[length] != ':' ||
+            !is_number(wish->device + length + 1))
+            continue;
+        if (wish->backend != NULL && strcmp(wish->backend, name) != 0)
+            return hd_fail(error, HD_BAD_INPUT, "--device is '%s', but --backend is '%s'",
+                           wish->device, wish->backend);
+        wish->backend = name;
+        wish->device += length + 1;
+    }
+    return HD_OK;
+}
+
 static bool is_named(const HdDevice *device, const char *wish) {
     if (wish == NULL)
         return true;
-    char *end;
-    long number = strtol(wish, &end, 10);
-    if (end != wish && *end == '\0')
-        return number == device->index;
+    if (is_number(wish))
+        return strtol(wish, NULL, 10) == device->index;
     return contains(device->name, wish);
 }
 
@@ -138,12 +157,17 @@ static void explain(const Search *search, HdDeviceReason *reason) {
 
 HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
                           const HdRenderOptions *options, HdDeviceReason *reason, HdError *error) {
-    Search search = {.wish = wish, .options = options};
+    HdDeviceWish split = *wish;
+    Search search = {.wish = &split, .options = options};
+    HdStatus status = split_name(&split, error);
+    if (status != HD_OK)
+        return status;
     search_wanted(&search, error);
     if (!search.found)
-        return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s",
+        return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
                        wish->device ? " (asked for device '" : "", wish->device ? wish->device : "",
-                       wish->device ? "')" : "", search.reasons);
+                       wish->device ? "')" : "", search.reasons,
+                       wish->device ? "; see 'hedron devices'" : "");
     *device = search.best;
     explain(&search, reason);
     return HD_OK;

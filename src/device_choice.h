@@ -13,7 +13,7 @@ typedef enum HdDeviceKind {
 
 typedef struct HdDeviceWish {
     const char *backend; /* NULL: any */
-    const char *device;  /* number within the backend or part of a name; NULL: any */
+    const char *device; /* number within the backend, BACKEND:NUMBER or part of a name; NULL: any */
     HdDeviceKind kind;
 } HdDeviceWish;
 

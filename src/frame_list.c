@@ -16,6 +16,10 @@ typedef struct Range {
 
 static HdStatus fail_item(const char *item, size_t length, const char *what, int frame_count,
                           HdError *error) {
+    if (frame_count == 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the frame list has \"%.*s\", %s; the scene has one frame, 0",
+                       (int)(length < 1000 ? length : 1000), item, what);
     int shown = length < 1000 ? (int)length : 1000;
     return hd_fail(error, HD_BAD_INPUT,
                    "the frame list has \"%.*s\", %s; expected frames or ascending ranges within "

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The program's signals; SIGINT, SIGTERM and SIGHUP become a question that the work asks between
- * frames. */
+/* The program's signals; SIGINT, SIGTERM and SIGHUP become a question that the work asks. */
 #ifndef HD_INTERRUPT_H
 #define HD_INTERRUPT_H
 
-/* Catches the three once each, unless they are ignored; a second one ends the program at once. A
-   file that grows past its limit becomes an error of write instead of a death, and children can be
-   waited for whatever the parent process had set. */
+/* Catches the three, unless they are ignored. The first one is remembered; another one half a
+   second later or more ends the program at once, leaving nothing half-done behind (leftovers.h).
+   What comes sooner is the same wish, sent twice: to the program and to its group. A file that
+   grows past its limit and a reader that went away become errors of write instead of a death, and
+   children can be waited for whatever the parent process had set. */
 void hd_interrupt_install(void);
 
 /* The number of the signal that came, or 0. */
 int hd_interrupt_signal(void);
+
+/* What the first signal writes to standard error at once; NULL: nothing. The text must live on. */
+void hd_interrupt_announce(const char *text);
 
 #endif

@@ -45,7 +45,7 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
     {HD_OPTION_BACKEND, "--backend", NULL, "NAME", "auto c opencl cuda", false, 0, 0, RENDERING,
      "auto, c, opencl or cuda (default auto: the best one found)"},
     {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, RENDERING,
-     "number of the device as listed by 'hedron devices', or part of its name"},
+     "number of the device as listed by 'hedron devices', also as c:0, or part of its name"},
     {HD_OPTION_LANES, "--lanes", NULL, "N", "1 4 8 16", false, 0, 0, RENDERING,
      "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)"},
     {HD_OPTION_THREADS, "--threads", NULL, "N", NULL, false, 1, HD_MAX_THREADS, RENDERING,
@@ -67,7 +67,7 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
     {HD_OPTION_JSON, "--json", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_DEVICES,
      "print the list as JSON"},
     {HD_OPTION_HELP, "--help", "-h", NULL, NULL, false, 0, 0, EVERYTHING, "print this help"},
-    {HD_OPTION_VERSION, "--version", NULL, NULL, NULL, false, 0, 0, RENDERING, "print the version"},
+    {HD_OPTION_VERSION, "--version", "-V", NULL, NULL, false, 0, 0, RENDERING, "print the version"},
 };
 _Static_assert(HD_CLASSIC_VARIANTS == 10 && HD_CLASSIC_DEFAULT_VARIANT == 4 &&
                    HD_MAX_OUTPUTS == 8 && HD_MAX_CHANGES == 64,
@@ -89,6 +89,14 @@ int hd_option_choice(const char *choices, const char *text) {
         if (strlen(text) == length && strncmp(text, word, length) == 0)
             return i;
     return -1;
+}
+
+size_t hd_option_completed(const char *choices, const char *text, const char **word) {
+    size_t length, given = strlen(text);
+    while (next_word(&choices, word, &length))
+        if (given > 0 && given < length && strncmp(text, *word, given) == 0)
+            return length;
+    return 0;
 }
 
 void hd_option_list_choices(const char *choices, char *text, int capacity) {

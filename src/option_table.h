@@ -4,6 +4,7 @@
 #define HD_OPTION_TABLE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef enum HdOptionId {
     HD_OPTION_GPU,
@@ -50,6 +51,10 @@ extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */
 int hd_option_choice(const char *choices, const char *text);
+
+/* The length of the first choice that begins with `text`, and where it starts; 0: there is none, or
+   the text is empty. */
+size_t hd_option_completed(const char *choices, const char *text, const char **word);
 
 /* The choices as people list them: "auto, c, opencl or cuda". */
 void hd_option_list_choices(const char *choices, char *text, int capacity);

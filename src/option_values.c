@@ -7,12 +7,34 @@
 
 #include "scene.h"
 
+static size_t digits(const char *text) {
+    return strspn(text, "0123456789");
+}
+
+/* "1", "0.5", ".5" and "1e-3": what strtod takes beyond it is no number on a command line. */
+static bool is_decimal(const char *text) {
+    size_t whole = digits(text), fraction = 0;
+    text += whole;
+    if (*text == '.') {
+        fraction = digits(text + 1);
+        text += 1 + fraction;
+    }
+    if (*text == 'e' || *text == 'E') {
+        text += 1 + (text[1] == '-' || text[1] == '+');
+        if (digits(text) == 0)
+            return false;
+        text += digits(text);
+    }
+    return whole + fraction > 0 && *text == '\0';
+}
+
 static HdStatus parse_integer(const HdOptionSpec *spec, const char *text, int *out,
                               HdError *error) {
     char *end;
     errno = 0;
     long value = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || value < spec->least || value > spec->most)
+    if (digits(text) == 0 || *end != '\0' || errno != 0 || value < spec->least ||
+        value > spec->most)
         return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a whole number from %d to %d",
                        spec->name, text, spec->least, spec->most);
     *out = (int)value;
@@ -24,7 +46,7 @@ static HdStatus parse_size(const HdOptionSpec *spec, const char *text, HdOptions
     char *end;
     errno = 0;
     long width = strtol(text, &end, 10), height = 0;
-    bool good = end != text && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9';
+    bool good = digits(text) > 0 && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9';
     if (good) {
         height = strtol(end + 1, &end, 10);
         good = *end == '\0' && errno == 0 && width >= 1 && width <= HD_MAX_IMAGE_SIDE &&
@@ -41,9 +63,8 @@ static HdStatus parse_size(const HdOptionSpec *spec, const char *text, HdOptions
 
 static HdStatus parse_fraction(const HdOptionSpec *spec, const char *text, double *out,
                                HdError *error) {
-    char *end;
-    double value = strtod(text, &end);
-    if (end == text || *end != '\0' || !(value >= 0.0 && value < 1.0))
+    double value = is_decimal(text) ? strtod(text, NULL) : -1.0;
+    if (!(value >= 0.0 && value < 1.0))
         return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from 0 to below 1",
                        spec->name, text);
     *out = value;
@@ -53,10 +74,15 @@ static HdStatus parse_fraction(const HdOptionSpec *spec, const char *text, doubl
 static HdStatus parse_choice(const HdOptionSpec *spec, const char *text, int *number,
                              HdError *error) {
     char list[256];
+    const char *meant = NULL;
     *number = hd_option_choice(spec->choices, text);
     if (*number >= 0)
         return HD_OK;
     hd_option_list_choices(spec->choices, list, sizeof list);
+    size_t length = hd_option_completed(spec->choices, text, &meant);
+    if (length > 0)
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s; did you mean '%.*s'?",
+                       spec->name, text, list, (int)length, meant);
     return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected %s", spec->name, text, list);
 }
 
@@ -164,7 +190,8 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_CUTOFF:
         return parse_fraction(spec, value, &options->cutoff, error);
     case HD_OPTION_DEVICE:
-        return parse_text(spec, value, "a number or part of a name", &options->device, error);
+        return parse_text(spec, value, "a number, BACKEND:NUMBER or part of a name",
+                          &options->device, error);
     case HD_OPTION_THREADS:
         return parse_integer(spec, value, &options->render.threads, error);
     case HD_OPTION_BACKEND:

@@ -15,6 +15,7 @@ typedef struct Parser {
     const HdCommandSpec *command;
     int count, next; /* arguments, and the number of the one to be read next */
     char **arguments;
+    bool only_operands; /* after "--" */
 } Parser;
 
 /* "'hedron render'", or the classic mode. */
@@ -25,7 +26,14 @@ static void label(const HdCommandSpec *command, char text[64]) {
         snprintf(text, 64, "'hedron %s'", command->name);
 }
 
-/* Matches "--name", "--name=value" and "-n"; `*value` is what follows the equals sign, or NULL. An
+/* "-n", or "-nVALUE" where it takes one. */
+static bool is_short(const HdOptionSpec *spec, const char *argument) {
+    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
+        return false;
+    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
+}
+
+/* Matches "--name", "--name=value", "-n" and "-nvalue"; `*value` is what came with it, or NULL. An
    option of the command comes before one of the same name that belongs to another. */
 static const HdOptionSpec *find_spec(const char *argument, HdCommand command, const char **value) {
     const HdOptionSpec *found = NULL;
@@ -34,12 +42,21 @@ static const HdOptionSpec *find_spec(const char *argument, HdCommand command, co
     for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
         const HdOptionSpec *spec = &hd_option_specs[i];
         bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
-        if (!is_long && (spec->short_name == NULL || strcmp(spec->short_name, argument) != 0))
+        if (!is_long && !is_short(spec, argument))
             continue;
+        if (!is_long)
+            *value = argument[2] != '\0' ? argument + 2 : NULL;
         if (found == NULL || (spec->commands & (unsigned)command) != 0)
             found = spec;
     }
     return found;
+}
+
+static void spell_help(const HdCommandSpec *command, char text[128]) {
+    if (command->name == NULL)
+        snprintf(text, 128, "see 'hedron help'");
+    else
+        snprintf(text, 128, "see 'hedron help %s'", command->name);
 }
 
 /* "did you mean '--size'?", or where to look. */
@@ -48,8 +65,7 @@ static void suggest(const HdNearest *nearest, const char *prefix, const HdComman
     if (nearest->name != NULL)
         snprintf(text, 128, "did you mean '%s%s'?", prefix, nearest->name);
     else
-        snprintf(text, 128, "see 'hedron %s%s--help'", command->name ? command->name : "",
-                 command->name ? " " : "");
+        spell_help(command, text);
 }
 
 static HdStatus fail_unknown_option(const Parser *parser, const char *argument, HdError *error) {
@@ -68,6 +84,19 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
     if (hd_path_has_ending(argument, ".json"))
         return hd_fail(error, HD_BAD_INPUT,
                        "'%s' is neither a command nor an option; did you mean 'hedron render %s'?",
+                       argument, argument);
+    if (strcmp(argument, "man") == 0 || strcmp(argument, "completion") == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'%s' is neither a command nor an option; did you mean 'hedron help %s'?",
+                       argument, argument);
+    if (strcmp(argument, "version") == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'version' is neither a command nor an option; did you mean 'hedron "
+                       "--version'?");
+    if (strpbrk(argument, "./") != NULL)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'%s' is neither a command nor an option; the classic mode reads standard "
+                       "input: hedron --cpu < %s",
                        argument, argument);
     HdNearest nearest = {.word = argument};
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
@@ -97,19 +126,28 @@ static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
     return HD_OK;
 }
 
+static HdStatus fail_foreign_option(const Parser *parser, const HdOptionSpec *spec,
+                                    HdError *error) {
+    char name[64], help[128];
+    label(parser->command, name);
+    spell_help(parser->command, help);
+    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; %s", spec->name, name, help);
+}
+
 static HdStatus parse_argument(Parser *parser, HdError *error) {
     char *argument = parser->arguments[parser->next++];
     const char *value;
-    char name[64];
-    if (argument[0] != '-' || argument[1] == '\0')
+    if (!parser->only_operands && strcmp(argument, "--") == 0) {
+        parser->only_operands = true;
+        return HD_OK;
+    }
+    if (parser->only_operands || argument[0] != '-' || argument[1] == '\0')
         return add_operand(parser, argument, error);
     const HdOptionSpec *spec = find_spec(argument, parser->options->command, &value);
     if (spec == NULL)
         return fail_unknown_option(parser, argument, error);
-    label(parser->command, name);
     if (!(spec->commands & (unsigned)parser->options->command))
-        return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; see 'hedron --help'",
-                       spec->name, name);
+        return fail_foreign_option(parser, spec, error);
     if (spec->value == NULL && value != NULL)
         return hd_fail(error, HD_BAD_INPUT, "%s takes no value, but '%s' was given", spec->name,
                        value);
@@ -159,7 +197,7 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
                        options->operands[0]);
     if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
         return hd_fail(error, HD_BAD_INPUT,
-                       "'hedron check' needs the name of a scene; see 'hedron check --help'");
+                       "'hedron check' needs the name of a scene; see 'hedron help check'");
     if (options->command == HD_COMMAND_CLASSIC && options->statistics != NULL &&
         strcmp(options->statistics, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,

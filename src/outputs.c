@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "outputs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "atomic_file.h"
 #include "clock.h"
 #include "output_kind.h"
-#include "paths.h"
 #include "video.h"
 
 struct HdOutputs {
@@ -19,10 +21,6 @@ struct HdOutputs {
 
 static bool is_film(const char *name) {
     return hd_output_is_film(hd_output_kind(name));
-}
-
-static bool is_pattern(const char *name) {
-    return strpbrk(name, "%#") != NULL;
 }
 
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
@@ -42,27 +40,58 @@ static HdStatus check_output(const char *name, int frame_count, HdError *error) 
                        name);
     if (is_film(name))
         return HD_OK;
-    if (is_pattern(name))
+    char file[HD_MAX_PATH];
+    if (hd_pattern_has_number(name))
         return hd_pattern_check(name, error);
     if (frame_count == 1)
-        return HD_OK;
+        return hd_pattern_format_single(name, file, error);
     return hd_fail(error, HD_BAD_INPUT,
                    "'%s' names one picture, but %d frames are to be rendered: put #### into the "
                    "name, choose a film such as film.mp4, or choose one frame with --frames",
                    name, frame_count);
 }
 
-HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error) {
-    for (int i = 0; i < plan->count; i++) {
-        HdStatus status = check_output(plan->names[i], frame_count, error);
-        if (status != HD_OK)
-            return status;
-        for (int j = 0; j < i; j++)
-            if (strcmp(plan->names[i], plan->names[j]) == 0)
-                return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice",
-                               plan->names[i]);
-    }
+HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error) {
+    if (!is_film(name) && hd_pattern_has_number(name))
+        return hd_pattern_format(name, number, out, error);
+    if (!is_film(name))
+        return hd_pattern_format_single(name, out, error);
+    if (snprintf(out, HD_MAX_PATH, "%s", name) >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the name of the output has %zu bytes, expected fewer than %d", strlen(name),
+                       (int)HD_MAX_PATH);
     return HD_OK;
+}
+
+HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdError *error) {
+    char expanded[HD_MAX_PATH];
+    HdStatus status = hd_output_name(name, number, expanded, error);
+    return status == HD_OK ? hd_path_expand_home(expanded, out, error) : status;
+}
+
+/* Patterns are compared by the name of a late frame, for "#" and "##" differ only before that. */
+static HdStatus check_different(const char *name, const char *other, int frame_count,
+                                HdError *error) {
+    char file[HD_MAX_PATH], other_file[HD_MAX_PATH];
+    HdStatus status = hd_output_file(name, frame_count - 1, file, error);
+    if (status == HD_OK)
+        status = hd_output_file(other, frame_count - 1, other_file, error);
+    if (status != HD_OK || !hd_path_is_same(file, other_file))
+        return status;
+    if (strcmp(name, other) == 0)
+        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", name);
+    return hd_fail(error, HD_BAD_INPUT, "the outputs '%.4000s' and '%.4000s' are the same file",
+                   other, name);
+}
+
+HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < plan->count && status == HD_OK; i++) {
+        status = check_output(plan->names[i], frame_count, error);
+        for (int j = 0; j < i && status == HD_OK; j++)
+            status = check_different(plan->names[i], plan->names[j], frame_count, error);
+    }
+    return status;
 }
 
 static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, HdError *error) {
@@ -75,6 +104,27 @@ static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, 
                                outputs->plan->style.frames_per_second, error);
     if (status == HD_OK)
         outputs->film_count++;
+    return status;
+}
+
+static HdStatus probe_picture(const char *name, int number, HdError *error) {
+    char path[HD_MAX_PATH], temporary[HD_MAX_PATH];
+    int descriptor;
+    HdStatus status = hd_output_file(name, number, path, error);
+    if (status == HD_OK)
+        status = hd_temporary_create(path, temporary, &descriptor, error);
+    if (status != HD_OK)
+        return status;
+    close(descriptor);
+    hd_temporary_remove(temporary);
+    return HD_OK;
+}
+
+HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < plan->count && status == HD_OK; i++)
+        if (!is_film(plan->names[i]))
+            status = probe_picture(plan->names[i], first_number, error);
     return status;
 }
 
@@ -97,19 +147,11 @@ HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int widt
 
 static HdStatus write_picture(const HdOutputPlan *plan, const char *name, const HdFrame *frame,
                               int number, HdError *error) {
-    char path[HD_MAX_PATH], expanded[HD_MAX_PATH];
-    HdStatus status = HD_OK;
-    if (is_pattern(name))
-        status = hd_pattern_format(name, number, path, error);
-    else if (snprintf(path, sizeof path, "%s", name) >= HD_MAX_PATH)
-        status = hd_fail(error, HD_BAD_INPUT,
-                         "the name of the output has %zu bytes, expected fewer than %d",
-                         strlen(name), (int)HD_MAX_PATH);
-    if (status == HD_OK)
-        status = hd_path_expand_home(path, expanded, error);
+    char path[HD_MAX_PATH];
+    HdStatus status = hd_output_file(name, number, path, error);
     if (status != HD_OK)
         return status;
-    return hd_picture_write(frame, &plan->style.picture, expanded, error);
+    return hd_picture_write(frame, &plan->style.picture, path, error);
 }
 
 HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,

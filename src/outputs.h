@@ -6,6 +6,7 @@
 #include "error.h"
 #include "frame.h"
 #include "image.h"
+#include "paths.h"
 
 enum { HD_MAX_OUTPUTS = 8 };
 
@@ -24,10 +25,20 @@ typedef struct HdOutputPlan {
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error);
 
-/* Checks that each output suits the number of frames, and that none is there twice. */
+/* Checks that each output suits the number of frames, and that none is there twice, whatever the
+   spelling. */
 HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error);
 
+/* The name that an output of an accepted plan has for one frame, as people wrote it, and the file
+   that it stands for. */
+HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
+HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
+
 typedef struct HdOutputs HdOutputs;
+
+/* Finds out before the first frame whether its pictures can be written, which makes their folders.
+ */
+HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error);
 
 /* Starts the films of a plan that was accepted; the plan must live on. On failure nothing is left
    behind. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 
 #include "paths.h"
 
@@ -83,6 +83,57 @@ HdStatus hd_path_make_parents(const char *path, HdError *error) {
     return status;
 }
 
+static void remove_last(char *path) {
+    char *slash = strrchr(path, '/');
+    if (slash != NULL)
+        *slash = '\0';
+}
+
+/* One step down or up from `path`, "" being the root; links are followed as far as they lead. */
+static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
+    size_t used = strlen(path);
+    if (length == 0 || (length == 1 && part[0] == '.'))
+        return true;
+    if (length == 2 && strncmp(part, "..", 2) == 0) {
+        remove_last(path);
+        return true;
+    }
+    if (used + length + 2 > HD_MAX_PATH)
+        return false;
+    snprintf(path + used, HD_MAX_PATH - used, "/%.*s", (int)length, part);
+    char *found = realpath(path, NULL);
+    bool fits = found == NULL || strlen(found) < HD_MAX_PATH;
+    if (found != NULL && fits)
+        snprintf(path, HD_MAX_PATH, "%s", found);
+    free(found);
+    return fits;
+}
+
+/* The one name that stands for the file, made of what exists and what would be made. */
+static bool resolve(const char *path, char out[HD_MAX_PATH]) {
+    out[0] = '\0';
+    if (path[0] != '/' && (getcwd(out, HD_MAX_PATH) == NULL || strcmp(out, "/") == 0))
+        out[0] = '\0';
+    for (;;) {
+        size_t length = strcspn(path, "/");
+        if (!walk(out, path, length))
+            return false;
+        path += length;
+        if (*path == '\0')
+            return true;
+        path++;
+    }
+}
+
+bool hd_path_is_same(const char *first, const char *second) {
+    struct stat a, b;
+    char first_name[HD_MAX_PATH], second_name[HD_MAX_PATH];
+    if (stat(first, &a) == 0 && stat(second, &b) == 0)
+        return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    return resolve(first, first_name) && resolve(second, second_name) &&
+           strcmp(first_name, second_name) == 0;
+}
+
 /* A pattern's parts. */
 typedef enum Part { PART_CHARACTER, PART_PERCENT, PART_NUMBER, PART_WRONG } Part;
 
@@ -145,10 +196,11 @@ bool hd_pattern_has_number(const char *path) {
     return false;
 }
 
-HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+static HdStatus count_numbers(const char *pattern, int *numbers, HdError *error) {
     const bool takes_marks = !has_directive(pattern);
     const char *text = pattern;
-    int numbers = 0, digits;
+    int digits;
+    *numbers = 0;
     while (*text != '\0') {
         Part part = read_part(&text, takes_marks, &digits);
         if (part == PART_WRONG)
@@ -157,14 +209,20 @@ HdStatus hd_pattern_check(const char *pattern, HdError *error) {
                            "%d, 1 to %d #, or %%%% for a percent sign",
                            pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
                            MAX_DIGITS);
-        numbers += part == PART_NUMBER;
+        *numbers += part == PART_NUMBER;
     }
-    if (numbers != 1)
+    return HD_OK;
+}
+
+HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+    int numbers;
+    HdStatus status = count_numbers(pattern, &numbers, error);
+    if (status == HD_OK && numbers != 1)
         return hd_fail(error, HD_BAD_INPUT,
                        "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
                        "or run of #",
                        pattern, numbers);
-    return HD_OK;
+    return status;
 }
 
 /* Writes what stands for the next part and moves past it. */
@@ -176,13 +234,7 @@ static void expand_next(const char **text, bool takes_marks, int frame, char pie
         snprintf(piece, 16, "%c", (*text)[-1]);
 }
 
-HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
-    HdStatus status = hd_pattern_check(pattern, error);
-    if (status != HD_OK)
-        return status;
-    if (frame < 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
+static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
     const bool takes_marks = !has_directive(pattern);
     size_t length = 0;
     for (const char *text = pattern; *text != '\0';) {
@@ -196,4 +248,23 @@ HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH]
     }
     out[length] = '\0';
     return HD_OK;
+}
+
+HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
+    HdStatus status = hd_pattern_check(pattern, error);
+    if (status != HD_OK)
+        return status;
+    if (frame < 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
+    return expand(pattern, frame, out, error);
+}
+
+HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error) {
+    int numbers;
+    HdStatus status = count_numbers(name, &numbers, error);
+    if (status == HD_OK && numbers > 0)
+        return hd_fail(error, HD_BAD_INPUT, "the name \"%s\" has a frame number, expected none",
+                       name);
+    return status == HD_OK ? expand(name, 0, out, error) : status;
 }

@@ -4,6 +4,7 @@
 #define HD_PROGRESS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef enum HdProgressForm { HD_PROGRESS_NONE, HD_PROGRESS_BAR, HD_PROGRESS_LINES } HdProgressForm;
 
@@ -14,19 +15,28 @@ typedef struct HdProgress {
     double line_seconds; /* when the last plain line was written */
 } HdProgress;
 
-/* A bar on a terminal. Elsewhere plain lines where they are wanted, otherwise nothing. */
+/* A bar on a terminal that can redraw a line. Elsewhere plain lines where they are wanted,
+ * otherwise nothing. */
 HdProgressForm hd_progress_form(bool wants_lines);
 
 HdProgress hd_progress_start(HdProgressForm form, int total);
 
-/* After `done` frames: redraws the bar, or writes a line, if the last one is long enough ago. */
+/* Before the first frame: shows what is being done, where there is a bar. */
+void hd_progress_prepare(const HdProgress *progress, const char *what);
+
+/* After `done` frames, 0 included: redraws the bar, or writes a line, if the last one is long
+ * enough ago. */
 void hd_progress_update(HdProgress *progress, int done);
 
 /* Takes the bar away, so that a message can be written. */
 void hd_progress_end(const HdProgress *progress);
 
-/* After all frames: a last plain line. */
-void hd_progress_tell_end(const HdProgress *progress);
+/* After all frames: a last plain line, with the rays of all of them for each second. */
+void hd_progress_tell_end(const HdProgress *progress, uint64_t rays);
+
+/* "[####....] line", no wider than `columns`: a line that leaves no room for the bar stands alone,
+   and is cut where it is too long itself. */
+void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]);
 
 /* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
 void hd_progress_time(double seconds, char text[32]);

@@ -2,9 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "rendering.h"
 
-#include <signal.h>
 #include <stdio.h>
+#include <unistd.h>
 
+#include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
 #include "statistics.h"
@@ -17,6 +18,7 @@ typedef struct Run {
     HdDevice device;
     HdRenderer *renderer;
     char renderer_line[512];
+    uint64_t rays; /* of all frames so far */
 } Run;
 
 static void scene_uploaded(void *context, const HdSceneTables *tables) {
@@ -24,6 +26,7 @@ static void scene_uploaded(void *context, const HdSceneTables *tables) {
     hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
     if (run->options->verbose)
         hd_note_renderer(&run->device, run->renderer_line, tables);
+    hd_progress_update(&run->progress, 0);
 }
 
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
@@ -38,6 +41,7 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
+    run->rays += hd_frame_rays(stored->frame);
     if (status == HD_OK)
         hd_progress_update(&run->progress, stored->done);
     return status;
@@ -61,6 +65,15 @@ static HdStatus open_device(Run *run, HdError *error) {
     return hd_renderer_open(&run->renderer, &run->device, &options->render, error);
 }
 
+/* Only where somebody may be waiting at a terminal. */
+static void announce_interrupt(const Run *run) {
+    if (run->options->quiet || !isatty(STDERR_FILENO))
+        return;
+    hd_interrupt_announce(run->progress.form == HD_PROGRESS_BAR
+                              ? "\r\033[Khedron: stopping; press Ctrl-C again to stop now\n"
+                              : "hedron: stopping; press Ctrl-C again to stop now\n");
+}
+
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
@@ -72,41 +85,43 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    HdStatus status = open_device(run, error);
-    if (status != HD_OK)
-        return status;
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
         rendering->frames->count);
-    status = hd_sequence_render(&sequence, run->renderer, error);
-    hd_renderer_close(run->renderer);
+    if (run->device.backend != &hd_backend_c && !run->options->verbose)
+        hd_progress_prepare(&run->progress, "building kernels");
+    announce_interrupt(run);
+    HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
+    hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
     if (status == HD_OK)
-        hd_progress_tell_end(&run->progress);
+        hd_progress_tell_end(&run->progress, run->rays);
     return status;
 }
 
+/* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
     HdError ignored;
-    HdStatus status = HD_OK;
-    if (run->options->statistics != NULL)
+    HdStatus status = open_device(run, error);
+    if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
-    /* A reader of the statistics that goes away is a failed write, so that films are cleaned up. */
-    if (run->statistics.stream == stdout)
-        signal(SIGPIPE, SIG_IGN);
-    if (status != HD_OK)
-        return status;
-    status = render_all(run, error);
+    if (status == HD_OK)
+        status = render_all(run, error);
     if (run->statistics.stream != NULL) {
         HdStatus closed = hd_statistics_close(&run->statistics, status == HD_OK ? error : &ignored);
         status = status == HD_OK ? closed : status;
     }
+    hd_renderer_close(run->renderer);
     return status;
 }
 
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
     Run run = {.rendering = rendering, .options = options};
+    const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
     HdStatus status = hd_outputs_check(&rendering->outputs, rendering->frames->count, error);
+    if (status == HD_OK && options->statistics != NULL)
+        status = hd_statistics_check(options->statistics, scene, &rendering->outputs,
+                                     rendering->frames->frames[0], error);
     if (status != HD_OK)
         return status;
     if (options->verbose) {

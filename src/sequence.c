@@ -48,7 +48,7 @@ static HdStatus render_frame(Run *run, int index, HdError *error) {
         .frame = &run->frame,
     };
     HdStatus status = trace_frame(run, stored.number, &stored.times, error);
-    if (status == HD_OK && hd_interrupt_signal() != 0)
+    if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", index,
                          sequence->frames->count);
     if (status == HD_OK)
@@ -71,6 +71,8 @@ static HdStatus prepare(Run *run, HdError *error) {
     if (status == HD_OK)
         sequence->uploaded(sequence->context, &tables);
     hd_scene_tables_free(&tables);
+    if (status == HD_OK)
+        status = hd_outputs_probe(sequence->outputs, sequence->frames->frames[0], error);
     if (status == HD_OK)
         status =
             hd_outputs_open(&run->outputs, sequence->outputs, scene->width, scene->height, error);

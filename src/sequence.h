@@ -37,8 +37,8 @@ typedef struct HdSequence {
     void *context;
 } HdSequence;
 
-/* Renders with an open renderer. HD_INTERRUPTED after SIGINT or SIGTERM: pictures that were
-   finished stay, films are dropped. */
+/* Renders with an open renderer. HD_INTERRUPTED after SIGINT, SIGTERM or SIGHUP: pictures that were
+   finished stay, and so do films that were; the others are dropped. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error);
 
 #endif

@@ -1,17 +1,76 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "statistics.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "interrupt.h"
 #include "json_device_text.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
 
+/* Writing waits where the file is a pipe whose reader is slow, and opening where it has none. */
 static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
+    if (errno == EINTR && hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while writing the statistics to %s",
+                       statistics->name);
     return hd_fail(error, HD_FAILED, "cannot write the statistics to %s: %s", statistics->name,
                    strerror(errno));
+}
+
+static HdStatus check_begin(const char *path, const char *name, HdError *error) {
+    static const char expected[] = "{\"frame\"";
+    char begin[sizeof expected - 1] = "";
+    struct stat found;
+    if (stat(path, &found) != 0 || !S_ISREG(found.st_mode))
+        return HD_OK;
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        return HD_OK;
+    size_t count = fread(begin, 1, sizeof begin, stream);
+    fclose(stream);
+    if (count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '%s', which has other JSON in it, expected a new file or one "
+                       "with statistics",
+                       name);
+    return HD_OK;
+}
+
+HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutputPlan *plan,
+                             int frame_number, HdError *error) {
+    char file[HD_MAX_PATH], output[HD_MAX_PATH];
+    if (strcmp(path, "-") == 0)
+        return HD_OK;
+    HdStatus status = hd_path_expand_home(path, file, error);
+    if (status == HD_OK && scene != NULL && hd_path_is_same(file, scene))
+        return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is the scene", path);
+    for (int i = 0; i < plan->count && status == HD_OK; i++) {
+        status = hd_output_file(plan->names[i], frame_number, output, error);
+        if (status == HD_OK && hd_path_is_same(file, output))
+            return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
+    }
+    return status == HD_OK ? check_begin(file, path, error) : status;
+}
+
+static HdStatus open_file(HdStatistics *statistics, HdError *error) {
+    errno = EINTR;
+    int descriptor = hd_interrupt_signal() != 0
+                         ? -1
+                         : open(statistics->name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return fail_to_write(statistics, error);
+    statistics->stream = fdopen(descriptor, "w");
+    if (statistics->stream != NULL)
+        return HD_OK;
+    HdStatus status = fail_to_write(statistics, error);
+    close(descriptor);
+    return status;
 }
 
 HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error) {
@@ -24,12 +83,7 @@ HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError 
     HdStatus status = hd_path_expand_home(path, statistics->name, error);
     if (status == HD_OK)
         status = hd_path_make_parents(statistics->name, error);
-    if (status != HD_OK)
-        return status;
-    statistics->stream = fopen(statistics->name, "w");
-    if (statistics->stream == NULL)
-        return fail_to_write(statistics, error);
-    return HD_OK;
+    return status == HD_OK ? open_file(statistics, error) : status;
 }
 
 /* json_pack gives up as a whole where a part is missing. */

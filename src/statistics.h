@@ -23,6 +23,11 @@ typedef struct HdStatistics {
     char name[HD_MAX_PATH]; /* for messages */
 } HdStatistics;
 
+/* Refuses a file that the run reads or writes otherwise, and one that begins as JSON but not as
+   statistics do: where FILE is forgotten, a scene comes next. Nothing is opened for writing. */
+HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutputPlan *plan,
+                             int frame_number, HdError *error);
+
 /* Opens a file anew, "-" being standard output; makes missing folders. */
 HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error);
 

@@ -115,7 +115,7 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_
 
 static void remove_file(HdVideo *video) {
     if (video->temporary[0] != '\0')
-        unlink(video->temporary);
+        hd_temporary_remove(video->temporary);
     video->temporary[0] = '\0';
 }
 
@@ -168,8 +168,9 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
     return status;
 }
 
-static HdStatus fail_interrupted(const HdVideo *video, HdError *error) {
-    return hd_fail(error, HD_INTERRUPTED, "interrupted while FFmpeg worked on %s", video->path);
+static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdError *error) {
+    return hd_fail(error, HD_INTERRUPTED, "interrupted while %s worked on %s", program,
+                   video->path);
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
@@ -190,7 +191,7 @@ HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error) {
                        video->path, video->frames);
     if (!hd_child_send(&video->ffmpeg, frame->rgba,
                        (size_t)frame->width * (size_t)frame->height * 4))
-        return hd_interrupt_signal() != 0 ? fail_interrupted(video, error)
+        return hd_interrupt_signal() != 0 ? fail_interrupted(video, "FFmpeg", error)
                                           : fail_early(video, error);
     video->frames++;
     return HD_OK;
@@ -207,7 +208,7 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (hd_child_end(&video->ffmpeg, HD_CHILD_FOR_EVER, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
-        return fail_interrupted(video, error);
+        return fail_interrupted(video, "FFmpeg", error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
                    hd_child_said(&video->ffmpeg));
 }
@@ -226,6 +227,8 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     if (status != HD_OK)
         return status;
     bool done = hd_child_end(&ffprobe, HD_CHILD_FOR_EVER, how);
+    if (!done && hd_interrupt_signal() != 0)
+        return fail_interrupted(video, "ffprobe", error);
     const char *answer = hd_child_said(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "interrupt.h"
+#include "leftovers.h"
 
 extern char **environ;
 
@@ -71,16 +72,21 @@ static int prepare_streams(posix_spawn_file_actions_t *actions, int input, int o
     return reason;
 }
 
-/* The caller may have blocked signals in this thread; the program must not inherit that. */
+/* The caller may have blocked signals in this thread, and ours ignores lost readers; the program
+   must inherit neither. */
 static int prepare_signals(posix_spawnattr_t *attributes) {
-    sigset_t none;
+    const short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
+    sigset_t none, usual;
     sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
     int reason = posix_spawnattr_setsigmask(attributes, &none);
+    if (reason == 0)
+        reason = posix_spawnattr_setsigdefault(attributes, &usual);
     if (reason == 0)
         reason = posix_spawnattr_setpgroup(attributes, 0);
     if (reason == 0)
-        reason =
-            posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+        reason = posix_spawnattr_setflags(attributes, flags);
     return reason;
 }
 
@@ -102,7 +108,9 @@ static int spawn(pid_t *pid, const char *const arguments[], int input, int outpu
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);
-    if (reason != 0)
+    if (reason == 0)
+        hd_leftovers_add_group(*pid);
+    else
         *pid = 0;
     return reason;
 }
@@ -176,9 +184,14 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
 bool hd_child_end(HdChild *child, int patience, char how[64]) {
     int state = 0;
     pid_t ended;
+    siginfo_t unused;
     close_descriptor(&child->input);
     if (!drain(child, patience))
         kill(-child->pid, SIGKILL);
+    /* Its number is free for another process only once it was waited for. */
+    while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
+        continue;
+    hd_leftovers_forget_group(child->pid);
     do
         ended = waitpid(child->pid, &state, 0);
     while (ended < 0 && errno == EINTR);

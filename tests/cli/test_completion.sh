@@ -46,8 +46,8 @@ expect_completions '' --cpu ''
 # ---- a command's own options, which are those of its help
 for command in $commands; do
     "$hedron" help "$command" >"$logs/help"
-    short=$(sed -n 's/^  \(-[a-z]\), .*/\1/p' "$logs/help")
-    long=$(sed -n 's/^  \(-[a-z], \)*\(--[a-z]*\).*/\2/p' "$logs/help")
+    short=$(sed -n 's/^  \(-[a-zA-Z]\), .*/\1/p' "$logs/help")
+    long=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z]*\).*/\2/p' "$logs/help")
     expect_completions "$long" "$command" --
     expect_completions "$short"$'\n'"$long" "$command" -
 done

@@ -12,7 +12,7 @@ expect_help() {
     expect_exit 0 "$@" </dev/null
     expect_silent_stderr
     expect_stdout_contains 'Usage'
-    found=$(sed -n 's/^  \(-[a-z], \)*\(--[a-z]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
+    found=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
     expected=$(tr -s ' ' '\n' <<<"$expected" | sort | tr '\n' ' ')
     if [[ $found != "$expected" ]]; then
         fail "the help has '$found', expected '$expected'"

@@ -39,21 +39,12 @@ look_at() {
     ticks=$((stat[11] + stat[12]))
 }
 
-# catches SIGNAL: the program's handler is there, and was not yet used.
-catches() {
+# It has only the one thread then, and nothing but its input or a pipe to wait for.
+waits() {
     local mask
     look_at || return 1
     mask=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$pid/status") || return 1
-    [[ -n $mask ]] && (((16#$mask >> ($(kill -l "$1") - 1)) & 1))
-}
-
-has_caught() {
-    look_at && ! catches "$1"
-}
-
-# It has only the one thread then, and nothing but its input to wait for.
-waits_for_input() {
-    catches "$1" && look_at && [[ $state == S ]]
+    [[ -n $mask && $state == S ]] && (((16#$mask >> ($(kill -l INT) - 1)) & 1))
 }
 
 has_computed() {
@@ -117,7 +108,9 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
             rm -f "$work/reached"
             start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${slow[@]}" -o new/film.mp4
             wait_for "$moment" test -e "$moment"
+            # Twice at once, as 'timeout' does it.
             send "$signal" "-$pid"
+            kill "-$signal" "$pid" 2>/dev/null || true
             expect_end $((128 + $(kill -l "$signal"))) 10
             expect_sentence
             expect_stdout_lines 0
@@ -151,6 +144,42 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
         expect_files .
         rm -rf ./*
     done
+
+    # FFmpeg does not inherit that we ignore readers that went away.
+    fake_ffmpeg "sed -n 's/^SigIgn:[[:space:]]*//p' /proc/\$\$/status >'$work/reached'; exec '$ffmpeg' \"\$@\""
+    expect_exit 0 env PATH="$work/tools:$PATH" "$hedron" render --quiet --backend c "${small[@]}" --frames 0 \
+        -o film.mkv
+    if (((16#$(<"$work/reached") >> ($(kill -l PIPE) - 1)) & 1)); then
+        fail 'FFmpeg ignores SIGPIPE'
+    fi
+    rm film.mkv
+
+    # While ffprobe counts, it is an interrupt as well.
+    fake_ffmpeg "exec '$ffmpeg' \"\$@\""
+    printf '#!%s\n%s\n' "$(command -v bash)" ": >'$work/reached'; exec sleep 60" >"$work/tools/ffprobe"
+    chmod +x "$work/tools/ffprobe"
+    start env PATH="$work/tools:$PATH" "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o film.mkv
+    wait_for 'ffprobe to count' test -e "$work/reached"
+    send INT "$pid"
+    expect_end 130 5
+    expect_sentence
+    expect_stderr_contains interrupted
+    expect_files .
+    rm "$work/tools/ffprobe"
+
+    # A second signal, long enough after the first, ends the program at once whatever it waits for: here for
+    # an FFmpeg that neither speaks nor ends. Nothing stays behind.
+    fake_ffmpeg "cat >/dev/null; echo \$\$ >'$work/leader'; exec >&- 2>&-; : >'$work/reached'; exec sleep 60"
+    start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${small[@]}" --frames 0 -o film.mkv
+    wait_for 'FFmpeg to fall silent' test -e "$work/reached"
+    sleep 0.6
+    send INT "$pid"
+    sleep 0.6
+    send INT "$pid"
+    expect_end 130 3
+    wait_for 'FFmpeg to be gone' is_gone "$(<"$work/leader")"
+    expect_files .
+    rm "$work/tools/ffmpeg"
 else
     echo "not tested: films, for there is no FFmpeg"
 fi
@@ -160,19 +189,26 @@ mkfifo "$work/pipe"
 exec 9<>"$work/pipe"
 for signal in INT TERM; do
     start "$hedron" --cpu <"$work/pipe" 9>&-
-    wait_for 'it to wait for its input' waits_for_input "$signal"
+    wait_for 'it to wait for its input' waits
     send "$signal" "$pid"
     expect_end $((128 + $(kill -l "$signal"))) 3
 done
 exec 9>&-
 
-# ---- a second signal ends it at once, whatever it is at: here in the midst of a frame of many minutes
+# ---- before the first frame: while it waits for a reader of the statistics
+start "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.data --stats "$work/pipe"
+wait_for 'it to wait for a reader' waits
+send INT "$pid"
+expect_end 130 3
+expect_sentence
+
+# ---- in the midst of a frame of many minutes
 start "$hedron" render --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
 wait_for 'it to compute' has_computed 30
 send INT "$pid"
-wait_for 'the first signal to arrive' has_caught INT
-send INT "$pid"
 expect_end 130 3
+expect_sentence
+expect_stderr_contains 'interrupted after 0 of 1 frames'
 
 expect_files .
 finish

@@ -38,7 +38,7 @@ expect_data picture.data 33 25
 right --size=33X25
 expect_data picture.data 33 25
 for value in 0x24 32x0 -32x24 32x-24 32 32x 'x24' 32x24x3 65536x1 1x65536 abc '' 3.5x4 \
-    99999999999999999999x1 '32 x 24'; do
+    99999999999999999999x1 '32 x 24' ' 5x5' +5x5 5x+5 '5x 5'; do
     wrong --size "$value"
     wrong "--size=$value"
 done
@@ -49,7 +49,7 @@ expect_stderr_contains 'hedron: --size 65535x65535 --samples 2: 65535 x 65535 pi
 right --samples 1
 right --samples 3
 right --samples=2
-for value in 0 -1 1.5 abc '' 1x 99999999999 100000; do
+for value in 0 -1 1.5 abc '' 1x 99999999999 100000 ' 1' +1; do
     wrong --samples "$value"
 done
 
@@ -62,7 +62,8 @@ done
 right --cutoff 0
 right --cutoff=0.5
 right --cutoff 1e-3
-for value in 1 1.5 -0.1 nan inf abc '' 0.1x; do
+right --cutoff .5
+for value in 1 1.5 -0.1 nan inf abc '' 0.1x 0x.8p0 ' 0.5' +0.5 . 1e 0.5e-; do
     wrong --cutoff "$value"
 done
 
@@ -102,6 +103,13 @@ done
 
 right --device 0
 right --device=0
+right --device c:0
+expect_refusal 3 "$hedron" render "${small[@]}" --frames 0 -o none.data --device c:7
+expect_stderr_contains "; see 'hedron devices'"
+expect_refusal 2 "$hedron" render "${small[@]}" --frames 0 -o none.data --backend opencl --device c:0
+expect_stderr_contains "--device is 'c:0', but --backend is 'opencl'"
+expect_refusal 2 "$hedron" render --backend open
+expect_stderr_contains "did you mean 'opencl'?"
 
 frame_count=$("$hedron" --default | head -n 1)
 right --frames $((frame_count - 1))
@@ -123,6 +131,16 @@ expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 --ou
 expect_stdout_lines 2
 expect_same other.data picture.data
 rm other.data
+# One file is one output, whatever the spelling.
+for names in './same.data same.data' 'same.mkv ./no/../same.mkv' '##.data ./%02d.data'; do
+    # shellcheck disable=SC2086 # two names
+    expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0-1 -o ${names/ / -o }
+done
+# A percent sign, and the name that the only frame of a pattern has.
+expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 3 -o 'a%%.data' -o 'b%03d.data'
+expect_same "$logs/stdout" <(printf '%s\n' 'a%.data' b003.data)
+rm 'a%.data' b003.data
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 3 -o 'a%.data'
 # The name tells what to write, so it has to have one of the endings.
 for value in '' picture picture.jpg film.avi 'out/%d.jpg' 'out/%s.png' '%d_%d.png' 'out/%5d.png' folder/; do
     expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$value"
@@ -193,7 +211,7 @@ for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --prec
 done
 
 # ---- what is no option
-for argument in --nonsense --nonsense=1 -x -- - --siz=32x24 --sizes=1x1 -gpu --GPU --gpus -cpu word '' \
+for argument in --nonsense --nonsense=1 -x - --siz=32x24 --sizes=1x1 -gpu --GPU --gpus -cpu word '' \
     Render -oh --=1; do
     expect_refusal 2 "$hedron" "$argument" <"$input"
     expect_refusal 2 "$hedron" render "$argument"
@@ -223,14 +241,35 @@ meant 'hedron render' rendr
 meant 'hedron devices' device
 meant 'hedron render scene.json' scene.json
 meant 'hedron render' --cpu render
+meant 'hedron help completion' completion
+meant 'hedron help man' man
+meant 'hedron --version' version
+meant 'hedron help' hlep
 meant --size render --siz=32x24
 meant --samples --sample 3
 meant --schema check --shema
 meant 'hedron help completion' help completions
 expect_refusal 2 "$hedron" nonsense </dev/null
-expect_stderr_contains "see 'hedron --help'"
+expect_stderr_contains "see 'hedron help'"
 expect_refusal 2 "$hedron" render --nonsense
-expect_stderr_contains "see 'hedron render --help'"
+expect_stderr_contains "see 'hedron help render'"
+
+expect_refusal 2 "$hedron" devices --size 1x1
+expect_stderr_contains "see 'hedron help devices'"
+expect_refusal 2 "$hedron" scenes/classic.in </dev/null
+expect_stderr_contains 'the classic mode reads standard input: hedron --cpu < scenes/classic.in'
+expect_refusal 2 "$hedron" render --set camera.frames=1 --frames 3 -o none.data
+expect_stderr_contains 'the scene has one frame, 0'
+
+# ---- short forms, and the end of the options
+expect_exit 0 "$hedron" -V
+expect_stdout_lines 1 'hedron [0-9.]+'
+expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -oshort.data
+rm short.data
+expect_refusal 2 "$hedron" render -o=short.data
+expect_refusal 2 "$hedron" check -- --schema
+expect_stderr_contains "--schema"
+expect_refusal 2 "$hedron" check --
 
 # ---- options that exclude each other
 for command in render ''; do

@@ -82,9 +82,24 @@ done
 expect_files . folder folder.png folder.mp4
 rmdir folder folder.png folder.mp4
 long=$(printf '%0300d' 0).png
-expect_refusal 1 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$long"
+expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$long"
 long=$(printf '%05000d' 0).png
 expect_refusal 2 "$hedron" render --backend c "${small[@]}" --frames 0 -o "$long"
+
+# ---- what cannot be written is found before a frame of many minutes, and nothing of it stays
+long=$(printf '%0252d' 0)
+: >blocked
+for name in "$long.png" "$long.mkv" "$long%d.pfm" blocked/picture.png; do
+    if [[ $name != *.mkv ]] || { command -v ffmpeg && command -v ffprobe; } >"$logs/which"; then
+        run timeout 20 "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 \
+            -o "$name"
+        if ((code != 1 && code != 2)); then
+            fail "exit code $code, expected 1 or 2"
+        fi
+        expect_sentence
+    fi
+done
+rm blocked
 expect_files .
 
 # ---- a picture that is too large for any memory

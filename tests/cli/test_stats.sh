@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # --stats: a line of JSON about each frame, and files that take none.
+# shellcheck disable=SC2317 # without_reader calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -65,18 +66,35 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     rm film.mkv stats.jsonl
     # A reader that goes away ends the program, but not before it has cleaned up.
     mkfifo "$work/pipe"
-    exec 3<>"$work/pipe"
-    exec 4>"$work/pipe"
-    exec 3<&-
-    code=0
-    "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr" || code=$?
-    exec 4>&-
+    # without_reader COMMAND...: descriptor 4 is a pipe that nobody reads.
+    without_reader() {
+        exec 3<>"$work/pipe"
+        exec 4>"$work/pipe"
+        exec 3<&-
+        code=0
+        "$@" || code=$?
+        exec 4>&-
+    }
+    to_lost_output() {
+        "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr"
+    }
+    without_reader to_lost_output
     if ((code != 1)); then
         fail "exit code $code, expected 1"
     fi
     expect_sentence
     expect_stderr_contains 'cannot write the statistics to standard output'
     expect_files .
+    # Where only the messages are lost, the film is made.
+    to_lost_error() {
+        "$hedron" render --verbose --backend c "${small[@]}" --frames 0-1 -o film.mkv >"$logs/stdout" 2>&4
+    }
+    without_reader to_lost_error
+    if ((code != 0)); then
+        fail "exit code $code without a reader of standard error, expected 0"
+    fi
+    expect_files . film.mkv
+    rm film.mkv
 fi
 
 # ---- files that cannot be written, or are full
@@ -99,6 +117,29 @@ if command -v ffmpeg >"$logs/which"; then
 fi
 expect_refusal 2 "${render[@]}" --frames 0 -o a.data --stats ''
 expect_stderr_contains --stats
+
+# ---- files that the run reads or writes otherwise, and what is no statistics
+"$hedron" convert "$work/official.in" -o scene.json
+cp scene.json "$work/scene.json"
+ln -s scene.json link.json
+for file in scene.json ./scene.json link.json; do
+    expect_refusal 2 "${render[@]}" scene.json --frames 0 -o a.data --stats "$file"
+    expect_stderr_contains 'which is the scene'
+done
+expect_refusal 2 "${render[@]}" --frames 0 -o a.data --stats scene.json
+expect_stderr_contains "--stats is 'scene.json', which has other JSON in it"
+expect_same scene.json "$work/scene.json"
+for file in a07.data ./new/../a07.data; do
+    expect_refusal 2 "${render[@]}" --frames 7 -o 'a##.data' --stats "$file"
+    expect_stderr_contains 'which is an output'
+done
+# A start that fails leaves an earlier file alone.
+echo '{"frame":0}' >stats.jsonl
+expect_refusal 3 "${render[@]}" --device 'no such device' --frames 0 -o a.data --stats stats.jsonl
+if [[ $(<stats.jsonl) != '{"frame":0}' ]]; then
+    fail 'a start that failed wrote to the statistics'
+fi
+rm scene.json link.json stats.jsonl
 
 expect_files .
 finish

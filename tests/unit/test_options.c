@@ -105,17 +105,17 @@ static void opposites_exclude_each_other(void **state) {
 static void the_nearest_word_is_suggested(void **state) {
     (void)state;
     check_refused("hedron rendr", "did you mean 'hedron render'?");
-    check_refused("hedron xyzzy", "see 'hedron --help'");
+    check_refused("hedron xyzzy", "see 'hedron help'");
     check_refused("hedron foo.json", "did you mean 'hedron render foo.json'?");
     check_refused("hedron dir/foo.JSON --size 1x1", "did you mean 'hedron render dir/foo.JSON'?");
     check_refused("hedron render --smples 3", "did you mean '--samples'?");
     check_refused("hedron render --siz=3x3", "'--siz=3x3'; did you mean '--size'?");
-    check_refused("hedron render --frobnicate", "see 'hedron render --help'");
+    check_refused("hedron render --frobnicate", "see 'hedron help render'");
     /* Options of other commands are no help. */
-    check_refused("hedron devices --siz", "see 'hedron devices --help'");
+    check_refused("hedron devices --siz", "see 'hedron help devices'");
     check_refused("hedron help mann", "did you mean 'hedron help man'?");
     check_refused("hedron help chek", "did you mean 'hedron help check'?");
-    check_refused("hedron help x", "see 'hedron help --help'");
+    check_refused("hedron help x", "see 'hedron help help'");
 }
 
 static void help_has_topics(void **state) {
