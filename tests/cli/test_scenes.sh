@@ -143,7 +143,7 @@ for variant in 1 4 10; do
     expect_silent_stderr
     expect_files new converted.json
     render new/converted.json "${classic[@]}"
-    expect_stdout_lines 1 'out/img_%d\.data'
+    expect_stdout_lines 1 'out/img_5\.data'
     expect_same out/img_5.data classic.data
     expect_exit 0 "$hedron" convert --variant "$variant" <"$work/official.in"
     expect_silent_stderr
