@@ -12,8 +12,8 @@ const char hd_program_summary[] =
 const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
     {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", NULL, 1,
      "render a scene, or the built-in one, to films and pictures",
-     "Renders the frames of SCENE.json, or of the built-in scene, and prints the name of each "
-     "output.\n\n"
+     "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
+     "the name of each output.\n\n"
      "OUT is a picture (" HD_PICTURE_ENDINGS "), a numbered sequence of pictures such as "
      "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS
      "; made by FFmpeg). A picture without a number takes "
@@ -25,8 +25,9 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "--samples, --depth and --cutoff come last."},
     {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", NULL, -1,
      "look for mistakes in scenes without rendering",
-     "Reads each scene and its texture, and prints a line about each that is right, or every "
-     "mistake that is in it; one wrong scene makes the exit code 2."},
+     "Reads each scene (-: standard input) and its texture, and prints a line about each that is "
+     "right, or every mistake that is in it; one wrong scene makes the exit code 2. Notes tell "
+     "what is allowed and seldom meant."},
     {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, NULL, 1,
      "turn a classic input into a scene file",
      "Reads the input of the classic mode from a file, or from standard input, and writes the same "
