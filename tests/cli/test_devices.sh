@@ -110,6 +110,17 @@ expect_refusal 3 "${render[@]}" --backend c --device 1
 expect_refusal 2 "${render[@]}" --backend c --device ''
 expect_files .
 
+# ---- a device whose memory is too small
+expect_exit 0 "$hedron" devices
+if section opencl | grep -q 'Portable Computing Language'; then
+    expect_refusal 3 env POCL_MEMORY_LIMIT=1 "$hedron" render --backend opencl --frames 0 --samples 1 \
+        --depth 0 --size 8192x4096 -o large.pfm
+    once 'the pixels need 402653184 bytes in one buffer'
+    expect_files .
+else
+    echo "not tested: too little device memory, for there is no PoCL"
+fi
+
 # ---- a device by number and by part of its name, in any case
 expect_exit 0 "$hedron" devices
 name=$(section c | sed -n 's/^  0  //p')
