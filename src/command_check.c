@@ -4,10 +4,7 @@
 
 #include "command_scene.h"
 #include "commands.h"
-
-static const char *plural(int count) {
-    return count == 1 ? "" : "s";
-}
+#include "number_text.h"
 
 static void print_notes(const char *name, const HdProblems *notes) {
     for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)
@@ -24,8 +21,8 @@ static HdStatus check_scene(const char *operand, HdError *error) {
         return status;
     int solids = file.scene.solid_count, lights = hd_scene_light_count(&file.scene);
     int frames = file.scene.frame_count;
-    printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, plural(solids), lights,
-           plural(lights), frames, plural(frames));
+    printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, hd_plural(solids),
+           lights, hd_plural(lights), frames, hd_plural(frames));
     print_notes(name, &notes);
     hd_scene_file_free(&file);
     return HD_OK;

@@ -30,3 +30,7 @@ void hd_short_number(double value, char out[HD_NUMBER_SIZE]) {
         digits++;
     memmove(exponent + 1, digits, strlen(digits) + 1);
 }
+
+const char *hd_plural(int count) {
+    return count == 1 ? "" : "s";
+}

@@ -56,8 +56,7 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "strict: the same bytes everywhere; fast: the device's own (default strict)"},
     {HD_OPTION_STATS, "--stats", NULL, "FILE", NULL, true, 0, 0, RENDERING,
      "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
-     "which "
-     "then has nothing else"},
+     "which then has nothing else"},
     {HD_OPTION_VERBOSE, "--verbose", NULL, NULL, NULL, false, 0, 0, RENDERING,
      "tell what was chosen and why"},
     {HD_OPTION_QUIET, "--quiet", NULL, NULL, NULL, false, 0, 0, RENDERING,

@@ -4,19 +4,17 @@
 #include <stdio.h>
 
 #include "kernel_source.h"
-
-static const char *plural(int count) {
-    return count == 1 ? "" : "s";
-}
+#include "number_text.h"
 
 void hd_note_scene(const char *name, const HdScene *scene) {
     const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",
-            name, scene->solid_count, plural(scene->solid_count), scene->floor.present ? "a" : "no",
-            lights, plural(lights), scene->frame_count, plural(scene->frame_count), scene->width,
-            scene->height, scene->samples_per_side, scene->samples_per_side, scene->depth);
+            name, scene->solid_count, hd_plural(scene->solid_count),
+            scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
+            hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
+            scene->samples_per_side, scene->depth);
 }
 
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
@@ -24,7 +22,7 @@ void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
     for (int i = 0; i < plan->count; i++)
         fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
     fprintf(stderr, " (%d frame%s, %d bits where the format has a choice, %s)\n", frame_count,
-            plural(frame_count), plan->style.picture.bits,
+            hd_plural(frame_count), plan->style.picture.bits,
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
