@@ -2,6 +2,7 @@
 #include "platonic.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "trigonometry.h"
@@ -90,6 +91,23 @@ static HdSolidKind dual_of(HdSolidKind kind) {
     return HD_DODECAHEDRON;
 }
 
+static bool is_opposite(HdVec3 a, HdVec3 b) {
+    return a.x == -b.x && a.y == -b.y && a.z == -b.z;
+}
+
+/* Puts opposite points side by side; of each pair the first stays before all later pairs. */
+static void pair_opposites(Points *points) {
+    for (int i = 0; i < points->count; i += 2) {
+        int other = i + 1;
+        while (!is_opposite(points->point[i], points->point[other]))
+            other++;
+        const HdVec3 opposite = points->point[other];
+        for (int j = other; j > i + 1; j--)
+            points->point[j] = points->point[j - 1];
+        points->point[i + 1] = opposite;
+    }
+}
+
 /* The face normals are the vertices of the dual. */
 static void list_normals(HdSolidKind kind, Points *points) {
     if (kind == HD_TETRAHEDRON) { /* its own dual, turned round */
@@ -97,6 +115,7 @@ static void list_normals(HdSolidKind kind, Points *points) {
         add_tetrahedron(points, -1.0);
     } else {
         list_vertices(dual_of(kind), points);
+        pair_opposites(points);
     }
 }
 

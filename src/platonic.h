@@ -30,7 +30,9 @@ typedef struct HdPlatonicEdge {
 typedef struct HdPlatonic {
     int face_count, vertex_count, edge_count;
     HdVec3 vertex[HD_MAX_VERTICES];
-    HdVec3 face_normal[HD_MAX_FACES]; /* unit, outward */
+    HdVec3 face_normal[HD_MAX_FACES]; /* unit, outward; but in a tetrahedron, which has no opposite
+                                         faces, face 2i + 1 is opposite to face 2i: its normal is
+                                         the other's, negated bit by bit */
     HdPlatonicEdge edge[HD_MAX_EDGES];
     double inradius;         /* of the circumradius 1 */
     double edge_length;      /* likewise */

@@ -57,6 +57,7 @@ typedef long long fixed64;
 #endif
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 #if defined(__AVX512F__) || defined(__AVX2__)
 #include <immintrin.h>
 #endif
@@ -83,8 +84,8 @@ typedef float real;
 /* Larger than any distance of a scene; stands for "none" in searches of a minimum. */
 #define REAL_LARGE R(1e30)
 
-/* ---- bundles: vreal, vint (integers as wide as real), vmask (0 or -1, likewise), vfix (64 bits)
- */
+/* ---- bundles: vreal, vint (integers), vmask (opaque but for &, |, ^ and ~), vfix (64 bits), vbits
+   (integers as wide as real, whose scalar is real_bits) ---- */
 
 #if HD_LANES == 1
 
@@ -92,8 +93,18 @@ typedef real vreal;
 typedef fixed64 vfix;
 typedef int vint;
 typedef int vmask;
+#define HD_MASKS_ARE_INTEGERS 1
+#if HD_DOUBLE
+typedef fixed64 real_bits;
+#else
+typedef int real_bits;
+#endif
+typedef real_bits vbits;
 
 FN vreal splat(real a) {
+    return a;
+}
+FN vbits splat_bits(real_bits a) {
     return a;
 }
 FN vint splat_int(int a) {
@@ -156,8 +167,29 @@ FN vreal multiply_add(vreal a, vreal b, vreal c) {
 FN vreal square_root(vreal a) {
     return sqrt(a);
 }
+#if HD_DOUBLE
+FN vbits bits_of(vreal a) {
+    return as_long(a);
+}
+FN vreal from_bits(vbits a) {
+    return as_double(a);
+}
+#else
+FN vbits bits_of(vreal a) {
+    return as_int(a);
+}
+FN vreal from_bits(vbits a) {
+    return as_float(a);
+}
+#endif
 #elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
 #if HD_DOUBLE
+FN vbits bits_of(vreal a) {
+    return __double_as_longlong(a);
+}
+FN vreal from_bits(vbits a) {
+    return __longlong_as_double(a);
+}
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return __fma_rn(a, b, c);
 }
@@ -165,6 +197,12 @@ FN vreal square_root(vreal a) {
     return sqrt(a);
 }
 #else
+FN vbits bits_of(vreal a) {
+    return __float_as_int(a);
+}
+FN vreal from_bits(vbits a) {
+    return __int_as_float(a);
+}
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return __fmaf_rn(a, b, c);
 }
@@ -172,7 +210,18 @@ FN vreal square_root(vreal a) {
     return sqrtf(a);
 }
 #endif
-#elif HD_DOUBLE
+#else
+FN vbits bits_of(vreal a) {
+    vbits b;
+    memcpy(&b, &a, sizeof b);
+    return b;
+}
+FN vreal from_bits(vbits a) {
+    vreal b;
+    memcpy(&b, &a, sizeof b);
+    return b;
+}
+#if HD_DOUBLE
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return __builtin_fma(a, b, c);
 }
@@ -187,6 +236,7 @@ FN vreal square_root(vreal a) {
     return __builtin_sqrtf(a);
 }
 #endif
+#endif
 
 #elif defined(__OPENCL_C_VERSION__)
 
@@ -197,6 +247,8 @@ typedef HD_PASTE(long, HD_LANES) vmask;
 typedef long lane_integer;
 #define HD_CONVERT_INT  HD_PASTE(convert_long, HD_LANES)
 #define HD_CONVERT_REAL HD_PASTE(convert_double, HD_LANES)
+#define HD_AS_BITS      HD_PASTE(as_long, HD_LANES)
+#define HD_AS_REAL      HD_PASTE(as_double, HD_LANES)
 #else
 typedef HD_PASTE(float, HD_LANES) vreal;
 typedef HD_PASTE(int, HD_LANES) vint;
@@ -204,12 +256,26 @@ typedef HD_PASTE(int, HD_LANES) vmask;
 typedef int lane_integer;
 #define HD_CONVERT_INT  HD_PASTE(convert_int, HD_LANES)
 #define HD_CONVERT_REAL HD_PASTE(convert_float, HD_LANES)
+#define HD_AS_BITS      HD_PASTE(as_int, HD_LANES)
+#define HD_AS_REAL      HD_PASTE(as_float, HD_LANES)
 #endif
+typedef lane_integer real_bits;
+typedef vint vbits;
+#define HD_MASKS_ARE_INTEGERS 1
 typedef HD_PASTE(long, HD_LANES) vfix;
 #define HD_CONVERT_FIX HD_PASTE(convert_long, HD_LANES)
 
 FN vreal splat(real a) {
     return (vreal)(a);
+}
+FN vbits splat_bits(real_bits a) {
+    return (vbits)(a);
+}
+FN vbits bits_of(vreal a) {
+    return HD_AS_BITS(a);
+}
+FN vreal from_bits(vbits a) {
+    return HD_AS_REAL(a);
 }
 FN vint splat_int(int a) {
     return (vint)(a);
@@ -277,10 +343,16 @@ typedef int32_t lane_integer;
 #define HD_FMA_SCALAR  __builtin_fmaf
 #define HD_SQRT_SCALAR __builtin_sqrtf
 #endif
+#if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
+#define HD_REGISTER_512 1 /* a bundle fills one register, and a mask register holds a bit for each lane */
+#else
+#define HD_REGISTER_512 0
+#endif
 typedef real vreal __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef lane_integer vint __attribute__((vector_size(HD_LANES * sizeof(real))));
-typedef lane_integer vmask __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef int64_t vfix __attribute__((vector_size(HD_LANES * 8)));
+typedef lane_integer real_bits;
+typedef vint vbits;
 
 FN vreal splat(real a) {
     return a - (vreal){0};
@@ -288,23 +360,14 @@ FN vreal splat(real a) {
 FN vint splat_int(int a) {
     return (lane_integer)a - (vint){0};
 }
-FN vmask lt(vreal a, vreal b) {
-    return a < b;
+FN vbits splat_bits(real_bits a) {
+    return a - (vbits){0};
 }
-FN vmask le(vreal a, vreal b) {
-    return a <= b;
+FN vbits bits_of(vreal a) {
+    return (vbits)a;
 }
-FN vmask eq_int(vint a, vint b) {
-    return a == b;
-}
-FN vmask lt_int(vint a, vint b) {
-    return a < b;
-}
-FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
-}
-FN vint pick_int(vmask m, vint a, vint b) {
-    return (m & a) | (~m & b);
+FN vreal from_bits(vbits a) {
+    return (vreal)a;
 }
 FN real lane_real(const vreal *a, int lane) {
     return (*a)[lane];
@@ -331,31 +394,99 @@ FN vfix truncate_to_fix(vreal a) {
     return __builtin_convertvector(a, vfix);
 }
 
-/* Neither compiler has these three for vectors: instructions where the width is the machine's, lane
-   by lane elsewhere. */
-#if HD_LANES * (HD_DOUBLE + 1) == 16 && defined(__AVX512DQ__)
+#if HD_REGISTER_512
+typedef uint32_t vmask; /* bits above the lanes' have no meaning */
 #if HD_DOUBLE
+#define HD_MASK(m) ((__mmask8)(m))
+FN vmask lt(vreal a, vreal b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+}
+FN vmask le(vreal a, vreal b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+}
+FN vmask eq_int(vint a, vint b) {
+    return _mm512_cmpeq_epi64_mask((__m512i)a, (__m512i)b);
+}
+FN vmask lt_int(vint a, vint b) {
+    return _mm512_cmplt_epi64_mask((__m512i)a, (__m512i)b);
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)_mm512_mask_blend_pd(HD_MASK(m), (__m512d)b, (__m512d)a);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (vint)_mm512_mask_blend_epi64(HD_MASK(m), (__m512i)b, (__m512i)a);
+}
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 }
 FN vreal square_root(vreal a) {
     return (vreal)_mm512_sqrt_pd((__m512d)a);
 }
-FN int any_lane(vmask m) {
-    return _mm512_movepi64_mask((__m512i)m) != 0;
-}
 #else
+#define HD_MASK(m) ((__mmask16)(m))
+FN vmask lt(vreal a, vreal b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+}
+FN vmask le(vreal a, vreal b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
+}
+FN vmask eq_int(vint a, vint b) {
+    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
+}
+FN vmask lt_int(vint a, vint b) {
+    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)_mm512_mask_blend_ps(HD_MASK(m), (__m512)b, (__m512)a);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (vint)_mm512_mask_blend_epi32(HD_MASK(m), (__m512i)b, (__m512i)a);
+}
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
 }
 FN vreal square_root(vreal a) {
     return (vreal)_mm512_sqrt_ps((__m512)a);
 }
-FN int any_lane(vmask m) {
-    return _mm512_movepi32_mask((__m512i)m) != 0;
-}
 #endif
-#elif HD_LANES * (HD_DOUBLE + 1) == 8 && defined(__AVX2__) && defined(__FMA__)
+FN int any_lane(vmask m) {
+    return HD_MASK(m) != 0;
+}
+FN vmask mask_none(void) {
+    return 0;
+}
+FN vmask mask_all(void) {
+    return HD_MASK(-1);
+}
+FN int first_lane(vmask m) {
+    return __builtin_ctz(m);
+}
+
+#else
+typedef vint vmask;
+FN vmask lt(vreal a, vreal b) {
+    return a < b;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (m & a) | (~m & b);
+}
+#define HD_MASKS_ARE_INTEGERS 1
+
+/* Neither compiler has these three for vectors: instructions where the width is the machine's, lane
+   by lane elsewhere. */
+#if HD_LANES * (HD_DOUBLE + 1) == 8 && defined(__AVX2__) && defined(__FMA__)
 #if HD_DOUBLE
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
@@ -407,7 +538,25 @@ FN int any_lane(vmask m) {
     return joined != 0;
 }
 #endif
+#endif
 
+#endif
+
+#ifdef HD_MASKS_ARE_INTEGERS
+FN vmask mask_none(void) {
+    return splat_int(0);
+}
+FN vmask mask_all(void) {
+    return splat_int(-1);
+}
+
+/* The number of the first lane whose mask is set; only for masks with any_lane(m). */
+FN int first_lane(vmask m) {
+    int lane = 0;
+    while (lane < HD_LANES - 1 && !lane_int(&m, lane))
+        lane++;
+    return lane;
+}
 #endif
 
 /* ---- built from the above, the same for every backend ---- */
@@ -419,6 +568,15 @@ FN vreal lesser(vreal a, vreal b) {
 }
 FN vreal greater(vreal a, vreal b) {
     return pick(lt(b, a), a, b);
+}
+
+FN vreal absolute(vreal a) {
+    return from_bits(bits_of(a) & ~bits_of(splat(R(-0.0))));
+}
+
+/* `a`, negated where `sign` is negative. */
+FN vreal times_sign_of(vreal a, vreal sign) {
+    return from_bits(bits_of(a) ^ (bits_of(sign) & bits_of(splat(R(-0.0)))));
 }
 
 /* The number of the lowest bit that is set, from 0 on; not for 0. */
@@ -436,19 +594,53 @@ FN int lowest_bit(uint bits) {
 }
 #endif
 
-FN vmask mask_none(void) {
-    return splat_int(0);
-}
-FN vmask mask_all(void) {
-    return splat_int(-1);
+FN vmask pick_mask(vmask m, vmask a, vmask b) {
+    return (m & a) | (~m & b);
 }
 
-/* The number of the first lane whose mask is set; only for masks with any_lane(m). */
-FN int first_lane(vmask m) {
-    int lane = 0;
-    while (lane < HD_LANES - 1 && !lane_int(&m, lane))
-        lane++;
-    return lane;
+/* The four words of a table from number `index` of each lane on. */
+typedef struct {
+    vint word[4];
+} FourWords;
+
+#if HD_REGISTER_512 && !HD_DOUBLE
+/* Four lanes to a register, then the 4 x 4 words of each quarter are transposed. */
+FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
+    __m512i lanes[4];
+    for (int i = 0; i < 4; i++) {
+        __m512i row = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + index[i])));
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 4])), 1);
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 8])), 2);
+        lanes[i] = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 12])), 3);
+    }
+    __m512i a = _mm512_unpacklo_epi32(lanes[0], lanes[1]);
+    __m512i b = _mm512_unpacklo_epi32(lanes[2], lanes[3]);
+    __m512i c = _mm512_unpackhi_epi32(lanes[0], lanes[1]);
+    __m512i d = _mm512_unpackhi_epi32(lanes[2], lanes[3]);
+    FourWords words;
+    words.word[0] = (vint)_mm512_unpacklo_epi64(a, b);
+    words.word[1] = (vint)_mm512_unpackhi_epi64(a, b);
+    words.word[2] = (vint)_mm512_unpacklo_epi64(c, d);
+    words.word[3] = (vint)_mm512_unpackhi_epi64(c, d);
+    return words;
+}
+#else
+FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
+    FourWords words;
+    for (int i = 0; i < 4; i++)
+        words.word[i] = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        GLOBAL const uint *row = table + lane_int(&index, lane);
+        for (int i = 0; i < 4; i++)
+            set_lane_int(&words.word[i], lane, (int)row[i]);
+    }
+    return words;
+}
+#endif
+
+/* `counts`, one more in the lanes of `m`. */
+FN vint count_lanes(vint counts, vmask m) {
+    return counts + pick_int(m, splat_int(1), splat_int(0));
 }
 
 #endif

@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     vreal t;     /* along the ray */
     vint object; /* -1: none */
-    vint plane;
+    vint face;
     vmask entering; /* meets a solid from outside */
 } Hit;
 
@@ -44,12 +44,12 @@ FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to)
     return vec3_add(point, fetch_vector(table, reference.row + to, reference.same));
 }
 
-FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint plane, vmask entering) {
+FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint face, vmask entering) {
     vmask closer = candidate & lt(t, hit->t);
     hit->t = pick(closer, t, hit->t);
     hit->object = pick_int(closer, splat_int(object), hit->object);
-    hit->plane = pick_int(closer, plane, hit->plane);
-    hit->entering = pick_int(closer, entering, hit->entering);
+    hit->face = pick_int(closer, face, hit->face);
+    hit->entering = pick_mask(closer, entering, hit->entering);
 }
 
 /* Lanes whose rays certainly miss a sphere about the object's centre: they pass it by, or are
@@ -62,6 +62,37 @@ FN vmask misses_sphere(vreal radius_squared, Vec3 origin, Vec3 direction) {
     return runs_away | lt(bound, multiply_add(-along, along, away));
 }
 
+/* Where a ray crosses a plane: t = distance / |slope|. Two of them are compared by products, which
+   leaves one division to the end of a search. */
+typedef struct {
+    vreal distance; /* along the normal, not negative */
+    vreal slope;
+    vint plane;
+} Crossing;
+
+FN vmask is_before(Crossing a, Crossing b) {
+    return lt(a.distance * absolute(b.slope), b.distance * absolute(a.slope));
+}
+
+FN Crossing pick_crossing(vmask m, Crossing a, Crossing b) {
+    Crossing picked;
+    picked.distance = pick(m, a.distance, b.distance);
+    picked.slope = pick(m, a.slope, b.slope);
+    picked.plane = pick_int(m, a.plane, b.plane);
+    return picked;
+}
+
+FN Crossing crossing(real distance, real slope, int plane) {
+    Crossing c;
+    c.distance = splat(distance);
+    c.slope = splat(slope);
+    c.plane = splat_int(plane);
+    return c;
+}
+
+/* The slabs between a solid's parallel planes (Kay and Kajiya 1986): a ray leaves each by the plane
+   that it runs towards from inside, and enters it by the other one. Lanes of `inside` start in the
+   solid; whether others are beyond a plane is found on the way. */
 FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
     GLOBAL const Object *solid = objects + object;
     vmask own = reference.is_eye ? mask_none() : eq_int(ray->touched, splat_int(object));
@@ -70,34 +101,43 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
         return; /* a convex solid is not met again from its outside */
 
     Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
-    vmask far =
-        ~own_inside & misses_sphere(splat(solid->circumradius_squared), origin, ray->direction);
-    if (!any_lane(ray->alive & ~far & (~own | own_inside)))
+    vmask outside = ray->alive & ~own &
+                    ~misses_sphere(splat(solid->circumradius_squared), origin, ray->direction);
+    int from_outside = any_lane(outside);
+    if (!from_outside && !any_lane(ray->alive & own_inside))
         return;
     vreal zero = splat(R(0.0));
-    vreal entry = splat(R(-1.0)), exit = splat(REAL_LARGE);
-    vint entry_plane = splat_int(-1), exit_plane = splat_int(0);
-    vmask missed = mask_none();
+    Crossing exit = crossing(R(1.0), R(0.0), solid->first_plane); /* never */
+    Crossing entry = crossing(R(0.0), R(1.0), -1);                /* at the origin */
+    vmask beyond = mask_none();
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
-        vreal distance = plane_distance(planes + k, origin);
-        vreal slope = plane_slope(planes + k, ray->direction);
-        vmask towards = lt(slope, zero);
-        vmask below = lt(distance, zero) | own_inside;
-        vreal t = -distance / slope;
-        /* The origin is strictly outside of this plane and the ray runs inwards. */
-        vmask enters = lt(zero, distance) & towards & ~own_inside & lt(entry, t);
-        entry = pick(enters, t, entry);
-        entry_plane = pick_int(enters, splat_int(k), entry_plane);
+        vreal width = splat(planes[k].distance);
+        Crossing next;
+        next.slope = along_normal(planes + k, ray->direction);
+        next.plane = splat_int(k);
+        vreal forward = times_sign_of(along_normal(planes + k, origin), next.slope);
+        vreal to_exit = width - forward, to_entry = -width - forward;
+        if (!solid->paired) {
+            vmask against = lt(next.slope, zero);
+            to_exit = pick(against, splat(REAL_LARGE), to_exit);
+            to_entry = pick(against, to_entry, splat(-REAL_LARGE));
+        }
         /* From inside an exit lies at t >= 0, though rounding may have put the origin outside. */
-        vmask exits = below & lt(zero, slope) & lt(greater(t, zero), exit);
-        exit = pick(exits, greater(t, zero), exit);
-        exit_plane = pick_int(exits, splat_int(k), exit_plane);
-        missed = missed | (~below & ~towards);
+        next.distance = greater(to_exit, zero);
+        exit = pick_crossing(is_before(next, exit), next, exit);
+        if (from_outside) {
+            beyond = beyond | lt(to_exit, zero);
+            next.distance = to_entry;
+            entry = pick_crossing(is_before(entry, next), next, entry);
+        }
     }
-    vmask outside = ~lt_int(entry_plane, splat_int(0));
-    vmask meets = ~own & ~missed & (~outside | lt(entry, exit));
-    keep_closer(hit, (own_inside | meets) & lt(exit, splat(REAL_LARGE)), pick(outside, entry, exit),
-                object, pick_int(outside, entry_plane, exit_plane), outside);
+    vmask enters = ~own & ~lt_int(entry.plane, splat_int(0));
+    vmask meets = outside & ~beyond & is_before(entry, exit);
+    Crossing met = pick_crossing(enters, entry, exit);
+    /* The slope is negative where the ray enters by the first of two planes or leaves by the second. */
+    vint face = met.plane + met.plane;
+    face = pick_int(enters ^ lt(met.slope, zero), face + 1, face);
+    keep_closer(hit, meets | own_inside, met.distance / absolute(met.slope), object, face, enters);
 }
 
 FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
@@ -107,17 +147,17 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
     int first = objects[object].first_plane;
     Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
     vreal zero = splat(R(0.0));
-    vreal distance = plane_distance(planes + first, origin);
-    vreal slope = plane_slope(planes + first, ray->direction);
+    vreal distance = along_normal(planes + first, origin);
+    vreal slope = along_normal(planes + first, ray->direction);
     vmask crossing =
         (lt(zero, distance) & lt(slope, zero)) | (lt(distance, zero) & lt(zero, slope));
     vreal t = -distance / slope;
     for (int side = first + 1; side < first + 1 + HD_FLOOR_SIDES; side++) {
-        vreal beyond = multiply_add(t, plane_slope(planes + side, ray->direction),
+        vreal beyond = multiply_add(t, along_normal(planes + side, ray->direction),
                                     plane_distance(planes + side, origin));
         crossing = crossing & le(beyond, zero);
     }
-    keep_closer(hit, crossing & ~own, t, object, splat_int(first), lt(slope, zero));
+    keep_closer(hit, crossing & ~own, t, object, splat_int(2 * first), lt(slope, zero));
 }
 
 /* For the floor, `entering` says that it is met from above its normal. */
@@ -125,7 +165,7 @@ FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
     Hit hit;
     hit.t = splat(REAL_LARGE);
     hit.object = splat_int(-1);
-    hit.plane = splat_int(0);
+    hit.face = splat_int(0);
     hit.entering = mask_none();
     for (int object = 0; object < header->solid_count; object++)
         hit_solid(SCENE_ARGUMENTS ray, reference, object, &hit);

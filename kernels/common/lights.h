@@ -8,24 +8,45 @@
 /* The lit points of a bundle. */
 typedef struct {
     vint object;  /* what the points lie on */
-    vint plane;   /* and the plane of the face */
+    vint face;    /* and which face of it */
     vmask inside; /* light reaches the point from inside that solid */
     vmask active;
 } LitPoints;
 
-/* Distances of the points to every plane of the scene, computed once for all lights. A point seen
-   from inside its own solid is inside, whatever rounding says. */
+/* Where the points are as to the planes of the scene, found once for all lights:
+     coordinates[plane]   n.X of a solid's plane, the distance to a floor's
+     outer[solid]         a bit for each face, from the solid's first one on, that the point is not
+                          strictly inside of
+     some_outer[solid]    joined over all lanes
+   A point seen from inside its own solid is inside, whatever rounding says, and has no bits there. */
 FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
-                       vreal *distances) {
+                       vreal *coordinates, vint *outer, uint *some_outer) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
-    for (int object = 0; object < header->object_count; object++) {
+    for (int object = 0; object < header->solid_count; object++) {
+        GLOBAL const Object *solid = objects + object;
         Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
         vmask own_inside = points->inside & eq_int(points->object, splat_int(object));
-        int first = objects[object].first_plane;
-        for (int k = first; k < first + objects[object].plane_count; k++) {
-            vreal point_distance = plane_distance(planes + k, point);
-            distances[k] = pick(own_inside, lesser(point_distance, splat(R(0.0))), point_distance);
+        vint not_inside = splat_int(0);
+        uint some = 0;
+        for (int i = 0; i < solid->plane_count; i++) {
+            GLOBAL const Plane *plane = planes + solid->first_plane + i;
+            vreal width = splat(plane->distance), coordinate = along_normal(plane, point);
+            vreal bounded = lesser(greater(coordinate, -width), width);
+            coordinates[solid->first_plane + i] = pick(own_inside, bounded, coordinate);
+            vmask first = le(width, coordinate) & ~own_inside;
+            vmask second = solid->paired ? le(coordinate, -width) & ~own_inside : mask_none();
+            not_inside = not_inside | pick_int(first, splat_int(1 << 2 * i), splat_int(0));
+            not_inside = not_inside | pick_int(second, splat_int(2 << 2 * i), splat_int(0));
+            some |= any_lane(first | second) ? (uint)1 << i : 0u;
         }
+        outer[object] = not_inside;
+        some_outer[object] = some;
+    }
+    for (int object = header->solid_count; object < header->object_count; object++) {
+        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
+        int first = objects[object].first_plane;
+        for (int k = first; k < first + objects[object].plane_count; k++)
+            coordinates[k] = plane_distance(planes + k, point);
     }
 }
 
@@ -50,88 +71,109 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     return blocked;
 }
 
-/* Multiplies `transmittance` by what one face lets through: its colour times `transmission`, or
-   nothing at the rim. */
+/* Multiplies `transmittance` by what one face lets through at `t` of the segments: its colour times
+   `transmission`, or nothing at the rim. */
 FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
-                   const vreal *distances, vmask crossing, vreal t, real transmission,
+                   const vreal *coordinates, vmask crossing, vreal t, real transmission,
                    Vec3 *transmittance) {
     if (!any_lane(crossing))
         return;
     GLOBAL const Material *face = materials + solid->face_material;
     vreal passes = splat(transmission);
-    if (solid->rim_depth > R(0.0)) {
-        /* The second greatest distance exceeds a number when two of them do. */
+    if (solid->rim_depth > R(0.0) && transmission > R(0.0)) {
+        /* A rim is near two planes, the face's own among them. */
         vreal depth = splat(-solid->rim_depth);
-        vint near = splat_int(0);
+        vint near_planes = splat_int(0);
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
-            vreal distance = multiply_add(t, splat(light_row[k]) - distances[k], distances[k]);
-            near = near - lt(depth, distance);
+            vreal from = coordinates[k];
+            vreal coordinate = multiply_add(t, splat(light_row[k]) - from, from);
+            near_planes = count_lanes(near_planes, lt(depth, nearness(solid, planes + k, coordinate)));
         }
-        passes = pick(lt_int(splat_int(1), near), splat(R(0.0)), passes);
+        passes = pick(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*transmittance, passes);
     filtered = vec3_mul(filtered, vec3_splat(face->colour[0], face->colour[1], face->colour[2]));
     *transmittance = vec3_pick(crossing, filtered, *transmittance);
 }
 
-/* Lets the segments from the points to the light pass one solid. A segment misses it when neither
-   end is inside of one plane, which settles most of them before anything is divided. */
-FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
-                    GLOBAL const real *light_row, const vreal *distances, const LitPoints *points,
-                    vmask lit, Vec3 *transmittance) {
-    GLOBAL const Object *solid = objects + object;
-    int first = solid->first_plane;
-    vmask own = eq_int(points->object, splat_int(object));
-    vmask own_inside = own & points->inside;
-    vmask crossing = lit & (~own | own_inside);
-    vreal zero = splat(R(0.0));
-    vmask inside = mask_all();
-    for (uint left = sides->outside | sides->on_plane; left; left &= left - 1)
-        inside = inside & lt(distances[first + lowest_bit(left)], zero);
-    crossing = crossing & (inside | own_inside);
-    if (!any_lane(crossing))
-        return;
-
-    vreal entry = zero, exit = splat(R(1.0));
-    vmask entered = mask_none();
-    uint all_planes = ((uint)1 << solid->plane_count) - 1;
-    for (uint left = all_planes & ~(sides->outside | sides->on_plane); left; left &= left - 1) {
-        int k = first + lowest_bit(left);
-        vmask enters = crossing & lt(zero, distances[k]);
-        if (!any_lane(enters))
-            continue;
-        vreal t = distances[k] / (distances[k] - splat(light_row[k]));
-        entry = pick(enters, greater(entry, t), entry);
-        entered = entered | enters;
+/* Where the segments enter a solid, as a quotient: only planes count that a point is outside of. */
+FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some_outer,
+                          GLOBAL const real *light_row, const vreal *coordinates) {
+    Crossing entry = crossing(R(0.0), R(1.0), 0); /* at the point */
+    for (uint left = some_outer; left; left &= left - 1) {
+        int k = solid->first_plane + lowest_bit(left);
+        Crossing next;
+        next.distance = nearness(solid, planes + k, coordinates[k]);
+        next.slope = splat(light_row[k]) - coordinates[k];
+        next.plane = splat_int(k);
+        entry = pick_crossing(is_before(entry, next), next, entry);
     }
-    for (uint left = sides->outside; left; left &= left - 1) {
-        int k = first + lowest_bit(left);
-        exit = lesser(exit, distances[k] / (distances[k] - splat(light_row[k])));
-    }
-    crossing = crossing & (own_inside | lt(entry, exit));
-    /* Sides are named as for a ray that looks from the point to the light. */
-    GLOBAL const Material *face = materials + solid->face_material;
-    cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing & entered, entry,
-               face->transmission, transmittance);
-    if (sides->outside)
-        cross_face(SCENE_ARGUMENTS solid, light_row, distances, crossing, exit,
-                   face->inner_transmission, transmittance);
+    return entry;
 }
 
-/* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. */
+/* Where they leave it: only planes count that the light is outside of. */
+FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light_outside,
+                         GLOBAL const real *light_row, const vreal *coordinates) {
+    Crossing exit = crossing(R(1.0), R(1.0), 0); /* at the light */
+    for (uint left = light_outside; left; left &= left - 1) {
+        int bit = lowest_bit(left);
+        int k = solid->first_plane + (bit >> 1);
+        vreal width = splat(planes[k].distance);
+        Crossing next;
+        next.distance = bit & 1 ? width + coordinates[k] : width - coordinates[k];
+        next.slope = splat(light_row[k]) - coordinates[k];
+        next.plane = splat_int(k);
+        exit = pick_crossing(is_before(next, exit), next, exit);
+    }
+    return exit;
+}
+
+/* Lets the segments from the points to the light pass one solid. A segment misses it when neither
+   end is inside of one plane, which settles most of them before anything is computed. */
+FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
+                    GLOBAL const real *light_row, const vreal *coordinates, vint outer,
+                    uint some_outer, const LitPoints *points, vmask lit, Vec3 *transmittance) {
+    GLOBAL const Object *solid = objects + object;
+    vmask own = eq_int(points->object, splat_int(object));
+    vmask own_inside = own & points->inside;
+    vint ruled_out = outer & splat_int((int)(sides->outside | sides->on_plane));
+    vmask crosses = lit & (~own | own_inside) & eq_int(ruled_out, splat_int(0));
+    if (!any_lane(crosses))
+        return;
+    Crossing entry = segment_entry(SCENE_ARGUMENTS solid, some_outer, light_row, coordinates);
+    Crossing exit = segment_exit(SCENE_ARGUMENTS solid, sides->outside, light_row, coordinates);
+    crosses = crosses & (own_inside | is_before(entry, exit));
+    if (!any_lane(crosses))
+        return;
+    /* Sides are named as for a ray that looks from the point to the light. */
+    GLOBAL const Material *face = materials + solid->face_material;
+    cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
+               crosses & lt(splat(R(0.0)), entry.distance), entry.distance / absolute(entry.slope),
+               face->transmission, transmittance);
+    if (sides->outside)
+        cross_face(SCENE_ARGUMENTS solid, light_row, coordinates, crosses,
+                   exit.distance / absolute(exit.slope), face->inner_transmission, transmittance);
+}
+
+/* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. Nothing is
+   squared in vain: from powers of at least 2^-60 no denormal number comes, which some processors are
+   slow with. */
 FN vreal power(vreal x, vint n, int common) {
-    vreal result = splat(R(1.0));
+    vreal one = splat(R(1.0));
     if (common) {
-        for (int bits = common; bits; bits >>= 1) {
-            if (bits & 1)
-                result = result * x;
+        vreal result = common & 1 ? x : one;
+        for (int rest = common >> 1; rest; rest >>= 1) {
             x = x * x;
+            if (rest & 1)
+                result = result * x;
         }
         return result;
     }
-    for (vint bits = n; any_lane(~eq_int(bits, splat_int(0))); bits = bits >> 1) {
-        result = pick(eq_int(bits & 1, splat_int(1)), result * x, result);
-        x = x * x;
+    vint zero = splat_int(0);
+    vreal result = pick(eq_int(n & 1, zero), one, x);
+    for (vint rest = n >> 1; any_lane(lt_int(zero, rest)); rest = rest >> 1) {
+        x = pick(lt_int(zero, rest), x * x, x);
+        result = pick(eq_int(rest & 1, zero), result, result * x);
     }
     return result;
 }
@@ -141,12 +183,14 @@ FN vreal power(vreal x, vint n, int common) {
    without `shines` no lane has a highlight. */
 FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int common_shininess,
               vreal cosine, vreal mirror_cosine, vreal squared) {
-    vreal inverse = splat(R(1.0)) / square_root(squared);
+    vreal inverse = reciprocal_root(squared);
     vreal diffuse = material->diffuse * (cosine * inverse);
     vreal specular = splat(R(0.0));
-    if (shines)
-        specular = material->specular * power(greater(mirror_cosine * inverse, splat(R(0.0))),
-                                              shininess, common_shininess);
+    if (shines) {
+        vreal x = mirror_cosine * inverse;
+        x = pick(lt(x, material->least_highlight), splat(R(0.0)), x);
+        specular = material->specular * power(x, shininess, common_shininess);
+    }
     return vec3_scale_add(material->colour, diffuse, vec3(specular, specular, specular));
 }
 
@@ -158,7 +202,7 @@ FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
         vreal rest = greater(multiply_add(-squared, scale, one), splat(R(0.0)));
         intensity = vec3_scale(intensity, rest * rest);
     } else if (light->inverse_falloff_squared > R(0.0)) {
-        intensity = vec3_scale(intensity, one / multiply_add(squared, scale, one));
+        intensity = vec3_scale(intensity, reciprocal(multiply_add(squared, scale, one)));
     }
     return intensity;
 }
@@ -171,24 +215,24 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
 }
 
 /* What the segments to one light let through in the lanes of `lit`. */
-FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *distances,
-                         const LitPoints *points, vmask lit) {
-    GLOBAL const real *light_row = light_distances + light * header->plane_count;
+FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *coordinates, const vint *outer,
+                         const uint *some_outer, const LitPoints *points, vmask lit) {
+    GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + light * header->object_count;
     for (int object = header->solid_count; object < header->object_count; object++)
-        lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, distances, points);
+        lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
     vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
     Vec3 transmittance = vec3(open, open, open);
     for (int object = 0; object < header->solid_count; object++)
-        cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, distances, points, lit,
-                    &transmittance);
+        cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
+                    some_outer[object], points, lit, &transmittance);
     return transmittance;
 }
 
 /* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
 FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
-    return eq_int(points->plane, splat_int(light->own_plane[0])) |
-           eq_int(points->plane, splat_int(light->own_plane[1]));
+    return eq_int(points->face, splat_int(light->own_face[0])) |
+           eq_int(points->face, splat_int(light->own_face[1]));
 }
 
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
@@ -197,8 +241,10 @@ FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
 FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                      Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
-    vreal distances[PLANE_BOUND];
-    measure_planes(SCENE_ARGUMENTS surface, points, distances);
+    vreal coordinates[PLANE_BOUND];
+    vint outer[SOLID_BOUND];
+    uint some_outer[SOLID_BOUND];
+    measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer);
     vreal zero = splat(R(0.0));
     int same_object = all_same(points->object);
     vint shininess = spread_first(surface->material.shininess, points->active);
@@ -214,8 +260,9 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
                     lt(zero, squared) & ~beyond_falloff(lights + i, squared);
         if (!any_lane(lit))
             continue;
-        *shadow_tests = *shadow_tests - lit;
-        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, distances, points, lit);
+        *shadow_tests = count_lanes(*shadow_tests, lit);
+        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, coordinates, outer, some_outer,
+                                              points, lit);
         Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared);

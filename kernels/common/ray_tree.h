@@ -19,7 +19,7 @@ typedef struct {
 FN vfix contribution(vmask m, vreal radiance, vreal weight, real to_fixed, vint *clamps) {
     vreal limit = splat(CONTRIBUTION_LIMIT);
     vmask over = m & lt(limit, radiance);
-    *clamps = *clamps - over;
+    *clamps = count_lanes(*clamps, over);
     vreal clamped =
         pick(over, limit, pick(m & lt(splat(R(0.0)), radiance), radiance, splat(R(0.0))));
     return truncate_to_fix(clamped * weight * to_fixed);
@@ -89,7 +89,7 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     points.active =
         struck & (lt(zero, surface.material.diffuse) | lt(zero, surface.material.specular));
     points.object = spread_first(hit->object, struck);
-    points.plane = hit->plane;
+    points.face = hit->face;
     points.inside = is_solid & ~hit->entering;
     Vec3 radiance =
         vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
@@ -149,8 +149,8 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
             shade(SCENE_ARGUMENTS & ray, reference, &hit, struck, sample, &mirror, &through);
             if (level < view->depth) {
                 level++;
-                sample->mirrored = sample->mirrored - mirror.alive;
-                sample->transmitted = sample->transmitted - through.alive;
+                sample->mirrored = count_lanes(sample->mirrored, mirror.alive);
+                sample->transmitted = count_lanes(sample->transmitted, through.alive);
                 int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
                 if (mirrors && passes) {
                     stack[waiting] = mirror;

@@ -66,7 +66,7 @@ FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *d
     sum = vec3_scale_add(axis, down, sum);
     axis = vec3_splat(view->right[0], view->right[1], view->right[2]);
     *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
-    return alive;
+    return ~eq_int(alive, splat_int(0));
 }
 
 FN Sample empty_sample(void) {

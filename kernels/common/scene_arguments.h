@@ -13,14 +13,16 @@
 #define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
 #define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
-/* Constants where the kernels are built at run time, otherwise the scene's own numbers. */
+/* Every solid has three planes at least. Constants where the kernels are built at run time, otherwise the scene's own numbers. */
 #ifdef HD_PLANE_BOUND
 #define PLANE_BOUND     HD_PLANE_BOUND
+#define SOLID_BOUND     (HD_PLANE_BOUND / 3 + 1)
 #define DEPTH_BOUND     HD_DEPTH_BOUND
 #define REFRACTS        HD_REFRACTS
 #define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
 #else
 #define PLANE_BOUND     (header->plane_count + 1)
+#define SOLID_BOUND     (header->solid_count + 1)
 #define DEPTH_BOUND     (view->depth + 1)
 #define REFRACTS        (header->refracts)
 #define LIT_FROM_BEHIND (header->lit_from_behind)

@@ -26,8 +26,10 @@ typedef struct ALIGNED_16 {
     int unused[2];
 } Header;
 
-/* A face's plane, n.x = distance, or one of the floor's: its own first, then four upright ones that
-   bound it. */
+/* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of two
+   opposite faces; of another one: the plane n.x = distance of a face. A face's number is twice that
+   of its plane, and one more for n.x = -distance. Of the floor: its own plane first, then four
+   upright ones that bound it. */
 typedef struct ALIGNED_16 {
     real x, y, z, distance;
 } Plane;
@@ -44,7 +46,7 @@ typedef struct ALIGNED_16 {
     int first_edge, edge_count;
     int face_material, rim_material;
     int lights_per_edge;
-    int unused_int;
+    int paired; /* its faces come in parallel pairs */
 } Object;
 
 typedef struct ALIGNED_16 {
@@ -59,34 +61,40 @@ typedef struct ALIGNED_16 {
     real specular, reflection, transmission;
     real inner_reflection, inner_transmission; /* for rays that meet it from inside the solid */
     real index_of_refraction, inverse_index;
-    real unused;
+    real least_highlight; /* a cosine whose power is less than 2^-60 counts as 0 */
     int shininess, lit_from_behind, unused_int[2];
 } Material;
 
 typedef struct ALIGNED_16 {
     real intensity[3];
     real inverse_falloff_squared; /* 1 over the square of the falloff's length; 0: no falloff */
-    int own_plane[2];             /* the planes of the faces that hold an edge light; -1: none */
+    int own_face[2];              /* the faces that hold an edge light; -1: none */
     int falloff_ends;             /* the length is the distance at which nothing is left */
     int unused_int;
 } Light;
 
-/* On which side of an object's planes a light is, a bit for each plane from the object's first one
-   on. It is strictly inside of those that are in neither word. */
+/* On which side of an object's faces a light is, a bit for each face from the object's first one on.
+   It is strictly inside of those that are in neither word. */
 typedef struct ALIGNED_16 {
     uint outside, on_plane, unused[2];
 } LightSides;
 
-/* Floor coordinates (a, b) of a point X: a = axis_a.X, b = axis_b.X. Texture coordinates (s, t) in
-   the unit square solve (a, b) = origin + s e + t f + s t g (inverse bilinear interpolation). */
+/* Texture coordinates (s, t) in the unit square of a point X of the floor. Of a parallelogram they
+   are s = axis_s.X + start[0], t = axis_t.X + start[1]. Otherwise, with floor coordinates
+   a = axis_a.X, b = axis_b.X, they solve (a, b) = origin + s e + t f + s t g (inverse bilinear
+   interpolation). */
 typedef struct ALIGNED_16 {
+    real axis_s[3], unused3;
+    real axis_t[3], unused4;
+    real start[2], unused5[2];
     real axis_a[3], unused0;
     real axis_b[3], unused1;
     real origin[2], e[2];
     real f[2], g[2];
     real orientation, unused2[3]; /* +1 or -1: the sign of the map's determinant */
     int texture_width, texture_height;
-    int unused_int[2];
+    int is_parallelogram;
+    int unused_int;
 } FloorMap;
 
 /* One frame. The direction to the image point (i, j), counted in half sample steps from the middle
@@ -113,15 +121,17 @@ HD_ASSERT_SIZE(Edge, 12, 0);
 HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
 HD_ASSERT_SIZE(LightSides, 0, 4);
-HD_ASSERT_SIZE(FloorMap, 20, 4);
+HD_ASSERT_SIZE(FloorMap, 32, 4);
 HD_ASSERT_SIZE(View, 12, 8);
 
 /* The tables of a scene, in the order of the kernels' arguments:
    light_offsets[object * light_count + light]   the light's position relative to the object
-   light_distances[light * plane_count + plane]  exactly 0 for an edge light and its own faces
+   light_coordinates[light * plane_count + plane]  n.L of a solid's plane, exactly that of an edge
+                                                  light's own faces; the distance to a floor's plane
    light_sides[light * object_count + object]    of solids only
    object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
-   texels                                        two words each: r | g << 16, b */
+   texels                                        two words each: r | g << 16, b; row by row, and one
+                                                 more after the last */
 #define HD_SCENE_TABLES(X)                                                                         \
     X(Header, header)                                                                              \
     X(Object, objects)                                                                             \
@@ -130,7 +140,7 @@ HD_ASSERT_SIZE(View, 12, 8);
     X(Material, materials)                                                                         \
     X(Light, lights)                                                                               \
     X(Vector, light_offsets)                                                                       \
-    X(real, light_distances)                                                                       \
+    X(real, light_coordinates)                                                                     \
     X(LightSides, light_sides)                                                                     \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \

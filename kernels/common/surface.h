@@ -10,7 +10,7 @@
 /* A material for each lane. */
 typedef struct {
     Vec3 colour, mirror_tint;
-    vreal ambient, diffuse, specular;
+    vreal ambient, diffuse, specular, least_highlight;
     vreal reflection, transmission; /* of the side that the ray meets */
     vreal relative_index; /* of the side that the ray comes from, over that of the other side */
     vmask lit_from_behind;
@@ -29,6 +29,7 @@ FN LaneMaterial no_material(void) {
     LaneMaterial none;
     none.colour = none.mirror_tint = vec3_zero();
     none.ambient = none.diffuse = none.specular = splat(R(0.0));
+    none.least_highlight = splat(REAL_LARGE);
     none.reflection = none.transmission = splat(R(0.0));
     none.relative_index = splat(R(1.0));
     none.lit_from_behind = mask_none();
@@ -45,6 +46,7 @@ FN LaneMaterial splat_material(GLOBAL const Material *material, vmask entering) 
     all.ambient = splat(material->ambient);
     all.diffuse = splat(material->diffuse);
     all.specular = splat(material->specular);
+    all.least_highlight = splat(material->least_highlight);
     all.reflection = pick(entering, splat(material->reflection), splat(material->inner_reflection));
     all.transmission =
         pick(entering, splat(material->transmission), splat(material->inner_transmission));
@@ -62,28 +64,13 @@ FN LaneMaterial pick_material(vmask m, LaneMaterial a, LaneMaterial b) {
     picked.ambient = pick(m, a.ambient, b.ambient);
     picked.diffuse = pick(m, a.diffuse, b.diffuse);
     picked.specular = pick(m, a.specular, b.specular);
+    picked.least_highlight = pick(m, a.least_highlight, b.least_highlight);
     picked.reflection = pick(m, a.reflection, b.reflection);
     picked.transmission = pick(m, a.transmission, b.transmission);
     picked.relative_index = pick(m, a.relative_index, b.relative_index);
-    picked.lit_from_behind = (m & a.lit_from_behind) | (~m & b.lit_from_behind);
+    picked.lit_from_behind = pick_mask(m, a.lit_from_behind, b.lit_from_behind);
     picked.shininess = pick_int(m, a.shininess, b.shininess);
     return picked;
-}
-
-/* The two greatest numbers that were added. */
-typedef struct {
-    vreal first, second;
-} TwoGreatest;
-
-FN TwoGreatest two_greatest(void) {
-    TwoGreatest two;
-    two.first = two.second = splat(-REAL_LARGE);
-    return two;
-}
-
-FN void add_to_greatest(TwoGreatest *two, vreal a) {
-    two->second = greater(two->second, lesser(two->first, a));
-    two->first = greater(two->first, a);
 }
 
 FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
@@ -121,23 +108,32 @@ FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m
     set_material(surface, shown, no_material());
 }
 
+/* How near a point of a solid is to one of its planes, as a signed distance: negative inside. */
+FN vreal nearness(GLOBAL const Object *solid, GLOBAL const Plane *plane, vreal coordinate) {
+    return (solid->paired ? absolute(coordinate) : coordinate) - splat(plane->distance);
+}
+
 FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
     GLOBAL const Object *solid = objects + object;
-    TwoGreatest distances = two_greatest();
+    vint met_plane = hit->face >> 1;
+    vreal nearest = splat(-REAL_LARGE); /* of the other planes */
     Vec3 normal = vec3_zero();
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
         GLOBAL const Plane *plane = planes + k;
-        vmask met = eq_int(hit->plane, splat_int(k));
+        vmask met = eq_int(met_plane, splat_int(k));
         normal = vec3_pick(met, vec3_splat(plane->x, plane->y, plane->z), normal);
-        add_to_greatest(&distances, plane_distance(plane, surface->point));
+        vreal near = nearness(solid, plane, along_normal(plane, surface->point));
+        nearest = pick(met, nearest, greater(near, nearest));
     }
-    surface->normal = vec3_pick(
-        m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
+    /* Outward on the second of two planes is against the normal. */
+    vmask second = ~eq_int(hit->face & 1, splat_int(0));
+    vreal towards_viewer = pick(second ^ hit->entering, splat(R(1.0)), splat(R(-1.0)));
+    surface->normal = vec3_pick(m, vec3_scale(normal, towards_viewer), surface->normal);
     set_material(surface, m, splat_material(materials + solid->face_material, hit->entering));
-    vmask rim = m & lt(splat(-solid->rim_depth), distances.second);
+    vmask rim = m & lt(splat(-solid->rim_depth), nearest);
     if (any_lane(rim))
         set_material(surface, rim, splat_material(materials + solid->rim_material, hit->entering));
-    vmask near_edge = m & lt(splat(-solid->disc_depth), distances.second);
+    vmask near_edge = m & lt(splat(-solid->disc_depth), nearest);
     if (any_lane(near_edge))
         show_discs(solid, edges, near_edge, surface);
 }
@@ -152,7 +148,10 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
     if (floor_map->texture_width > 0) {
         vreal s, t;
-        floor_coordinates(floor_map, surface->point, &s, &t);
+        if (floor_map->is_parallelogram)
+            parallelogram_coordinates(floor_map, surface->point, &s, &t);
+        else
+            floor_coordinates(floor_map, surface->point, &s, &t);
         Vec3 texel = sample_texture(floor_map, texels, s, t);
         LaneMaterial *material = &surface->material;
         material->colour = vec3_pick(m, vec3_mul(material->colour, texel), material->colour);

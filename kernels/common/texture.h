@@ -35,47 +35,50 @@ FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vrea
     *s = clamp_unit(pick(use_a, na, nb) / pick(use_a, da, db));
 }
 
-typedef struct {
-    vreal r, g, b;
-} Texel;
-
-/* The texel in column x and row y for each lane; values 0..65535. */
-FN Texel fetch_texel(GLOBAL const uint *texels, int width, vint x, vint y) {
-    Texel texel;
-    texel.r = texel.g = texel.b = splat(R(0.0));
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        GLOBAL const uint *words =
-            texels + 2 * ((uint64)lane_int(&y, lane) * (uint64)width + (uint64)lane_int(&x, lane));
-        set_lane_real(&texel.r, lane, (real)(words[0] & 0xffffu));
-        set_lane_real(&texel.g, lane, (real)(words[0] >> 16));
-        set_lane_real(&texel.b, lane, (real)words[1]);
-    }
-    return texel;
+FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
+    Vec3 axis_s = vec3_splat(map->axis_s[0], map->axis_s[1], map->axis_s[2]);
+    Vec3 axis_t = vec3_splat(map->axis_t[0], map->axis_t[1], map->axis_t[2]);
+    *s = clamp_unit(vec3_dot(axis_s, point) + splat(map->start[0]));
+    *t = clamp_unit(vec3_dot(axis_t, point) + splat(map->start[1]));
 }
 
 FN vreal blend(vreal a, vreal b, vreal weight) {
     return multiply_add(weight, b - a, a);
 }
 
+FN vreal low_half(vint word) {
+    return to_real(word & 0xffff);
+}
+
+FN vreal high_half(vint word) {
+    return to_real(word >> 16 & 0xffff);
+}
+
+/* The texel number `index` of each lane, blended with the next one; values 0..65535. */
+FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
+    FourWords words = fetch_four_words(texels, index + index);
+    return vec3(blend(low_half(words.word[0]), low_half(words.word[2]), weight),
+                blend(high_half(words.word[0]), high_half(words.word[2]), weight),
+                blend(low_half(words.word[1]), low_half(words.word[3]), weight));
+}
+
 /* Bilinear between texel centres, the border's texels continued outwards. */
 FN Vec3 sample_texture(GLOBAL const FloorMap *map, GLOBAL const uint *texels, vreal s, vreal t) {
     int width = map->texture_width, height = map->texture_height;
-    vreal zero = splat(R(0.0));
+    vreal zero = splat(R(0.0)), last_row = splat((real)(height - 1));
     vreal x = multiply_add(s, splat((real)width), splat(R(-0.5)));
     vreal y = multiply_add(t, splat((real)height), splat(R(-0.5)));
     x = lesser(greater(x, zero), splat((real)(width - 1)));
-    y = lesser(greater(y, zero), splat((real)(height - 1)));
-    vint x0 = to_int(x), y0 = to_int(y);
-    vreal wx = x - to_real(x0), wy = y - to_real(y0);
-    /* At the last column the weight is 0: any second texel will do. */
-    vint x1 = pick_int(lt(to_real(x0), splat((real)(width - 1))), x0 + 1, x0);
-    vint y1 = pick_int(lt(to_real(y0), splat((real)(height - 1))), y0 + 1, y0);
-    Texel a = fetch_texel(texels, width, x0, y0), b = fetch_texel(texels, width, x1, y0);
-    Texel c = fetch_texel(texels, width, x0, y1), d = fetch_texel(texels, width, x1, y1);
+    y = lesser(greater(y, zero), last_row);
+    vint column = to_int(x), row = to_int(y);
+    vreal across = x - to_real(column), down = y - to_real(row);
+    /* In the last column and row the weight is 0: any second texel will do. */
+    vint below = pick_int(lt(to_real(row), last_row), row + 1, row);
+    Vec3 upper = blend_row(texels, row * width + column, across);
+    Vec3 lower = blend_row(texels, below * width + column, across);
     vreal scale = splat(R(1.0) / R(65535.0));
-    return vec3(blend(blend(a.r, b.r, wx), blend(c.r, d.r, wx), wy) * scale,
-                blend(blend(a.g, b.g, wx), blend(c.g, d.g, wx), wy) * scale,
-                blend(blend(a.b, b.b, wx), blend(c.b, d.b, wx), wy) * scale);
+    return vec3(blend(upper.x, lower.x, down) * scale, blend(upper.y, lower.y, down) * scale,
+                blend(upper.z, lower.z, down) * scale);
 }
 
 #endif
