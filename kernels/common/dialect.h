@@ -263,7 +263,7 @@ typedef lane_integer real_bits;
 typedef vint vbits;
 #define HD_MASKS_ARE_INTEGERS 1
 typedef HD_PASTE(long, HD_LANES) vfix;
-#define HD_CONVERT_FIX HD_PASTE(convert_long, HD_LANES)
+#define HD_CONVERT_FIX        HD_PASTE(convert_long, HD_LANES)
 
 FN vreal splat(real a) {
     return (vreal)(a);
@@ -344,7 +344,8 @@ typedef int32_t lane_integer;
 #define HD_SQRT_SCALAR __builtin_sqrtf
 #endif
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-#define HD_REGISTER_512 1 /* a bundle fills one register, and a mask register holds a bit for each lane */
+#define HD_REGISTER_512                                                                            \
+    1 /* a bundle fills one register, and a mask register holds a bit for each lane */
 #else
 #define HD_REGISTER_512 0
 #endif
@@ -570,9 +571,19 @@ FN vreal greater(vreal a, vreal b) {
     return pick(lt(b, a), a, b);
 }
 
+#if defined(__OPENCL_C_VERSION__)
+FN vreal absolute(vreal a) {
+    return fabs(a);
+}
+#elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
+FN vreal absolute(vreal a) {
+    return fabs(a); /* overloaded */
+}
+#else
 FN vreal absolute(vreal a) {
     return from_bits(bits_of(a) & ~bits_of(splat(R(-0.0))));
 }
+#endif
 
 /* `a`, negated where `sign` is negative. */
 FN vreal times_sign_of(vreal a, vreal sign) {
@@ -611,7 +622,8 @@ FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
         __m512i row = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + index[i])));
         row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 4])), 1);
         row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 8])), 2);
-        lanes[i] = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 12])), 3);
+        lanes[i] =
+            _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 12])), 3);
     }
     __m512i a = _mm512_unpacklo_epi32(lanes[0], lanes[1]);
     __m512i b = _mm512_unpacklo_epi32(lanes[2], lanes[3]);

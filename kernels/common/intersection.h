@@ -70,6 +70,11 @@ typedef struct {
     vint plane;
 } Crossing;
 
+/* Where it is one at all: lanes without a slope get some number. */
+FN vreal crossing_time(Crossing c) {
+    return c.distance * reciprocal(absolute(c.slope));
+}
+
 FN vmask is_before(Crossing a, Crossing b) {
     return lt(a.distance * absolute(b.slope), b.distance * absolute(a.slope));
 }
@@ -134,10 +139,11 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
     vmask enters = ~own & ~lt_int(entry.plane, splat_int(0));
     vmask meets = outside & ~beyond & is_before(entry, exit);
     Crossing met = pick_crossing(enters, entry, exit);
-    /* The slope is negative where the ray enters by the first of two planes or leaves by the second. */
+    /* The slope is negative where the ray enters by the first of two planes or leaves by the
+     * second. */
     vint face = met.plane + met.plane;
     face = pick_int(enters ^ lt(met.slope, zero), face + 1, face);
-    keep_closer(hit, meets | own_inside, met.distance / absolute(met.slope), object, face, enters);
+    keep_closer(hit, meets | own_inside, crossing_time(met), object, face, enters);
 }
 
 FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int object, Hit *hit) {
@@ -146,12 +152,12 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
         return;
     int first = objects[object].first_plane;
     Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
-    vreal zero = splat(R(0.0));
+    vreal zero = splat(R(0.0)), least = splat(R(1e-30)); /* of a slope that is none */
     vreal distance = along_normal(planes + first, origin);
     vreal slope = along_normal(planes + first, ray->direction);
     vmask crossing =
-        (lt(zero, distance) & lt(slope, zero)) | (lt(distance, zero) & lt(zero, slope));
-    vreal t = -distance / slope;
+        (lt(zero, distance) & lt(slope, -least)) | (lt(distance, zero) & lt(least, slope));
+    vreal t = absolute(distance) * reciprocal(absolute(slope));
     for (int side = first + 1; side < first + 1 + HD_FLOOR_SIDES; side++) {
         vreal beyond = multiply_add(t, along_normal(planes + side, ray->direction),
                                     plane_distance(planes + side, origin));

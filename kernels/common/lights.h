@@ -18,26 +18,38 @@ typedef struct {
      outer[solid]         a bit for each face, from the solid's first one on, that the point is not
                           strictly inside of
      some_outer[solid]    joined over all lanes
-   A point seen from inside its own solid is inside, whatever rounding says, and has no bits there. */
+     open_to[solid]       the points from which a segment may cross it
+   A point seen from inside its own solid is inside, whatever rounding says, and has no bits there.
+ */
 FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
-                       vreal *coordinates, vint *outer, uint *some_outer) {
+                       vreal *coordinates, vint *outer, uint *some_outer, vmask *open_to) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
+    vreal zero = splat(R(0.0));
     for (int object = 0; object < header->solid_count; object++) {
         GLOBAL const Object *solid = objects + object;
-        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
-        vmask own_inside = points->inside & eq_int(points->object, splat_int(object));
+        vmask own = eq_int(points->object, splat_int(object));
+        vmask own_inside = own & points->inside;
         vint not_inside = splat_int(0);
         uint some = 0;
+        outer[object] = not_inside;
+        some_outer[object] = some;
+        open_to[object] = points->active & (~own | own_inside);
+        if (!any_lane(open_to[object]))
+            continue; /* no segment crosses the solid that it leaves */
+        Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
+        int has_inside = any_lane(own_inside);
         for (int i = 0; i < solid->plane_count; i++) {
             GLOBAL const Plane *plane = planes + solid->first_plane + i;
             vreal width = splat(plane->distance), coordinate = along_normal(plane, point);
-            vreal bounded = lesser(greater(coordinate, -width), width);
-            coordinates[solid->first_plane + i] = pick(own_inside, bounded, coordinate);
-            vmask first = le(width, coordinate) & ~own_inside;
-            vmask second = solid->paired ? le(coordinate, -width) & ~own_inside : mask_none();
-            not_inside = not_inside | pick_int(first, splat_int(1 << 2 * i), splat_int(0));
-            not_inside = not_inside | pick_int(second, splat_int(2 << 2 * i), splat_int(0));
-            some |= any_lane(first | second) ? (uint)1 << i : 0u;
+            if (has_inside)
+                coordinate =
+                    pick(own_inside, lesser(greater(coordinate, -width), width), coordinate);
+            coordinates[solid->first_plane + i] = coordinate;
+            vmask outside = le(zero, nearness(solid, plane, coordinate)) & ~own_inside;
+            vint side =
+                pick_int(lt(coordinate, zero), splat_int(2 << 2 * i), splat_int(1 << 2 * i));
+            not_inside = not_inside | pick_int(outside, side, splat_int(0));
+            some |= any_lane(outside) ? (uint)1 << i : 0u;
         }
         outer[object] = not_inside;
         some_outer[object] = some;
@@ -63,7 +75,8 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     blocked = blocked & ~eq_int(points->object, splat_int(object));
     if (!any_lane(blocked))
         return blocked;
-    vreal t = point_distance / (point_distance - splat(light_distance));
+    vreal t =
+        absolute(point_distance) * reciprocal(absolute(point_distance - splat(light_distance)));
     for (int side = first + 1; side < first + 1 + HD_FLOOR_SIDES; side++) {
         vreal distance = multiply_add(t, splat(light_row[side]) - distances[side], distances[side]);
         blocked = blocked & le(distance, zero);
@@ -71,10 +84,10 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     return blocked;
 }
 
-/* Multiplies `transmittance` by what one face lets through at `t` of the segments: its colour times
-   `transmission`, or nothing at the rim. */
+/* Multiplies `transmittance` by what one face lets through where the segments cross it: its colour
+   times `transmission`, or nothing at the rim. */
 FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
-                   const vreal *coordinates, vmask crossing, vreal t, real transmission,
+                   const vreal *coordinates, vmask crossing, Crossing where, real transmission,
                    Vec3 *transmittance) {
     if (!any_lane(crossing))
         return;
@@ -82,12 +95,13 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
     vreal passes = splat(transmission);
     if (solid->rim_depth > R(0.0) && transmission > R(0.0)) {
         /* A rim is near two planes, the face's own among them. */
-        vreal depth = splat(-solid->rim_depth);
+        vreal t = crossing_time(where), depth = splat(-solid->rim_depth);
         vint near_planes = splat_int(0);
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
             vreal from = coordinates[k];
             vreal coordinate = multiply_add(t, splat(light_row[k]) - from, from);
-            near_planes = count_lanes(near_planes, lt(depth, nearness(solid, planes + k, coordinate)));
+            near_planes =
+                count_lanes(near_planes, lt(depth, nearness(solid, planes + k, coordinate)));
         }
         passes = pick(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
     }
@@ -132,32 +146,28 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
    end is inside of one plane, which settles most of them before anything is computed. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
                     GLOBAL const real *light_row, const vreal *coordinates, vint outer,
-                    uint some_outer, const LitPoints *points, vmask lit, Vec3 *transmittance) {
+                    uint some_outer, vmask open, Vec3 *transmittance) {
     GLOBAL const Object *solid = objects + object;
-    vmask own = eq_int(points->object, splat_int(object));
-    vmask own_inside = own & points->inside;
     vint ruled_out = outer & splat_int((int)(sides->outside | sides->on_plane));
-    vmask crosses = lit & (~own | own_inside) & eq_int(ruled_out, splat_int(0));
+    vmask crosses = open & eq_int(ruled_out, splat_int(0));
     if (!any_lane(crosses))
         return;
     Crossing entry = segment_entry(SCENE_ARGUMENTS solid, some_outer, light_row, coordinates);
     Crossing exit = segment_exit(SCENE_ARGUMENTS solid, sides->outside, light_row, coordinates);
-    crosses = crosses & (own_inside | is_before(entry, exit));
-    if (!any_lane(crosses))
-        return;
+    crosses = crosses & ~is_before(exit, entry);
     /* Sides are named as for a ray that looks from the point to the light. */
     GLOBAL const Material *face = materials + solid->face_material;
     cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
-               crosses & lt(splat(R(0.0)), entry.distance), entry.distance / absolute(entry.slope),
-               face->transmission, transmittance);
+               crosses & lt(splat(R(0.0)), entry.distance), entry, face->transmission,
+               transmittance);
     if (sides->outside)
-        cross_face(SCENE_ARGUMENTS solid, light_row, coordinates, crosses,
-                   exit.distance / absolute(exit.slope), face->inner_transmission, transmittance);
+        cross_face(SCENE_ARGUMENTS solid, light_row, coordinates, crosses, exit,
+                   face->inner_transmission, transmittance);
 }
 
 /* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. Nothing is
-   squared in vain: from powers of at least 2^-60 no denormal number comes, which some processors are
-   slow with. */
+   squared in vain: from powers of at least 2^-60 no denormal number comes, which some processors
+   are slow with. */
 FN vreal power(vreal x, vint n, int common) {
     vreal one = splat(R(1.0));
     if (common) {
@@ -216,7 +226,8 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
 
 /* What the segments to one light let through in the lanes of `lit`. */
 FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *coordinates, const vint *outer,
-                         const uint *some_outer, const LitPoints *points, vmask lit) {
+                         const uint *some_outer, const vmask *open_to, const LitPoints *points,
+                         vmask lit) {
     GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + light * header->object_count;
     for (int object = header->solid_count; object < header->object_count; object++)
@@ -225,12 +236,14 @@ FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *coordinates, c
     Vec3 transmittance = vec3(open, open, open);
     for (int object = 0; object < header->solid_count; object++)
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
-                    some_outer[object], points, lit, &transmittance);
+                    some_outer[object], open_to[object] & lit, &transmittance);
     return transmittance;
 }
 
 /* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
 FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
+    if (light->own_face[0] < 0)
+        return mask_none();
     return eq_int(points->face, splat_int(light->own_face[0])) |
            eq_int(points->face, splat_int(light->own_face[1]));
 }
@@ -244,7 +257,8 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vreal coordinates[PLANE_BOUND];
     vint outer[SOLID_BOUND];
     uint some_outer[SOLID_BOUND];
-    measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer);
+    vmask open_to[SOLID_BOUND];
+    measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
     int same_object = all_same(points->object);
     vint shininess = spread_first(surface->material.shininess, points->active);
@@ -262,7 +276,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
         Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, coordinates, outer, some_outer,
-                                              points, lit);
+                                              open_to, points, lit);
         Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared);

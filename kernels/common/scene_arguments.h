@@ -13,7 +13,8 @@
 #define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
 #define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
-/* Every solid has three planes at least. Constants where the kernels are built at run time, otherwise the scene's own numbers. */
+/* Every solid has three planes at least. Constants where the kernels are built at run time,
+ * otherwise the scene's own numbers. */
 #ifdef HD_PLANE_BOUND
 #define PLANE_BOUND     HD_PLANE_BOUND
 #define SOLID_BOUND     (HD_PLANE_BOUND / 3 + 1)

@@ -26,9 +26,9 @@ typedef struct ALIGNED_16 {
     int unused[2];
 } Header;
 
-/* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of two
-   opposite faces; of another one: the plane n.x = distance of a face. A face's number is twice that
-   of its plane, and one more for n.x = -distance. Of the floor: its own plane first, then four
+/* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
+   two opposite faces; of another one: the plane n.x = distance of a face. A face's number is twice
+   that of its plane, and one more for n.x = -distance. Of the floor: its own plane first, then four
    upright ones that bound it. */
 typedef struct ALIGNED_16 {
     real x, y, z, distance;
@@ -73,8 +73,8 @@ typedef struct ALIGNED_16 {
     int unused_int;
 } Light;
 
-/* On which side of an object's faces a light is, a bit for each face from the object's first one on.
-   It is strictly inside of those that are in neither word. */
+/* On which side of an object's faces a light is, a bit for each face from the object's first one
+   on. It is strictly inside of those that are in neither word. */
 typedef struct ALIGNED_16 {
     uint outside, on_plane, unused[2];
 } LightSides;

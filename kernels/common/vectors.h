@@ -70,7 +70,7 @@ FN vreal reciprocal(vreal a) {
 
 /* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
 FN vreal reciprocal_root(vreal a) {
-    vreal one = splat(R(1.0)), half = splat(R(0.5));
+    vreal one = splat(R(1.0)), one_half = splat(R(0.5));
 #if HD_DOUBLE
     enum { STEPS = 3 };
     vreal guess = from_bits(splat_bits(0x5fe6eb50c7b537a9) - (bits_of(a) >> 1));
@@ -80,7 +80,7 @@ FN vreal reciprocal_root(vreal a) {
 #endif
     for (int i = 0; i < STEPS; i++) {
         vreal error = multiply_add(-a, guess * guess, one);
-        guess = multiply_add(guess, error * multiply_add(error, splat(R(0.375)), half), guess);
+        guess = multiply_add(guess, error * multiply_add(error, splat(R(0.375)), one_half), guess);
     }
     return guess;
 }
@@ -119,7 +119,8 @@ FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index, int same) {
     return result;
 }
 
-/* n.v of a plane's normal n: of a point its coordinate along the normal, of a direction its slope. */
+/* n.v of a plane's normal n: of a point its coordinate along the normal, of a direction its slope.
+ */
 FN vreal along_normal(GLOBAL const Plane *plane, Vec3 v) {
     return multiply_add(splat(plane->x), v.x,
                         multiply_add(splat(plane->y), v.y, splat(plane->z) * v.z));

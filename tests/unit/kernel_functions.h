@@ -125,7 +125,8 @@ static double worst_error(vreal (*function)(vreal), long double (*exact)(long do
         double number = ldexp(1.0 + (double)i * 3.7e-6, i * 37 % 200 - 100);
         vreal found = function(splat((real)number));
         long double expected = exact((long double)(real)number);
-        double error = (double)fabsl((long double)lane_real(&found, HD_LANES - 1) / expected - 1.0L);
+        double error =
+            (double)fabsl((long double)lane_real(&found, HD_LANES - 1) / expected - 1.0L);
         worst = error > worst ? error : worst;
     }
     return worst / epsilon;
