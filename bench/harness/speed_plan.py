@@ -39,6 +39,7 @@ class Plan:
         self.scenes = scenes
         self.runs = {}  # Job: [run]
         self.reasons = {}  # Job: why it cannot run
+        self.failures = set()  # those of the reasons that should not be
         self.rows = []
 
     def job(self, *arguments, **named):
@@ -94,6 +95,8 @@ class Plan:
             raise Problem(2, run["message"])
         if run["code"] != 0:
             self.reasons[job] = run["message"]
+            if run["code"] != 3:
+                self.failures.add(run["message"])
         else:
             self.runs[job].append(run)
 

@@ -3,6 +3,7 @@
 from statistics import median
 
 from harness import gpu_peak
+from harness.gpu_model import MODEL_OPTIONS
 from harness.kernel_rates import Problem
 from harness.speed_plan import Missing, Target
 
@@ -248,8 +249,9 @@ class Rows:
     def model(self):
         for label in self.gpus():
             for scene in self.plan.scenes:
-                job = self.job(label, scene, "0-2", "--set", "camera.frames=5")
-                self.plan.row("model", f"{scene}, as it stands", "ms", lambda job=job: self.plan.trace_ms(job), device=label)
+                job = self.job(label, scene, "0-2", *MODEL_OPTIONS, slow=True)
+                self.plan.row("model", f"{scene}, as it stands", "ms", lambda job=job: self.plan.trace_ms(job),
+                              device=label)
 
 
 ROWS = ("headline_film", "headline", "fullhd", "official", "pairs", "searches", "share", "pocl", "math", "pipelines",
