@@ -29,6 +29,7 @@ class Job:
     options: tuple = ()
     output: str = PICTURES
     slow: bool = False  # once is enough
+    few_cores: bool = False  # on no more cores than the target is for
 
 
 class Plan:
@@ -90,7 +91,7 @@ class Plan:
         device = self.devices[job.device]
         options = [*job.options]
         run = program.render(device, self.scenes[job.scene], job.frames, options, folder, output=job.output,
-                             cores=cores if device["is_cpu"] else None)
+                             cores=cores if job.few_cores else None)
         if run["code"] == 2:
             raise Problem(2, run["message"])
         if run["code"] != 0:

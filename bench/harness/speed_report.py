@@ -8,8 +8,8 @@ from harness import gpu_peak, machine, report
 CORES = 2
 
 
-def cores_for_cpus():
-    """The targets are for two cores, so devices that are CPUs get no more; None: there are no more."""
+def few_cores():
+    """What the targets for two cores are measured on; None: there are no more."""
     usable = sorted(os.sched_getaffinity(0))
     return set(usable[:CORES]) if len(usable) > CORES else None
 
@@ -32,7 +32,7 @@ def begin(program, arguments, devices):
         "quick": arguments.quick,
         "hedron": {"version": program.version, "options": arguments.options},
         "machine": machine.describe(),
-        "cores_for_cpus": min(CORES, machine.cores()),
+        "few_cores": min(CORES, machine.cores()),
         "repeats": arguments.repeats,
         "devices": devices,
         "rows": [],
@@ -85,8 +85,8 @@ def remarks(result):
 
 def head_lines(result):
     load = result["machine"]
-    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; devices that are CPUs use "
-             f"{result['cores_for_cpus']}; load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
+    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; targets for two cores "
+             f"on {result['few_cores']}; load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
     lines += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
               for device in result["devices"]]
     if result["quick"]:

@@ -22,8 +22,9 @@ class Rows:
     """`rates` and `counts` are filled with what kernel_rates gives, or with the reason why there is
     none."""
 
-    def __init__(self, plan, quick, has_pipelines, extra):
+    def __init__(self, plan, quick, has_few_cores, has_pipelines, extra):
         self.plan = plan
+        self.has_few_cores = has_few_cores
         self.quick = quick
         self.has_pipelines = has_pipelines
         self.extra = tuple(extra)
@@ -32,8 +33,10 @@ class Rows:
         self.preset = None
         self.runnable = {label: device for label, device in plan.devices.items() if device["reason"] is None}
 
-    def job(self, device, scene, frames, *options, **named):
-        return self.plan.job(device, scene, frames, (*options, *self.extra), **named)
+    def job(self, device, scene, frames, *options, few_cores=False, **named):
+        """`few_cores` is for targets of two cores, and nothing on a machine that has no more."""
+        return self.plan.job(device, scene, frames, (*options, *self.extra),
+                             few_cores=few_cores and not self.has_few_cores, **named)
 
     def gpus(self):
         return [label for label, device in self.runnable.items() if not device["is_cpu"]]
@@ -54,7 +57,8 @@ class Rows:
         device = self.cpu("c")
         if device is None:
             return self.absent("headline_film", what, "frames/s", target, "the C backend is left out")
-        short, long = [self.job(device, "headline", f"0-{count}", output="film.mp4") for count in self.film_lengths()]
+        short, long = [self.job(device, "headline", f"0-{count}", output="film.mp4", few_cores=True)
+                       for count in self.film_lengths()]
 
         def figure():
             return [1 / seconds for seconds in self.plan.seconds_a_frame(short, long) if seconds > 0]
@@ -73,10 +77,11 @@ class Rows:
                 added, factor = fewer
                 scale, note = scale * factor, f"SCALED: {factor} times the time with {' '.join(added)}"
             target = target_gpu if is_h200(device) else target_cpu if label == self.cpu("c") else None
-            job = self.job(label, scene, "0,1" if slow else frames, *options, *added, slow=slow and not self.quick)
+            job = self.job(label, scene, "0,1" if slow else frames, *options, *added, slow=slow and not self.quick,
+                           few_cores=target is not None and device["is_cpu"])
             self.plan.row(key, what, unit, lambda job=job, scale=scale: self.plan.trace_ms(job, scale),
                           device=label, target=target, note=note)
-        if not any(is_h200(device) for device in self.runnable.values()):
+        if target_gpu is not None and not any(is_h200(device) for device in self.runnable.values()):
             self.absent(key, what, unit, target_gpu, f"no {H200} here")
 
     def headline(self):
@@ -217,12 +222,13 @@ class Rows:
         pictures to encode, or encoding without tracing."""
         target = Target(1.2, 1.05, False)
         for label in [device for device in (self.cpu("c"), *self.gpus()) if device]:
-            counts = self.film_lengths()
-            trace = self.job(label, "headline", f"0-{counts[0]}")
+            counts, is_cpu = self.film_lengths(), self.runnable[label]["is_cpu"]
+            trace = self.job(label, "headline", f"0-{counts[0]}", few_cores=is_cpu)
             for kind, output in (("PNG", "#######.png"), ("film", "film.mp4")):
-                short, long = [self.job(label, "headline", f"0-{count}", output=output) for count in counts]
-                alone = [self.job(label, "headline", str(number), output=output) for number in (0, 5) if kind == "PNG"]
-                is_cpu = self.runnable[label]["is_cpu"]
+                short, long = [self.job(label, "headline", f"0-{count}", output=output, few_cores=is_cpu)
+                               for count in counts]
+                alone = [self.job(label, "headline", str(number), output=output, few_cores=is_cpu)
+                         for number in (0, 5) if kind == "PNG"]
 
                 def store(kind=kind, alone=alone, is_cpu=is_cpu):
                     return self.film_seconds(is_cpu) if kind == "film" else self.png_seconds(alone)

@@ -59,7 +59,7 @@ expect_python "{'instructions': 5, 'operations': 112, 'slots': 5, 'divisions': 3
 
 # ---- the timeline: two frames, of which the second is traced while the first is stored
 frames='[{"frame": 0, "began": {"trace": 1, "store": 3}, "seconds": {"trace": 2, "store": 1}},
-    {"frame": 1, "began": {"trace": 3, "store": 5}, "seconds": {"trace": 2, "store": 1, "copy": 0}}]'
+    {"frame": 1, "began": {"trace": 3, "store": 5, "copy": None}, "seconds": {"trace": 2, "store": 1, "copy": 0}}]'
 timeline="from harness import timeline; t = timeline.measure($frames)"
 expect_python "5 trace 1.25" "$timeline" 'print(t["seconds"], t["slowest"], t["ratio_to_slowest"])'
 expect_python "{'busy_seconds': 2.0, 'busy_share': 0.4, 'work_seconds': 2}" "$timeline" 'print(t["stages"]["store"])'
@@ -106,7 +106,7 @@ tiny=(--size 32x24 --samples 1 --depth 2)
 expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --repeats 1 \
     --rows headline,headline_film,searches,math,pipelines,stage -- "${tiny[@]}"
 expect_stdout_contains 'CHANGED by --size 32x24'
-expect_value '["hedron_bench", "bench", "complete", "date", "quick", "hedron", "machine", "cores_for_cpus", "repeats", "devices", "rows", "pictures", "kernel_rates", "counted", "film", "timeline", "runs", "failures", "scenes", "peaks"]' \
+expect_value '["hedron_bench", "bench", "complete", "date", "quick", "hedron", "machine", "few_cores", "repeats", "devices", "rows", "pictures", "kernel_rates", "counted", "film", "timeline", "runs", "failures", "scenes", "peaks"]' \
     '[key for key in r if key != "scene"]'
 expect_value '[1, "speed", true, true]' '[r["hedron_bench"], r["bench"], r["complete"], r["quick"]]'
 expect_value '["key", "what", "device", "unit", "least", "aim", "more_is_better", "figure", "q1", "q3", "count", "ratio_to_least", "ratio_to_aim", "verdict", "note", "reason"]' \
