@@ -9,7 +9,7 @@
 #define QUOTED_(name)  #name
 #define QUOTED(name)   QUOTED_(name)
 #define OF_BUILD(name) HD_PASTE(HD_LOOPS, _##name)
-#define NOT_INLINED    __attribute__((noinline, noclone))
+#define NOT_INLINED    __attribute__((noinline))
 
 #define TABLE_FROM_SCENE(type, name)                                                               \
     const type *name = scene[HD_TABLE_##name].data;                                                \

@@ -79,6 +79,7 @@ done
 # The scene of the classic example is the classic input, but for the texture and where frames go.
 expect_exit 0 "$hedron" convert "$cli_folder/official.in" -o official.json
 same='import json; a, b = (json.load(open(f, encoding="utf-8")) for f in ("official.json", "'$project/scenes/official.json'"))'
+# shellcheck disable=SC2016 # Python's own
 expect_python True "$same" '[s["floor"].pop("texture") for s in (a, b)]; [s.pop("output", 0) for s in (a, b)]' \
     '[s.pop("$schema", 0) for s in (a, b)]; print(a == b)'
 
