@@ -83,7 +83,10 @@ class Plan:
     def seconds_a_frame(self, short, long):
         """Steady state, from two lengths of a run: neither its start nor its end is in it."""
         pairs = zip(self.done(short), self.done(long))
-        return [(two["wall"] - one["wall"]) / (len(two["frames"]) - len(one["frames"])) for one, two in pairs]
+        seconds = [(two["wall"] - one["wall"]) / (len(two["frames"]) - len(one["frames"])) for one, two in pairs]
+        if seconds and min(seconds) <= 0:
+            raise Missing("the frames are too fast to be told from the noise of two runs")
+        return seconds
 
     # ---- the work
 

@@ -4,7 +4,7 @@ from statistics import median
 
 from harness import gpu_peak
 from harness.gpu_model import MODEL_OPTIONS
-from harness.kernel_rates import Problem
+from harness.program import Problem
 from harness.speed_plan import Missing, Target
 
 H200 = "H200"
@@ -16,6 +16,14 @@ PIPELINES = ("mega", "wavefront")
 
 def is_h200(device):
     return not device["is_cpu"] and H200 in device["name"]
+
+
+def demand(measured):
+    """What is there to be read, or why it is not."""
+    if measured is None:
+        raise Missing("it was not measured")
+    if isinstance(measured, Problem):
+        raise Missing(str(measured))
 
 
 class Rows:
@@ -30,7 +38,6 @@ class Rows:
         self.extra = tuple(extra)
         self.rates = self.counts = None
         self.film = {}  # seconds of FFmpeg alone for a frame, for CPU devices or not; or the reason
-        self.preset = None
         self.runnable = {label: device for label, device in plan.devices.items() if device["reason"] is None}
 
     def job(self, device, scene, frames, *options, few_cores=False, **named):
@@ -61,7 +68,7 @@ class Rows:
                        for count in self.film_lengths()]
 
         def figure():
-            return [1 / seconds for seconds in self.plan.seconds_a_frame(short, long) if seconds > 0]
+            return [1 / seconds for seconds in self.plan.seconds_a_frame(short, long)]
         return self.plan.row("headline_film", what, "frames/s", figure, device=device, target=target,
                              note="steady state, from two lengths of the run")
 
@@ -114,8 +121,7 @@ class Rows:
         return None
 
     def rate(self, name):
-        if isinstance(self.rates, Problem):
-            raise Missing(str(self.rates))
+        demand(self.rates)
         if name not in self.rates["rates"]:
             raise Missing(f"the view has no {name}")
         return [1e-6 * value for value in self.rates["rates"][name]]
@@ -135,8 +141,7 @@ class Rows:
         return None
 
     def counted(self, name):
-        if isinstance(self.counts, Problem):
-            raise Missing(str(self.counts))
+        demand(self.counts)
         if name not in self.counts["counted"]:
             raise Missing("the system lets no process be stepped through, so nothing was counted")
         return self.counts["counted"][name]
@@ -246,9 +251,10 @@ class Rows:
                       self.plan.each_frame(job, lambda frame: frame["seconds"]["convert"] + frame["seconds"]["store"]))
 
     def film_seconds(self, is_cpu):
-        if not isinstance(self.film[is_cpu], float):
-            raise Missing(self.film[is_cpu])
-        return self.film[is_cpu]
+        seconds = self.film.get(is_cpu, "it was not measured")
+        if not isinstance(seconds, float):
+            raise Missing(seconds)
+        return seconds
 
     # ---- for the model of other GPUs
 

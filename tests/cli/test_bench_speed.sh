@@ -34,6 +34,21 @@ expect_python "(2.0, 0.5, 'least')" "$judge" 'print(judge(Target(20, 5, False), 
 expect_python "(4.0, 1.0, 'aim')" "$judge" 'print(judge(Target(20, 5, False), 5))'
 expect_python "(0.5, 0.25, 'missed')" "$judge" 'print(judge(Target(20, 40), 10))'
 
+# ---- pictures: one that differs is told; threads and pipelines promise the same bytes, fast arithmetic none
+cat >pictures.py <<'PYTHON'
+from harness.speed_plan import Plan, compare_pictures
+def told(*jobs):
+    plan = Plan({"c:0": {"strict": True}, "opencl:0": {"strict": True}}, {})
+    for device, options, picture in jobs:
+        plan.runs[plan.job(device, "headline", "0", tuple(options.split()))].append({"digests": {0: picture}})
+    found = compare_pictures(plan)
+    return found["same"], found["compared"]
+print(told(("c:0", "", "a"), ("opencl:0", "", "a")), told(("c:0", "", "a"), ("opencl:0", "", "b")),
+      told(("c:0", "", "a"), ("c:0", "--samples 2", "b")), told(("c:0", "", "a"), ("c:0", "--math fast", "b")),
+      told(("c:0", "--pipeline mega", "a"), ("c:0", "--pipeline wavefront --threads 2", "b")))
+PYTHON
+expect_python '(True, 1) (False, 1) (None, 0) (None, 0) (False, 1)' "$(cat pictures.py)"
+
 # ---- which instructions are operations
 weigh='from harness.kernel_rates import add_up, weigh'
 while read -r expected name operands; do
@@ -119,11 +134,17 @@ if [[ -x $(dirname "$hedron")/bench/hedron_kernel_rates ]]; then
     expect_value '[true, true, true]' '[min(r["kernel_rates"]["rates"][k]) > 0 for k in ("search:meeting", "light:lights-200", "peak:fma")]'
 fi
 if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
-    expect_value '[true, "veryfast"]' '[rows["headline_film c:0"]["figure"] is not None, r["film"]["preset"]]'
+    expect_value '["veryfast", [4, 16]]' \
+        '[r["film"]["preset"], sorted({len(run["frames"]) for run in r["runs"] if run["output"] == "film.mp4"})]'
 fi
 if [[ ! -s out/speed.md ]]; then
     fail "there is no table for documents"
 fi
+
+# ---- Ctrl-C leaves what was measured
+expect_exit 130 timeout --preserve-status -s INT 2 "$bench" --hedron "$hedron" --out out --device c
+expect_stdout_contains Interrupted
+expect_value '[false, true]' '[r["complete"], all(row["reason"] for row in r["rows"] if row["key"] == "pairs")]'
 
 # ---- a file without a GPU predicts nothing; wrong usage
 expect_exit 3 "$project/bench/predict" out/speed.json
