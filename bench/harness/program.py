@@ -4,6 +4,7 @@ is in them. What a whole run takes is beside them, as `wall`."""
 import hashlib
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -57,9 +58,10 @@ class Program:
     def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None):
         """One run, in a new folder within the temporary one, so that no name in the path counts as a
         pattern; on `cores` alone, with `path` for PATH, where these are given. Returns {"code",
-        "message", "frames", "digests", "wall"}: the exit code (None where a run was interrupted), what
+        "message", "frames", "digests", "wall", "cpu"}: the exit code (None where a run was interrupted), what
         hedron said, the lines of the statistics, for each frame the digest of its picture if that is a
-        file of its own, and the seconds from the start to the end of the program.
+        file of its own, the seconds from the start to the end of the program, and those that processors
+        worked for it and its children.
         """
         place = Path(folder, "run")
         place.mkdir()
@@ -70,7 +72,7 @@ class Program:
             command.append(scene)
         environment = os.environ if path is None else {**os.environ, "PATH": path}
         try:
-            start = time.monotonic()
+            start, worked = time.monotonic(), children_seconds()
             # A session of its own: Ctrl-C then reaches hedron once, from here.
             child = subprocess.Popen(command, cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                      stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
@@ -79,8 +81,9 @@ class Program:
                 message = child.communicate()[1]
             except KeyboardInterrupt:
                 stop(child)
-                raise Interrupted(collect(place, None, "", None)) from None
-            return collect(place, child.returncode, message, time.monotonic() - start)
+                raise Interrupted(collect(place, None, "")) from None
+            return {**collect(place, child.returncode, message), "wall": time.monotonic() - start,
+                    "cpu": children_seconds() - worked}
         finally:
             shutil.rmtree(place)
 
@@ -95,7 +98,13 @@ def stop(child):
         child.communicate()
 
 
-def collect(place, code, message, wall):
+def children_seconds():
+    """Processor time of all children that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def collect(place, code, message):
     frames = []
     stats = place / "stats.jsonl"
     if stats.exists():
@@ -104,7 +113,7 @@ def collect(place, code, message, wall):
                 frames.append(json.loads(line))
     pictures = {frame["frame"]: place / f"{frame['frame']:07}.data" for frame in frames}
     digests = {number: digest(file) for number, file in pictures.items() if file.exists()}
-    return {"code": code, "message": message_in(message), "frames": frames, "digests": digests, "wall": wall}
+    return {"code": code, "message": message_in(message), "frames": frames, "digests": digests}
 
 
 def digest(file):

@@ -47,7 +47,7 @@ def begin(program, arguments, devices):
 
 def run_entry(job, run):
     return {"device": job.device, "scene": job.scene, "options": list(job.options), "output": job.output,
-            "wall": run["wall"], "frames": [
+            "wall": run["wall"], "cpu": run["cpu"], "frames": [
                 {"frame": frame["frame"], "width": frame["width"], "height": frame["height"],
                  "samples": frame["samples"], "depth": frame["depth"], "seconds": frame["seconds"],
                  "rays": frame["rays"], "shadow_tests": frame["shadow_tests"]} for frame in run["frames"]]}

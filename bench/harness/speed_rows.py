@@ -8,10 +8,16 @@ from harness.program import Problem
 from harness.speed_plan import Missing, Target
 
 H200 = "H200"
-# Sizes that give a like number of pairs, with 4 x 4 samples, so that a bundle is a pixel.
-LIGHT_COUNTS = {200: "160x90", 1000: "72x40", 10000: "24x14"}
+# Views that give a like number of pairs: the middle of one picture, always as fine as the whole of it
+# in 640 x 360 with one sample, so that the rays of a bundle are as near to each other.
+LIGHT_VIEWS = {200: ("160x90", 62), 1000: ("72x40", 30.3), 10000: ("24x14", 10.3)}
 COUNTED_LIGHTS = 32
 PIPELINES = ("mega", "wavefront")
+
+
+def light_view(count):
+    size, field = LIGHT_VIEWS[count]
+    return "--samples", "4", "--size", size, "--set", f"camera.field_of_view={field}"
 
 
 def is_h200(device):
@@ -107,17 +113,18 @@ class Rows:
     # ---- rates of the hot loops
 
     def pairs(self):
-        """Of whole frames, on one thread: a second of tracing is a CPU-second."""
+        """Of whole runs, by the processor's time, so that a busy machine changes little."""
         device, what, target = self.cpu("c"), "unculled (point, light) pairs a CPU-second", Target(200, 500)
         if device is None:
             return self.absent("pairs", what, "M/s", target, "the C backend is left out")
-        for count, size in LIGHT_COUNTS.items():
-            job = self.job(device, f"lights-{count}", "0-2", "--threads", "1", "--samples", "4", "--size", size)
+        for count in LIGHT_VIEWS:
+            job = self.job(device, f"lights-{count}", "0,80,160", *light_view(count))
 
             def figure(job=job):
-                return self.plan.each_frame(job, lambda frame: 1e-6 * frame["shadow_tests"] / frame["seconds"]["trace"])
+                return [1e-6 * sum(frame["shadow_tests"] for frame in run["frames"]) / run["cpu"]
+                        for run in self.plan.done(job)]
             self.plan.row("pairs", f"{what}, {count} lights", "M/s", figure, device=device, target=target,
-                          note="whole frames, one thread")
+                          note="whole runs, by the processor's time")
         return None
 
     def rate(self, name):
@@ -135,7 +142,7 @@ class Rows:
         for name in ("primary", "missing", "mirrored", "inside", "solid_1", "solid_2", "solid_3"):
             self.plan.row("searches", f"  {name.replace('_', ' ')}", "M/s", lambda name=name: self.rate(f"search:{name}"),
                           device=device)
-        for count in LIGHT_COUNTS:
+        for count in LIGHT_VIEWS:
             self.plan.row("searches", f"  direct light alone, {count} lights, pairs a CPU-second", "M/s",
                           lambda count=count: self.rate(f"light:lights-{count}"), device=device)
         return None
@@ -193,7 +200,7 @@ class Rows:
 
     def compared_scenes(self):
         return {"headline": (), "default": ("--samples", "1"), "official": ("--samples", "2"),
-                "lights-1000": ("--samples", "4", "--size", LIGHT_COUNTS[1000])}
+                "lights-1000": light_view(1000)}
 
     def pocl(self):
         target, plain, pocl = Target(1.25, 1, False), self.cpu("c"), self.cpu("opencl")
