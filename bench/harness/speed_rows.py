@@ -154,9 +154,10 @@ class Rows:
         return self.counts["counted"][name]
 
     def cpu_share(self, name, key, per_instruction):
-        """Of what the machine was seen to do of independent fused multiply-adds in the same run."""
+        """Of the vector instructions that the machine was seen to do in independent chains of them in the
+        same run, were they fused multiply-adds."""
         each = self.counted(name)[f"{key}_each"]
-        peaks = self.counts["rates"]["peak:fma"]
+        peaks = [max(both) for both in zip(self.counts["rates"]["peak:fma"], self.counts["rates"]["peak:mul_add"])]
         return [100 * each * rate / (peak * per_instruction) for rate, peak in zip(self.counts["rates"][name], peaks)]
 
     def gpu_share(self, job, device, per_instruction):

@@ -49,7 +49,7 @@ typedef struct HdLoops {
     double (*multiplications_and_additions)(long rounds);
 } HdLoops;
 
-enum { HD_PEAK_CHAINS = 16 };
+enum { HD_PEAK_CHAINS = 12 };
 
 void hd_work_free(HdWork *work);
 
