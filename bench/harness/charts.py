@@ -175,19 +175,20 @@ def animation(result):
 CHARTS = {"frames": bars, "frames_animation": animation}
 
 
-def remove_old(folder):
+def remove_old(folder, names=tuple(CHARTS)):
     """So that no chart stands beside numbers that are not its own."""
-    for name in CHARTS:
+    for name in names:
         for kind in TERMINALS:
             (folder / f"{name}.{kind}").unlink(missing_ok=True)
 
 
-def draw(result, folder):
-    """Draws every chart that the result has; returns lines that tell what became of them."""
+def draw(result, folder, wanted=None):
+    """Draws the charts of the result, those of bench/frames if not said; returns lines that tell what
+    became of them."""
     if shutil.which("gnuplot") is None:
         return ["There is no gnuplot, so there are no charts; its package is gnuplot-nox."]
     told = []
-    for name, chart in CHARTS.items():
+    for name, chart in (wanted or CHARTS).items():
         height, commands = chart(result)
         for kind, terminal in TERMINALS.items():
             file = folder / f"{name}.{kind}"

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Runs hedron. Its statistics are the one source of times: no start of a program, no compiling of
-kernels is in them."""
+"""Runs hedron. Its statistics are the source of times: no start of a program, no compiling of kernels
+is in them. What a whole run takes is beside them, as `wall`."""
 import hashlib
 import json
+import os
+import resource
 import shutil
 import signal
 import subprocess
+import time
 from pathlib import Path
 
 
@@ -41,6 +44,10 @@ class Program:
             raise Problem(2, f"{self.path} {' '.join(words)} fails: {message_in(answer.stderr)}")
         return answer.stdout
 
+    def has_option(self, option):
+        """Whether `hedron render` knows it."""
+        return f" {option} " in self._ask("help", "render")
+
     def backends(self):
         """The list of `hedron devices --json`."""
         try:
@@ -48,28 +55,35 @@ class Program:
         except (ValueError, KeyError, TypeError) as error:
             raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
 
-    def render(self, device, scene, frames, options, folder):
+    def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None):
         """One run, in a new folder within the temporary one, so that no name in the path counts as a
-        pattern. Returns {"code", "message", "frames", "digests"}: the exit code (None where a run was
-        interrupted), what hedron said, the lines of the statistics, and for each frame the digest of its picture.
+        pattern; on `cores` alone, with `path` for PATH, where these are given. Returns {"code",
+        "message", "frames", "digests", "wall", "cpu"}: the exit code (None where a run was interrupted), what
+        hedron said, the lines of the statistics, for each frame the digest of its picture if that is a
+        file of its own, the seconds from the start to the end of the program, and those that processors
+        worked for it and its children.
         """
         place = Path(folder, "run")
         place.mkdir()
         command = [self.path, "render", "--quiet", *options, "--backend", device["backend"],
                    "--device", str(device["index"]), "--frames", frames, "--stats", "stats.jsonl",
-                   "-o", "#######.data"]
+                   "-o", output]
         if scene is not None:
             command.append(scene)
+        environment = os.environ if path is None else {**os.environ, "PATH": path}
         try:
+            start, worked = time.monotonic(), children_seconds()
             # A session of its own: Ctrl-C then reaches hedron once, from here.
             child = subprocess.Popen(command, cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                     stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
+                                     stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
+                                     env=environment, preexec_fn=cores and (lambda: os.sched_setaffinity(0, cores)))
             try:
                 message = child.communicate()[1]
             except KeyboardInterrupt:
                 stop(child)
                 raise Interrupted(collect(place, None, "")) from None
-            return collect(place, child.returncode, message)
+            return {**collect(place, child.returncode, message), "wall": time.monotonic() - start,
+                    "cpu": children_seconds() - worked}
         finally:
             shutil.rmtree(place)
 
@@ -84,6 +98,12 @@ def stop(child):
         child.communicate()
 
 
+def children_seconds():
+    """Processor time of all children that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def collect(place, code, message):
     frames = []
     stats = place / "stats.jsonl"
@@ -91,7 +111,8 @@ def collect(place, code, message):
         for line in stats.read_text(encoding="utf-8").splitlines(keepends=True):
             if line.endswith("\n"):  # else it was cut off
                 frames.append(json.loads(line))
-    digests = {frame["frame"]: digest(place / f"{frame['frame']:07}.data") for frame in frames}
+    pictures = {frame["frame"]: place / f"{frame['frame']:07}.data" for frame in frames}
+    digests = {number: digest(file) for number, file in pictures.items() if file.exists()}
     return {"code": code, "message": message_in(message), "frames": frames, "digests": digests}
 
 

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/* One build of the loops; HD_LOOPS names it, HD_LOOPS_SET is its instruction set. */
+#include "loops.h"
+
+#include <stdlib.h>
+
+#include "../../kernels/common/render.h"
+
+#define QUOTED_(name)  #name
+#define QUOTED(name)   QUOTED_(name)
+#define OF_BUILD(name) HD_PASTE(HD_LOOPS, _##name)
+#define NOT_INLINED    __attribute__((noinline))
+
+#define TABLE_FROM_SCENE(type, name)                                                               \
+    const type *name = scene[HD_TABLE_##name].data;                                                \
+    (void)name;
+#define TABLE_FROM_FRAME(type, name)                                                               \
+    const type *name = frame[HD_TABLE_##name].data;                                                \
+    (void)name;
+
+typedef struct Bundle {
+    Ray ray;
+    int is_eye;
+} Bundle;
+
+typedef struct Points {
+    Surface surface;
+    LitPoints lit;
+    Vec3 mirrored;
+} Points;
+
+/* A bundle of the view and what it meets. */
+typedef struct Sight {
+    Ray ray;
+    Reference reference;
+    Hit hit;
+    vmask struck, on_solid;
+} Sight;
+
+static vint live_lanes(vmask alive) {
+    return splat_int(0) - alive;
+}
+
+static int sum_of_lanes(vint a) {
+    int sum = 0;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        sum += lane_int(&a, lane);
+    return sum;
+}
+
+/* The bundle that begins at sample `first` of an item; 0 where it lies outside of the picture. */
+static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    Vec3 direction;
+    vmask alive = sample_directions(view, item, first, &direction);
+    if (!any_lane(alive))
+        return 0;
+    sight->ray = eye_ray(direction, alive);
+    sight->reference = reference_of(SCENE_ARGUMENTS sight->ray.touched, 1);
+    sight->hit = closest_hit(SCENE_ARGUMENTS & sight->ray, sight->reference);
+    sight->struck = alive & ~lt_int(sight->hit.object, splat_int(0));
+    sight->on_solid = sight->struck & lt_int(sight->hit.object, splat_int(header->solid_count));
+    return 1;
+}
+
+static int is_of_kind(const Sight *sight, int kind) {
+    if (kind == HD_RAYS_PRIMARY)
+        return 1;
+    if (kind == HD_RAYS_MISSING)
+        return !any_lane(sight->on_solid);
+    if (kind < HD_RAYS_SOLID)
+        return any_lane(sight->on_solid);
+    vmask met = eq_int(sight->hit.object, splat_int(kind - HD_RAYS_SOLID));
+    return !any_lane(~met & sight->ray.alive);
+}
+
+static void bundle_of(const HdTable *scene, const HdTable *frame, const Sight *sight, int kind,
+                      Bundle *bundle) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    bundle->ray = sight->ray;
+    bundle->is_eye = kind != HD_RAYS_MIRRORED && kind != HD_RAYS_INSIDE;
+    if (bundle->is_eye)
+        return;
+    Surface surface =
+        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &sight->hit, sight->struck);
+    Ray *ray = &bundle->ray;
+    if (kind == HD_RAYS_MIRRORED)
+        ray->direction = vec3_scale_add(
+            surface.normal, vec3_dot(surface.normal, ray->direction) * R(-2.0), ray->direction);
+    ray->alive = sight->on_solid;
+    ray->origin = surface.point;
+    ray->touched = spread_first(sight->hit.object, ray->alive);
+    ray->inside = kind == HD_RAYS_INSIDE ? mask_all() : mask_none();
+}
+
+/* What passes over the view's bundles: the first time to count those wanted, the second to take
+   `most` of them evenly. */
+typedef struct Walk {
+    int kind, most;
+    int found, wanted; /* wanted: how many were found the first time; 0 then */
+    HdWork work;
+    size_t size; /* of an item of work */
+} Walk;
+
+/* Where the sight is one to take, the place for it, else NULL. */
+static void *take(Walk *walk) {
+    long long number = walk->found++;
+    if (walk->wanted == 0)
+        return NULL;
+    long long count = walk->wanted < walk->most ? walk->wanted : walk->most;
+    if (walk->work.count >= count || number * count < walk->work.count * (long long)walk->wanted)
+        return NULL;
+    return (char *)walk->work.items + walk->size * (size_t)walk->work.count++;
+}
+
+typedef void Visit(const HdTable *scene, const HdTable *frame, const Sight *sight, Walk *walk);
+
+static void walk_view(const HdTable *scene, const HdTable *frame, Visit *visit, Walk *walk) {
+    const View *view = frame[HD_TABLE_view].data;
+    int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int blocks = blocks_per_row * ((view->height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE);
+    int samples = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    for (int item = 0; item < blocks * (HD_BLOCK_PIXELS / HD_PIXELS_PER_ITEM); item++)
+        for (int first = 0; first < samples; first += HD_LANES) {
+            Sight sight;
+            if (look(scene, frame, item, first, &sight))
+                visit(scene, frame, &sight, walk);
+        }
+}
+
+static HdWork walk_twice(const HdTable *scene, const HdTable *frame, Visit *visit, Walk *walk) {
+    walk_view(scene, frame, visit, walk);
+    walk->wanted = walk->found;
+    walk->found = 0;
+    if (walk->wanted > 0)
+        walk->work.items = aligned_alloc(64, (walk->size * (size_t)walk->most + 63) / 64 * 64);
+    if (walk->work.items != NULL)
+        walk_view(scene, frame, visit, walk);
+    return walk->work;
+}
+
+static void visit_rays(const HdTable *scene, const HdTable *frame, const Sight *sight, Walk *walk) {
+    if (!is_of_kind(sight, walk->kind))
+        return;
+    Bundle *bundle = take(walk);
+    if (bundle != NULL)
+        bundle_of(scene, frame, sight, walk->kind, bundle);
+}
+
+static HdWork make_rays(const HdTable *scene, const HdTable *frame, int kind, int most) {
+    Walk walk = {.kind = kind, .most = most, .size = sizeof(Bundle)};
+    return walk_twice(scene, frame, visit_rays, &walk);
+}
+
+/* As the ray tree does it before it calls for the direct light. */
+static void visit_points(const HdTable *scene, const HdTable *frame, const Sight *sight,
+                         Walk *walk) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    Points points;
+    if (!any_lane(sight->struck))
+        return;
+    points.surface =
+        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &sight->hit, sight->struck);
+    const LaneMaterial *material = &points.surface.material;
+    Vec3 direction = sight->ray.direction;
+    vreal zero = splat(R(0.0));
+    points.mirrored = vec3_scale_add(
+        points.surface.normal, vec3_dot(points.surface.normal, direction) * R(-2.0), direction);
+    points.lit.active =
+        sight->struck & (lt(zero, material->diffuse) | lt(zero, material->specular));
+    points.lit.object = spread_first(sight->hit.object, sight->struck);
+    points.lit.plane = sight->hit.plane;
+    points.lit.inside = sight->on_solid & ~sight->hit.entering;
+    if (!any_lane(points.lit.active))
+        return;
+    Points *place = take(walk);
+    if (place != NULL)
+        *place = points;
+}
+
+static HdWork make_points(const HdTable *scene, const HdTable *frame, int most) {
+    Walk walk = {.most = most, .size = sizeof(Points)};
+    return walk_twice(scene, frame, visit_points, &walk);
+}
+
+static uint64_t live_rays(const HdWork *rays) {
+    const Bundle *bundles = rays->items;
+    uint64_t live = 0;
+    for (int i = 0; i < rays->count; i++)
+        live += (uint64_t)sum_of_lanes(live_lanes(bundles[i].ray.alive));
+    return live;
+}
+
+NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame,
+                                      const HdWork *rays);
+NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
+                                     const HdWork *points, double *sum);
+
+NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame,
+                                      const HdWork *rays) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    const Bundle *bundles = rays->items;
+    vreal nearest = splat(REAL_LARGE);
+    vint mixed = splat_int(0);
+    for (int i = 0; i < rays->count; i++) {
+        const Ray *ray = &bundles[i].ray;
+        Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, bundles[i].is_eye);
+        Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
+        nearest = lesser(hit.t, nearest);
+        mixed = mixed + (hit.object & hit.plane & hit.entering);
+    }
+    return (uint64_t)(sum_of_lanes(mixed) + (int)lane_real(&nearest, 0));
+}
+
+NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
+                                     const HdWork *points, double *sum) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    const Points *all = points->items;
+    vint tests = splat_int(0);
+    Vec3 radiance = vec3_zero();
+    for (int i = 0; i < points->count; i++) {
+        const Points *each = all + i;
+        radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & each->surface, &each->lit,
+                                                   each->mirrored, &tests));
+    }
+    vreal white = radiance.x + radiance.y + radiance.z;
+    *sum = (double)lane_real(&white, 0);
+    return (uint64_t)sum_of_lanes(tests);
+}
+
+/* The compiler must not know the numbers, or it would compute ahead. */
+static double sum_of_chains(const vreal *chains) {
+    double sum = 0;
+    for (int i = 0; i < HD_PEAK_CHAINS; i++)
+        sum += (double)lane_real(chains + i, HD_LANES - 1);
+    return sum;
+}
+
+static double multiply_adds(long rounds) {
+    volatile real factor = R(0.999), term = R(0.001);
+    vreal a = splat(factor), b = splat(term), chains[HD_PEAK_CHAINS];
+    for (int i = 0; i < HD_PEAK_CHAINS; i++)
+        chains[i] = splat((real)i);
+    for (long round = 0; round < rounds; round++)
+        for (int i = 0; i < HD_PEAK_CHAINS; i++)
+            chains[i] = multiply_add(chains[i], a, b);
+    return sum_of_chains(chains);
+}
+
+static double multiplications_and_additions(long rounds) {
+    volatile real factor = R(0.999), term = R(0.001);
+    vreal a = splat(factor), b = splat(term), chains[HD_PEAK_CHAINS];
+    for (int i = 0; i < HD_PEAK_CHAINS; i++)
+        chains[i] = splat((real)i);
+    for (long round = 0; round < rounds; round += 2) {
+        for (int i = 0; i < HD_PEAK_CHAINS; i++)
+            chains[i] = chains[i] * a;
+        for (int i = 0; i < HD_PEAK_CHAINS; i++)
+            chains[i] = chains[i] + b;
+    }
+    return sum_of_chains(chains);
+}
+
+extern const HdLoops HD_LOOPS;
+const HdLoops HD_LOOPS = {
+    .instruction_set = HD_LOOPS_SET,
+    .lanes = HD_LANES,
+    .search_symbol = QUOTED(OF_BUILD(search)),
+    .light_symbol = QUOTED(OF_BUILD(light)),
+    .make_rays = make_rays,
+    .make_points = make_points,
+    .live_rays = live_rays,
+    .search = OF_BUILD(search),
+    .light = OF_BUILD(light),
+    .multiply_adds = multiply_adds,
+    .multiplications_and_additions = multiplications_and_additions,
+};

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* The two hot loops of the kernels and the machine's arithmetic peak, each as a function that runs
+   on one thread; compiled once for each instruction set and lane count, as the CPU kernels are. */
+#ifndef HD_BENCH_LOOPS_H
+#define HD_BENCH_LOOPS_H
+
+#include <stdint.h>
+
+#include "../../src/compiled_scene.h"
+
+/* Which bundles of rays a search is given. HD_RAYS_SOLID + n: primary rays that all meet solid n.
+ */
+typedef enum HdRayKind {
+    HD_RAYS_PRIMARY,  /* those of the view */
+    HD_RAYS_MEETING,  /* primary ones of which some lane meets a solid */
+    HD_RAYS_MISSING,  /* primary ones of which none does */
+    HD_RAYS_MIRRORED, /* those that meeting ones become at the outer side of a solid */
+    HD_RAYS_INSIDE,   /* those that meeting ones become inside of a solid */
+    HD_RAYS_SOLID
+} HdRayKind;
+
+/* Bundles, or lit points of bundles, ready to be worked on; made and freed by the same build. */
+typedef struct HdWork {
+    void *items; /* owned; laid out as the build's lanes */
+    int count;
+} HdWork;
+
+typedef struct HdLoops {
+    const char *instruction_set;
+    int lanes;
+    const char *search_symbol, *light_symbol; /* of the functions below, for a disassembler */
+
+    /* At most `most` bundles of a kind, taken evenly from the view; count 0 where there are none or
+       no memory. */
+    HdWork (*make_rays)(const HdTable *scene, const HdTable *frame, int kind, int most);
+    /* Likewise the surface points that primary rays meet and that lights can reach. */
+    HdWork (*make_points)(const HdTable *scene, const HdTable *frame, int most);
+    /* Live lanes of the bundles. */
+    uint64_t (*live_rays)(const HdWork *rays);
+    /* One closest-hit search for each bundle. The result depends on every hit. */
+    uint64_t (*search)(const HdTable *scene, const HdTable *frame, const HdWork *rays);
+    /* Direct light at each point from all lights; returns the shadow tests, as frames count them,
+       and writes what depends on every result to `sum`. */
+    uint64_t (*light)(const HdTable *scene, const HdTable *frame, const HdWork *points,
+                      double *sum);
+    /* `rounds` rounds of HD_PEAK_CHAINS independent chains, an instruction each: fused
+       multiply-adds, or multiplications and additions in turns. */
+    double (*multiply_adds)(long rounds);
+    double (*multiplications_and_additions)(long rounds);
+} HdLoops;
+
+enum { HD_PEAK_CHAINS = 12 };
+
+void hd_work_free(HdWork *work);
+
+#endif

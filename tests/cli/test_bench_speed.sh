@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# bench/speed and bench/predict: their arithmetic on made-up numbers, and a tiny run of the program itself.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
+    skip "there is no python3 of version 3.10 or newer"
+fi
+project=$(realpath "$cli_folder/../..")
+bench=$project/bench/speed
+
+# expect_python EXPECTED STATEMENTS...: what they print.
+expect_python() {
+    local expected=$1 found
+    shift
+    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
+    if [[ $found != "$expected" ]]; then
+        fail "$* prints $found, expected $expected"
+    fi
+}
+
+# expect_value EXPECTED EXPRESSION: what Python makes of the result `r` and its rows, by key and device.
+expect_value() {
+    expect_python "$1" 'import json' 'r = json.load(open("out/speed.json", encoding="utf-8"))' \
+        "rows = {' '.join((row['key'], row['device'] or 'nowhere')): row for row in r['rows']}" "print(json.dumps($2))"
+}
+
+# ---- a row's verdict: 1 or more says that the target is met
+judge='from harness.speed_plan import Target, judge'
+expect_python "(2.0, 0.8, 'least')" "$judge" 'print(judge(Target(12, 30), 24))'
+expect_python "(2.0, 0.5, 'least')" "$judge" 'print(judge(Target(20, 5, False), 10))'
+expect_python "(4.0, 1.0, 'aim')" "$judge" 'print(judge(Target(20, 5, False), 5))'
+expect_python "(0.5, 0.25, 'missed')" "$judge" 'print(judge(Target(20, 40), 10))'
+
+# ---- pictures: one that differs is told; threads and pipelines promise the same bytes, fast arithmetic none
+cat >pictures.py <<'PYTHON'
+from harness.speed_plan import Plan, compare_pictures
+def told(*jobs):
+    plan = Plan({"c:0": {"strict": True}, "opencl:0": {"strict": True}}, {})
+    for device, options, picture in jobs:
+        plan.runs[plan.job(device, "headline", "0", tuple(options.split()))].append({"digests": {0: picture}})
+    found = compare_pictures(plan)
+    return found["same"], found["compared"]
+print(told(("c:0", "", "a"), ("opencl:0", "", "a")), told(("c:0", "", "a"), ("opencl:0", "", "b")),
+      told(("c:0", "", "a"), ("c:0", "--samples 2", "b")), told(("c:0", "", "a"), ("c:0", "--math fast", "b")),
+      told(("c:0", "--pipeline mega", "a"), ("c:0", "--pipeline wavefront --threads 2", "b")))
+PYTHON
+expect_python '(True, 1) (False, 1) (None, 0) (None, 0) (False, 1)' "$(cat pictures.py)"
+
+# ---- which instructions are operations
+weigh='from harness.kernel_rates import add_up, weigh'
+while read -r expected name operands; do
+    expect_python "$expected" "$weigh" "print(*weigh('$name', '$operands'), sep=',')"
+done <<'LINES'
+32,1 vfmadd213ps (%rax){1to16},%zmm1,%zmm2
+16,1 vfnmadd231ps %ymm1,%ymm2,%ymm3
+16,1 vcmpltps %zmm1,%zmm2,%k1
+16,1 vblendmps %zmm1,%zmm2,%zmm3{%k1}
+16,1 vmovaps %zmm1,%zmm2{%k1}
+0,0 vmovaps %zmm1,%zmm2
+0,0 vbroadcastss (%rax),%zmm1
+0,0 vpxor %xmm0,%xmm0,%xmm0
+4,1 vpxor %xmm0,%xmm1,%xmm0
+1,1 vucomiss %xmm0,%xmm1
+2,1 vfmadd132ss %xmm0,%xmm1,%xmm2
+0,1 kandw %k1,%k2,%k3
+0,0 addq $64,%rax
+LINES
+expect_python "{'instructions': 5, 'operations': 112, 'slots': 5, 'divisions': 3}" "$weigh" \
+    'code = [(0, "vfmadd213ps", "%zmm1,%zmm2,%zmm3"), (6, "vdivps", "%zmm1,%zmm2,%zmm3"), (12, "ret", "")]' \
+    'print(add_up(code, {0: 2, 6: 3}))'
+
+# ---- the timeline: two frames, of which the second is traced while the first is stored
+frames='[{"frame": 0, "began": {"trace": 1, "store": 3}, "seconds": {"trace": 2, "store": 1}},
+    {"frame": 1, "began": {"trace": 3, "store": 5, "copy": None}, "seconds": {"trace": 2, "store": 1, "copy": 0}}]'
+timeline="from harness import timeline; t = timeline.measure($frames)"
+expect_python "5 trace 1.25" "$timeline" 'print(t["seconds"], t["slowest"], t["ratio_to_slowest"])'
+expect_python "{'busy_seconds': 2.0, 'busy_share': 0.4, 'work_seconds': 2}" "$timeline" 'print(t["stages"]["store"])'
+# Of boxes that overlap each moment counts once.
+expect_python 3.0 'from harness import timeline' 'print(timeline.busy_seconds([(0, 2, 0), (1, 2, 1), (5, 6, 2)]))'
+
+# ---- scenes: lights in the same places every time, those that light nothing not counted
+lights='import json, pathlib; from harness import light_scenes, scene_facts; p = pathlib.Path("lights-200.json")'
+expect_python "{'solids': 3, 'planes': 31, 'lights': 200}" "$lights" \
+    "file = light_scenes.write(pathlib.Path('$project/scenes/default.json'), pathlib.Path('.'), 200)" \
+    'print(scene_facts.facts(file))'
+expect_python '[7.7942, 0.0, 3.2]' "$lights" 'print(light_scenes.lights(1)[0]["position"])'
+expect_exit 0 "$hedron" check lights-200.json
+for scene in headline fullhd; do
+    expect_exit 0 "$hedron" check "$project/bench/scenes/$scene.json"
+done
+# The scene of the classic example is the classic input, but for the texture and where frames go.
+expect_exit 0 "$hedron" convert "$cli_folder/official.in" -o official.json
+same='import json; a, b = (json.load(open(f, encoding="utf-8")) for f in ("official.json", "'$project/scenes/official.json'"))'
+# shellcheck disable=SC2016 # Python's own
+expect_python True "$same" '[s["floor"].pop("texture") for s in (a, b)]; [s.pop("output", 0) for s in (a, b)]' \
+    '[s.pop("$schema", 0) for s in (a, b)]; print(a == b)'
+
+# ---- the model finds the coefficients that made the times, and scales all but the fixed part
+cat >model.py <<'PYTHON'
+from harness import gpu_model
+points = []
+for i in range(16):
+    point = {"scene": f"scene {i}", "rays": 10**6 * (1 + i * i % 7), "planes": 10 + 7 * i % 30, "lights": 4 + 97 * i % 300,
+             "shadow_tests": 10**7 * (1 + i * 5 % 11), "pixels": 640 * 480}
+    point["seconds"] = gpu_model.predict([2e-5, 3e-12, 1e-12, 5e-12], point)
+    points.append(point)
+model = gpu_model.evaluate(points)
+print(len(model["errors"]), max(abs(error) for error in model["errors"].values()) < 1e-3, model["spread"] < 1e-3)
+row = gpu_model.table(points, model, 640e9, {**gpu_model.GTX_1050, "lane_rate": 64e9})[0]
+print(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), row["low"] < row["target"] < row["high"])
+PYTHON
+expect_python $'8 True True\n10.0 True' "$(cat model.py)"
+# A coefficient that would be negative is none.
+expect_python '[1.0, 0.0]' 'from harness.gpu_model import non_negative_fit' \
+    'print([round(c, 6) for c in non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])])'
+
+# ---- a tiny run
+tiny=(--size 32x24 --samples 1 --depth 2)
+expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --repeats 1 \
+    --rows headline,headline_film,searches,math,pipelines,stage -- "${tiny[@]}"
+expect_stdout_contains 'CHANGED by --size 32x24'
+expect_value '["hedron_bench", "bench", "complete", "date", "quick", "hedron", "machine", "few_cores", "repeats", "devices", "rows", "pictures", "kernel_rates", "counted", "film", "timeline", "runs", "failures", "scenes", "peaks"]' \
+    '[key for key in r if key != "scene"]'
+expect_value '[1, "speed", true, true]' '[r["hedron_bench"], r["bench"], r["complete"], r["quick"]]'
+expect_value '["key", "what", "device", "unit", "least", "aim", "more_is_better", "figure", "q1", "q3", "count", "ratio_to_least", "ratio_to_aim", "verdict", "note", "reason"]' \
+    'list(r["rows"][0])'
+expect_value '[true, null, 2]' '[rows["headline c:0"]["figure"] > 0, rows["headline c:0"]["verdict"], rows["headline c:0"]["count"] // 2]'
+expect_value '[1, 0.4, "no H200 here"]' '[rows["headline nowhere"][key] for key in ("least", "aim", "reason")]'
+expect_value true 'rows["math c:0"]["figure"] > 0 and rows["math c:0"]["least"] == 1.15'
+if [[ -x $(dirname "$hedron")/bench/hedron_kernel_rates ]]; then
+    expect_value '[true, true, true]' '[min(r["kernel_rates"]["rates"][k]) > 0 for k in ("search:meeting", "light:lights-200", "peak:fma")]'
+fi
+if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
+    expect_value '["veryfast", [4, 16]]' \
+        '[r["film"]["preset"], sorted({len(run["frames"]) for run in r["runs"] if run["output"] == "film.mp4"})]'
+fi
+if [[ ! -s out/speed.md ]]; then
+    fail "there is no table for documents"
+fi
+
+# ---- Ctrl-C leaves what was measured
+expect_exit 130 timeout --preserve-status -s INT 2 "$bench" --hedron "$hedron" --out out --device c
+expect_stdout_contains Interrupted
+expect_value '[false, true]' '[r["complete"], all(row["reason"] for row in r["rows"] if row["key"] == "pairs")]'
+
+# ---- a file without a GPU predicts nothing; wrong usage
+expect_exit 3 "$project/bench/predict" out/speed.json
+expect_stderr_contains 'no GPU whose lanes are known'
+expect_exit 2 "$project/bench/predict" lights-200.json
+expect_stderr_contains 'not what bench/speed writes'
+expect_exit 2 "$bench" --hedron "$hedron" --out out --rows wrong
+expect_stderr_contains 'a row that is none of headline_film'
+expect_exit 2 "$bench" --hedron "$hedron" --out out -- --stats=x
+expect_stderr_contains '--stats=x cannot stand after --'
+expect_exit 2 "$bench" --hedron no/hedron --out out
+expect_exit 3 "$bench" --hedron "$hedron" --out out --device c:7
+finish
