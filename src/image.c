@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atomic_file.h"
 #include "file_bytes.h"
 #include "image_files.h"
 #include "output_kind.h"
@@ -62,25 +61,30 @@ static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *e
     return check_size(frame->width, frame->height, error);
 }
 
-HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
-                          HdError *error) {
-    HdAtomicFile file;
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
+                            const char *path, HdError *error) {
     HdOutputKind kind = hd_output_kind(path);
     HdStatus status = check_picture(frame, path, error);
     if (status == HD_OK)
-        status = hd_atomic_file_open(&file, path, error);
+        status = hd_atomic_file_open(file, path, error);
     if (status != HD_OK)
         return status;
     if (kind == HD_OUTPUT_PNG)
-        status = hd_image_png_write(frame, style, file.stream, path, error);
+        status = hd_image_png_write(frame, style, file->stream, path, error);
     else if (kind == HD_OUTPUT_PFM)
-        status = hd_image_pfm_write(frame, file.stream, path, error);
+        status = hd_image_pfm_write(frame, file->stream, path, error);
     else
-        status = hd_image_data_write(frame, style->curve, file.stream, path, error);
-    if (status == HD_OK)
-        return hd_atomic_file_commit(&file, error);
-    hd_atomic_file_discard(&file);
+        status = hd_image_data_write(frame, style->curve, file->stream, path, error);
+    if (status != HD_OK)
+        hd_atomic_file_discard(file);
     return status;
+}
+
+HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
+                          HdError *error) {
+    HdAtomicFile file;
+    HdStatus status = hd_picture_prepare(&file, frame, style, path, error);
+    return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
 }
 
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
