@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "image_files.h"
+#include "large_memory.h"
 #include "output_kind.h"
 
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
@@ -97,7 +98,8 @@ HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, 
         return hd_fail(error, HD_BAD_INPUT,
                        "the texture %s has %lu x %lu pixels, expected at most %d in all", name,
                        (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_PIXELS);
-    texture->texels = calloc((size_t)width * (size_t)height, 3 * sizeof *texture->texels);
+    texture->texels =
+        hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
     if (texture->texels == NULL)
         return hd_fail(error, HD_FAILED, "not enough memory for the texture %s of %lu x %lu pixels",
                        name, (unsigned long)width, (unsigned long)height);
@@ -115,12 +117,9 @@ HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
     HdStatus status = hd_image_is_png(bytes, size)
-                          ? hd_image_png_decode(texture, bytes, size, name, error)
-                          : hd_image_data_decode(texture, bytes, size, name, error);
-    if (status == HD_OK)
-        hd_curve_decode16(curve, texture->texels,
-                          (size_t)texture->width * (size_t)texture->height * 3);
-    else
+                          ? hd_image_png_decode(texture, bytes, size, name, curve, error)
+                          : hd_image_data_decode(texture, bytes, size, name, curve, error);
+    if (status != HD_OK)
         hd_texture_clear(texture);
     return status;
 }
