@@ -32,11 +32,11 @@ struct HdStages {
     int worker_count;
 };
 
+/* For a stage that has something left. */
 static bool can_take(const HdStages *stages, int stage) {
     int item = stages->next[stage];
     unsigned after = stages->list[stage].after;
-    return item < stages->given && item < stages->limit &&
-           (stages->done[item % stages->room] & after) == after;
+    return item < stages->given && (stages->done[item % stages->room] & after) == after;
 }
 
 /* Nothing is left for the stage, now or later. */
