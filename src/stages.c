@@ -98,8 +98,8 @@ static void *worker_main(void *argument) {
 }
 
 static HdStages *create(const HdStage *list, int count, int room) {
-    int threads = 0;
-    for (int i = 0; i < count; i++)
+    int threads = list[0].threads;
+    for (int i = 1; i < count; i++)
         threads += list[i].threads;
     HdStages *stages = calloc(1, sizeof *stages);
     if (stages == NULL)
