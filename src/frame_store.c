@@ -12,8 +12,8 @@
 enum {
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
-    /* So that neither the renderer nor those who store wait for each other's last frame. */
-    SPARE_FRAMES = 3
+    /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
+    SPARE_FRAMES = 4
 };
 static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way */
 
@@ -154,15 +154,16 @@ static int least(int a, int b) {
 
 /* Where tracing has all processors too, they share them; elsewhere none of them idles. */
 static int encoder_count(const HdFrameStorePlan *plan) {
+    if (!has_pictures(plan->outputs))
+        return 0;
     return least(least(hd_processor_count(), MAX_ENCODERS), plan->frames->count);
 }
 
 static void list_stages(HdFrameStore *store) {
     add_films(store);
-    if (has_pictures(store->plan.outputs))
-        add_stage(store, (HdStage){.work = write_pictures,
-                                   .context = store,
-                                   .threads = encoder_count(&store->plan)});
+    int encoders = encoder_count(&store->plan);
+    if (encoders > 0)
+        add_stage(store, (HdStage){.work = write_pictures, .context = store, .threads = encoders});
     unsigned all = (1u << store->stage_count) - 1;
     add_stage(store, (HdStage){.work = publish, .context = store, .threads = 1, .after = all});
 }
