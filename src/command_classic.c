@@ -1,20 +1,27 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "command_scene.h"
 #include "commands.h"
 #include "default_scene.h"
+#include "interrupt.h"
+#include "patience.h"
 #include "rendering.h"
 
 /* From the camera to the pixels in memory. */
 static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
     const HdFrameTimes *times = &stored->times;
-    double seconds = times->prepare + times->trace + times->copy;
-    if (printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
+    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
+    if (!hd_wait_to_write(STDOUT_FILENO) ||
+        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
                hd_frame_rays(stored->frame)) < 0 ||
         fflush(stdout) != 0)
-        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+        return hd_interrupt_signal() != 0
+                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
+                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
     return HD_OK;
 }
 

@@ -9,10 +9,16 @@
 
 /* A value has the code c where it lies between the curve's inverse at c - 1/2 and at c + 1/2, and
    these thresholds alone decide. Where to look is known from the value's bits: floats that share
-   exponent and leading bits of the fraction form a bucket, in which the code grows almost linearly.
-   The curve is concave, so that a straight line from the bucket's first to its last value never
-   lies above it; it lies less than 0.1 of a code below, so that the next code is the only other
-   one. */
+   exponent and leading bits of the fraction form a bucket.
+
+   With 8 bits a bucket is so narrow that it holds one threshold at most. Its entry has the code of
+   its least value above ENTRY_BITS, and below that what is missing from the threshold's place in
+   the bucket to the bucket's end: adding the value's place in the bucket carries over into the code
+   exactly from the threshold on.
+
+   With 16 bits the code grows almost linearly in a bucket. The curve is concave, so that a straight
+   line from the bucket's first to its last value never lies above it; it lies less than 0.1 of a
+   code below, so that the next code is the only other one. */
 enum {
     LEADING_BITS_8 = 7,
     LEADING_BITS_16 = 8,
@@ -23,27 +29,18 @@ enum {
     POSITION_BITS = 8,   /* a position is a code with so many bits after the point */
     POSITION_MARGIN = 8, /* for what is rounded */
     FLOAT_FRACTION_BITS = 23,
-    FLOAT_BIAS = 127
+    FLOAT_BIAS = 127,
+    ENTRY_BITS = FLOAT_FRACTION_BITS - LEADING_BITS_8,
+    SHIFT_16 = FLOAT_FRACTION_BITS - LEADING_BITS_16
 };
-
-typedef struct Search {
-    const float *thresholds; /* by code: its least value; one more, infinite */
-    const uint32_t *buckets; /* by bucket: the position of its least value; one more, that of 1 */
-    uint32_t lowest;         /* the bits of the first bucket's least value */
-    int shift;               /* from bits to buckets */
-    unsigned top;            /* code */
-} Search;
 
 #define LOWEST_BITS(power) ((uint32_t)(FLOAT_BIAS + (power)) << FLOAT_FRACTION_BITS)
 
-static float thresholds8[257], thresholds16[65537];
-static uint32_t buckets8[BUCKETS_8 + 1], buckets16[BUCKETS_16 + 1];
+static uint32_t entries8[BUCKETS_8 + 1]; /* the last one for 1 */
+static float thresholds16[65537];        /* by code: its least value; one more, infinite */
+/* By bucket: the position of its least value; one more, that of 1. */
+static uint32_t buckets16[BUCKETS_16 + 1];
 static uint16_t decoded[65536];
-
-static const Search search8 = {thresholds8, buckets8, LOWEST_BITS(LOWEST_POWER_8),
-                               FLOAT_FRACTION_BITS - LEADING_BITS_8, 255};
-static const Search search16 = {thresholds16, buckets16, LOWEST_BITS(LOWEST_POWER_16),
-                                FLOAT_FRACTION_BITS - LEADING_BITS_16, 65535};
 
 /* For 0 < x <= 1. Newton's steps from above fall until rounding stops them. */
 static double fifth_root(double x) {
@@ -90,56 +87,73 @@ static void fill_thresholds(float *thresholds, unsigned top) {
     thresholds[top + 1] = INFINITY;
 }
 
-static void fill_buckets(uint32_t *buckets, const Search *search) {
-    const uint32_t count = (bits_of(1.0f) - search->lowest) >> search->shift;
+static void fill_search8(void) {
+    float thresholds[257];
     unsigned code = 0;
-    for (uint32_t i = 0; i <= count; i++) {
-        const float least = float_of(search->lowest + (i << search->shift));
-        while (least >= search->thresholds[code + 1])
+    fill_thresholds(thresholds, 255);
+    for (uint32_t i = 0; i <= BUCKETS_8; i++) {
+        const uint32_t least = LOWEST_BITS(LOWEST_POWER_8) + (i << ENTRY_BITS);
+        while (float_of(least) >= thresholds[code + 1])
             code++;
-        const double from = (double)search->thresholds[code];
-        const double step = (double)search->thresholds[code + 1] - from;
-        const double position = code + ((double)least - from) / step;
-        const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
-        buckets[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
+        const uint32_t place = bits_of(thresholds[code + 1]) - least;
+        const uint32_t missing = place >> ENTRY_BITS == 0 ? (1u << ENTRY_BITS) - place : 0;
+        entries8[i] = (code << ENTRY_BITS) + missing;
     }
 }
 
-static void fill_search8(void) {
-    fill_thresholds(thresholds8, search8.top);
-    fill_buckets(buckets8, &search8);
+static void fill_search16(void) {
+    unsigned code = 0;
+    fill_thresholds(thresholds16, 65535);
+    for (uint32_t i = 0; i <= BUCKETS_16; i++) {
+        const float least = float_of(LOWEST_BITS(LOWEST_POWER_16) + (i << SHIFT_16));
+        while (least >= thresholds16[code + 1])
+            code++;
+        const double from = (double)thresholds16[code];
+        const double step = (double)thresholds16[code + 1] - from;
+        const double position = code + ((double)least - from) / step;
+        const uint32_t rounded = (uint32_t)(position * (1 << POSITION_BITS));
+        buckets16[i] = rounded > POSITION_MARGIN ? rounded - POSITION_MARGIN : 0;
+    }
 }
 
-static void fill_search16(void) {
-    fill_thresholds(thresholds16, search16.top);
-    fill_buckets(buckets16, &search16);
+static uint16_t decode(double value) {
+    return (uint16_t)(srgb_to_linear(value) * 65535.0 + 0.5);
 }
 
 static void fill_decoded(void) {
     for (int code = 0; code < 65536; code++)
-        decoded[code] = (uint16_t)(srgb_to_linear(code / 65535.0) * 65535.0 + 0.5);
+        decoded[code] = decode(code / 65535.0);
+}
+
+/* NaN becomes the least as well. */
+static inline float clamp(float value, float least) {
+    const float raised = value > least ? value : least;
+    return raised < 1.0f ? raised : 1.0f;
+}
+
+static inline uint8_t srgb8(float value) {
+    const uint32_t lowest = LOWEST_BITS(LOWEST_POWER_8);
+    const uint32_t bits = bits_of(clamp(value, 1.0f / (1 << -LOWEST_POWER_8))) - lowest;
+    const uint32_t place = bits & ((1u << ENTRY_BITS) - 1);
+    return (uint8_t)((entries8[bits >> ENTRY_BITS] + place) >> ENTRY_BITS);
 }
 
 /* NaN is not above any threshold. */
-static inline unsigned find_code(const Search *search, float value) {
-    if (!(value >= search->thresholds[1]))
+static inline uint16_t srgb16(float value) {
+    if (!(value >= thresholds16[1]))
         return 0;
     if (value >= 1.0f)
-        return search->top;
-    const uint32_t bits = bits_of(value) - search->lowest;
-    const uint32_t rest = bits & ((UINT32_C(1) << search->shift) - 1);
-    const uint32_t *bucket = search->buckets + (bits >> search->shift);
-    const uint32_t position = bucket[0] + ((bucket[1] - bucket[0]) * rest >> search->shift);
+        return 65535;
+    const uint32_t bits = bits_of(value) - LOWEST_BITS(LOWEST_POWER_16);
+    const uint32_t rest = bits & ((1u << SHIFT_16) - 1);
+    const uint32_t *bucket = buckets16 + (bits >> SHIFT_16);
+    const uint32_t position = bucket[0] + ((bucket[1] - bucket[0]) * rest >> SHIFT_16);
     const unsigned code = position >> POSITION_BITS;
-    return code + (value >= search->thresholds[code + 1]);
+    return (uint16_t)(code + (value >= thresholds16[code + 1]));
 }
 
-static uint8_t linear8(float value) {
-    if (!(value > 0.0f))
-        return 0;
-    if (value >= 1.0f)
-        return 255;
-    return (uint8_t)(value * 255.0f + 0.5f);
+static inline uint8_t linear8(float value) {
+    return (uint8_t)(int)(clamp(value, 0.0f) * 255.0f + 0.5f);
 }
 
 /* In double, where the product is exact. */
@@ -151,7 +165,8 @@ static uint16_t linear16(float value) {
     return (uint16_t)((double)value * 65535.0 + 0.5);
 }
 
-void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t *out) {
+void hd_curve_encode8(HdCurve curve, const float *restrict values, size_t count,
+                      uint8_t *restrict out) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     if (curve == HD_CURVE_LINEAR) {
         for (size_t i = 0; i < count; i++)
@@ -160,7 +175,7 @@ void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t 
     }
     pthread_once(&once, fill_search8);
     for (size_t i = 0; i < count; i++)
-        out[i] = (uint8_t)find_code(&search8, values[i]);
+        out[i] = srgb8(values[i]);
 }
 
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out) {
@@ -172,7 +187,7 @@ void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_
     }
     pthread_once(&once, fill_search16);
     for (size_t i = 0; i < count; i++)
-        out[i] = (uint16_t)find_code(&search16, values[i]);
+        out[i] = srgb16(values[i]);
 }
 
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
@@ -182,4 +197,9 @@ void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
     pthread_once(&once, fill_decoded);
     for (size_t i = 0; i < count; i++)
         values[i] = decoded[values[i]];
+}
+
+void hd_curve_decode8(HdCurve curve, uint16_t values[256]) {
+    for (int code = 0; code < 256; code++)
+        values[code] = (uint16_t)(curve == HD_CURVE_LINEAR ? code * 257 : decode(code / 255.0));
 }

@@ -20,4 +20,7 @@ void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_
 /* The way back, in place, 0..65535 for 0..1. */
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count);
 
+/* The same for 8 bits: by code, 0..65535 for 0..1. */
+void hd_curve_decode8(HdCurve curve, uint16_t values[256]);
+
 #endif

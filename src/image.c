@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atomic_file.h"
 #include "file_bytes.h"
 #include "image_files.h"
+#include "large_memory.h"
 #include "output_kind.h"
 
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
@@ -62,25 +62,30 @@ static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *e
     return check_size(frame->width, frame->height, error);
 }
 
-HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
-                          HdError *error) {
-    HdAtomicFile file;
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
+                            const char *path, HdError *error) {
     HdOutputKind kind = hd_output_kind(path);
     HdStatus status = check_picture(frame, path, error);
     if (status == HD_OK)
-        status = hd_atomic_file_open(&file, path, error);
+        status = hd_atomic_file_open(file, path, error);
     if (status != HD_OK)
         return status;
     if (kind == HD_OUTPUT_PNG)
-        status = hd_image_png_write(frame, style, file.stream, path, error);
+        status = hd_image_png_write(frame, style, file->stream, path, error);
     else if (kind == HD_OUTPUT_PFM)
-        status = hd_image_pfm_write(frame, file.stream, path, error);
+        status = hd_image_pfm_write(frame, file->stream, path, error);
     else
-        status = hd_image_data_write(frame, style->curve, file.stream, path, error);
-    if (status == HD_OK)
-        return hd_atomic_file_commit(&file, error);
-    hd_atomic_file_discard(&file);
+        status = hd_image_data_write(frame, style->curve, file->stream, path, error);
+    if (status != HD_OK)
+        hd_atomic_file_discard(file);
     return status;
+}
+
+HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
+                          HdError *error) {
+    HdAtomicFile file;
+    HdStatus status = hd_picture_prepare(&file, frame, style, path, error);
+    return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
 }
 
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
@@ -93,7 +98,8 @@ HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, 
         return hd_fail(error, HD_BAD_INPUT,
                        "the texture %s has %lu x %lu pixels, expected at most %d in all", name,
                        (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_PIXELS);
-    texture->texels = calloc((size_t)width * (size_t)height, 3 * sizeof *texture->texels);
+    texture->texels =
+        hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
     if (texture->texels == NULL)
         return hd_fail(error, HD_FAILED, "not enough memory for the texture %s of %lu x %lu pixels",
                        name, (unsigned long)width, (unsigned long)height);
@@ -111,12 +117,9 @@ HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
     HdStatus status = hd_image_is_png(bytes, size)
-                          ? hd_image_png_decode(texture, bytes, size, name, error)
-                          : hd_image_data_decode(texture, bytes, size, name, error);
-    if (status == HD_OK)
-        hd_curve_decode16(curve, texture->texels,
-                          (size_t)texture->width * (size_t)texture->height * 3);
-    else
+                          ? hd_image_png_decode(texture, bytes, size, name, curve, error)
+                          : hd_image_data_decode(texture, bytes, size, name, curve, error);
+    if (status != HD_OK)
         hd_texture_clear(texture);
     return status;
 }

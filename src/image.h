@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "atomic_file.h"
 #include "curve.h"
 #include "error.h"
 #include "frame.h"
@@ -38,6 +39,11 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
    where the values are on that curve. PFM: float, little endian, rows from the bottom. */
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
+
+/* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. On
+   failure nothing is left of `file`. */
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
+                            const char *path, HdError *error);
 
 /* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
    values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */

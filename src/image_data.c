@@ -102,7 +102,7 @@ static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const ch
 }
 
 HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                              const char *name, HdError *error) {
+                              const char *name, HdCurve curve, HdError *error) {
     HdStatus status = check_head(bytes, size, name, error);
     if (status != HD_OK)
         return refuse_foreign(bytes, size, name, error);
@@ -110,10 +110,12 @@ HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, si
                                name, error);
     if (status != HD_OK)
         return status;
+    uint16_t decoded[256];
+    hd_curve_decode8(curve, decoded);
     const unsigned char *rgba = bytes + HEAD_SIZE;
     size_t pixels = (size_t)texture->width * (size_t)texture->height;
     for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
-            texture->texels[i * 3 + c] = (uint16_t)(rgba[i * 4 + c] * 257);
+            texture->texels[i * 3 + c] = decoded[rgba[i * 4 + c]];
     return HD_OK;
 }

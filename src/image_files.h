@@ -12,7 +12,7 @@
 
 enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
 
-/* Checks the size against the limits above and allocates the texels. */
+/* Checks the size against the limits above and allocates the texels, which are not cleared. */
 HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
                            HdError *error);
 
@@ -29,10 +29,11 @@ HdStatus hd_image_pfm_write(const HdFrame *frame, FILE *stream, const char *path
 /* True where the bytes begin with PNG's signature. */
 bool hd_image_is_png(const unsigned char *bytes, size_t size);
 
-/* Decode into a cleared texture; on failure it may hold memory that the caller clears. */
+/* Decode into a cleared texture and take its values off the curve; on failure it may hold memory
+ * that the caller clears. */
 HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                              const char *name, HdError *error);
+                              const char *name, HdCurve curve, HdError *error);
 HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                             const char *name, HdError *error);
+                             const char *name, HdCurve curve, HdError *error);
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include <png.h>
+#include <zlib.h>
 
 /* Far above what a texture needs, far below what would hurt. */
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
@@ -21,6 +22,7 @@ typedef struct PngJob {
     png_infop info;
     const unsigned char *bytes; /* the part not read yet */
     size_t size;
+    unsigned bits; /* of the rows that were read */
     FILE *stream;
     char message[256];
 } PngJob;
@@ -78,23 +80,25 @@ static void limit_reading(png_structp png) {
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
 }
 
-/* Every kind of PNG becomes RGB with 16 bits. */
-static void convert_to_rgb16(png_structp png) {
-    png_set_expand_16(png);
+/* Every kind of PNG becomes RGB, with 16 bits where it has as many, otherwise with 8. */
+static void convert_to_rgb(png_structp png) {
+    png_set_expand(png);
     png_set_strip_alpha(png);
     png_set_gray_to_rgb(png);
 }
 
-/* Runs under setjmp. An interlaced picture passes over the same rows several times. */
+/* Runs under setjmp. Rows of 8 bits fill the first half of the texels' row. An interlaced picture
+   passes over the same rows several times. */
 static void read_rows(PngJob *job, const HdTexture *texture) {
-    size_t row_size = (size_t)texture->width * 6;
+    const size_t row_size = (size_t)texture->width * 6;
     png_set_read_fn(job->png, job, read_bytes);
     limit_reading(job->png);
     png_read_info(job->png, job->info);
-    convert_to_rgb16(job->png);
+    convert_to_rgb(job->png);
     int passes = png_set_interlace_handling(job->png);
     png_read_update_info(job->png, job->info);
-    if (png_get_rowbytes(job->png, job->info) != row_size)
+    job->bits = png_get_bit_depth(job->png, job->info);
+    if (png_get_rowbytes(job->png, job->info) * 16 != row_size * job->bits)
         png_error(job->png, "unexpected size of a row");
     for (int pass = 0; pass < passes; pass++)
         for (int y = 0; y < texture->height; y++)
@@ -110,15 +114,29 @@ static bool try_reading(PngJob *job, const HdTexture *texture) {
 }
 
 /* PNG is big endian. */
-static void to_host_order(HdTexture *texture) {
+static void take_off_curve16(HdTexture *texture, HdCurve curve) {
     size_t count = (size_t)texture->width * (size_t)texture->height * 3;
     const unsigned char *bytes = (const unsigned char *)texture->texels;
     for (size_t i = 0; i < count; i++)
         texture->texels[i] = (uint16_t)(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+    hd_curve_decode16(curve, texture->texels, count);
+}
+
+/* From the end of each row to its begin, since the bytes lie in the row that they become. */
+static void take_off_curve8(HdTexture *texture, HdCurve curve) {
+    const size_t values = (size_t)texture->width * 3;
+    uint16_t decoded[256];
+    hd_curve_decode8(curve, decoded);
+    for (int y = 0; y < texture->height; y++) {
+        uint16_t *row = texture->texels + values * (size_t)y;
+        const unsigned char *bytes = (const unsigned char *)row;
+        for (size_t i = values; i-- > 0;)
+            row[i] = decoded[bytes[i]];
+    }
 }
 
 HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                             const char *name, HdError *error) {
+                             const char *name, HdCurve curve, HdError *error) {
     PngJob job = {.bytes = bytes, .size = size, .message = "out of memory"};
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status != HD_OK)
@@ -130,7 +148,10 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     png_destroy_read_struct(&job.png, &job.info, NULL);
     if (!done)
         return hd_fail(error, HD_BAD_INPUT, "cannot read %s as PNG: %s", name, job.message);
-    to_host_order(texture);
+    if (job.bits == 16)
+        take_off_curve16(texture, curve);
+    else
+        take_off_curve8(texture, curve);
     return HD_OK;
 }
 
@@ -150,12 +171,14 @@ static void encode_row(const HdPictureStyle *style, const float *rgb, size_t val
     }
 }
 
-/* Runs under setjmp. Speed comes before size: frames are many and short-lived. */
+/* Runs under setjmp. Speed comes before size: frames are many and short-lived. After the filter
+   what repeats is mostly zeros, and looking for nothing else is both faster and smaller than
+   level 1. */
 static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
                        uint16_t *row) {
     const size_t values = (size_t)frame->width * 3;
     png_set_write_fn(job->png, job, write_bytes, flush_nothing);
-    png_set_compression_level(job->png, 1);
+    png_set_compression_strategy(job->png, Z_RLE);
     png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_IHDR(job->png, job->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
                  style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

@@ -8,15 +8,11 @@
 #include <unistd.h>
 
 #include "atomic_file.h"
-#include "clock.h"
 #include "output_kind.h"
-#include "video.h"
 
 struct HdOutputs {
     const HdOutputPlan *plan;
-    HdVideo *videos[HD_MAX_OUTPUTS]; /* NULL: pictures */
-    int film_count;
-    HdImage8 image; /* what films get; empty where there is none */
+    HdVideo *films[HD_MAX_OUTPUTS]; /* NULL: pictures */
 };
 
 static bool is_film(const char *name) {
@@ -97,13 +93,9 @@ HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *er
 static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, HdError *error) {
     char path[HD_MAX_PATH];
     HdStatus status = hd_path_expand_home(outputs->plan->names[index], path, error);
-    if (status == HD_OK && outputs->film_count == 0)
-        status = hd_image8_create(&outputs->image, width, height, error);
     if (status == HD_OK)
-        status = hd_video_open(&outputs->videos[index], path, width, height,
+        status = hd_video_open(&outputs->films[index], path, width, height,
                                outputs->plan->style.frames_per_second, error);
-    if (status == HD_OK)
-        outputs->film_count++;
     return status;
 }
 
@@ -145,37 +137,21 @@ HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int widt
     return status;
 }
 
-static HdStatus write_picture(const HdOutputPlan *plan, const char *name, const HdFrame *frame,
-                              int number, HdError *error) {
-    char path[HD_MAX_PATH];
-    HdStatus status = hd_output_file(name, number, path, error);
-    if (status != HD_OK)
-        return status;
-    return hd_picture_write(frame, &plan->style.picture, path, error);
+const HdOutputPlan *hd_outputs_plan(const HdOutputs *outputs) {
+    return outputs->plan;
 }
 
-HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
-                          double *convert_seconds, HdError *error) {
-    const HdOutputPlan *plan = outputs->plan;
-    HdStatus status = HD_OK;
-    double start = hd_monotonic_seconds();
-    if (outputs->film_count > 0)
-        hd_frame_to_image8(frame, plan->style.picture.curve, &outputs->image);
-    *convert_seconds = outputs->film_count > 0 ? hd_monotonic_seconds() - start : 0.0;
-    for (int i = 0; i < plan->count && status == HD_OK; i++)
-        status = outputs->videos[i] != NULL
-                     ? hd_video_add(outputs->videos[i], &outputs->image, error)
-                     : write_picture(plan, plan->names[i], frame, number, error);
-    return status;
+HdVideo *hd_outputs_film(const HdOutputs *outputs, int index) {
+    return outputs->films[index];
 }
 
 HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
-        if (outputs->videos[i] == NULL)
+        if (outputs->films[i] == NULL)
             continue;
-        status = hd_video_close(outputs->videos[i], error);
-        outputs->videos[i] = NULL;
+        status = hd_video_close(outputs->films[i], error);
+        outputs->films[i] = NULL;
     }
     hd_outputs_abort(outputs);
     return status;
@@ -185,8 +161,7 @@ void hd_outputs_abort(HdOutputs *outputs) {
     if (outputs == NULL)
         return;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        if (outputs->videos[i] != NULL)
-            hd_video_abort(outputs->videos[i]);
-    hd_image8_free(&outputs->image);
+        if (outputs->films[i] != NULL)
+            hd_video_abort(outputs->films[i]);
     free(outputs);
 }

@@ -7,6 +7,7 @@
 #include "frame.h"
 #include "image.h"
 #include "paths.h"
+#include "video.h"
 
 enum { HD_MAX_OUTPUTS = 8 };
 
@@ -45,9 +46,11 @@ HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *e
 HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,
                          HdError *error);
 
-/* Stores one frame everywhere. `convert_seconds` is the part that went into 8 bits for films. */
-HdStatus hd_outputs_store(HdOutputs *outputs, const HdFrame *frame, int number,
-                          double *convert_seconds, HdError *error);
+/* The plan that was opened. */
+const HdOutputPlan *hd_outputs_plan(const HdOutputs *outputs);
+
+/* The film that output `index` of the plan is; NULL: pictures. */
+HdVideo *hd_outputs_film(const HdOutputs *outputs, int index);
 
 /* Ends the films and frees `outputs` in every case. A film that fails takes those after it with it;
    those before it stay. */

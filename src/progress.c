@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "clock.h"
+#include "patience.h"
 
 enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
 
@@ -80,7 +81,7 @@ void hd_progress_prepare(const HdProgress *progress, const char *what) {
 void hd_progress_update(HdProgress *progress, int done) {
     char line[128], bar[160];
     double now = hd_monotonic_seconds();
-    if (progress->form == HD_PROGRESS_NONE)
+    if (progress->form == HD_PROGRESS_NONE || !hd_wait_to_write(STDERR_FILENO))
         return;
     hd_progress_line(done, progress->total, now - progress->start_seconds, line);
     if (progress->form == HD_PROGRESS_BAR) {

@@ -8,53 +8,79 @@
 typedef struct Run {
     const HdSequence *sequence;
     HdRenderer *renderer;
-    HdFrame frame;
+    double start;
     HdOutputs *outputs;
+    HdFrameStore *store;
 } Run;
 
-static HdStatus trace_frame(Run *run, int number, HdFrameTimes *times, HdError *error) {
+static HdStatus trace_frame(Run *run, int number, HdFrame *frame, HdFrameTimes *times,
+                            HdError *error) {
     const HdSequence *sequence = run->sequence;
     HdCamera camera;
     HdFrameTables tables;
-    double start = hd_monotonic_seconds();
+    double began = hd_monotonic_seconds();
     HdStatus status = hd_camera_at(&camera, sequence->scene, number, error);
     if (status == HD_OK)
         status = hd_compile_frame(&tables, sequence->scene, &camera, sequence->precision, error);
     if (status != HD_OK)
         return status;
     double prepared = hd_monotonic_seconds();
-    status = hd_renderer_render(run->renderer, &tables, &run->frame, error);
+    status = hd_renderer_render(run->renderer, &tables, frame, error);
     double traced = hd_monotonic_seconds();
     hd_frame_tables_free(&tables);
-    times->prepare = prepared - start;
-    times->trace = run->frame.trace_seconds;
+    times->prepare = (HdSpan){began - run->start, prepared - began};
+    times->trace = (HdSpan){prepared - run->start, frame->trace_seconds};
     /* A device has a clock of its own, which may not agree to the last digit. */
-    times->copy = traced - prepared > times->trace ? traced - prepared - times->trace : 0.0;
+    double rest = traced - prepared - frame->trace_seconds;
+    double copy = rest > 0.0 ? rest : 0.0;
+    times->copy = (HdSpan){traced - copy - run->start, copy};
     return status;
 }
 
-static HdStatus store_frame(Run *run, int number, HdFrameTimes *times, HdError *error) {
-    double start = hd_monotonic_seconds();
-    HdStatus status = hd_outputs_store(run->outputs, &run->frame, number, &times->convert, error);
-    times->store = hd_monotonic_seconds() - start - times->convert;
+/* Renders until a frame fails here or, which hd_frame_store_end tells, in the store. */
+static HdStatus render_frames(Run *run, HdError *error) {
+    const HdFrameList *frames = run->sequence->frames;
+    HdStatus status = HD_OK;
+    for (int i = 0; i < frames->count && status == HD_OK; i++) {
+        HdFrameTimes *times;
+        HdFrame *frame = hd_frame_store_next(run->store, &times);
+        if (frame == NULL)
+            break;
+        status = trace_frame(run, frames->frames[i], frame, times, error);
+        if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
+            status = HD_INTERRUPTED;
+        if (status == HD_OK)
+            hd_frame_store_give(run->store);
+    }
     return status;
 }
 
-static HdStatus render_frame(Run *run, int index, HdError *error) {
+/* What fails in the store comes before what fails here: its frames are earlier ones. */
+static HdStatus render_and_store(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
-    HdStoredFrame stored = {
-        .number = sequence->frames->frames[index],
-        .done = index + 1,
-        .frame = &run->frame,
+    const HdFrameStorePlan plan = {
+        .outputs = run->outputs,
+        .frames = sequence->frames,
+        .width = sequence->scene->width,
+        .height = sequence->scene->height,
+        .start = run->start,
+        .stored = sequence->stored,
+        .context = sequence->context,
     };
-    HdStatus status = trace_frame(run, stored.number, &stored.times, error);
-    if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
-        status = hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", index,
-                         sequence->frames->count);
-    if (status == HD_OK)
-        status = store_frame(run, stored.number, &stored.times, error);
-    if (status == HD_OK)
-        status = sequence->stored(sequence->context, &stored, error);
+    HdError store_error;
+    int stored = 0;
+    HdStatus status = hd_frame_store_start(&run->store, &plan, error);
+    if (status != HD_OK)
+        return status;
+    status = render_frames(run, error);
+    HdStatus store_status = hd_frame_store_end(run->store, &stored, &store_error);
+    if (store_status != HD_OK) {
+        status = store_status;
+        *error = store_error;
+    }
+    if (status == HD_INTERRUPTED)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", stored,
+                       sequence->frames->count);
     return status;
 }
 
@@ -62,9 +88,7 @@ static HdStatus prepare(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdScene *scene = sequence->scene;
     HdSceneTables tables;
-    HdStatus status = hd_frame_create(&run->frame, scene->width, scene->height, error);
-    if (status == HD_OK)
-        status = hd_compile_scene(&tables, scene, sequence->precision, error);
+    HdStatus status = hd_compile_scene(&tables, scene, sequence->precision, error);
     if (status != HD_OK)
         return status;
     status = hd_renderer_upload(run->renderer, &tables, error);
@@ -80,14 +104,13 @@ static HdStatus prepare(Run *run, HdError *error) {
 }
 
 HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error) {
-    Run run = {.sequence = sequence, .renderer = renderer};
+    Run run = {.sequence = sequence, .renderer = renderer, .start = hd_monotonic_seconds()};
     HdStatus status = prepare(&run, error);
-    for (int i = 0; i < sequence->frames->count && status == HD_OK; i++)
-        status = render_frame(&run, i, error);
+    if (status == HD_OK)
+        status = render_and_store(&run, error);
     if (status == HD_OK)
         status = hd_outputs_close(run.outputs, error);
     else
         hd_outputs_abort(run.outputs);
-    hd_frame_free(&run.frame);
     return status;
 }

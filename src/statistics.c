@@ -10,6 +10,7 @@
 
 #include "interrupt.h"
 #include "json_device_text.h"
+#include "patience.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };
@@ -86,21 +87,38 @@ HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError 
     return status == HD_OK ? open_file(statistics, error) : status;
 }
 
+/* By the keys of docs/formats.md. */
+static json_t *describe_seconds(const HdFrameTimes *times) {
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "prepare", times->prepare.seconds, "trace",
+                     times->trace.seconds, "copy", times->copy.seconds, "convert",
+                     times->convert.seconds, "store", times->store.seconds, "film",
+                     times->film.seconds);
+}
+
+static json_t *describe_begin(const HdSpan *span) {
+    return span->began < 0.0 ? json_null() : json_real(span->began);
+}
+
+static json_t *describe_begins(const HdFrameTimes *times) {
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe_begin(&times->prepare),
+                     "trace", describe_begin(&times->trace), "copy", describe_begin(&times->copy),
+                     "convert", describe_begin(&times->convert), "store",
+                     describe_begin(&times->store), "film", describe_begin(&times->film));
+}
+
 /* json_pack gives up as a whole where a part is missing. */
 static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
-    const HdFrameTimes *times = &stored->times;
     return json_pack(
-        "{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f},"
-        " s:{s:I, s:I, s:I}, s:I, s:I}",
-        "frame", stored->number, "backend", facts->device->backend->name, "device",
+        "{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}", "frame",
+        stored->number, "backend", facts->device->backend->name, "device",
         hd_json_device_text(facts->device->name), "renderer", hd_json_device_text(facts->renderer),
         "width", frame->width, "height", frame->height, "samples", facts->scene->samples_per_side,
-        "depth", facts->scene->depth, "seconds", "prepare", times->prepare, "trace", times->trace,
-        "copy", times->copy, "convert", times->convert, "store", times->store, "rays", "primary",
-        (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
-        "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
-        (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
+        "depth", facts->scene->depth, "seconds", describe_seconds(&stored->times), "began",
+        describe_begins(&stored->times), "rays", "primary", (json_int_t)frame->primary_rays,
+        "mirrored", (json_int_t)frame->mirrored_rays, "transmitted",
+        (json_int_t)frame->transmitted_rays, "shadow_tests", (json_int_t)frame->shadow_tests,
+        "clamps", (json_int_t)frame->clamps);
 }
 
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
@@ -108,9 +126,11 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
     json_t *line = describe_frame(facts, stored);
     if (line == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
-    errno = 0;
-    int failed = json_dumpf(line, statistics->stream,
-                            JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS));
+    bool can_write = hd_wait_to_write(fileno(statistics->stream));
+    errno = can_write ? 0 : EINTR;
+    bool failed =
+        !can_write || json_dumpf(line, statistics->stream,
+                                 JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS)) != 0;
     json_decref(line);
     if (failed || fputc('\n', statistics->stream) == EOF || fflush(statistics->stream) != 0)
         return fail_to_write(statistics, error);

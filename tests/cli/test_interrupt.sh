@@ -202,6 +202,27 @@ send INT "$pid"
 expect_end 130 3
 expect_sentence
 
+# ---- while it waits for a reader of the statistics that does not read on
+stands_still() {
+    local files
+    files=$(find out -type f | wc -l)
+    sleep 0.3
+    ((files > 3)) && [[ $(find out -type f | wc -l) == "$files" ]]
+}
+exec 9<>"$work/pipe"
+start "$hedron" render --quiet --backend c --size 16x12 --samples 1 --depth 0 --frames 0-239 -o 'out/%d.data' \
+    --stats "$work/pipe" 9>&-
+wait_for 'it to wait for the reader' test -e out/3.data
+wait_for 'it to wait for the reader' stands_still
+send INT "$pid"
+expect_end 130 3
+expect_sentence
+exec 9>&-
+if (($(find out -type f | wc -l) > 200)) || [[ -n $(find out -name '*.tmp-*') ]]; then
+    fail 'the pipe took all statistics, or temporary files were left'
+fi
+rm -r out
+
 # ---- in the midst of a frame of many minutes
 start "$hedron" render --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
 wait_for 'it to compute' has_computed 30

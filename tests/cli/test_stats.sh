@@ -30,14 +30,20 @@ if (($(wc -l <new/stats.jsonl) != 3)); then
 fi
 expect_json new/stats.jsonl 'map(.frame)' '[3,4,5]'
 expect_json new/stats.jsonl '.[0] | keys_unsorted' \
-    '["frame","backend","device","renderer","width","height","samples","depth","seconds","rays","shadow_tests","clamps"]'
-expect_json new/stats.jsonl '.[0].seconds | keys_unsorted' '["prepare","trace","copy","convert","store"]'
+    '["frame","backend","device","renderer","width","height","samples","depth","seconds","began","rays","shadow_tests","clamps"]'
+expect_json new/stats.jsonl '.[0].seconds | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
+expect_json new/stats.jsonl '.[0].began | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
+# A frame's stages follow one another, and frames are traced one after the other.
+expect_json new/stats.jsonl 'all(.[]; .began.prepare >= 0 and .began.trace >= .began.prepare + .seconds.prepare - 1e-6
+    and .began.copy >= .began.trace and .began.store >= .began.copy + .seconds.copy - 1e-6)' true
+expect_json new/stats.jsonl 'map(.began.trace) | . == sort and length == 3' true
 expect_json new/stats.jsonl '.[0].rays | keys_unsorted' '["primary","mirrored","transmitted"]'
 expect_json new/stats.jsonl 'map([.backend, .width, .height, .samples, .depth]) | unique' '[["c",32,24,2,2]]'
 expect_json new/stats.jsonl 'map(.rays.primary) | unique' '[3072]'
 expect_json new/stats.jsonl 'all(.[]; .seconds | all(.[]; . >= 0) and .trace > 0 and .store > 0)' true
 # Only films need a frame in 8 bits.
-expect_json new/stats.jsonl 'all(.[]; .seconds.convert == 0)' true
+expect_json new/stats.jsonl 'all(.[]; .seconds.convert == 0 and .seconds.film == 0)' true
+expect_json new/stats.jsonl 'all(.[]; .began.convert == null and .began.film == null)' true
 expect_json new/stats.jsonl 'all(.[]; .renderer | test("lane"))' true
 # Another run writes the file anew.
 expect_exit 0 "${render[@]}" --frames 7 -o a.data --stats new/stats.jsonl
@@ -62,7 +68,8 @@ expect_stderr_contains --stats
 # ---- films
 if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     expect_exit 0 "${render[@]}" --frames 0-1 -o film.mkv --stats stats.jsonl
-    expect_json stats.jsonl 'all(.[]; .seconds.convert > 0)' true
+    expect_json stats.jsonl 'all(.[]; .seconds.convert > 0 and .seconds.film > 0 and .seconds.store == 0)' true
+    expect_json stats.jsonl 'all(.[]; .began.film >= .began.convert + .seconds.convert - 1e-6 and .began.store == null)' true
     rm film.mkv stats.jsonl
     # A reader that goes away ends the program, but not before it has cleaned up.
     mkfifo "$work/pipe"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 #include "outputs.h"
+#include "parcel.h"
 #include "test_folder.h"
 
 static HdError error;
@@ -60,38 +61,58 @@ static void names_tell_what_to_write(void **state) {
     }
 }
 
+static void store(HdParcel *parcel, int number) {
+    assert_int_equal(hd_parcel_write(parcel, number, &error), HD_OK);
+    assert_int_equal(hd_parcel_publish(parcel, &error), HD_OK);
+}
+
 static void one_frame_goes_everywhere(void **state) {
     (void)state;
     HdOutputPlan plan = plan_of("one/a_%d.data", "two/a.pfm");
     HdOutputs *outputs;
-    HdFrame frame;
-    double convert_seconds = -1.0;
-    assert_int_equal(hd_frame_create(&frame, 3, 2, &error), HD_OK);
+    HdParcel *parcel;
     assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_outputs_store(outputs, &frame, 5, &convert_seconds, &error), HD_OK);
-    assert_int_equal(hd_outputs_store(outputs, &frame, 6, &convert_seconds, &error), HD_OK);
+    assert_null(hd_outputs_film(outputs, 0));
+    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
+    assert_int_equal(hd_parcel_frame(parcel)->width, 3);
+    store(parcel, 5);
+    store(parcel, 6);
+    hd_parcel_free(parcel);
     assert_int_equal(hd_outputs_close(outputs, &error), HD_OK);
-    assert_true(convert_seconds == 0.0); /* there is no film */
     assert_int_equal(count_entries("one"), 2);
     assert_int_equal(access("one/a_5.data", R_OK), 0);
     assert_int_equal(access("one/a_6.data", R_OK), 0);
     assert_int_equal(count_entries("two"), 1);
-    hd_frame_free(&frame);
+}
+
+static void what_is_not_published_goes(void **state) {
+    (void)state;
+    HdOutputPlan plan = plan_of("four/a_%d.data", "four/a_%d.png");
+    HdOutputs *outputs;
+    HdParcel *parcel;
+    assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
+    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
+    assert_int_equal(hd_parcel_write(parcel, 5, &error), HD_OK);
+    assert_int_equal(count_entries("four"), 2);
+    assert_int_not_equal(access("four/a_5.data", F_OK), 0);
+    hd_parcel_free(parcel);
+    hd_parcel_free(NULL);
+    assert_int_equal(count_entries("four"), 0);
+    assert_int_equal(hd_outputs_close(outputs, &error), HD_OK);
 }
 
 static void the_first_failure_ends_it(void **state) {
     (void)state;
     HdOutputPlan plan = plan_of("/dev/null/a_%d.data", "three/a.data");
     HdOutputs *outputs;
-    HdFrame frame;
-    double convert_seconds;
-    assert_int_equal(hd_frame_create(&frame, 3, 2, &error), HD_OK);
+    HdParcel *parcel;
     assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_outputs_store(outputs, &frame, 0, &convert_seconds, &error), HD_FAILED);
+    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
+    assert_int_equal(hd_parcel_write(parcel, 0, &error), HD_FAILED);
+    hd_parcel_free(parcel);
     hd_outputs_abort(outputs);
     hd_outputs_abort(NULL);
     assert_int_not_equal(access("three", F_OK), 0);
-    hd_frame_free(&frame);
 }
 
 int main(void) {
@@ -100,6 +121,7 @@ int main(void) {
         cmocka_unit_test(every_output_is_checked),
         cmocka_unit_test(names_tell_what_to_write),
         cmocka_unit_test(one_frame_goes_everywhere),
+        cmocka_unit_test(what_is_not_published_goes),
         cmocka_unit_test(the_first_failure_ends_it),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);

@@ -24,7 +24,12 @@ static const HdStoredFrame stored = {
     .number = 11,
     .done = 1,
     .frame = &frame,
-    .times = {.prepare = 0.5, .trace = 1.25, .copy = 0.0, .convert = 1e-9, .store = 3.0},
+    .times = {.prepare = {0.0, 0.5},
+              .trace = {0.5, 1.25},
+              .copy = {1.75, 0.0},
+              .convert = {2.0, 1e-9},
+              .store = {2.5, 3.0},
+              .film = {-1.0, 0.0}},
 };
 
 /* Writes one line about a device of this name, and reads it back. */
@@ -67,6 +72,8 @@ static void check_numbers(json_t *line) {
     assert_true(json_real_value(json_object_get(seconds, "copy")) == 0.0);
     assert_true(json_real_value(json_object_get(seconds, "convert")) == 1e-9);
     assert_true(json_real_value(json_object_get(seconds, "store")) == 3.0);
+    assert_true(json_is_real(json_object_get(seconds, "film")));
+    assert_true(json_real_value(json_object_get(seconds, "film")) == 0.0);
     assert_int_equal(whole(rays, "primary"), 2764800);
     assert_int_equal(whole(rays, "mirrored"), 5);
     assert_int_equal(whole(rays, "transmitted"), 6);
@@ -74,12 +81,25 @@ static void check_numbers(json_t *line) {
     assert_int_equal(whole(line, "clamps"), 7);
 }
 
+static void check_begins(json_t *line) {
+    json_t *began = json_object_get(line, "began");
+    assert_int_equal(json_object_size(began), 6);
+    assert_true(json_is_real(json_object_get(began, "prepare")));
+    assert_true(json_real_value(json_object_get(began, "prepare")) == 0.0);
+    assert_true(json_real_value(json_object_get(began, "trace")) == 0.5);
+    assert_true(json_real_value(json_object_get(began, "copy")) == 1.75);
+    assert_true(json_real_value(json_object_get(began, "convert")) == 2.0);
+    assert_true(json_real_value(json_object_get(began, "store")) == 2.5);
+    assert_true(json_is_null(json_object_get(began, "film"))); /* there was none */
+}
+
 static void a_line_has_everything(void **state) {
     (void)state;
     json_t *line = read_line_about("A \"quoted\" \\ name\twith a tab");
     assert_non_null(line);
-    assert_int_equal(json_object_size(line), 12);
+    assert_int_equal(json_object_size(line), 13);
     check_numbers(line);
+    check_begins(line);
     assert_string_equal(json_string_value(json_object_get(line, "backend")), "c");
     assert_string_equal(json_string_value(json_object_get(line, "device")),
                         "A \"quoted\" \\ name\twith a tab");

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_store.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "clock.h"
+#include "parcel.h"
+#include "processors.h"
+#include "stages.h"
+
+enum {
+    /* More would only wait for the memory that they share. */
+    MAX_ENCODERS = 16,
+    /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
+    SPARE_FRAMES = 4
+};
+static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way */
+
+typedef struct Place {
+    HdParcel *parcel;
+    HdFrameTimes times;
+    HdSpan films[HD_MAX_OUTPUTS]; /* by output */
+} Place;
+
+typedef struct Film {
+    HdFrameStore *store;
+    int index; /* of the output */
+} Film;
+
+struct HdFrameStore {
+    HdFrameStorePlan plan;
+    HdStages *stages;
+    Place *places; /* a frame's is its place in the list modulo their number */
+    int place_count;
+    int given;
+    int stored;
+    Film films[HD_MAX_OUTPUTS];
+    HdStage list[HD_MAX_STAGES];
+    int stage_count;
+};
+
+_Static_assert(HD_MAX_STAGES >= HD_MAX_OUTPUTS + 3, "a stage for each film, and three more");
+
+static Place *place_of(HdFrameStore *store, int item) {
+    return &store->places[item % store->place_count];
+}
+
+static HdSpan begin(const HdFrameStore *store) {
+    return (HdSpan){.began = hd_monotonic_seconds() - store->plan.start};
+}
+
+static void end(const HdFrameStore *store, HdSpan *span) {
+    span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
+}
+
+static HdStatus convert(void *context, int item, HdError *error) {
+    HdFrameStore *store = context;
+    Place *place = place_of(store, item);
+    (void)error;
+    place->times.convert = begin(store);
+    hd_parcel_convert(place->parcel);
+    end(store, &place->times.convert);
+    return HD_OK;
+}
+
+static HdStatus add_to_film(void *context, int item, HdError *error) {
+    const Film *film = context;
+    Place *place = place_of(film->store, item);
+    HdSpan *span = &place->films[film->index];
+    *span = begin(film->store);
+    HdStatus status = hd_parcel_film(place->parcel, film->index, error);
+    end(film->store, span);
+    return status;
+}
+
+static HdStatus write_pictures(void *context, int item, HdError *error) {
+    HdFrameStore *store = context;
+    Place *place = place_of(store, item);
+    place->times.store = begin(store);
+    HdStatus status = hd_parcel_write(place->parcel, store->plan.frames->frames[item], error);
+    end(store, &place->times.store);
+    return status;
+}
+
+static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
+    HdSpan whole = {.began = -1.0};
+    double ended = 0.0;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
+        const HdSpan *span = &place->films[i];
+        if (hd_outputs_film(store->plan.outputs, i) == NULL)
+            continue;
+        if (whole.began < 0.0 || span->began < whole.began)
+            whole.began = span->began;
+        if (span->began + span->seconds > ended)
+            ended = span->began + span->seconds;
+    }
+    if (whole.began >= 0.0)
+        whole.seconds = ended - whole.began;
+    return whole;
+}
+
+/* Pictures get their names in the order of the frames, so that a run that ends early leaves its
+   first frames and no others. */
+static HdStatus publish(void *context, int item, HdError *error) {
+    HdFrameStore *store = context;
+    Place *place = place_of(store, item);
+    HdStatus status = hd_parcel_publish(place->parcel, error);
+    if (status != HD_OK)
+        return status;
+    store->stored = item + 1;
+    place->times.film = span_of_films(store, place);
+    HdStoredFrame stored = {
+        .number = store->plan.frames->frames[item],
+        .done = item + 1,
+        .frame = hd_parcel_frame(place->parcel),
+        .times = place->times,
+    };
+    return store->plan.stored(store->plan.context, &stored, error);
+}
+
+/* Returns the stage's bit. */
+static unsigned add_stage(HdFrameStore *store, HdStage stage) {
+    store->list[store->stage_count] = stage;
+    return 1u << store->stage_count++;
+}
+
+static void add_films(HdFrameStore *store) {
+    unsigned converted = 0;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
+        if (hd_outputs_film(store->plan.outputs, i) == NULL)
+            continue;
+        if (converted == 0)
+            converted =
+                add_stage(store, (HdStage){.work = convert, .context = store, .threads = 1});
+        store->films[i] = (Film){.store = store, .index = i};
+        add_stage(store, (HdStage){.work = add_to_film,
+                                   .context = &store->films[i],
+                                   .threads = 1,
+                                   .after = converted});
+    }
+}
+
+static bool has_pictures(const HdOutputs *outputs) {
+    for (int i = 0; i < hd_outputs_plan(outputs)->count; i++)
+        if (hd_outputs_film(outputs, i) == NULL)
+            return true;
+    return false;
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+/* Where tracing has all processors too, they share them; elsewhere none of them idles. */
+static int encoder_count(const HdFrameStorePlan *plan) {
+    if (!has_pictures(plan->outputs))
+        return 0;
+    return least(least(hd_processor_count(), MAX_ENCODERS), plan->frames->count);
+}
+
+static void list_stages(HdFrameStore *store) {
+    add_films(store);
+    int encoders = encoder_count(&store->plan);
+    if (encoders > 0)
+        add_stage(store, (HdStage){.work = write_pictures, .context = store, .threads = encoders});
+    unsigned all = (1u << store->stage_count) - 1;
+    add_stage(store, (HdStage){.work = publish, .context = store, .threads = 1, .after = all});
+}
+
+static int choose_place_count(const HdFrameStorePlan *plan) {
+    int wanted = least(encoder_count(plan) + SPARE_FRAMES, plan->frames->count);
+    size_t fitting = MAX_BYTES / hd_parcel_bytes(plan->outputs, plan->width, plan->height);
+    if (fitting < 1)
+        return 1;
+    return fitting < (size_t)wanted ? (int)fitting : wanted;
+}
+
+static HdStatus create_places(HdFrameStore *store, HdError *error) {
+    const HdFrameStorePlan *plan = &store->plan;
+    int count = choose_place_count(plan);
+    HdStatus status = HD_OK;
+    store->places = calloc((size_t)count, sizeof *store->places);
+    if (store->places == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
+    for (; store->place_count < count && status == HD_OK; store->place_count++)
+        status = hd_parcel_create(&store->places[store->place_count].parcel, plan->outputs,
+                                  plan->width, plan->height, error);
+    return status;
+}
+
+static void destroy(HdFrameStore *store) {
+    for (int i = 0; i < store->place_count; i++)
+        hd_parcel_free(store->places[i].parcel);
+    free(store->places);
+    free(store);
+}
+
+HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
+    HdFrameStore *store = calloc(1, sizeof *store);
+    *out = NULL;
+    if (store == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to store frames");
+    store->plan = *plan;
+    list_stages(store);
+    HdStatus status = create_places(store, error);
+    if (status == HD_OK)
+        status = hd_stages_start(&store->stages, store->list, store->stage_count,
+                                 store->place_count, error);
+    if (status == HD_OK)
+        *out = store;
+    else
+        destroy(store);
+    return status;
+}
+
+HdFrame *hd_frame_store_next(HdFrameStore *store, HdFrameTimes **times) {
+    static const HdSpan nothing = {.began = -1.0};
+    if (!hd_stages_wait(store->stages))
+        return NULL;
+    Place *place = place_of(store, store->given);
+    place->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing};
+    *times = &place->times;
+    return hd_parcel_frame(place->parcel);
+}
+
+void hd_frame_store_give(HdFrameStore *store) {
+    store->given++;
+    hd_stages_give(store->stages);
+}
+
+HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error) {
+    HdStatus status = hd_stages_end(store->stages, error);
+    *stored_count = store->stored;
+    destroy(store);
+    return status;
+}
