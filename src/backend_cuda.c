@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "../kernels/common/scene_tables.h"
+#include "clock.h"
 #include "cuda_compile.h"
 #include "device_launch.h"
 #include "interrupt.h"
+#include "kernel_cache.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -22,7 +24,8 @@ typedef struct Renderer {
     HdCuDevice device;
     int arch; /* 61 stands for sm_61 */
     int launch_items;
-    HdNvrtc nvrtc;       /* from the first upload on */
+    HdNvrtc nvrtc;       /* once kernels were compiled */
+    HdKernelCache kernels;
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
@@ -237,6 +240,7 @@ static void cuda_close(void *state) {
         renderer->driver.context_release(renderer->device);
     }
     hd_nvrtc_close(&renderer->nvrtc);
+    hd_kernel_cache_free(&renderer->kernels);
     free(renderer);
 }
 
@@ -246,6 +250,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
+    hd_kernel_cache_begin(&renderer->kernels, device);
     renderer->shape = (HdKernelShape){
         .lanes = 1,
         .pixels_per_item = 1,
@@ -309,10 +314,10 @@ static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError 
     HdCuResult result = renderer->driver.module_load(&module, code->cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
-                       "the driver, of CUDA %d, does not load what NVRTC %d.%d compiled for "
-                       "sm_%d (cuModuleLoadData: %s)",
-                       query_driver_version(&renderer->driver) / 1000, renderer->nvrtc.major,
-                       renderer->nvrtc.minor, renderer->arch,
+                       "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
+                       "(cuModuleLoadData: %s)",
+                       query_driver_version(&renderer->driver) / 1000, renderer->kernels.maker,
+                       renderer->arch,
                        hd_cuda_error_name(&renderer->driver, result));
     renderer->module = module;
     HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);
@@ -338,16 +343,43 @@ static HdStatus find_compiler(Renderer *renderer, HdError *error) {
                          error);
 }
 
+static HdStatus compile(Renderer *renderer, HdCudaCode *code, HdError *error) {
+    char maker[32];
+    double start = hd_monotonic_seconds();
+    HdStatus status = find_compiler(renderer, error);
+    if (status == HD_OK)
+        status = hd_cuda_compile(code, &renderer->nvrtc, renderer->arch, &renderer->shape, false,
+                                 error);
+    if (status != HD_OK)
+        return status;
+    snprintf(maker, sizeof maker, "NVRTC %d.%d", renderer->nvrtc.major, renderer->nvrtc.minor);
+    hd_kernel_cache_compiled(&renderer->kernels, code->cubin, code->size, maker,
+                             hd_monotonic_seconds() - start);
+    return HD_OK;
+}
+
+/* True where the module of the renderer's shape was in the cache and the driver took it. */
+static bool load_cached(Renderer *renderer, HdError *error) {
+    HdCudaCode code = {0};
+    if (!hd_cuda_find_cached(&code, &renderer->kernels, renderer->arch, &renderer->shape))
+        return false;
+    bool loaded = load_module(renderer, &code, error) == HD_OK;
+    if (!loaded)
+        hd_kernel_cache_refuse(&renderer->kernels, error->message);
+    hd_cuda_code_free(&code);
+    return loaded;
+}
+
 static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
     if (renderer->module && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     unload_module(renderer);
     shape->needs = *needs;
+    if (load_cached(renderer, error))
+        return HD_OK;
     HdCudaCode code;
-    HdStatus status = find_compiler(renderer, error);
-    if (status == HD_OK)
-        status = hd_cuda_compile(&code, &renderer->nvrtc, renderer->arch, shape, false, error);
+    HdStatus status = compile(renderer, &code, error);
     if (status != HD_OK)
         return status;
     status = load_module(renderer, &code, error);
@@ -481,6 +513,11 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     return status;
 }
 
+static HdKernelCache *cuda_kernels(void *state) {
+    Renderer *renderer = state;
+    return &renderer->kernels;
+}
+
 static void cuda_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     int length = snprintf(
@@ -488,9 +525,8 @@ static void cuda_describe(const void *state, char *text, int capacity) {
         renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float", (int)BLOCK_THREADS);
     if (renderer->module && length > 0 && length < capacity)
         snprintf(text + length, (size_t)(capacity - length),
-                 ", %d registers and %d bytes of local memory a thread, NVRTC %d.%d",
-                 renderer->registers, renderer->local_bytes, renderer->nvrtc.major,
-                 renderer->nvrtc.minor);
+                 ", %d registers and %d bytes of local memory a thread, %s", renderer->registers,
+                 renderer->local_bytes, renderer->kernels.maker);
 }
 
 const HdBackend hd_backend_cuda = {
@@ -499,6 +535,7 @@ const HdBackend hd_backend_cuda = {
     .open = cuda_open,
     .upload = cuda_upload,
     .render = cuda_render,
+    .kernels = cuda_kernels,
     .describe = cuda_describe,
     .close = cuda_close,
 };

@@ -25,7 +25,8 @@ static void scene_uploaded(void *context, const HdSceneTables *tables) {
     Run *run = context;
     hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
     if (run->options->verbose)
-        hd_note_renderer(&run->device, run->renderer_line, tables);
+        hd_note_renderer(&run->device, run->renderer_line,
+                         hd_renderer_kernels_note(run->renderer), tables);
     hd_progress_update(&run->progress, 0);
 }
 
