@@ -26,6 +26,7 @@ typedef struct Renderer {
     int launch_items;
     HdNvrtc nvrtc;       /* once kernels were compiled */
     HdKernelCache kernels;
+    HdCudaCode code; /* of the module */
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
@@ -240,7 +241,7 @@ static void cuda_close(void *state) {
         renderer->driver.context_release(renderer->device);
     }
     hd_nvrtc_close(&renderer->nvrtc);
-    hd_kernel_cache_free(&renderer->kernels);
+    hd_cuda_code_free(&renderer->code);
     free(renderer);
 }
 
@@ -309,9 +310,9 @@ static HdStatus get_function(Renderer *renderer, HdCuFunction *function, const c
                 error);
 }
 
-static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError *error) {
+static HdStatus load_module(Renderer *renderer, HdError *error) {
     HdCuModule module = NULL;
-    HdCuResult result = renderer->driver.module_load(&module, code->cubin);
+    HdCuResult result = renderer->driver.module_load(&module, renderer->code.cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
@@ -343,31 +344,30 @@ static HdStatus find_compiler(Renderer *renderer, HdError *error) {
                          error);
 }
 
-static HdStatus compile(Renderer *renderer, HdCudaCode *code, HdError *error) {
+static HdStatus compile(Renderer *renderer, HdError *error) {
     char maker[32];
     double start = hd_monotonic_seconds();
     HdStatus status = find_compiler(renderer, error);
     if (status == HD_OK)
-        status = hd_cuda_compile(code, &renderer->nvrtc, renderer->arch, &renderer->shape, false,
-                                 error);
+        status = hd_cuda_compile(&renderer->code, &renderer->nvrtc, renderer->arch,
+                                 &renderer->shape, false, error);
     if (status != HD_OK)
         return status;
     snprintf(maker, sizeof maker, "NVRTC %d.%d", renderer->nvrtc.major, renderer->nvrtc.minor);
-    hd_kernel_cache_compiled(&renderer->kernels, code->cubin, code->size, maker,
+    hd_kernel_cache_compiled(&renderer->kernels, hd_cuda_read_code, &renderer->code, maker,
                              hd_monotonic_seconds() - start);
-    return HD_OK;
+    return load_module(renderer, error);
 }
 
-/* True where the module of the renderer's shape was in the cache and the driver took it. */
+/* True where the kernels were in the cache and the driver took them. */
 static bool load_cached(Renderer *renderer, HdError *error) {
-    HdCudaCode code = {0};
-    if (!hd_cuda_find_cached(&code, &renderer->kernels, renderer->arch, &renderer->shape))
+    if (!hd_cuda_find_cached(&renderer->code, &renderer->kernels, renderer->arch, &renderer->shape))
         return false;
-    bool loaded = load_module(renderer, &code, error) == HD_OK;
-    if (!loaded)
-        hd_kernel_cache_refuse(&renderer->kernels, error->message);
-    hd_cuda_code_free(&code);
-    return loaded;
+    if (load_module(renderer, error) == HD_OK)
+        return true;
+    hd_kernel_cache_refuse(&renderer->kernels, error->message);
+    hd_cuda_code_free(&renderer->code);
+    return false;
 }
 
 static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *error) {
@@ -375,16 +375,9 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
     if (renderer->module && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     unload_module(renderer);
+    hd_cuda_code_free(&renderer->code);
     shape->needs = *needs;
-    if (load_cached(renderer, error))
-        return HD_OK;
-    HdCudaCode code;
-    HdStatus status = compile(renderer, &code, error);
-    if (status != HD_OK)
-        return status;
-    status = load_module(renderer, &code, error);
-    hd_cuda_code_free(&code);
-    return status;
+    return load_cached(renderer, error) ? HD_OK : compile(renderer, error);
 }
 
 static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {

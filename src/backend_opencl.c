@@ -101,7 +101,6 @@ static void opencl_close(void *state) {
     release(&renderer->counts);
     release(&renderer->sums);
     hd_opencl_program_free(&renderer->program);
-    hd_kernel_cache_free(&renderer->kernels);
     if (renderer->queue)
         clReleaseCommandQueue(renderer->queue);
     if (renderer->context)

@@ -117,6 +117,16 @@ bool hd_cuda_find_cached(HdCudaCode *code, HdKernelCache *cache, int arch,
     return true;
 }
 
+unsigned char *hd_cuda_read_code(const void *code, size_t *size) {
+    const HdCudaCode *from = code;
+    unsigned char *copy = malloc(from->size);
+    if (copy == NULL)
+        return NULL;
+    memcpy(copy, from->cubin, from->size);
+    *size = from->size;
+    return copy;
+}
+
 void hd_cuda_code_free(HdCudaCode *code) {
     free(code->cubin);
     free(code->log);

@@ -28,6 +28,9 @@ HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, int arch,
 bool hd_cuda_find_cached(HdCudaCode *code, HdKernelCache *cache, int arch,
                          const HdKernelShape *shape);
 
+/* As HdKernelReader, of an HdCudaCode. */
+unsigned char *hd_cuda_read_code(const void *code, size_t *size);
+
 void hd_cuda_code_free(HdCudaCode *code);
 
 #endif

@@ -15,17 +15,6 @@ void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device) {
     snprintf(cache->device, sizeof cache->device, "%s (%s)", device->name, device->driver);
 }
 
-static void forget_binary(HdKernelCache *cache) {
-    free(cache->binary);
-    cache->binary = NULL;
-    cache->size = 0;
-    cache->is_untested = false;
-}
-
-void hd_kernel_cache_free(HdKernelCache *cache) {
-    forget_binary(cache);
-}
-
 /* ---- entries: the stamp, the maker, a line each, then the binary ---- */
 
 /* Takes the line off the front of what is left; false where there is none that fits. */
@@ -52,16 +41,32 @@ static bool open_entry(HdKernelCache *cache, unsigned char *entry, size_t *size)
     return true;
 }
 
-static HdStatus store_entry(const HdKernelCache *cache, HdError *error) {
-    size_t capacity = sizeof cache->stamp + sizeof cache->maker + cache->size;
+static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *binary, size_t size,
+                             HdError *error) {
+    size_t capacity = sizeof cache->stamp + sizeof cache->maker + size;
     char *entry = malloc(capacity);
     if (entry == NULL)
         return hd_fail(error, HD_FAILED, "out of memory");
     int length = snprintf(entry, capacity, "%s\n%s\n", cache->stamp, cache->maker);
-    memcpy(entry + length, cache->binary, cache->size);
-    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + cache->size,
-                                   error);
+    memcpy(entry + length, binary, size);
+    HdStatus status =
+        hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
     free(entry);
+    return status;
+}
+
+/* A driver may have to work for it, so that it is not asked where there is no folder. */
+static HdStatus store(const HdKernelCache *cache, HdError *error) {
+    char folder[HD_MAX_PATH];
+    size_t size = 0;
+    HdStatus status = hd_cache_folder(folder, error);
+    if (status != HD_OK)
+        return status;
+    unsigned char *binary = cache->key[0] != '\0' ? cache->read(cache->context, &size) : NULL;
+    status = binary != NULL && size > 0
+                 ? store_binary(cache, binary, size, error)
+                 : hd_fail(error, HD_UNAVAILABLE, "the driver does not hand them out");
+    free(binary);
     return status;
 }
 
@@ -87,7 +92,7 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, cons
                           size_t source_size, const char *options, const char *driver,
                           unsigned char **binary, size_t *size) {
     HdError error;
-    forget_binary(cache);
+    cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
     hd_self_test_stamp(shape, cache->stamp, sizeof cache->stamp);
     int length = snprintf(
@@ -120,35 +125,26 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
     add_note(cache, reason);
 }
 
-void hd_kernel_cache_compiled(HdKernelCache *cache, const void *binary, size_t size,
+void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds) {
     char text[160];
-    forget_binary(cache);
     snprintf(cache->maker, sizeof cache->maker, "%s", maker);
     snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
              maker[0] != '\0' ? " by " : "", cache->maker);
     add_note(cache, text);
     cache->is_untested = true;
-    cache->binary = binary != NULL && size > 0 ? malloc(size) : NULL;
-    if (cache->binary == NULL)
-        return;
-    memcpy(cache->binary, binary, size);
-    cache->size = size;
+    cache->read = read;
+    cache->context = context;
 }
 
 void hd_kernel_cache_accept(HdKernelCache *cache) {
-    char text[1024];
     HdError error;
-    HdStatus status = HD_UNAVAILABLE;
     if (!cache->is_untested)
         return;
+    cache->is_untested = false;
     add_note(cache, cache->stamp);
-    if (cache->binary == NULL || cache->key[0] == '\0')
-        hd_fail(&error, HD_UNAVAILABLE, "the driver does not hand them out");
-    else
-        status = store_entry(cache, &error);
-    snprintf(text, sizeof text, "%s%.900s", status == HD_OK ? "cached" : "not cached: ",
-             status == HD_OK ? "" : error.message);
-    add_note(cache, text);
-    forget_binary(cache);
+    bool stored = store(cache, &error) == HD_OK;
+    add_note(cache, stored ? "cached" : "not cached");
+    if (!stored)
+        add_note(cache, error.message);
 }

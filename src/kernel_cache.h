@@ -13,6 +13,9 @@
 
 enum { HD_KERNEL_KEY_LENGTH = 4096 };
 
+/* Hands out the binary of compiled kernels, the caller's to free; NULL where that cannot be. */
+typedef unsigned char *HdKernelReader(const void *context, size_t *size);
+
 struct HdKernelCache {
     const char *backend;
     char device[640];               /* name and driver, a part of every key */
@@ -21,13 +24,12 @@ struct HdKernelCache {
     char maker[80];                 /* what compiled them; "": nobody knows */
     char note[1024];                /* where they came from, for people; "": there are none yet */
     bool is_untested;               /* compiled anew and not yet accepted */
-    unsigned char *binary;          /* owned; until they are accepted */
-    size_t size;
+    HdKernelReader *read;           /* until they are accepted, */
+    const void *context;            /* with this */
 };
 
-/* For one device; the caller calls hd_kernel_cache_free at last. */
+/* For one device. There is nothing to free. */
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
-void hd_kernel_cache_free(HdKernelCache *cache);
 
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to
@@ -39,9 +41,9 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, cons
 /* What was found is of no use: the driver refuses it, and the reason. The caller compiles. */
 void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason);
 
-/* The kernels that were not found are compiled. Takes a copy; a `binary` of NULL cannot be stored.
-   `maker` names the compiler. */
-void hd_kernel_cache_compiled(HdKernelCache *cache, const void *binary, size_t size,
+/* The kernels that were not found are compiled, by `maker`. They are read once they are accepted:
+   a driver may have more to hand out when they have run. */
+void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds);
 
 /* The compiled kernels are in order: stores them, if that can be. */

@@ -116,27 +116,21 @@ static bool load_cached(HdOpenclProgram *program, cl_context context, const HdOp
     return loaded;
 }
 
-/* NULL where the driver does not hand it out. The caller frees it. */
-static unsigned char *read_binary(cl_program program, size_t *size) {
+/* PoCL hands out its machine code too, once the kernels have run. */
+static unsigned char *read_binary(const void *context, size_t *size) {
+    const HdOpenclProgram *program = context;
     *size = 0;
-    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size, NULL) !=
+    if (clGetProgramInfo(program->program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size, NULL) !=
             CL_SUCCESS ||
         *size == 0)
         return NULL;
     unsigned char *binary = malloc(*size);
-    if (binary && clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, (void *)&binary,
-                                   NULL) != CL_SUCCESS) {
+    if (binary && clGetProgramInfo(program->program, CL_PROGRAM_BINARIES, sizeof binary,
+                                   (void *)&binary, NULL) != CL_SUCCESS) {
         free(binary);
         return NULL;
     }
     return binary;
-}
-
-static void keep(const HdOpenclProgram *program, HdKernelCache *cache, double seconds) {
-    size_t size;
-    unsigned char *binary = read_binary(program->program, &size);
-    hd_kernel_cache_compiled(cache, binary, size, "", seconds);
-    free(binary);
 }
 
 HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
@@ -150,7 +144,8 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
     double start = hd_monotonic_seconds();
     HdStatus status = compile(program, context, device, name, options, error);
     if (status == HD_OK)
-        keep(program, cache, hd_monotonic_seconds() - start);
+        hd_kernel_cache_compiled(cache, read_binary, program, "",
+                                 hd_monotonic_seconds() - start);
     else
         hd_opencl_program_free(program);
     return status;
