@@ -61,8 +61,8 @@ struct HdBackend {
        `frame` is worth nothing. */
     HdStatus (*render)(void *renderer, const HdFrameTables *tables, HdFrame *frame, HdError *error);
 
-    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function where
-       they are compiled ahead. */
+    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
+       where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */

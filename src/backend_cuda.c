@@ -24,9 +24,9 @@ typedef struct Renderer {
     HdCuDevice device;
     int arch; /* 61 stands for sm_61 */
     int launch_items;
-    HdNvrtc nvrtc;       /* once kernels were compiled */
+    HdNvrtc nvrtc; /* once kernels were compiled */
     HdKernelCache kernels;
-    HdCudaCode code; /* of the module */
+    HdCudaCode code;     /* of the module */
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
@@ -318,8 +318,7 @@ static HdStatus load_module(Renderer *renderer, HdError *error) {
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
                        "(cuModuleLoadData: %s)",
                        query_driver_version(&renderer->driver) / 1000, renderer->kernels.maker,
-                       renderer->arch,
-                       hd_cuda_error_name(&renderer->driver, result));
+                       renderer->arch, hd_cuda_error_name(&renderer->driver, result));
     renderer->module = module;
     HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);
     if (status == HD_OK)

@@ -213,8 +213,7 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
     HdStatus status = hd_temporary_create(path, temporary, &descriptor, error);
     if (status != HD_OK)
         return status;
-    bool written = fchmod(descriptor, 0600) == 0 &&
-                   write_all(descriptor, &header, sizeof header) &&
+    bool written = fchmod(descriptor, 0600) == 0 && write_all(descriptor, &header, sizeof header) &&
                    write_all(descriptor, key, header.key_bytes) &&
                    write_all(descriptor, bytes, size);
     int reason = errno;
@@ -256,8 +255,8 @@ HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t
     if (status != HD_OK)
         return status;
     if (size >= capacity || memchr(bytes, '\0', size) != NULL) {
-        status = hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size,
-                         kind);
+        status =
+            hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size, kind);
     } else {
         memcpy(text, bytes, size);
         text[size] = '\0';

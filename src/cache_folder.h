@@ -24,10 +24,10 @@ enum {
 /* The folder's name; it need not exist. HD_UNAVAILABLE and the reason where there is none. */
 HdStatus hd_cache_folder(char folder[HD_MAX_PATH], HdError *error);
 
-/* The entry of this kind ("cuda": lower-case letters) and key. `*bytes` is the caller's to free, and
-   NULL on failure. HD_UNAVAILABLE where there is none or no folder; HD_FAILED where there is one
-   that cannot be trusted: damaged, cut short, of another key or user. The message says which, and
-   to put the entry anew repairs it. */
+/* The entry of this kind ("cuda": lower-case letters) and key. `*bytes` is the caller's to free,
+   and NULL on failure. HD_UNAVAILABLE where there is none or no folder; HD_FAILED where there is
+   one that cannot be trusted: damaged, cut short, of another key or user. The message says which,
+   and to put the entry anew repairs it. */
 HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, size_t *size,
                       HdError *error);
 

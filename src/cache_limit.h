@@ -5,7 +5,8 @@
 
 #include <stdint.h>
 
-/* Entries' names end so; nothing else in the folder is touched, but for what writers left behind. */
+/* Entries' names end so; nothing else in the folder is touched, but for what writers left behind.
+ */
 #define HD_CACHE_ENDING ".entry"
 
 /* Removes the longest unused entries until all of them together have at most `most` bytes, and

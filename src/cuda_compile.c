@@ -51,15 +51,14 @@ static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, int 
 void hd_cuda_options(char options[HD_CUDA_OPTIONS_LENGTH], int arch, const HdKernelShape *shape) {
     char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
     hd_kernel_defines(shape, defines);
-    int length =
-        snprintf(options, HD_CUDA_OPTIONS_LENGTH, "--gpu-architecture=sm_%d --maxrregcount=%d %s",
-                 arch, (int)HD_REGISTER_LIMIT,
-                 shape->math == HD_MATH_FAST
-                     ? "--use_fast_math"
-                     : "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false");
+    int length = snprintf(
+        options, HD_CUDA_OPTIONS_LENGTH, "--gpu-architecture=sm_%d --maxrregcount=%d %s", arch,
+        (int)HD_REGISTER_LIMIT,
+        shape->math == HD_MATH_FAST ? "--use_fast_math"
+                                    : "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false");
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        length += snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " %s",
-                           defines[i]);
+        length +=
+            snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */

@@ -49,8 +49,7 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
         return hd_fail(error, HD_FAILED, "out of memory");
     int length = snprintf(entry, capacity, "%s\n%s\n", cache->stamp, cache->maker);
     memcpy(entry + length, binary, size);
-    HdStatus status =
-        hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
+    HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);
     free(entry);
     return status;
 }
@@ -95,11 +94,11 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, cons
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
     hd_self_test_stamp(shape, cache->stamp, sizeof cache->stamp);
-    int length = snprintf(
-        cache->key, sizeof cache->key,
-        "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
-        HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size, options,
-        cache->device, driver);
+    int length =
+        snprintf(cache->key, sizeof cache->key,
+                 "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
+                 HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
+                 options, cache->device, driver);
     if (length < 0 || length >= (int)sizeof cache->key) {
         cache->key[0] = '\0';
         *binary = NULL;

@@ -144,8 +144,7 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
     double start = hd_monotonic_seconds();
     HdStatus status = compile(program, context, device, name, options, error);
     if (status == HD_OK)
-        hd_kernel_cache_compiled(cache, read_binary, program, "",
-                                 hd_monotonic_seconds() - start);
+        hd_kernel_cache_compiled(cache, read_binary, program, "", hd_monotonic_seconds() - start);
     else
         hd_opencl_program_free(program);
     return status;

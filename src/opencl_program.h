@@ -12,7 +12,8 @@ typedef struct HdOpenclProgram {
 } HdOpenclProgram;
 
 /* Takes the kernels from the cache or compiles the embedded text; then `program` must stay where it
-   is, for `cache` to read it. `name` is the device's, for messages. On failure the compiler's log is in the message and there is nothing to free. */
+   is, for `cache` to read it. `name` is the device's, for messages. On failure the compiler's log
+   is in the message and there is nothing to free. */
 HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
                          const char *name, const HdKernelShape *shape, HdKernelCache *cache,
                          HdError *error);

@@ -88,8 +88,8 @@ static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *
 static HdStatus test_frame(const HdBackend *backend, void *renderer, const HdDevice *device,
                            HdSelfTestFrame frame, const HdSceneTables *like, HdError *error) {
     HdScene scene;
-    uint64_t hash = 0, expected =
-                           expected_hash(frame, like->precision, like->refracts, like->lit_from_behind);
+    uint64_t hash = 0, expected = expected_hash(frame, like->precision, like->refracts,
+                                                like->lit_from_behind);
     HdStatus status =
         hd_self_test_scene(&scene, frame, like->refracts, like->lit_from_behind, error);
     if (status != HD_OK)
