@@ -10,6 +10,7 @@
 #include "device_launch.h"
 #include "interrupt.h"
 #include "kernel_cache.h"
+#include "nvrtc_check.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -88,15 +89,6 @@ static int query_driver_version(const HdCudaDriver *driver) {
     return driver->driver_version(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
-/* Fails where the device's compiler is missing, so that a choice among devices can pass it over. */
-static HdStatus check_compiler(const char *name, int arch, int driver_version, HdError *error) {
-    HdNvrtc nvrtc;
-    HdStatus status = hd_nvrtc_open(&nvrtc, name, arch, driver_version / 1000, NULL, error);
-    if (status == HD_OK)
-        hd_nvrtc_close(&nvrtc);
-    return status;
-}
-
 static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
                              HdError *error) {
     HdCuDevice handle;
@@ -115,7 +107,8 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
         return status;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
-    return check_compiler(device->name, arch, version, error);
+    /* Fails where there is no compiler, so that a choice among devices can pass it over. */
+    return hd_nvrtc_check(device->name, arch, version / 1000, error);
 }
 
 /* A device that fails is listed with the reason; it does not hide the others. */
