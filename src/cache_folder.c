@@ -54,7 +54,9 @@ HdStatus hd_cache_folder(char folder[HD_MAX_PATH], HdError *error) {
     if (caches != NULL && caches[0] == '/')
         return join(folder, caches, "hedron", error);
     if (home != NULL && home[0] == '/')
-        return join(folder, home, ".cache/hedron", error);
+        return access(home, F_OK) == 0
+                   ? join(folder, home, ".cache/hedron", error)
+                   : hd_fail(error, HD_UNAVAILABLE, "there is no home folder %s", home);
     return hd_fail(error, HD_UNAVAILABLE,
                    "there is no cache folder, for neither HEDRON_CACHE, XDG_CACHE_HOME nor HOME "
                    "names one");

@@ -5,8 +5,8 @@
    found by a key, a text of everything they depend on, which is stored whole and compared.
 
    The folder is the one that HEDRON_CACHE names; else $XDG_CACHE_HOME/hedron; else
-   $HOME/.cache/hedron. HEDRON_CACHE=off switches it off. It is made with mode 0700, entries
-   with 0600. */
+   $HOME/.cache/hedron, where there is that home. HEDRON_CACHE=off switches it off. It is made with
+   mode 0700, entries with 0600. */
 #ifndef HD_CACHE_FOLDER_H
 #define HD_CACHE_FOLDER_H
 

@@ -231,17 +231,22 @@ static void expect_folder(const char *expected) {
 
 static void the_folder_is_found_in_order(void **state) {
     (void)state;
+    char below_home[100];
     setenv("XDG_CACHE_HOME", "/xdg", 1);
-    setenv("HOME", "/home/somebody", 1);
+    setenv("HOME", test_folder, 1);
+    snprintf(below_home, sizeof below_home, "%s/.cache/hedron", test_folder);
     expect_folder("cache");
     unsetenv("HEDRON_CACHE");
     expect_folder("/xdg/hedron");
     setenv("HEDRON_CACHE", "", 1);
     expect_folder("/xdg/hedron");
     setenv("XDG_CACHE_HOME", "relative", 1);
-    expect_folder("/home/somebody/.cache/hedron");
+    expect_folder(below_home);
     unsetenv("XDG_CACHE_HOME");
-    expect_folder("/home/somebody/.cache/hedron");
+    expect_folder(below_home);
+    setenv("HOME", "/no/such/home", 1);
+    expect_folder(NULL);
+    expect_contains(error.message, "/no/such/home");
     unsetenv("HOME");
     expect_folder(NULL);
     expect_contains(error.message, "HOME");
