@@ -148,18 +148,21 @@ static HdStatus measure_one(Choosing *choosing, int index, HdError *error) {
     return status;
 }
 
+/* What failed at work may do better another time, so that nothing is remembered then. */
 static HdStatus measure_all(Choosing *choosing, HdError *error) {
-    HdStatus status = HD_OK;
+    bool is_lasting = true;
     for (int i = 0; i < choosing->compared; i++) {
-        status = measure_one(choosing, i, error);
-        if (status == HD_UNAVAILABLE)
-            note_failure(choosing, error->message);
-        else if (status != HD_OK)
+        HdStatus status = measure_one(choosing, i, error);
+        if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
             return status;
+        if (status != HD_OK)
+            note_failure(choosing, error->message);
+        is_lasting = is_lasting && status != HD_FAILED;
     }
     if (choosing->best < 0)
         return HD_OK;
-    write_record(choosing);
+    if (is_lasting)
+        write_record(choosing);
     explain_speed(choosing, "");
     return HD_OK;
 }

@@ -12,6 +12,7 @@
 
 static struct {
     bool is_missing;      /* open fails */
+    bool fails;           /* to render */
     bool renders_wrongly; /* a bit of the picture's last number is wrong */
     bool refuses_binary;  /* what comes from the cache */
     bool hides_binary;    /* gives none away */
@@ -94,6 +95,8 @@ static HdStatus fake_render(void *state, const HdFrameTables *tables, HdFrame *f
     fake.rendered++;
     if (renderer->index == fake.slow_index)
         nanosleep(&pause, NULL);
+    if (fake.fails)
+        return hd_fail(error, HD_FAILED, "it fails");
     HdStatus status = hd_backend_c.render(renderer->c, tables, frame, error);
     if (status == HD_OK && fake.renders_wrongly) {
         uint32_t bits;

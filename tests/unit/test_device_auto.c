@@ -143,6 +143,16 @@ static void what_is_missing_is_passed_over(void **state) {
     expect_contains(error.message, "fake: it is missing");
 }
 
+static void what_fails_at_work_is_tried_again(void **state) {
+    (void)state;
+    fake.fails = true;
+    for (int i = 1; i <= 2; i++) {
+        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
+        expect_contains(note, "fake: it fails");
+        assert_int_equal(fake.opened, i);
+    }
+}
+
 static void without_a_folder_it_is_measured_each_time(void **state) {
     (void)state;
     setenv("HEDRON_CACHE", "off", 1);
@@ -175,6 +185,7 @@ int main(void) {
         TEST(a_job_too_short_is_not_measured),
         TEST(what_computes_wrongly_is_passed_over),
         TEST(what_is_missing_is_passed_over),
+        TEST(what_fails_at_work_is_tried_again),
         TEST(without_a_folder_it_is_measured_each_time),
         TEST(the_estimate_scales_with_the_picture),
     };
