@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
    device, up to what its kernels render: a device of sm_61 whose memory is the host's, and whose
-   launches do nothing (others.c). Where FAKE_CUDA_REFUSES is set no module is loaded. */
+   launches do nothing (others.c). FAKE_CUDA_REFUSES is the number of modules that it does not load
+   at first. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +62,9 @@ HdCuResult cuDevicePrimaryCtxRetain(HdCuContext *context, HdCuDevice device) {
 
 /* Machine code is an ELF file. */
 HdCuResult cuModuleLoadData(HdCuModule *module, const void *image) {
-    if (memcmp(image, "\177ELF", 4) != 0 || getenv("FAKE_CUDA_REFUSES") != NULL)
+    static int count;
+    const char *refused = getenv("FAKE_CUDA_REFUSES");
+    if (memcmp(image, "\177ELF", 4) != 0 || (refused != NULL && count++ < atoi(refused)))
         return HD_CU_ERROR_OUT_OF_MEMORY;
     *module = (HdCuModule)(void *)&anything;
     return HD_CU_SUCCESS;
