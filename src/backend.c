@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "../kernels/common/scene_tables.h"
+#include "kernel_cache.h"
+#include "self_test.h"
 
 const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
                                                         &hd_backend_c};
@@ -14,6 +16,7 @@ const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_ba
 struct HdRenderer {
     const HdBackend *backend;
     void *state; /* of the backend */
+    HdDevice device;
     HdRenderOptions options;
     bool has_scene;
 };
@@ -73,6 +76,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     if (!opened)
         return hd_fail(error, HD_FAILED, "out of memory");
     opened->backend = device->backend;
+    opened->device = *device;
     opened->options = *options;
     status = opened->backend->open(device, options, &opened->state, error);
     if (status != HD_OK) {
@@ -102,6 +106,28 @@ static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precisio
     return HD_OK;
 }
 
+static HdKernelCache *kernels_of(const HdRenderer *renderer) {
+    return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
+}
+
+/* The tables are on the device. If its kernels are new, they prove themselves first. */
+static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tables,
+                                 HdError *error) {
+    const HdBackend *backend = renderer->backend;
+    HdKernelCache *kernels = kernels_of(renderer);
+    HdStatus status = HD_OK;
+    if (kernels == NULL || !kernels->is_untested)
+        return HD_OK;
+    if (renderer->options.math == HD_MATH_STRICT) {
+        status = hd_self_test(backend, renderer->state, &renderer->device, tables, error);
+        if (status == HD_OK)
+            status = backend->upload(renderer->state, tables, error);
+    }
+    if (status == HD_OK)
+        hd_kernel_cache_accept(kernels);
+    return status;
+}
+
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdStatus status =
         check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
@@ -114,6 +140,8 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
         return status;
     renderer->has_scene = false;
     status = renderer->backend->upload(renderer->state, tables, error);
+    if (status == HD_OK)
+        status = test_new_kernels(renderer, tables, error);
     renderer->has_scene = status == HD_OK;
     return name_backend(renderer->backend, status, error);
 }
@@ -158,6 +186,11 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) 
         return;
     text[0] = '\0';
     renderer->backend->describe(renderer->state, text, capacity);
+}
+
+const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
+    const HdKernelCache *kernels = kernels_of(renderer);
+    return kernels != NULL ? kernels->note : "";
 }
 
 void hd_renderer_close(HdRenderer *renderer) {

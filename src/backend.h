@@ -22,6 +22,7 @@ typedef struct HdRenderOptions {
 } HdRenderOptions;
 
 typedef struct HdBackend HdBackend;
+typedef struct HdKernelCache HdKernelCache;
 
 typedef struct HdDevice {
     const HdBackend *backend;
@@ -60,6 +61,10 @@ struct HdBackend {
        `frame` is worth nothing. */
     HdStatus (*render)(void *renderer, const HdFrameTables *tables, HdFrame *frame, HdError *error);
 
+    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
+       where they are compiled ahead. */
+    HdKernelCache *(*kernels)(void *renderer);
+
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
     void (*describe)(const void *renderer, char *text, int capacity);
 
@@ -86,10 +91,16 @@ typedef struct HdRenderer HdRenderer;
 /* HD_UNAVAILABLE where the device has an obstacle. */
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error);
+
+/* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
+   strict arithmetic: HD_UNAVAILABLE where they do not. Those that do are kept on disk. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error);
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
+
+/* Where the kernels came from and what became of them, for people; "" where nobody compiles. */
+const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 void hd_renderer_close(HdRenderer *renderer); /* NULL is allowed */
 
 #endif

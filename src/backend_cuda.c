@@ -5,9 +5,12 @@
 #include <string.h>
 
 #include "../kernels/common/scene_tables.h"
+#include "clock.h"
 #include "cuda_compile.h"
 #include "device_launch.h"
 #include "interrupt.h"
+#include "kernel_cache.h"
+#include "nvrtc_check.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -22,7 +25,9 @@ typedef struct Renderer {
     HdCuDevice device;
     int arch; /* 61 stands for sm_61 */
     int launch_items;
-    HdNvrtc nvrtc;       /* from the first upload on */
+    HdNvrtc nvrtc; /* once kernels were compiled */
+    HdKernelCache kernels;
+    HdCudaCode code;     /* of the module */
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
@@ -84,15 +89,6 @@ static int query_driver_version(const HdCudaDriver *driver) {
     return driver->driver_version(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
-/* Fails where the device's compiler is missing, so that a choice among devices can pass it over. */
-static HdStatus check_compiler(const char *name, int arch, int driver_version, HdError *error) {
-    HdNvrtc nvrtc;
-    HdStatus status = hd_nvrtc_open(&nvrtc, name, arch, driver_version / 1000, NULL, error);
-    if (status == HD_OK)
-        hd_nvrtc_close(&nvrtc);
-    return status;
-}
-
 static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
                              HdError *error) {
     HdCuDevice handle;
@@ -111,7 +107,8 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
         return status;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
-    return check_compiler(device->name, arch, version, error);
+    /* Fails where there is no compiler, so that a choice among devices can pass it over. */
+    return hd_nvrtc_check(device->name, arch, version / 1000, error);
 }
 
 /* A device that fails is listed with the reason; it does not hide the others. */
@@ -237,6 +234,7 @@ static void cuda_close(void *state) {
         renderer->driver.context_release(renderer->device);
     }
     hd_nvrtc_close(&renderer->nvrtc);
+    hd_cuda_code_free(&renderer->code);
     free(renderer);
 }
 
@@ -246,6 +244,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
+    hd_kernel_cache_begin(&renderer->kernels, device);
     renderer->shape = (HdKernelShape){
         .lanes = 1,
         .pixels_per_item = 1,
@@ -304,16 +303,15 @@ static HdStatus get_function(Renderer *renderer, HdCuFunction *function, const c
                 error);
 }
 
-static HdStatus load_module(Renderer *renderer, const HdCudaCode *code, HdError *error) {
+static HdStatus load_module(Renderer *renderer, HdError *error) {
     HdCuModule module = NULL;
-    HdCuResult result = renderer->driver.module_load(&module, code->cubin);
+    HdCuResult result = renderer->driver.module_load(&module, renderer->code.cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
-                       "the driver, of CUDA %d, does not load what NVRTC %d.%d compiled for "
-                       "sm_%d (cuModuleLoadData: %s)",
-                       query_driver_version(&renderer->driver) / 1000, renderer->nvrtc.major,
-                       renderer->nvrtc.minor, renderer->arch,
-                       hd_cuda_error_name(&renderer->driver, result));
+                       "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
+                       "(cuModuleLoadData: %s)",
+                       query_driver_version(&renderer->driver) / 1000, renderer->kernels.maker,
+                       renderer->arch, hd_cuda_error_name(&renderer->driver, result));
     renderer->module = module;
     HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);
     if (status == HD_OK)
@@ -338,21 +336,40 @@ static HdStatus find_compiler(Renderer *renderer, HdError *error) {
                          error);
 }
 
+static HdStatus compile(Renderer *renderer, HdError *error) {
+    char maker[32];
+    double start = hd_monotonic_seconds();
+    HdStatus status = find_compiler(renderer, error);
+    if (status == HD_OK)
+        status = hd_cuda_compile(&renderer->code, &renderer->nvrtc, renderer->arch,
+                                 &renderer->shape, false, error);
+    if (status != HD_OK)
+        return status;
+    snprintf(maker, sizeof maker, "NVRTC %d.%d", renderer->nvrtc.major, renderer->nvrtc.minor);
+    hd_kernel_cache_compiled(&renderer->kernels, hd_cuda_read_code, &renderer->code, maker,
+                             hd_monotonic_seconds() - start);
+    return load_module(renderer, error);
+}
+
+/* True where the kernels were in the cache and the driver took them. */
+static bool load_cached(Renderer *renderer, HdError *error) {
+    if (!hd_cuda_find_cached(&renderer->code, &renderer->kernels, renderer->arch, &renderer->shape))
+        return false;
+    if (load_module(renderer, error) == HD_OK)
+        return true;
+    hd_kernel_cache_refuse(&renderer->kernels, error->message);
+    hd_cuda_code_free(&renderer->code);
+    return false;
+}
+
 static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *error) {
     HdKernelShape *shape = &renderer->shape;
     if (renderer->module && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     unload_module(renderer);
+    hd_cuda_code_free(&renderer->code);
     shape->needs = *needs;
-    HdCudaCode code;
-    HdStatus status = find_compiler(renderer, error);
-    if (status == HD_OK)
-        status = hd_cuda_compile(&code, &renderer->nvrtc, renderer->arch, shape, false, error);
-    if (status != HD_OK)
-        return status;
-    status = load_module(renderer, &code, error);
-    hd_cuda_code_free(&code);
-    return status;
+    return load_cached(renderer, error) ? HD_OK : compile(renderer, error);
 }
 
 static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {
@@ -481,6 +498,11 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     return status;
 }
 
+static HdKernelCache *cuda_kernels(void *state) {
+    Renderer *renderer = state;
+    return &renderer->kernels;
+}
+
 static void cuda_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     int length = snprintf(
@@ -488,9 +510,8 @@ static void cuda_describe(const void *state, char *text, int capacity) {
         renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float", (int)BLOCK_THREADS);
     if (renderer->module && length > 0 && length < capacity)
         snprintf(text + length, (size_t)(capacity - length),
-                 ", %d registers and %d bytes of local memory a thread, NVRTC %d.%d",
-                 renderer->registers, renderer->local_bytes, renderer->nvrtc.major,
-                 renderer->nvrtc.minor);
+                 ", %d registers and %d bytes of local memory a thread, %s", renderer->registers,
+                 renderer->local_bytes, renderer->kernels.maker);
 }
 
 const HdBackend hd_backend_cuda = {
@@ -499,6 +520,7 @@ const HdBackend hd_backend_cuda = {
     .open = cuda_open,
     .upload = cuda_upload,
     .render = cuda_render,
+    .kernels = cuda_kernels,
     .describe = cuda_describe,
     .close = cuda_close,
 };

@@ -29,6 +29,7 @@ typedef struct Buffer {
 typedef struct Renderer {
     char name[256];
     HdOpenclDevice device;
+    HdKernelCache kernels;
     HdKernelShape shape; /* of the program, if there is one */
     size_t local_size;   /* fixed: some drivers compile anew for each */
     int launch_items;
@@ -113,6 +114,7 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
+    hd_kernel_cache_begin(&renderer->kernels, device);
     HdStatus status = hd_opencl_find(&renderer->device, device->index, error);
     if (status == HD_OK) {
         choose_shape(renderer, options);
@@ -194,7 +196,7 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
     hd_opencl_program_free(&renderer->program);
     shape->needs = *needs;
     HdStatus status = hd_opencl_build(&renderer->program, renderer->context, &renderer->device,
-                                      renderer->name, shape, error);
+                                      renderer->name, shape, &renderer->kernels, error);
     if (status == HD_OK)
         status = limit_local_size(renderer, error);
     return status;
@@ -344,6 +346,11 @@ static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame 
     return status;
 }
 
+static HdKernelCache *opencl_kernels(void *state) {
+    Renderer *renderer = state;
+    return &renderer->kernels;
+}
+
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
@@ -361,6 +368,7 @@ const HdBackend hd_backend_opencl = {
     .open = opencl_open,
     .upload = opencl_upload,
     .render = opencl_render,
+    .kernels = opencl_kernels,
     .describe = opencl_describe,
     .close = opencl_close,
 };

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "cuda_compile.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_OPTIONS = HD_KERNEL_DEFINE_COUNT + 8 };
 
@@ -46,27 +48,35 @@ static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, int 
     return HD_FAILED;
 }
 
+void hd_cuda_options(char options[HD_CUDA_OPTIONS_LENGTH], int arch, const HdKernelShape *shape) {
+    char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
+    hd_kernel_defines(shape, defines);
+    int length = snprintf(
+        options, HD_CUDA_OPTIONS_LENGTH, "--gpu-architecture=sm_%d --maxrregcount=%d %s", arch,
+        (int)HD_REGISTER_LIMIT,
+        shape->math == HD_MATH_FAST ? "--use_fast_math"
+                                    : "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false");
+    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
+        length +=
+            snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
+}
+
+/* Cuts the text at its spaces and returns the number of parts. */
+static int split(char *text, const char *parts[MAX_OPTIONS]) {
+    int count = 0;
+    char *rest = NULL;
+    for (char *part = strtok_r(text, " ", &rest); part != NULL && count < MAX_OPTIONS;
+         part = strtok_r(NULL, " ", &rest))
+        parts[count++] = part;
+    return count;
+}
+
 static HdStatus compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program, int arch,
                         const HdKernelShape *shape, bool verbose, HdError *error) {
-    char architecture[40], register_limit[40];
-    char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
-    const char *options[MAX_OPTIONS];
-    int count = 0;
-    snprintf(architecture, sizeof architecture, "--gpu-architecture=sm_%d", arch);
-    options[count++] = architecture;
-    hd_kernel_defines(shape, defines);
-    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        options[count++] = defines[i];
-    if (shape->math == HD_MATH_FAST) {
-        options[count++] = "--use_fast_math";
-    } else {
-        options[count++] = "--fmad=false";
-        options[count++] = "--prec-div=true";
-        options[count++] = "--prec-sqrt=true";
-        options[count++] = "--ftz=false";
-    }
-    snprintf(register_limit, sizeof register_limit, "--maxrregcount=%d", (int)HD_REGISTER_LIMIT);
-    options[count++] = register_limit;
+    char text[HD_CUDA_OPTIONS_LENGTH];
+    const char *options[MAX_OPTIONS + 1];
+    hd_cuda_options(text, arch, shape);
+    int count = split(text, options);
     if (verbose)
         options[count++] = "--ptxas-options=-v";
     HdNvrtcResult result = nvrtc->functions.compile_program(program, count, options);
@@ -88,6 +98,32 @@ HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, int arch,
     if (status != HD_OK)
         hd_cuda_code_free(code);
     return status;
+}
+
+/* The machine code depends on NVRTC's version as well. To ask for it would need NVRTC; an entry
+   tells it, and kernels of any version have passed the test. The one that the user names counts. */
+bool hd_cuda_find_cached(HdCudaCode *code, HdKernelCache *cache, int arch,
+                         const HdKernelShape *shape) {
+    char options[HD_CUDA_OPTIONS_LENGTH];
+    unsigned char *cubin;
+    const char *nvrtc = getenv("HEDRON_NVRTC");
+    *code = (HdCudaCode){0};
+    hd_cuda_options(options, arch, shape);
+    if (!hd_kernel_cache_find(cache, shape, hd_cuda_source, hd_cuda_source_size, options,
+                              nvrtc != NULL ? nvrtc : "", &cubin, &code->size))
+        return false;
+    code->cubin = (char *)cubin;
+    return true;
+}
+
+unsigned char *hd_cuda_read_code(const void *code, size_t *size) {
+    const HdCudaCode *from = code;
+    unsigned char *copy = malloc(from->size);
+    if (copy == NULL)
+        return NULL;
+    memcpy(copy, from->cubin, from->size);
+    *size = from->size;
+    return copy;
 }
 
 void hd_cuda_code_free(HdCudaCode *code) {

@@ -7,11 +7,15 @@
 #include <string.h>
 #include <strings.h>
 
+#include "device_auto.h"
+
+enum { MAX_CANDIDATES = 32 };
+
 typedef struct Search {
     const HdDeviceWish *wish;
     const HdRenderOptions *options;
-    HdDevice best;
-    bool found;
+    HdDevice candidates[MAX_CANDIDATES]; /* the best first */
+    int count;
     char reasons[4096]; /* why backends and devices were passed over */
 } Search;
 
@@ -75,23 +79,34 @@ static double speed(const HdDevice *device) {
     return (double)device->compute_units * (double)device->clock_mhz;
 }
 
-/* `best` was found earlier, in the same backend or in one that comes first. */
-static bool is_better(const HdDevice *device, const HdDevice *best) {
-    if (device->is_cpu != best->is_cpu)
-        return best->is_cpu;
-    return device->backend == best->backend && speed(device) > speed(best);
+/* `other` was found earlier, in the same backend or in one that comes first. */
+static bool is_better(const HdDevice *device, const HdDevice *other) {
+    if (device->is_cpu != other->is_cpu)
+        return other->is_cpu;
+    return device->backend == other->backend && speed(device) > speed(other);
+}
+
+static void add_candidate(Search *search, const HdDevice *device) {
+    int place = search->count;
+    while (place > 0 && is_better(device, &search->candidates[place - 1]))
+        place--;
+    if (place == MAX_CANDIDATES)
+        return;
+    if (search->count < MAX_CANDIDATES)
+        search->count++;
+    memmove(&search->candidates[place + 1], &search->candidates[place],
+            (size_t)(search->count - 1 - place) * sizeof *search->candidates);
+    search->candidates[place] = *device;
 }
 
 static void consider(Search *search, const HdDevice *device) {
     const char *reason = hd_device_obstacle(device, search->options);
     if (search->wish->kind == HD_ONLY_CPU && !device->is_cpu)
         reason = "it is not a CPU";
-    if (reason != NULL) {
+    if (reason != NULL)
         add_reason(search, device->name, reason);
-    } else if (!search->found || is_better(device, &search->best)) {
-        search->best = *device;
-        search->found = true;
-    }
+    else
+        add_candidate(search, device);
 }
 
 static void search_backend(Search *search, const HdBackend *backend, HdError *error) {
@@ -112,15 +127,6 @@ static void search_backend(Search *search, const HdBackend *backend, HdError *er
         add_reason(search, backend->name, "no device of that number or name");
 }
 
-/* A later backend is not asked once there is a GPU: drivers take their time to start. */
-static void search_all(Search *search, HdError *error) {
-    for (int i = 0; i < HD_BACKEND_COUNT; i++) {
-        search_backend(search, hd_backends[i], error);
-        if (search->found && !search->best.is_cpu)
-            return;
-    }
-}
-
 static void search_wanted(Search *search, HdError *error) {
     const HdDeviceWish *wish = search->wish;
     if (wish->backend != NULL)
@@ -128,10 +134,11 @@ static void search_wanted(Search *search, HdError *error) {
     else if (wish->kind == HD_ONLY_CPU)
         search_backend(search, plain_c(), error);
     else
-        search_all(search, error);
+        for (int i = 0; i < HD_BACKEND_COUNT; i++)
+            search_backend(search, hd_backends[i], error);
 }
 
-static const char *choice_reason(const Search *search) {
+static const char *choice_reason(const Search *search, const HdDevice *chosen) {
     const HdDeviceWish *wish = search->wish;
     if (wish->device != NULL)
         return "named by --device";
@@ -139,36 +146,143 @@ static const char *choice_reason(const Search *search) {
         return "the best device of the backend named by --backend";
     if (wish->kind == HD_ONLY_CPU)
         return "the C backend, since only a CPU will do";
-    if (!search->best.is_cpu)
+    if (!chosen->is_cpu)
         return "the first GPU in the order of the backends";
     return "no GPU can do this";
 }
 
-static void explain(const Search *search, HdDeviceReason *reason) {
-    const HdDevice *best = &search->best;
-    reason->note[0] = '\0';
-    if (search->wish->kind == HD_PREFER_GPU && search->wish->backend == NULL && best->is_cpu)
-        snprintf(reason->note, sizeof reason->note,
-                 "no suitable GPU was found; tracing with %s on %s", best->backend->name,
-                 best->name);
-    snprintf(reason->why, sizeof reason->why, "%s%s%s", choice_reason(search),
+/* `why` is "" where nothing better is known than the order of devices. */
+static void explain(const Search *search, const HdDevice *chosen, const char *why,
+                    HdDeviceReason *reason) {
+    bool has_gpu = !search->candidates[0].is_cpu;
+    size_t length = strlen(reason->note);
+    if (search->wish->kind == HD_PREFER_GPU && search->wish->backend == NULL && chosen->is_cpu)
+        snprintf(reason->note + length, sizeof reason->note - length,
+                 "%sno suitable GPU was found; tracing with %s on %s", length > 0 ? "; " : "",
+                 chosen->backend->name, chosen->name);
+    else if (length > 0)
+        snprintf(reason->note + length, sizeof reason->note - length, "; tracing with %s on %s",
+                 chosen->backend->name, chosen->name);
+    snprintf(reason->why, sizeof reason->why, "%s%s%s",
+             why[0] != '\0' && has_gpu ? why : choice_reason(search, chosen),
              search->reasons[0] != '\0' ? "; passed over: " : "", search->reasons);
 }
 
-HdStatus hd_choose_device(HdDevice *device, const HdDeviceWish *wish,
-                          const HdRenderOptions *options, HdDeviceReason *reason, HdError *error) {
+static HdStatus search_devices(Search *search, HdError *error) {
+    const char *device = search->wish->device;
+    search_wanted(search, error);
+    if (search->count > 0)
+        return HD_OK;
+    return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
+                   device != NULL ? " (asked for device '" : "", device != NULL ? device : "",
+                   device != NULL ? "')" : "", search->reasons,
+                   device != NULL ? "; see 'hedron devices'" : "");
+}
+
+static HdStatus open_best(Search *search, HdRenderer **renderer, HdDevice *device,
+                          HdDeviceReason *reason, HdError *error) {
+    HdStatus status = search_devices(search, error);
+    if (status != HD_OK)
+        return status;
+    *device = search->candidates[0];
+    explain(search, device, "", reason);
+    return hd_renderer_open(renderer, device, search->options, error);
+}
+
+/* ---- without a name ---- */
+
+/* How many of the candidates are worth a comparison: the GPUs, and plain C where any will do. */
+static int count_compared(const Search *search) {
+    int count = 0;
+    while (count < search->count &&
+           (!search->candidates[count].is_cpu || search->wish->kind == HD_WANT_ANY))
+        count++;
+    return count;
+}
+
+static HdStatus open_fastest(const Search *search, HdRenderer **renderer, HdDevice *device,
+                             const HdJob *job, double frame_seconds, HdDeviceReason *reason,
+                             HdError *error) {
+    char why[1024], note[2048];
+    HdAutoChoice choice = {
+        .candidates = search->candidates,
+        .count = search->count,
+        .measured = count_compared(search),
+        .options = search->options,
+        .job = job,
+        .frame_seconds = frame_seconds,
+    };
+    HdStatus status = hd_auto_open(renderer, device, &choice, why, note, error);
+    if (status != HD_OK)
+        return status;
+    snprintf(reason->note, sizeof reason->note, "%s", note);
+    explain(search, device, why, reason);
+    return HD_OK;
+}
+
+static HdStatus open_plain_c(const Search *search, HdRenderer **renderer, HdDevice *device,
+                             double seconds, HdDeviceReason *reason, HdError *error) {
+    int count;
+    HdStatus status = plain_c()->enumerate(device, 1, &count, error);
+    if (status != HD_OK)
+        return status;
+    snprintf(reason->why, sizeof reason->why,
+             "it needs about %.2g s, less than other devices take to start", seconds);
+    return hd_renderer_open(renderer, device, search->options, error);
+}
+
+/* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
+static HdStatus open_any(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
+                         HdDeviceReason *reason, HdError *error) {
+    double frame_seconds;
+    HdStatus status =
+        hd_trial_estimate(search->options, job, HD_AUTO_SMALL_SECONDS, &frame_seconds, error);
+    if (status != HD_OK)
+        return status;
+    double seconds = frame_seconds * job->frame_count;
+    if (seconds <= HD_AUTO_SMALL_SECONDS)
+        return open_plain_c(search, renderer, device, seconds, reason, error);
+    status = search_devices(search, error);
+    if (status != HD_OK)
+        return status;
+    return open_fastest(search, renderer, device, job, frame_seconds, reason, error);
+}
+
+static HdStatus open_gpu(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
+                         HdDeviceReason *reason, HdError *error) {
+    double frame_seconds = 0.0;
+    HdStatus status = search_devices(search, error);
+    if (status == HD_OK && count_compared(search) > 1)
+        status = hd_trial_estimate(search->options, job, 0.0, &frame_seconds, error);
+    if (status != HD_OK)
+        return status;
+    return open_fastest(search, renderer, device, job, frame_seconds, reason, error);
+}
+
+static HdStatus open_wanted(Search *search, HdRenderer **renderer, HdDevice *device,
+                            const HdJob *job, HdDeviceReason *reason, HdError *error) {
+    const HdDeviceWish *wish = search->wish;
+    if (wish->backend != NULL || wish->device != NULL || wish->kind == HD_ONLY_CPU)
+        return open_best(search, renderer, device, reason, error);
+    return wish->kind == HD_PREFER_GPU ? open_gpu(search, renderer, device, job, reason, error)
+                                       : open_any(search, renderer, device, job, reason, error);
+}
+
+HdStatus hd_open_device(HdRenderer **renderer, HdDevice *device, const HdDeviceWish *wish,
+                        const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
+                        HdError *error) {
     HdDeviceWish split = *wish;
-    Search search = {.wish = &split, .options = options};
+    *renderer = NULL;
+    reason->note[0] = reason->why[0] = '\0';
     HdStatus status = split_name(&split, error);
     if (status != HD_OK)
         return status;
-    search_wanted(&search, error);
-    if (!search.found)
-        return hd_fail(error, HD_UNAVAILABLE, "no device can do this%s%s%s: %s%s",
-                       wish->device ? " (asked for device '" : "", wish->device ? wish->device : "",
-                       wish->device ? "')" : "", search.reasons,
-                       wish->device ? "; see 'hedron devices'" : "");
-    *device = search.best;
-    explain(&search, reason);
-    return HD_OK;
+    Search *search = calloc(1, sizeof *search);
+    if (search == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of devices");
+    search->wish = &split;
+    search->options = options;
+    status = open_wanted(search, renderer, device, job, reason, error);
+    free(search);
+    return status;
 }

@@ -31,16 +31,22 @@ const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int c
     return NULL;
 }
 
-void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
+bool hd_library_path(void *library, const char *symbol, char *path, size_t capacity) {
     Dl_info info;
     void *address = dlsym(library, symbol);
     if (!address || !dladdr(address, &info) || !info.dli_fname)
+        return false;
+    int length = snprintf(path, capacity, "%s", info.dli_fname);
+    return length > 0 && (size_t)length < capacity;
+}
+
+void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
+    char beside[MAX_PATH], path[MAX_PATH];
+    if (!hd_library_path(library, symbol, beside, sizeof beside))
         return NULL;
-    const char *slash = strrchr(info.dli_fname, '/');
+    const char *slash = strrchr(beside, '/');
     if (!slash)
         return NULL;
-    char path[MAX_PATH];
-    int length =
-        snprintf(path, sizeof path, "%.*s/%s", (int)(slash - info.dli_fname), info.dli_fname, name);
+    int length = snprintf(path, sizeof path, "%.*s/%s", (int)(slash - beside), beside, name);
     return length > 0 && length < MAX_PATH ? hd_library_open(path) : NULL;
 }

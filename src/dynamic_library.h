@@ -3,6 +3,7 @@
 #ifndef HD_DYNAMIC_LIBRARY_H
 #define HD_DYNAMIC_LIBRARY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Where a function's address goes within a struct of function pointers. */
@@ -20,6 +21,9 @@ void hd_library_close(void *library);
 /* Fills the struct at `functions`. Returns the first symbol that is missing, or NULL. */
 const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int count,
                             void *functions);
+
+/* The file that a library was loaded from, which has the given symbol. */
+bool hd_library_path(void *library, const char *symbol, char *path, size_t capacity);
 
 /* Opens a library that lies in the same folder as `library`, which has the given symbol; NULL where
    there is none. */

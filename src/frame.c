@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hash.h"
+
 HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error) {
     memset(frame, 0, sizeof *frame);
     frame->rgb = calloc((size_t)width * (size_t)height * 3, sizeof *frame->rgb);
@@ -38,27 +40,21 @@ uint64_t hd_frame_rays(const HdFrame *frame) {
     return frame->primary_rays + frame->mirrored_rays + frame->transmitted_rays;
 }
 
-static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size) {
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ bytes[i]) * 1099511628211u;
-    return hash;
-}
-
 /* The bytes of an integer, the lowest first. */
 static uint64_t hash_integer(uint64_t hash, uint64_t value, int bytes) {
+    unsigned char low_first[8];
     for (int i = 0; i < bytes; i++)
-        hash = (hash ^ (value >> (8 * i) & 0xff)) * 1099511628211u;
-    return hash;
+        low_first[i] = (unsigned char)(value >> (8 * i) & 0xff);
+    return hd_hash_bytes(hash, low_first, (size_t)bytes);
 }
 
 uint64_t hd_frame_hash(const HdFrame *frame) {
-    uint64_t hash = 14695981039346656037u;
+    uint64_t hash = HD_HASH_START;
     size_t values = (size_t)frame->width * (size_t)frame->height * 3;
     hash = hash_integer(hash, (uint32_t)frame->width, 4);
     hash = hash_integer(hash, (uint32_t)frame->height, 4);
     hash = hash_integer(hash, hd_frame_rays(frame), 8);
     hash = hash_integer(hash, frame->shadow_tests, 8);
     hash = hash_integer(hash, frame->clamps, 8);
-    return hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
+    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
 }

@@ -3,7 +3,7 @@
 #ifndef HD_OPENCL_PROGRAM_H
 #define HD_OPENCL_PROGRAM_H
 
-#include "kernel_source.h"
+#include "kernel_cache.h"
 #include "opencl_devices.h"
 
 typedef struct HdOpenclProgram {
@@ -11,10 +11,12 @@ typedef struct HdOpenclProgram {
     cl_kernel render, sum;
 } HdOpenclProgram;
 
-/* Compiles the embedded text. `name` is the device's, for messages. On failure the compiler's log
+/* Takes the kernels from the cache or compiles the embedded text; then `program` must stay where it
+   is, for `cache` to read it. `name` is the device's, for messages. On failure the compiler's log
    is in the message and there is nothing to free. */
 HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
-                         const char *name, const HdKernelShape *shape, HdError *error);
+                         const char *name, const HdKernelShape *shape, HdKernelCache *cache,
+                         HdError *error);
 void hd_opencl_program_free(HdOpenclProgram *program);
 
 #endif

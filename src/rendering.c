@@ -25,7 +25,8 @@ static void scene_uploaded(void *context, const HdSceneTables *tables) {
     Run *run = context;
     hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
     if (run->options->verbose)
-        hd_note_renderer(&run->device, run->renderer_line, tables);
+        hd_note_renderer(&run->device, run->renderer_line, hd_renderer_kernels_note(run->renderer),
+                         tables);
     hd_progress_update(&run->progress, 0);
 }
 
@@ -55,14 +56,25 @@ static HdStatus open_device(Run *run, HdError *error) {
         .device = options->device,
         .kind = run->rendering->device_kind,
     };
-    HdStatus status = hd_choose_device(&run->device, &wish, &options->render, &reason, error);
+    HdJob job = {
+        .scene = run->rendering->scene,
+        .first_frame = run->rendering->frames->frames[0],
+        .frame_count = run->rendering->frames->count,
+    };
+    if (!options->verbose)
+        hd_progress_prepare(&run->progress, "preparing the device");
+    HdStatus status =
+        hd_open_device(&run->renderer, &run->device, &wish, &options->render, &job, &reason, error);
+    hd_progress_end(&run->progress);
+    if (status == HD_INTERRUPTED)
+        return hd_fail(error, status, "interrupted after 0 of %d frames", job.frame_count);
     if (status != HD_OK)
         return status;
     if (reason.note[0] != '\0' && !options->quiet)
         fprintf(stderr, "hedron: %s\n", reason.note);
     if (options->verbose)
         hd_note_device(&run->device, reason.why);
-    return hd_renderer_open(&run->renderer, &run->device, &options->render, error);
+    return HD_OK;
 }
 
 /* Only where somebody may be waiting at a terminal. */
@@ -85,9 +97,6 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    run->progress = hd_progress_start(
-        run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
-        rendering->frames->count);
     if (run->device.backend != &hd_backend_c && !run->options->verbose)
         hd_progress_prepare(&run->progress, "building kernels");
     announce_interrupt(run);
@@ -101,7 +110,11 @@ static HdStatus render_all(Run *run, HdError *error) {
 
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
+    const HdRendering *rendering = run->rendering;
     HdError ignored;
+    run->progress = hd_progress_start(
+        run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
+        rendering->frames->count);
     HdStatus status = open_device(run, error);
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);

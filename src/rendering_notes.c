@@ -31,11 +31,14 @@ void hd_note_device(const HdDevice *device, const char *why) {
             device->name, device->driver, why);
 }
 
-void hd_note_renderer(const HdDevice *device, const char *renderer, const HdSceneTables *tables) {
+void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
+                      const HdSceneTables *tables) {
     char line[256];
     HdKernelNeeds needs = hd_kernel_needs(tables);
     fprintf(stderr, "renderer  %s\n", renderer);
     hd_kernel_needs_describe(&needs, line, sizeof line);
     fprintf(stderr, "kernels   %d planes; %s\n", tables->plane_count,
             device->backend == &hd_backend_c ? "compiled ahead, for scenes of any size" : line);
+    if (kernels[0] != '\0')
+        fprintf(stderr, "build     %s\n", kernels);
 }

@@ -11,7 +11,8 @@ void hd_note_scene(const char *name, const HdScene *scene);
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count);
 void hd_note_device(const HdDevice *device, const char *why);
 
-/* `renderer` is hd_renderer_describe's line. */
-void hd_note_renderer(const HdDevice *device, const char *renderer, const HdSceneTables *tables);
+/* `renderer` is hd_renderer_describe's line, `kernels` hd_renderer_kernels_note's. */
+void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
+                      const HdSceneTables *tables);
 
 #endif

@@ -16,7 +16,7 @@ cli_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 # Compiled OpenCL kernels stay where this user has them, for compiling takes seconds.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/pocl/kcache}
 export LC_ALL=C
-unset CDPATH
+unset CDPATH XDG_CACHE_HOME # hedron's own cache is where HEDRON_CACHE says, else in the home folder below
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
 logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr

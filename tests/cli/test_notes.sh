@@ -75,7 +75,9 @@ expect_note 'device +c 0, .*: the best device of the backend named by --backend'
 expect_note 'renderer +[0-9]+ lanes?, .*'
 expect_note 'kernels +[0-9]+ planes; compiled ahead, .*'
 rm ./*.data ./*.png
-expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data
+expect_exit 0 "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data
+expect_note 'device +c 0, .*: it needs about [0-9.e-]+ s, less than other devices take to start'
+expect_exit 0 "${nothing[@]}" "$hedron" render --size 320x180 --samples 6 --threads 1 --verbose --frames 0 -o a.data
 expect_note 'device +c 0, .*: no GPU can do this; passed over: cuda: .*; opencl: .*'
 expect_exit 0 "${nothing[@]}" "$hedron" render "${small[@]}" --verbose --frames 0 -o a.data --device 0
 expect_note 'device +c 0, .*: named by --device; passed over: .*'

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#include "self_test.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "camera.h"
+#include "self_test_scenes.h"
+
+static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor"};
+
+/* By precision, refraction and light from behind. They change with the kernels, on purpose only:
+   the unit test of this file tells the new ones. */
+static const uint64_t solid_hashes[2][2][2] = {
+    [HD_PRECISION_FLOAT] = {{0x6bdddcf938e1c3d3, 0x224876da05cfaaa7},
+                            {0x1eacd0122f6943e9, 0xac3bc1c5766e6eb1}},
+    [HD_PRECISION_DOUBLE] = {{0xcb3e76d8233c38a1, 0x493807fe4e186eae},
+                             {0xc7762e262fcbfb9e, 0xa870879512629fb4}},
+};
+static const uint64_t floor_hashes[2] = {
+    [HD_PRECISION_FLOAT] = 0x4ac8cae662331808,
+    [HD_PRECISION_DOUBLE] = 0x7fec99e0bbfce896,
+};
+
+static uint64_t expected_hash(HdSelfTestFrame frame, HdPrecision precision, bool refracts,
+                              bool lit_from_behind) {
+    return frame == HD_SELF_TEST_FLOOR ? floor_hashes[precision]
+                                       : solid_hashes[precision][refracts][lit_from_behind];
+}
+
+void hd_self_test_stamp(const HdKernelShape *shape, char *text, size_t capacity) {
+    const HdKernelNeeds *needs = &shape->needs;
+    if (shape->math != HD_MATH_STRICT) {
+        snprintf(text, capacity, "not tested, for the arithmetic is fast");
+        return;
+    }
+    snprintf(text, capacity, "passed the self-test (%016" PRIx64 ", %016" PRIx64 ")",
+             expected_hash(HD_SELF_TEST_SOLID, shape->precision, needs->refracts,
+                           needs->lit_from_behind),
+             expected_hash(HD_SELF_TEST_FLOOR, shape->precision, needs->refracts,
+                           needs->lit_from_behind));
+}
+
+static int greater(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* The tables claim to need what `like` does, so that they are rendered by the same kernels. */
+static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScene *scene,
+                        const HdSceneTables *like, HdError *error) {
+    HdCamera camera;
+    HdStatus status = hd_camera_at(&camera, scene, 0, error);
+    if (status == HD_OK)
+        status = hd_compile_scene(tables, scene, like->precision, error);
+    if (status != HD_OK)
+        return status;
+    tables->plane_count = greater(tables->plane_count, like->plane_count);
+    tables->depth = greater(tables->depth, like->depth);
+    tables->refracts = like->refracts;
+    tables->lit_from_behind = like->lit_from_behind;
+    status = hd_compile_frame(view, scene, &camera, like->precision, error);
+    if (status != HD_OK)
+        hd_scene_tables_free(tables);
+    return status;
+}
+
+static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *scene,
+                       const HdSceneTables *like, uint64_t *hash, HdError *error) {
+    HdSceneTables tables;
+    HdFrameTables view;
+    HdFrame image;
+    HdStatus status = compile(&tables, &view, scene, like, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_frame_create(&image, scene->width, scene->height, error);
+    if (status == HD_OK) {
+        status = backend->upload(renderer, &tables, error);
+        if (status == HD_OK)
+            status = backend->render(renderer, &view, &image, error);
+        *hash = hd_frame_hash(&image);
+        hd_frame_free(&image);
+    }
+    hd_frame_tables_free(&view);
+    hd_scene_tables_free(&tables);
+    return status;
+}
+
+static HdStatus test_frame(const HdBackend *backend, void *renderer, const HdDevice *device,
+                           HdSelfTestFrame frame, const HdSceneTables *like, HdError *error) {
+    HdScene scene;
+    uint64_t hash = 0, expected = expected_hash(frame, like->precision, like->refracts,
+                                                like->lit_from_behind);
+    HdStatus status =
+        hd_self_test_scene(&scene, frame, like->refracts, like->lit_from_behind, error);
+    if (status != HD_OK)
+        return status;
+    status = render(backend, renderer, &scene, like, &hash, error);
+    hd_scene_free(&scene);
+    if (status == HD_OK && hash != expected)
+        status = hd_fail(error, HD_UNAVAILABLE,
+                         "%s (%s) computes wrongly: the kernels that were compiled for it render "
+                         "the test frame '%s' with the hash %016" PRIx64 ", expected %016" PRIx64
+                         "; another version of its driver or compiler may do better",
+                         device->name, device->driver, frame_names[frame], hash, expected);
+    return status;
+}
+
+HdStatus hd_self_test(const HdBackend *backend, void *renderer, const HdDevice *device,
+                      const HdSceneTables *scene, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int frame = 0; status == HD_OK && frame < HD_SELF_TEST_FRAMES; frame++)
+        status = test_frame(backend, renderer, device, (HdSelfTestFrame)frame, scene, error);
+    return status;
+}

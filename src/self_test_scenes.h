@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* The frames of the self-test. */
+#ifndef HD_SELF_TEST_SCENES_H
+#define HD_SELF_TEST_SCENES_H
+
+#include <stdbool.h>
+
+#include "scene.h"
+
+typedef enum HdSelfTestFrame {
+    HD_SELF_TEST_SOLID, /* a cube with rims and edge lights, a mirror and glass at once */
+    HD_SELF_TEST_FLOOR, /* a textured floor */
+    HD_SELF_TEST_FRAMES
+} HdSelfTestFrame;
+
+/* Builds a frame's scene, which has at most as many planes and as great a depth as the smallest
+   bounds of kernels (hd_kernel_bound). The caller frees it. */
+HdStatus hd_self_test_scene(HdScene *scene, HdSelfTestFrame frame, bool refracts,
+                            bool lit_from_behind, HdError *error);
+
+#endif

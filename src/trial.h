@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* Short measurements on the user's own scene: a smaller picture of its first frame. */
+#ifndef HD_TRIAL_H
+#define HD_TRIAL_H
+
+#include "backend.h"
+#include "scene.h"
+
+/* What is to be rendered. */
+typedef struct HdJob {
+    const HdScene *scene; /* valid */
+    int first_frame;
+    int frame_count;
+} HdJob;
+
+/* A renderer on which the job's scene is. */
+HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
+                       const HdRenderOptions *options, const HdJob *job, HdError *error);
+
+/* Renders `share` of the pixels of a frame, more than 0 and at most 1, some times over. `*seconds`
+   is the least that one took, copies included, `*rendered` the share that was really rendered. */
+HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
+                          double share, int times, double *seconds, double *rendered,
+                          HdError *error);
+
+/* About how many seconds plain C takes for a whole frame. Measures no longer than it must to know,
+   some hundredths of a second, and stops early where `frame_count` of them take less than
+   `enough` seconds. */
+HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, double enough,
+                           double *frame_seconds, HdError *error);
+
+#endif

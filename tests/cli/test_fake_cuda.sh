@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The CUDA backend as far as it goes without a device, with a driver that renders nothing: that wrong
+# kernels are an error, and which kernels are kept.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+build=${2:?the build folder is the second argument}
+nvrtc=$cli_folder/../../build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
+if [[ ! -e $nvrtc ]]; then
+    skip "there is no NVRTC 12 in build/nvrtc12"
+fi
+export LD_LIBRARY_PATH=$build/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+export HEDRON_CACHE=$work/cache
+export HEDRON_NVRTC=$nvrtc
+mkdir "$work/no_vendors"
+export OCL_ICD_VENDORS=$work/no_vendors
+render=("$hedron" render "${small[@]}" --frames 0 -o picture.data)
+
+# expect_build REGEX: what is said of the kernels.
+expect_build() {
+    if (($(grep -c -x -E -e "build +$1" "$logs/stderr") != 1)); then
+        fail "standard error has no line that is $1"
+        show_logs
+    fi
+}
+
+expect_exit 0 "$hedron" devices
+expect_stdout_contains 'Fake device 0'
+expect_stdout_contains 'sm_61, driver for CUDA 12.8'
+
+# ---- a device that renders nothing is an error, not a black picture
+expect_refusal 3 "${render[@]}" --backend cuda --quiet
+expect_stderr_contains 'cuda: Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly'
+expect_files .
+if compgen -G "$work/cache/cuda-*" >"$logs/which"; then
+    fail "wrong kernels are kept"
+fi
+
+# ---- where any device will do, the next one is taken, and a sentence tells it
+"$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.data >"$logs/stdout"
+expect_exit 0 "$hedron" --gpu "${small[@]}" --frames 0 <<<"$("$hedron" --default)"
+expect_sentence
+expect_stderr_contains 'computes wrongly'
+expect_stderr_contains 'tracing with c on'
+rm -r out
+# A small job wakes no driver.
+expect_exit 0 "${render[@]}" --verbose
+expect_stderr_contains 'it needs about'
+expect_same picture.data expected.data
+rm picture.data expected.data
+
+# ---- kernels that need no test are kept; then NVRTC is not loaded
+fast=("${render[@]}" --backend cuda --math fast --verbose)
+expect_exit 0 "${fast[@]}"
+expect_build 'compiled in [0-9]+ ms by NVRTC 12\.[0-9]+; not tested, for the arithmetic is fast; cached'
+expect_exit 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "${fast[@]}"
+expect_build "taken from $work/cache, made by NVRTC 12\.[0-9]+"
+if ! grep -q 'libcuda' "$work"/loaded.*; then
+    fail "nothing tells which libraries were loaded"
+fi
+if grep -q 'libnvrtc' "$work"/loaded.*; then
+    fail "NVRTC was loaded for kernels that are kept"
+fi
+
+# ---- another NVRTC by name, an entry that is damaged, a driver that refuses it
+cp "$nvrtc" "$work/libnvrtc.so.12"
+cp "$(dirname "$nvrtc")"/libnvrtc-builtins.so.12.* "$work"
+expect_exit 0 env HEDRON_NVRTC="$work/libnvrtc.so.12" "${fast[@]}"
+expect_build 'compiled in .*; cached'
+rm "$work"/libnvrtc*
+for entry in "$work"/cache/cuda-*; do
+    printf 'x' | dd of="$entry" bs=1 seek=9000 conv=notrunc status=none
+done
+expect_exit 0 "${fast[@]}"
+expect_build '.* its checksum is wrong; compiled in .*; cached'
+expect_exit 0 env FAKE_CUDA_REFUSES=1 "${fast[@]}"
+expect_build 'the driver refused the cached kernels; .*; compiled in .*; cached'
+expect_refusal 1 env FAKE_CUDA_REFUSES=2 "${render[@]}" --backend cuda --math fast --quiet
+expect_stderr_contains 'does not load what NVRTC 12.'
+expect_exit 0 "${fast[@]}"
+expect_build 'taken from .*'
+
+# ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
+long=("$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)
+fastest='device +cuda 0, .*: the fastest of 2 on this kind of scene'
+for when in '' ', measured earlier'; do
+    expect_exit 0 "${long[@]}"
+    if ! grep -q -x -E "$fastest$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); passed over: opencl: .*" "$logs/stderr"; then
+        fail "it is not told that the fastest was taken$when"
+        show_logs
+    fi
+done
+expect_exit 0 env HEDRON_CACHE=off "${long[@]}"
+expect_stderr_contains 'the fastest of 2 on this kind of scene, '
+
+# ---- a library that is gone is missed, though kernels are kept
+expect_refusal 3 env HEDRON_NVRTC="$work/libnvrtc.so.12" "${render[@]}" --backend cuda --math fast --quiet
+expect_stderr_contains 'cannot be loaded as an NVRTC library'
+
+rm -f picture.data
+expect_files .
+finish

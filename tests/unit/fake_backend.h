@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* A backend for tests: plain C behind what compiles kernels while the program runs, with faults to
+   be switched on. */
+#ifndef HD_TEST_FAKE_BACKEND_H
+#define HD_TEST_FAKE_BACKEND_H
+
+#include <stdlib.h>
+#include <time.h>
+
+#include "expect.h"
+#include "kernel_cache.h"
+
+static struct {
+    bool is_missing;      /* open fails */
+    bool fails;           /* to render */
+    bool renders_wrongly; /* a bit of the picture's last number is wrong */
+    bool refuses_binary;  /* what comes from the cache */
+    bool hides_binary;    /* gives none away */
+    const char *options;
+    int slow_milliseconds; /* more, for each frame of the device with this number */
+    int slow_index;
+    int opened, compiled, loaded, rendered;
+} fake;
+
+typedef struct FakeRenderer {
+    void *c;
+    HdKernelCache kernels;
+    HdKernelShape shape;
+    bool is_built;
+    int index;
+} FakeRenderer;
+
+static HdStatus fake_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
+    return hd_backend_c.enumerate(devices, capacity, count, error);
+}
+
+static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
+                          HdError *error) {
+    fake.opened++;
+    if (fake.is_missing)
+        return hd_fail(error, HD_UNAVAILABLE, "it is missing");
+    FakeRenderer *opened = calloc(1, sizeof *opened);
+    assert_non_null(opened);
+    opened->index = device->index;
+    opened->shape.precision = options->precision;
+    opened->shape.math = options->math;
+    hd_kernel_cache_begin(&opened->kernels, device);
+    *renderer = opened;
+    return hd_backend_c.open(device, options, &opened->c, error);
+}
+
+static unsigned char *fake_read(const void *context, size_t *size) {
+    (void)context;
+    unsigned char *binary = fake.hides_binary ? NULL : malloc(4);
+    if (binary != NULL)
+        memcpy(binary, "fake", 4);
+    *size = 4;
+    return binary;
+}
+
+static void fake_build(FakeRenderer *renderer) {
+    static const char source[] = "text";
+    unsigned char *binary;
+    size_t size;
+    const char *options = fake.options != NULL ? fake.options : "";
+    renderer->is_built = true;
+    if (hd_kernel_cache_find(&renderer->kernels, &renderer->shape, source, sizeof source, options,
+                             "1", &binary, &size)) {
+        assert_int_equal(size, 4);
+        assert_memory_equal(binary, "fake", 4);
+        free(binary);
+        fake.loaded++;
+        if (!fake.refuses_binary)
+            return;
+        hd_kernel_cache_refuse(&renderer->kernels, "it does not like them");
+    }
+    fake.compiled++;
+    hd_kernel_cache_compiled(&renderer->kernels, fake_read, NULL, "nobody", 0.001);
+}
+
+static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *error) {
+    FakeRenderer *renderer = state;
+    HdKernelNeeds needs = hd_kernel_needs(tables);
+    if (!renderer->is_built || !hd_kernel_needs_equal(&needs, &renderer->shape.needs)) {
+        renderer->shape.needs = needs;
+        fake_build(renderer);
+    }
+    return hd_backend_c.upload(renderer->c, tables, error);
+}
+
+static HdStatus fake_render(void *state, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
+    FakeRenderer *renderer = state;
+    const struct timespec pause = {.tv_nsec = 1000000L * fake.slow_milliseconds};
+    fake.rendered++;
+    if (renderer->index == fake.slow_index)
+        nanosleep(&pause, NULL);
+    if (fake.fails)
+        return hd_fail(error, HD_FAILED, "it fails");
+    HdStatus status = hd_backend_c.render(renderer->c, tables, frame, error);
+    if (status == HD_OK && fake.renders_wrongly) {
+        uint32_t bits;
+        float *last = &frame->rgb[(size_t)frame->width * (size_t)frame->height * 3 - 1];
+        memcpy(&bits, last, sizeof bits);
+        bits ^= 1;
+        memcpy(last, &bits, sizeof bits);
+    }
+    return status;
+}
+
+static HdKernelCache *fake_kernels(void *state) {
+    FakeRenderer *renderer = state;
+    return &renderer->kernels;
+}
+
+static void fake_describe(const void *renderer, char *text, int capacity) {
+    (void)renderer;
+    (void)capacity;
+    text[0] = '\0';
+}
+
+static void fake_close(void *state) {
+    FakeRenderer *renderer = state;
+    hd_backend_c.close(renderer->c);
+    free(renderer);
+}
+
+static const HdBackend fake_backend = {
+    .name = "fake",
+    .enumerate = fake_enumerate,
+    .open = fake_open,
+    .upload = fake_upload,
+    .render = fake_render,
+    .kernels = fake_kernels,
+    .describe = fake_describe,
+    .close = fake_close,
+};
+
+static inline HdDevice fake_device(void) {
+    return (HdDevice){
+        .backend = &fake_backend, .name = "Fake 1000", .driver = "driver 7", .has_double = true};
+}
+
+#endif

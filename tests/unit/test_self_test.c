@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+#include "self_test.h"
+
+#include "expect.h"
+#include "self_test_scenes.h"
+
+static HdError error;
+
+static HdDevice c_device(void) {
+    HdDevice device;
+    int count;
+    assert_int_equal(hd_backend_c.enumerate(&device, 1, &count, &error), HD_OK);
+    return device;
+}
+
+static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_from_behind) {
+    HdDevice device = c_device();
+    HdRenderOptions options = {.lanes = lanes, .threads = 1, .precision = precision};
+    HdSceneTables like = {
+        .precision = precision, .refracts = refracts, .lit_from_behind = lit_from_behind};
+    void *renderer;
+    assert_int_equal(hd_backend_c.open(&device, &options, &renderer, &error), HD_OK);
+    HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &error);
+    hd_backend_c.close(renderer);
+    if (status != HD_OK)
+        print_error("precision %d, refraction %d, light from behind %d, %d lanes: %s\n",
+                    (int)precision, refracts, lit_from_behind, lanes, error.message);
+    return status == HD_OK;
+}
+
+/* Every frame that fails is told, for what it tells is what to commit where kernels changed. */
+static void the_c_backend_passes(void **state) {
+    (void)state;
+    static const int lanes[] = {0, 1, 4, 8, 16};
+    int failed = 0;
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 5; k++)
+            failed += !passes(lanes[k], i < 4 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE,
+                              (i & 2) != 0, (i & 1) != 0);
+    assert_int_equal(failed, 0);
+}
+
+static void frames_are_valid_and_fit_every_build(void **state) {
+    (void)state;
+    for (int i = 0; i < 4 * HD_SELF_TEST_FRAMES; i++) {
+        HdScene scene;
+        HdSceneTables tables;
+        assert_int_equal(hd_self_test_scene(&scene, (HdSelfTestFrame)(i / 4), (i & 2) != 0,
+                                            (i & 1) != 0, &error),
+                         HD_OK);
+        assert_int_equal(hd_scene_validate(&scene, &error), HD_OK);
+        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, &error), HD_OK);
+        assert_true(tables.plane_count <= hd_kernel_bound(0));
+        assert_true(tables.depth <= hd_kernel_bound(0));
+        if (i / 4 == HD_SELF_TEST_SOLID) {
+            assert_int_equal(tables.refracts, (i & 2) != 0);
+            assert_int_equal(tables.lit_from_behind, (i & 1) != 0);
+        }
+        hd_scene_tables_free(&tables);
+        hd_scene_free(&scene);
+    }
+}
+
+/* What the frames are to find must change them. */
+static void frames_differ(void **state) {
+    (void)state;
+    char stamps[8][160];
+    for (int i = 0; i < 8; i++) {
+        HdKernelShape shape = {.precision = i < 4 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE,
+                               .needs = {.refracts = (i & 2) != 0, .lit_from_behind = i & 1}};
+        hd_self_test_stamp(&shape, stamps[i], sizeof stamps[i]);
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(stamps[k], stamps[i]);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_c_backend_passes),
+        cmocka_unit_test(frames_are_valid_and_fit_every_build),
+        cmocka_unit_test(frames_differ),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
