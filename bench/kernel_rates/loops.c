@@ -38,7 +38,7 @@ typedef struct Sight {
 } Sight;
 
 static vint live_lanes(vmask alive) {
-    return splat_int(0) - alive;
+    return count_lanes(splat_int(0), alive);
 }
 
 static int sum_of_lanes(vint a) {
@@ -172,7 +172,7 @@ static void visit_points(const HdTable *scene, const HdTable *frame, const Sight
     points.lit.active =
         sight->struck & (lt(zero, material->diffuse) | lt(zero, material->specular));
     points.lit.object = spread_first(sight->hit.object, sight->struck);
-    points.lit.plane = sight->hit.plane;
+    points.lit.face = sight->hit.face;
     points.lit.inside = sight->on_solid & ~sight->hit.entering;
     if (!any_lane(points.lit.active))
         return;
@@ -211,7 +211,7 @@ NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame
         Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, bundles[i].is_eye);
         Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
         nearest = lesser(hit.t, nearest);
-        mixed = mixed + (hit.object & hit.plane & hit.entering);
+        mixed = mixed + count_lanes(hit.object & hit.face, hit.entering);
     }
     return (uint64_t)(sum_of_lanes(mixed) + (int)lane_real(&nearest, 0));
 }
