@@ -451,4 +451,67 @@ FN int first_lane(vmask m) {
     return lane;
 }
 
+/* ---- memory: as many consecutive numbers as a bundle has lanes, wherever they begin ---- */
+
+#if HD_LANES == 1
+FN vreal load_reals(GLOBAL const real *from) {
+    return *from;
+}
+FN vint load_ints(GLOBAL const int *from) {
+    return *from;
+}
+FN void store_reals(GLOBAL real *to, vreal a) {
+    *to = a;
+}
+#elif defined(__OPENCL_C_VERSION__)
+FN vreal load_reals(GLOBAL const real *from) {
+    return HD_PASTE(vload, HD_LANES)(0, from);
+}
+FN vint load_ints(GLOBAL const int *from) {
+    return HD_CONVERT_INT(HD_PASTE(vload, HD_LANES)(0, from));
+}
+FN void store_reals(GLOBAL real *to, vreal a) {
+    HD_PASTE(vstore, HD_LANES)(a, 0, to);
+}
+#else
+FN vreal load_reals(const real *from) {
+    vreal a;
+    __builtin_memcpy(&a, from, sizeof a);
+    return a;
+}
+FN vint load_ints(const int *from) {
+    int32_t a __attribute__((vector_size(HD_LANES * 4)));
+    __builtin_memcpy(&a, from, sizeof a);
+    return __builtin_convertvector(a, vint);
+}
+FN void store_reals(real *to, vreal a) {
+    __builtin_memcpy(to, &a, sizeof a);
+}
+#endif
+
+/* What threads share. Where no group of threads works together (HD_GROUP_SIZE is 0), each has memory
+   of its own, and an addition is a plain one. */
+#if !HD_GROUP_SIZE
+FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
+    *sum += amount;
+}
+#elif defined(__OPENCL_C_VERSION__)
+#ifdef cl_khr_int64_base_atomics
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
+    atom_add(sum, amount);
+}
+#endif
+FN uint take_shared(GLOBAL uint *counter, uint amount) {
+    return atomic_add(counter, amount);
+}
+#else
+FN void add_shared(fixed64 *sum, fixed64 amount) {
+    atomicAdd((uint64 *)sum, (uint64)amount);
+}
+FN uint take_shared(uint *counter, uint amount) {
+    return atomicAdd(counter, amount);
+}
+#endif
+
 #endif
