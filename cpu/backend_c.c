@@ -162,7 +162,7 @@ static HdStatus prepare_queues(CRenderer *c, int samples_per_side, HdError *erro
         .depth = c->scene.depth,
         .grain = c->build->lanes,
         .samples = HD_BLOCK_PIXELS * samples_per_side * samples_per_side,
-        .samples_at_once = HD_CPU_MOST_LANES,
+        .samples_at_once = HD_WAVE_BUNDLE,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
     size_t each = padded(plan.real_bytes) + padded(plan.int_bytes) + padded(plan.sum_bytes);

@@ -21,8 +21,6 @@ typedef struct HdCpuQueue {
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
                          const HdCpuQueue *queue, float *pixels, HdRayCounts *counts);
 
-enum { HD_CPU_MOST_LANES = 16 };
-
 /* X(instruction set, lanes), from the most to the least capable. */
 #ifdef HD_CPU_X86
 #define HD_CPU_BUILDS(X)                                                                           \

@@ -56,7 +56,9 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
     if (code != CL_SUCCESS)
         status = fail_with_log(program->program, device->id, name, code, error);
     if (status == HD_OK)
-        status = create_kernel(&program->render, program->program, "hedron_render", error);
+        status = create_kernel(&program->render, program->program, hd_kernel_tracing(shape), error);
+    if (status == HD_OK && hd_kernel_storing(shape) != NULL)
+        status = create_kernel(&program->store, program->program, hd_kernel_storing(shape), error);
     if (status == HD_OK)
         status = create_kernel(&program->sum, program->program, "hedron_sum_counts", error);
     if (status != HD_OK)
@@ -67,6 +69,8 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
 void hd_opencl_program_free(HdOpenclProgram *program) {
     if (program->render)
         clReleaseKernel(program->render);
+    if (program->store)
+        clReleaseKernel(program->store);
     if (program->sum)
         clReleaseKernel(program->sum);
     if (program->program)

@@ -7,8 +7,8 @@
 #include "opencl_devices.h"
 
 typedef struct HdOpenclProgram {
-    cl_program program; /* NULL: there is none */
-    cl_kernel render, sum;
+    cl_program program;           /* NULL: there is none */
+    cl_kernel render, store, sum; /* hd_kernel_tracing, hd_kernel_storing, hedron_sum_counts */
 } HdOpenclProgram;
 
 /* Compiles the embedded text. `name` is the device's, for messages. On failure the compiler's log

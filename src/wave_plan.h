@@ -6,9 +6,12 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "compiled_scene.h"
 #include "error.h"
+
+enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
 
 typedef struct HdWaveNeeds {
     size_t bytes; /* to be used at most, unless the least that works is more */
@@ -25,7 +28,17 @@ typedef struct HdWavePlan {
     size_t real_bytes, int_bytes, sum_bytes;
 } HdWavePlan;
 
+/* What a device with that much memory should give to its queue: an eighth, at most a GiB. */
+size_t hd_wave_budget(uint64_t device_memory);
+
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs);
+
+/* The samples of so many items, or as many of them as can be counted. */
+int hd_wave_samples(int items, int samples_per_item);
+
+/* The groups of threads of the largest launch; `grid` is the most there may be, 0: what suits. Each
+   has counts of its own. The first launch of a frame must have them all. */
+int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid);
 
 /* One launch: rays of a level, or samples of a batch for level 0. */
 typedef struct HdWaveStep {

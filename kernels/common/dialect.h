@@ -451,7 +451,8 @@ FN int first_lane(vmask m) {
     return lane;
 }
 
-/* ---- memory: as many consecutive numbers as a bundle has lanes, wherever they begin ---- */
+/* ---- memory: as many consecutive numbers as a bundle has lanes, wherever they begin; and the
+   lanes of a mask stored side by side, which may overwrite as much as a bundle ---- */
 
 #if HD_LANES == 1
 FN vreal load_reals(GLOBAL const real *from) {
@@ -460,18 +461,12 @@ FN vreal load_reals(GLOBAL const real *from) {
 FN vint load_ints(GLOBAL const int *from) {
     return *from;
 }
-FN void store_reals(GLOBAL real *to, vreal a) {
-    *to = a;
-}
 #elif defined(__OPENCL_C_VERSION__)
 FN vreal load_reals(GLOBAL const real *from) {
     return HD_PASTE(vload, HD_LANES)(0, from);
 }
 FN vint load_ints(GLOBAL const int *from) {
     return HD_CONVERT_INT(HD_PASTE(vload, HD_LANES)(0, from));
-}
-FN void store_reals(GLOBAL real *to, vreal a) {
-    HD_PASTE(vstore, HD_LANES)(a, 0, to);
 }
 #else
 FN vreal load_reals(const real *from) {
@@ -484,13 +479,44 @@ FN vint load_ints(const int *from) {
     __builtin_memcpy(&a, from, sizeof a);
     return __builtin_convertvector(a, vint);
 }
-FN void store_reals(real *to, vreal a) {
-    __builtin_memcpy(to, &a, sizeof a);
-}
 #endif
 
-/* What threads share. Where no group of threads works together (HD_GROUP_SIZE is 0), each has memory
-   of its own, and an addition is a plain one. */
+/* Where each lane of `m` is stored; returns how many these are. */
+FN int lane_offsets(vmask m, int offset[HD_LANES]) {
+    int count = 0;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        offset[lane] = count;
+        count -= lane_int(&m, lane);
+    }
+    return count;
+}
+
+#if HD_LANES * (HD_DOUBLE + 1) == 16 && defined(__AVX512DQ__) && !defined(__OPENCL_C_VERSION__)
+#if HD_DOUBLE
+FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)offset;
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(_mm512_movepi64_mask((__m512i)m), (__m512d)*a));
+}
+#else
+FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)offset;
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(_mm512_movepi32_mask((__m512i)m), (__m512)*a));
+}
+#endif
+#else
+FN void store_lanes(GLOBAL real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)m;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        to[offset[lane]] = lane_real(a, lane);
+}
+#endif
+FN void store_lanes_int(GLOBAL int *to, const int offset[HD_LANES], const vint *a) {
+    for (int lane = 0; lane < HD_LANES; lane++)
+        to[offset[lane]] = lane_int(a, lane);
+}
+
+/* What threads share. Where no group of threads works together (HD_GROUP_SIZE is 0), each has
+   memory of its own, and an addition is a plain one. */
 #if !HD_GROUP_SIZE
 FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
     *sum += amount;

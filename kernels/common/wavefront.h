@@ -10,10 +10,10 @@
 #include "render.h"
 #include "wave_stack.h"
 
-/* The queue and the batch's sums as structures of arrays: ray_reals has HD_RAY_REALS arrays of
-   queue_stride numbers, ray_ints HD_RAY_INTS, sums one of sum_stride for each channel. Behind each
-   buffer there is room for another bundle. `compact` is 0 where rays are appended with the dead
-   ones of their bundle or group, to see what leaving them out is worth. */
+/* The queue and the batch's sums as structures of arrays: ray_reals has WAVE_REALS arrays of
+   queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. `compact` is 0 where rays
+   are appended with the dead ones of their bundle or group, to see what leaving them out is worth.
+ */
 #define QUEUE_PARAMETERS                                                                           \
     GLOBAL real *RESTRICT ray_reals, GLOBAL int *RESTRICT ray_ints, GLOBAL fixed64 *RESTRICT sums, \
         int queue_stride, int sum_stride, int compact,
@@ -55,37 +55,26 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, vint *numbers) {
     return ray;
 }
 
-/* Stores the lanes of `m` side by side. */
-FN void store_field(GLOBAL real *to, vmask m, const vreal *a) {
-    for (int lane = 0; lane < HD_LANES; lane++)
-        if (lane_int(&m, lane))
-            *to++ = lane_real(a, lane);
-}
-
-FN int store_words(GLOBAL int *to, vmask m, const vint *a) {
-    int count = 0;
-    for (int lane = 0; lane < HD_LANES; lane++)
-        if (lane_int(&m, lane))
-            to[count++] = lane_int(a, lane);
-    return count;
-}
-
-/* Stores the lanes of `m` from the place `to` on; returns how many these are. */
+/* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
+   places are overwritten. */
 FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
     vint state = ray_state(ray);
-    store_words(ray_ints + to, m, &state);
-    store_field(reals, m, &ray->origin.x);
-    store_field(reals + stride, m, &ray->origin.y);
-    store_field(reals + 2 * stride, m, &ray->origin.z);
-    store_field(reals + 3 * stride, m, &ray->direction.x);
-    store_field(reals + 4 * stride, m, &ray->direction.y);
-    store_field(reals + 5 * stride, m, &ray->direction.z);
-    store_field(reals + 6 * stride, m, &ray->weight.x);
-    store_field(reals + 7 * stride, m, &ray->weight.y);
-    store_field(reals + 8 * stride, m, &ray->weight.z);
-    return store_words(ray_ints + stride + to, m, &numbers);
+    int offset[HD_LANES];
+    int count = lane_offsets(m, offset);
+    store_lanes_int(ray_ints + to, offset, &state);
+    store_lanes_int(ray_ints + stride + to, offset, &numbers);
+    store_lanes(reals, m, offset, &ray->origin.x);
+    store_lanes(reals + stride, m, offset, &ray->origin.y);
+    store_lanes(reals + 2 * stride, m, offset, &ray->origin.z);
+    store_lanes(reals + 3 * stride, m, offset, &ray->direction.x);
+    store_lanes(reals + 4 * stride, m, offset, &ray->direction.y);
+    store_lanes(reals + 5 * stride, m, offset, &ray->direction.z);
+    store_lanes(reals + 6 * stride, m, offset, &ray->weight.x);
+    store_lanes(reals + 7 * stride, m, offset, &ray->weight.y);
+    store_lanes(reals + 8 * stride, m, offset, &ray->weight.z);
+    return count;
 }
 
 /* ---- the batch's sums ---- */
@@ -140,44 +129,79 @@ FN void add_counts(const Sample *sample, RayCounts *counts) {
     }
 }
 
-/* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
-FN vmask kept_lanes(vmask alive, int compact) {
-    return compact || !any_lane(alive) ? alive : mask_all();
+FN void add_vector_counts(const Sample *sample, Sample *sum) {
+    sum->mirrored = sum->mirrored + sample->mirrored;
+    sum->transmitted = sum->transmitted + sample->transmitted;
+    sum->shadow_tests = sum->shadow_tests + sample->shadow_tests;
+    sum->clamps = sum->clamps + sample->clamps;
 }
 
-/* Traces the rays of a take; level 0 has the samples `first_sample` + take.first and so on of the
-   item. Returns how many places of the queue the rays that go on have taken. */
-FN int trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, int level,
-                  WaveTake take, RayCounts *counts) {
-    int going_on = 0;
+/* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
+FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, vint numbers) {
+    if (!any_lane(ray->alive))
+        return 0;
+    return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, numbers);
+}
+
+/* The ray of each sample from number `number` of the item on, at most `count`. */
+FN Ray first_rays(GLOBAL const View *view, int item, int number, int count) {
+    Vec3 direction;
+    vmask alive = sample_directions(view, item, number, &direction);
+    return eye_ray(direction, alive & lanes_below(count));
+}
+
+FN vint numbers_from(int number) {
+    vint numbers = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        set_lane_int(&numbers, lane, number + lane);
+    return numbers;
+}
+
+/* Traces the rays of a take, whose batch begins with the item's sample `first_sample`. Rays that
+   pass go on from the place take.to, mirrored ones from take.room places behind it: rays that went
+   the same way stay together. */
+FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, WaveTake take,
+                   int *passing, int *mirrored, RayCounts *counts) {
+    Sample sum = empty_sample();
+    *passing = *mirrored = 0;
     for (int i = 0; i < take.count; i += HD_LANES) {
+        int number = take.first + i;
         Sample sample = empty_sample();
         Ray ray, mirror, through;
-        vint numbers = splat_int(0);
-        if (level == 0) {
-            Vec3 direction;
-            int number = take.first + i;
-            vmask alive = sample_directions(view, item, first_sample + number, &direction);
-            ray = eye_ray(direction, alive & lanes_below(take.count - i));
-            for (int lane = 0; lane < HD_LANES; lane++)
-                set_lane_int(&numbers, lane, number + lane);
+        vint numbers;
+        if (take.level == 0) {
+            ray = first_rays(view, item, first_sample + number, take.count - i);
+            numbers = numbers_from(number);
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS take.first + i, take.count - i, &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, &numbers);
         }
         if (!any_lane(ray.alive))
             continue;
-        follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
-        if (level == 0)
-            set_sums(QUEUE_ARGUMENTS take.first + i, &sample);
+        follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
+        if (take.level == 0)
+            set_sums(QUEUE_ARGUMENTS number, &sample);
         else
             add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, &sample);
-        add_counts(&sample, counts);
-        going_on += store_rays(QUEUE_ARGUMENTS take.to + going_on,
-                               kept_lanes(mirror.alive, compact), &mirror, numbers);
-        going_on += store_rays(QUEUE_ARGUMENTS take.to + going_on,
-                               kept_lanes(through.alive, compact), &through, numbers);
+        add_vector_counts(&sample, &sum);
+        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, numbers);
+        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, numbers);
     }
-    return going_on;
+    add_counts(&sum, counts);
+}
+
+/* Traces the samples [first, first + batch) of an item. */
+FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int batch,
+                    RayCounts *counts) {
+    WaveSegment stack[WAVE_STACK_SIZE(DEPTH_BOUND)];
+    int top = -1;
+    wave_put(stack, &top, 0, 0, batch);
+    while (top >= 0) {
+        int passing, mirrored;
+        WaveTake take = wave_take(stack, &top, view->depth, queue_stride, HD_LANES);
+        trace_take(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, take, &passing, &mirrored, counts);
+        wave_put(stack, &top, take.level + 1, take.to, passing);
+        wave_put(stack, &top, take.level + 1, take.to + take.room, mirrored);
+    }
 }
 
 /* Renders the pixels of one item, as render_item does, in batches of at most sum_stride samples, a
@@ -185,24 +209,27 @@ FN int trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, 
 FN void render_item_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item, GLOBAL float *pixels,
                              GLOBAL RayCounts *counts) {
     Gathered gathered;
-    WaveLevel levels[DEPTH_BOUND + 1];
     int samples = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
     clear_gathered(&gathered);
     for (int first = 0; first < samples; first += sum_stride) {
         int batch = samples - first < sum_stride ? samples - first : sum_stride;
-        int level = 0;
-        levels[0].first = 0;
-        levels[0].waiting = batch;
-        while (level >= 0) {
-            WaveTake take = wave_take(levels, level, view->depth, queue_stride, HD_LANES);
-            int going_on = trace_take(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, level, take,
-                                      &gathered.counts);
-            level = wave_put(levels, level, take, going_on);
-        }
+        trace_batch(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, batch, &gathered.counts);
         gather_sums(view, sums, sum_stride, first, batch, &gathered);
     }
     store_pixels(view, item, &gathered, pixels);
     *counts = gathered.counts;
+}
+
+/* Renders every `workers`-th item from number `worker` on, with the worker's own part of the
+   buffers. */
+FN void render_items_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item_count, int worker,
+                              int workers, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
+    uint64 own = (uint64)worker;
+    ray_reals += own * (WAVE_REALS * (uint64)queue_stride + WAVE_SPARE);
+    ray_ints += own * (WAVE_INTS * (uint64)queue_stride + WAVE_SPARE);
+    sums += own * (WAVE_SUMS * (uint64)sum_stride + WAVE_SPARE);
+    for (int item = worker; item < item_count; item += workers)
+        render_item_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, pixels, counts + item);
 }
 
 /* ---- groups of threads with a queue in common ---- */
