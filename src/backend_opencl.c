@@ -240,6 +240,8 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
                                       renderer->name, shape, error);
     if (status == HD_OK)
         status = limit_local_size(renderer, error);
+    if (status != HD_OK)
+        hd_opencl_program_free(&renderer->program);
     return status;
 }
 
