@@ -12,13 +12,22 @@
 #include "../src/clock.h"
 #include "../src/interrupt.h"
 #include "../src/kernel_source.h"
+#include "../src/pipeline.h"
+#include "../src/wave_plan.h"
 #include "instruction_set.h"
 #include "kernel.h"
 #include "thread_pool.h"
 
+/* A thread's rays should stay in its processor's own cache. */
+enum { QUEUE_BYTES = 512 << 10 };
+
 typedef struct CRenderer {
     HdThreadPool *pool;
     int threads;
+    HdPipeline pipeline;
+    size_t queue_budget; /* for each thread */
+    HdCpuQueue *queues;  /* one for each thread; their memory is the first one's */
+    size_t queue_bytes;  /* of all of them */
     const HdCpuBuild *build;
     HdSceneTables scene; /* our own copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
@@ -53,8 +62,20 @@ static void c_close(void *renderer) {
     CRenderer *c = renderer;
     hd_thread_pool_destroy(c->pool);
     hd_scene_tables_free(&c->scene);
+    if (c->queues != NULL)
+        free(c->queues[0].reals);
+    free(c->queues);
     free(c->counts);
     free(c);
+}
+
+static HdStatus create_queues(CRenderer *c, HdError *error) {
+    c->queues = calloc((size_t)c->threads, sizeof *c->queues);
+    if (c->queues == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d queues", c->threads);
+    for (int i = 0; i < c->threads; i++)
+        c->queues[i].compact = c->pipeline == HD_PIPELINE_WAVEFRONT;
+    return HD_OK;
 }
 
 static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
@@ -64,8 +85,14 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     if (c == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     c->threads = options->threads > 0 ? options->threads : core_count();
+    c->pipeline = options->pipeline;
+    c->queue_budget = options->test.queue_bytes > 0 ? options->test.queue_bytes : QUEUE_BYTES;
     c->build = hd_cpu_find_build(options->lanes, options->precision, options->math);
-    HdStatus status = hd_thread_pool_create(&c->pool, c->threads, error);
+    HdStatus status = HD_OK;
+    if (hd_pipeline_is_wavefront(c->pipeline))
+        status = create_queues(c, error);
+    if (status == HD_OK)
+        status = hd_thread_pool_create(&c->pool, c->threads, error);
     if (status != HD_OK)
         c_close(c);
     else
@@ -110,16 +137,62 @@ static HdStatus reserve_counts(CRenderer *c, int items, HdError *error) {
     return HD_OK;
 }
 
+static HdStatus reserve_queues(CRenderer *c, size_t bytes, HdError *error) {
+    if (bytes <= c->queue_bytes)
+        return HD_OK;
+    free(c->queues[0].reals);
+    c->queue_bytes = 0;
+    c->queues[0].reals = aligned_alloc(64, bytes);
+    if (c->queues[0].reals == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: the queues of rays need %zu bytes", bytes);
+    memset(c->queues[0].reals, 0, bytes);
+    c->queue_bytes = bytes;
+    return HD_OK;
+}
+
+/* Whole lines of a cache. */
+static size_t padded(size_t bytes) {
+    return (bytes + 63) / 64 * 64;
+}
+
+static HdStatus prepare_queues(CRenderer *c, int samples_per_side, HdError *error) {
+    HdWaveNeeds needs = {
+        .bytes = c->queue_budget,
+        .precision = c->build->precision,
+        .depth = c->scene.depth,
+        .grain = c->build->lanes,
+        .samples = HD_BLOCK_PIXELS * samples_per_side * samples_per_side,
+        .samples_at_once = HD_WAVE_BUNDLE,
+    };
+    HdWavePlan plan = hd_wave_plan(&needs);
+    size_t each = padded(plan.real_bytes) + padded(plan.int_bytes) + padded(plan.sum_bytes);
+    HdStatus status = reserve_queues(c, each * (size_t)c->threads, error);
+    if (status != HD_OK)
+        return status;
+    char *memory = c->queues[0].reals;
+    for (int i = 0; i < c->threads; i++, memory += each) {
+        HdCpuQueue *queue = &c->queues[i];
+        queue->reals = memory;
+        queue->ints = (int *)(void *)(memory + padded(plan.real_bytes));
+        queue->sums =
+            (int64_t *)(void *)(memory + padded(plan.real_bytes) + padded(plan.int_bytes));
+        queue->queue_stride = plan.queue_stride;
+        queue->sum_stride = plan.sum_stride;
+    }
+    return HD_OK;
+}
+
 typedef struct FrameWork {
     CRenderer *c;
     const HdFrameTables *tables;
     float *pixels;
 } FrameWork;
 
-static void render_one_item(void *context, int item) {
+static void render_one_item(void *context, int thread, int item) {
     FrameWork *work = context;
-    work->c->build->kernel(work->c->scene.table, work->tables->table, item, work->pixels,
-                           work->c->counts);
+    CRenderer *c = work->c;
+    c->build->kernel(c->scene.table, work->tables->table, item,
+                     c->queues != NULL ? &c->queues[thread] : NULL, work->pixels, c->counts);
 }
 
 static bool is_interrupted(void) {
@@ -131,6 +204,8 @@ static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *f
     CRenderer *c = renderer;
     int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
     HdStatus status = reserve_counts(c, items, error);
+    if (status == HD_OK && c->queues != NULL)
+        status = prepare_queues(c, tables->samples_per_side, error);
     if (status != HD_OK)
         return status;
     FrameWork work = {c, tables, frame->rgb};
@@ -144,8 +219,9 @@ static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *f
 
 static void c_describe(const void *renderer, char *text, int capacity) {
     const CRenderer *c = renderer;
-    snprintf(text, (size_t)capacity, "%d lanes, %s, %d thread%s", c->build->lanes,
-             c->build->instruction_set, c->threads, c->threads == 1 ? "" : "s");
+    snprintf(text, (size_t)capacity, "%d lanes, %s, %d thread%s, %s", c->build->lanes,
+             c->build->instruction_set, c->threads, c->threads == 1 ? "" : "s",
+             hd_pipeline_name(c->pipeline));
 }
 
 const HdBackend hd_backend_c = {

@@ -2,19 +2,40 @@
 /* Entry point for plain C, named by HD_KERNEL_NAME. */
 #include "kernel.h"
 
-#include "../kernels/common/render.h"
+#include "../kernels/common/wavefront.h"
 
 #define TABLE_FROM_SCENE(type, name) const type *name = scene[HD_TABLE_##name].data;
 #define TABLE_FROM_FRAME(type, name) const type *name = frame[HD_TABLE_##name].data;
 
-HdCpuKernel HD_KERNEL_NAME;
+/* Two functions: in one of both the compiler makes slower code for each. */
+#define APART static __attribute__((noinline))
 
-void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, float *pixels,
-                    HdRayCounts *counts) {
+APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
+                                float *pixels) {
     HD_SCENE_TABLES(TABLE_FROM_SCENE)
     HD_FRAME_TABLES(TABLE_FROM_FRAME)
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
+    return counted;
+}
+
+APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
+                                const HdCpuQueue *queue, float *pixels) {
+    HD_SCENE_TABLES(TABLE_FROM_SCENE)
+    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    RayCounts counted;
+    render_item_by_waves(SCENE_ARGUMENTS queue->reals, queue->ints, queue->sums,
+                         queue->queue_stride, queue->sum_stride, queue->compact, item, pixels,
+                         &counted);
+    return counted;
+}
+
+HdCpuKernel HD_KERNEL_NAME;
+
+void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const HdCpuQueue *queue,
+                    float *pixels, HdRayCounts *counts) {
+    RayCounts counted = queue == NULL ? render_by_trees(scene, frame, item, pixels)
+                                      : render_by_waves(scene, frame, item, queue, pixels);
     counts[item] =
         (HdRayCounts){counted.mirrored, counted.transmitted, counted.shadow_tests, counted.clamps};
 }

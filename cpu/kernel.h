@@ -7,9 +7,19 @@
 #include "../src/compiled_scene.h"
 #include "../src/frame.h"
 
-/* Renders one work item: its pixels, and counts[item]. */
-typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item, float *pixels,
-                         HdRayCounts *counts);
+/* The queue that a thread works off its rays with (kernels/common/wavefront.h). */
+typedef struct HdCpuQueue {
+    void *reals; /* of the kernel's precision */
+    int *ints;
+    int64_t *sums;
+    int queue_stride, sum_stride;
+    int compact;
+} HdCpuQueue;
+
+/* Renders one work item: its pixels, and counts[item]. Without a queue (NULL) a bundle follows its
+   whole tree of rays, with one the tree is traced level by level. */
+typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
+                         const HdCpuQueue *queue, float *pixels, HdRayCounts *counts);
 
 /* X(instruction set, lanes), from the most to the least capable. */
 #ifdef HD_CPU_X86

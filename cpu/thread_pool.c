@@ -9,8 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef struct Thread {
+    pthread_t thread;
+    HdThreadPool *pool;
+    int number;
+} Thread;
+
 struct HdThreadPool {
-    pthread_t *threads;
+    Thread *threads;
     int thread_count;
     pthread_mutex_t mutex;
     pthread_cond_t work_given, work_done;
@@ -19,13 +25,13 @@ struct HdThreadPool {
     bool ending;
     atomic_int next;
     int count;
-    void (*work)(void *context, int item);
+    HdThreadWork *work;
     void *context;
     bool (*must_stop)(void);
     atomic_bool stopped; /* before all items were done */
 };
 
-static void work_off(HdThreadPool *pool) {
+static void work_off(HdThreadPool *pool, int thread) {
     for (;;) {
         int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (item >= pool->count)
@@ -34,12 +40,13 @@ static void work_off(HdThreadPool *pool) {
             atomic_store(&pool->stopped, true);
             return;
         }
-        pool->work(pool->context, item);
+        pool->work(pool->context, thread, item);
     }
 }
 
 static void *thread_main(void *argument) {
-    HdThreadPool *pool = argument;
+    const Thread *own = argument;
+    HdThreadPool *pool = own->pool;
     unsigned seen = 0;
     /* The caller may have been started with denormals flushed to zero, which threads inherit. */
     fesetenv(FE_DFL_ENV);
@@ -51,7 +58,7 @@ static void *thread_main(void *argument) {
             break;
         seen = pool->generation;
         pthread_mutex_unlock(&pool->mutex);
-        work_off(pool);
+        work_off(pool, own->number);
         pthread_mutex_lock(&pool->mutex);
         if (--pool->busy == 0)
             pthread_cond_signal(&pool->work_done);
@@ -64,14 +71,14 @@ static void *thread_main(void *argument) {
    about 2.2 MB, which is more than some systems give a thread. */
 enum { STACK_BYTES = 8 << 20 };
 
-static int start_thread(pthread_t *thread, HdThreadPool *pool) {
+static int start_thread(Thread *thread) {
     pthread_attr_t attributes;
     int code = pthread_attr_init(&attributes);
     if (code != 0)
         return code;
     code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
     if (code == 0)
-        code = pthread_create(thread, &attributes, thread_main, pool);
+        code = pthread_create(&thread->thread, &attributes, thread_main, thread);
     pthread_attr_destroy(&attributes);
     return code;
 }
@@ -81,7 +88,9 @@ static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
     if (pool->threads == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
     for (int i = 0; i < threads; i++) {
-        int code = start_thread(&pool->threads[i], pool);
+        pool->threads[i].pool = pool;
+        pool->threads[i].number = i;
+        int code = start_thread(&pool->threads[i]);
         if (code != 0)
             return hd_fail(error, HD_FAILED, "cannot start thread %d of %d: %s", i + 1, threads,
                            strerror(code));
@@ -105,8 +114,8 @@ HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) 
     return status;
 }
 
-bool hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
-                        void *context, bool (*must_stop)(void)) {
+bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
+                        bool (*must_stop)(void)) {
     pthread_mutex_lock(&pool->mutex);
     pool->count = count;
     pool->work = work;
@@ -131,7 +140,7 @@ void hd_thread_pool_destroy(HdThreadPool *pool) {
     pthread_cond_broadcast(&pool->work_given);
     pthread_mutex_unlock(&pool->mutex);
     for (int i = 0; i < pool->thread_count; i++)
-        pthread_join(pool->threads[i], NULL);
+        pthread_join(pool->threads[i].thread, NULL);
     pthread_cond_destroy(&pool->work_done);
     pthread_cond_destroy(&pool->work_given);
     pthread_mutex_destroy(&pool->mutex);

@@ -12,11 +12,14 @@ typedef struct HdThreadPool HdThreadPool;
 /* Starts `threads` threads (at least 1), each in the default floating-point environment. */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
 
-/* Calls work(context, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
+/* What a pool does; `thread` counts from 0, and no two calls with the same number run at once. */
+typedef void HdThreadWork(void *context, int thread, int item);
+
+/* Calls work(context, t, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
    order, and waits for all of them. One caller at a time. Once must_stop() is true no further item
    is begun; false where some were left out so. */
-bool hd_thread_pool_run(HdThreadPool *pool, int count, void (*work)(void *context, int item),
-                        void *context, bool (*must_stop)(void));
+bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
+                        bool (*must_stop)(void));
 
 /* Ends the threads. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);

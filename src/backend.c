@@ -8,6 +8,8 @@
 
 #include "../kernels/common/scene_tables.h"
 #include "kernel_cache.h"
+#include "pipeline.h"
+#include "scene_limits.h"
 #include "self_test.h"
 
 const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
@@ -36,6 +38,16 @@ static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
     if (options->threads < 0 || options->threads > HD_MAX_THREADS)
         return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
                        (int)HD_MAX_THREADS, options->threads);
+    int block = options->block;
+    if (block < 0 || block > HD_MAX_BLOCK || block % HD_BLOCK_STEP != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the threads of a block must be 0 or a multiple of %d up to %d, not %d",
+                       (int)HD_BLOCK_STEP, (int)HD_MAX_BLOCK, block);
+    if (options->grid < 0 || options->grid > HD_MAX_GRID)
+        return hd_fail(error, HD_BAD_INPUT, "the blocks of a grid must be 0 to %d, not %d",
+                       (int)HD_MAX_GRID, options->grid);
+    if ((int)options->pipeline < 0 || options->pipeline >= HD_PIPELINE_COUNT)
+        return hd_fail(error, HD_BAD_INPUT, "unknown pipeline %d", (int)options->pipeline);
     if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)
         return hd_fail(error, HD_BAD_INPUT, "unknown precision %d", (int)options->precision);
     if (options->math != HD_MATH_STRICT && options->math != HD_MATH_FAST)
@@ -50,8 +62,12 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
         return device->not_strict;
     if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
         return "the device has no double precision";
-    if (options->lanes > 1 && !device->is_cpu)
+    bool has_groups = !device->is_cpu || options->test.groups;
+    if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
+    if (has_groups && !device->has_wide_atomics &&
+        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options)))
+        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
     return NULL;
 }
 
@@ -78,7 +94,8 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     opened->backend = device->backend;
     opened->device = *device;
     opened->options = *options;
-    status = opened->backend->open(device, options, &opened->state, error);
+    opened->options.pipeline = hd_choose_pipeline(device, options);
+    status = opened->backend->open(device, &opened->options, &opened->state, error);
     if (status != HD_OK) {
         free(opened);
         return name_backend(device->backend, status, error);
@@ -133,7 +150,8 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
         check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
     if (status == HD_OK)
         status = check_precision(renderer, tables->precision, "scene", error);
-    if (status == HD_OK && (tables->plane_count < 0 || tables->depth < 0))
+    if (status == HD_OK &&
+        (tables->plane_count < 0 || tables->depth < 0 || tables->depth > HD_MAX_DEPTH))
         status = hd_fail(error, HD_BAD_INPUT, "a scene cannot have %d planes and the depth %d",
                          tables->plane_count, tables->depth);
     if (status != HD_OK)

@@ -12,13 +12,32 @@
 
 typedef enum HdMath { HD_MATH_STRICT, HD_MATH_FAST } HdMath;
 
-enum { HD_MAX_THREADS = 1024 };
+/* How the tree of rays is traced: a bundle follows its whole tree, or a level of many trees at a
+   time. A picture and its counts do not depend on it. */
+typedef enum HdPipeline {
+    HD_PIPELINE_AUTO,
+    HD_PIPELINE_MEGA,
+    HD_PIPELINE_WAVEFRONT,
+    HD_PIPELINE_WAVEFRONT_UNCOMPACTED, /* dead rays stay among the live ones; for comparison */
+    HD_PIPELINE_COUNT
+} HdPipeline;
+
+enum { HD_MAX_THREADS = 1024, HD_BLOCK_STEP = 32, HD_MAX_BLOCK = 1024, HD_MAX_GRID = 1 << 20 };
 
 typedef struct HdRenderOptions {
     int lanes;   /* 1, 4, 8 or 16; 0: what suits the device */
     int threads; /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
+    int block;   /* threads of a GPU's work group, a multiple of HD_BLOCK_STEP up to HD_MAX_BLOCK;
+                    0: what suits the device */
+    int grid;    /* work groups of one launch on a GPU, at most this; 0: what suits the device */
     HdPrecision precision;
     HdMath math;
+    HdPipeline pipeline;
+    struct {
+        bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
+        size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
+                               device */
+    } test;                 /* no option of the command line sets these */
 } HdRenderOptions;
 
 typedef struct HdBackend HdBackend;
@@ -33,6 +52,8 @@ typedef struct HdDevice {
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     bool has_double;
+    bool
+        has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
     char unusable[512];   /* why nothing can run there, say no compiler for it; empty: it can */
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
@@ -47,8 +68,9 @@ struct HdBackend {
        return HD_UNAVAILABLE and the reason: which library or driver is missing. */
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 
-    /* Opens one device that can do what the options ask (hd_device_obstacle). Must fail with
-       HD_UNAVAILABLE where the device or its driver cannot be used after all. */
+    /* Opens one device that can do what the options ask (hd_device_obstacle); their pipeline is not
+       HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE where the device or its driver cannot be used
+       after all. */
     HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                      HdError *error);
 
@@ -81,7 +103,7 @@ extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 const HdBackend *hd_backend_find(const char *name);
 
 /* Why the device cannot do what the options ask (strict arithmetic, double precision, several
-   lanes), in words; NULL: it can. The words live as long as the device. */
+   lanes, a wavefront), in words; NULL: it can. The words live as long as the device. */
 const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options);
 
 /* An open device. Messages of the functions below begin with the backend's name where the backend

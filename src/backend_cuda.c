@@ -11,6 +11,8 @@
 #include "interrupt.h"
 #include "kernel_cache.h"
 #include "nvrtc_check.h"
+#include "pipeline.h"
+#include "wave_plan.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -31,12 +33,18 @@ typedef struct Renderer {
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
-    HdCuFunction render, sum;
-    int registers, local_bytes; /* of `render` */
+    HdCuFunction render, store, sum; /* hd_kernel_tracing, hd_kernel_storing, hedron_sum_counts */
+    int registers, local_bytes;      /* of `render` */
     HdCuEvent start, end;
     Memory scene[HD_SCENE_TABLE_COUNT];
     Memory frame[HD_FRAME_TABLE_COUNT];
     Memory pixels, counts, sums;
+    HdPipeline pipeline;
+    int grid;           /* as asked for; 0: what suits the device */
+    int depth;          /* of the scene */
+    size_t queue_bytes; /* what the wavefront may use; 0: what suits the device */
+    HdWavePlan plan;
+    Memory queue_reals, queue_ints, queue_sums, queue_taken;
 } Renderer;
 
 static HdStatus check(const Renderer *renderer, HdCuResult code, const char *function,
@@ -118,6 +126,7 @@ static void describe_device(HdDevice *device, const HdCudaDriver *driver, int in
     device->backend = &hd_backend_cuda;
     device->index = index;
     device->has_double = true;
+    device->has_wide_atomics = true;
     snprintf(device->name, sizeof device->name, "CUDA device %d", index);
     if (query_device(device, driver, index, &error) != HD_OK)
         snprintf(device->unusable, sizeof device->unusable, "%.*s",
@@ -217,6 +226,10 @@ static void release_all(Renderer *renderer) {
     release(renderer, &renderer->pixels);
     release(renderer, &renderer->counts);
     release(renderer, &renderer->sums);
+    release(renderer, &renderer->queue_reals);
+    release(renderer, &renderer->queue_ints);
+    release(renderer, &renderer->queue_sums);
+    release(renderer, &renderer->queue_taken);
     unload_module(renderer);
     if (renderer->start)
         renderer->driver.event_destroy(renderer->start);
@@ -248,10 +261,14 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     renderer->shape = (HdKernelShape){
         .lanes = 1,
         .pixels_per_item = 1,
-        .group_size = BLOCK_THREADS,
+        .group_size = options->block > 0 ? options->block : BLOCK_THREADS,
+        .wavefront = hd_pipeline_is_wavefront(options->pipeline),
         .precision = options->precision,
         .math = options->math,
     };
+    renderer->pipeline = options->pipeline;
+    renderer->grid = options->grid;
+    renderer->queue_bytes = options->test.queue_bytes;
     HdStatus status = open_device(renderer, device->index, error);
     if (status == HD_OK)
         status = retain_context(renderer, error);
@@ -303,6 +320,18 @@ static HdStatus get_function(Renderer *renderer, HdCuFunction *function, const c
                 error);
 }
 
+/* Threads share the registers of a multiprocessor. */
+static HdStatus check_block(Renderer *renderer, HdError *error) {
+    int most = 0;
+    HdStatus status = CALL(renderer, function_attribute, cuFuncGetAttribute,
+                           (&most, HD_CU_FUNCTION_MAX_THREADS, renderer->render), error);
+    if (status == HD_OK && renderer->shape.group_size > most)
+        status = hd_fail(error, HD_UNAVAILABLE,
+                         "%s runs the kernel in blocks of at most %d threads, not %d",
+                         renderer->name, most, renderer->shape.group_size);
+    return status;
+}
+
 static HdStatus load_module(Renderer *renderer, HdError *error) {
     HdCuModule module = NULL;
     HdCuResult result = renderer->driver.module_load(&module, renderer->code.cubin);
@@ -313,9 +342,15 @@ static HdStatus load_module(Renderer *renderer, HdError *error) {
                        query_driver_version(&renderer->driver) / 1000, renderer->kernels.maker,
                        renderer->arch, hd_cuda_error_name(&renderer->driver, result));
     renderer->module = module;
-    HdStatus status = get_function(renderer, &renderer->render, "hedron_render", error);
+    const char *tracing = hd_kernel_tracing(&renderer->shape);
+    const char *storing = hd_kernel_storing(&renderer->shape);
+    HdStatus status = get_function(renderer, &renderer->render, tracing, error);
+    if (status == HD_OK && storing != NULL)
+        status = get_function(renderer, &renderer->store, storing, error);
     if (status == HD_OK)
         status = get_function(renderer, &renderer->sum, "hedron_sum_counts", error);
+    if (status == HD_OK)
+        status = check_block(renderer, error);
     if (status == HD_OK)
         status = CALL(renderer, function_attribute, cuFuncGetAttribute,
                       (&renderer->registers, HD_CU_FUNCTION_REGISTERS, renderer->render), error);
@@ -375,6 +410,7 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
 static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
+    renderer->depth = tables->depth;
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
@@ -388,7 +424,8 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
 
 /* ---- render ---- */
 
-static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int items,
+/* `count_slots` parts of the frame are counted one by one. */
+static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int count_slots,
                         HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
@@ -398,7 +435,7 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     if (status == HD_OK)
         status = resize(renderer, &renderer->pixels, pixel_bytes, "pixels", error);
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)items,
+        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
                         "counts of the work items", error);
     if (status == HD_OK)
         status = resize(renderer, &renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS,
@@ -406,11 +443,60 @@ static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int ite
     return status;
 }
 
+static HdStatus plan_waves(Renderer *renderer, int items, int samples_per_item, HdError *error) {
+    HdStatus status = HD_OK;
+    if (renderer->queue_bytes == 0) {
+        size_t available, total = 0;
+        status = CALL(renderer, memory_info, cuMemGetInfo, (&available, &total), error);
+        renderer->queue_bytes = hd_wave_budget(total);
+    }
+    HdWaveNeeds needs = {
+        .bytes = renderer->queue_bytes,
+        .precision = renderer->shape.precision,
+        .depth = renderer->depth,
+        .grain = renderer->shape.group_size,
+        .samples_at_once = samples_per_item,
+        .samples = hd_wave_samples(items, samples_per_item),
+    };
+    renderer->plan = hd_wave_plan(&needs);
+    return status;
+}
+
+static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
+    static const unsigned none[HD_MIN_TABLE_BYTES / sizeof(unsigned)] = {0};
+    const HdWavePlan *plan = &renderer->plan;
+    HdStatus status =
+        resize(renderer, &renderer->queue_reals, plan->real_bytes, "rays of the queue", error);
+    if (status == HD_OK)
+        status =
+            resize(renderer, &renderer->queue_ints, plan->int_bytes, "numbers of the queue", error);
+    if (status == HD_OK)
+        status =
+            resize(renderer, &renderer->queue_sums, plan->sum_bytes, "sums of the samples", error);
+    if (status == HD_OK)
+        status =
+            resize(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
+    if (status == HD_OK)
+        status = CALL(renderer, copy_to_device, cuMemcpyHtoD,
+                      (renderer->queue_taken.pointer, none, sizeof none), error);
+    return status;
+}
+
+static HdStatus launch_blocks(const Renderer *renderer, HdCuFunction function, int blocks,
+                              void **arguments, HdError *error) {
+    unsigned int threads = (unsigned int)renderer->shape.group_size;
+    return CALL(renderer, launch, cuLaunchKernel,
+                (function, (unsigned int)blocks, 1, 1, threads, 1, 1, 0, NULL, arguments, NULL),
+                error);
+}
+
+/* As many blocks as the items need, but no more than the grid may have. */
 static HdStatus launch(const Renderer *renderer, HdCuFunction function, int items,
                        int items_per_block, void **arguments, HdError *error) {
-    unsigned int blocks = (unsigned int)((items + items_per_block - 1) / items_per_block);
-    return CALL(renderer, launch, cuLaunchKernel,
-                (function, blocks, 1, 1, BLOCK_THREADS, 1, 1, 0, NULL, arguments, NULL), error);
+    int blocks = (items + items_per_block - 1) / items_per_block;
+    if (renderer->grid > 0 && blocks > renderer->grid)
+        blocks = renderer->grid;
+    return launch_blocks(renderer, function, blocks, arguments, error);
 }
 
 /* Launches are queued one by one, so that a signal ends the frame between two of them. */
@@ -423,14 +509,23 @@ static HdStatus wait_between(const Renderer *renderer, HdError *error) {
     return status;
 }
 
-static HdStatus launch_render(Renderer *renderer, int items, int samples_per_side, HdError *error) {
-    int first, count, parts = hd_gpu_sample_parts(samples_per_side, BLOCK_THREADS);
-    void *arguments[HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 5];
+/* Fills in the tables; returns how many arguments these are. */
+static int table_arguments(Renderer *renderer, void **arguments) {
     int n = 0;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
         arguments[n++] = &renderer->scene[i].pointer;
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         arguments[n++] = &renderer->frame[i].pointer;
+    return n;
+}
+
+enum { MOST_ARGUMENTS = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 };
+
+static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side, HdError *error) {
+    int block = renderer->shape.group_size;
+    int first, count, parts = hd_gpu_sample_parts(samples_per_side, block);
+    void *arguments[MOST_ARGUMENTS];
+    int n = table_arguments(renderer, arguments);
     arguments[n++] = &first;
     arguments[n++] = &count;
     arguments[n++] = &parts;
@@ -442,24 +537,95 @@ static HdStatus launch_render(Renderer *renderer, int items, int samples_per_sid
         if (status != HD_OK)
             break;
         count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
-        status = launch(renderer, renderer->render, count, BLOCK_THREADS / parts, arguments, error);
+        status = launch(renderer, renderer->render, count, block / parts, arguments, error);
     }
     return status;
 }
 
-static HdStatus launch_sum(Renderer *renderer, int items, HdError *error) {
-    void *arguments[] = {&renderer->counts.pointer, &items, &renderer->sums.pointer};
-    return launch(renderer, renderer->sum, HD_SUM_WORKERS, BLOCK_THREADS, arguments, error);
+typedef struct WaveLaunches {
+    Renderer *renderer;
+    int blocks; /* at most */
+} WaveLaunches;
+
+static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
+    const WaveLaunches *launches = context;
+    Renderer *renderer = launches->renderer;
+    int compact = renderer->pipeline == HD_PIPELINE_WAVEFRONT, is_first = step->is_first;
+    HdWavePlan plan = renderer->plan;
+    HdWaveStep own = *step;
+    void *arguments[MOST_ARGUMENTS];
+    int n = table_arguments(renderer, arguments);
+    arguments[n++] = &renderer->queue_reals.pointer;
+    arguments[n++] = &renderer->queue_ints.pointer;
+    arguments[n++] = &renderer->queue_sums.pointer;
+    arguments[n++] = &plan.queue_stride;
+    arguments[n++] = &plan.sum_stride;
+    arguments[n++] = &compact;
+    arguments[n++] = &own.first_item;
+    arguments[n++] = &own.level;
+    arguments[n++] = &own.first;
+    arguments[n++] = &own.count;
+    arguments[n++] = &own.to;
+    arguments[n++] = &own.taken_before;
+    arguments[n++] = &is_first;
+    arguments[n++] = &renderer->queue_taken.pointer;
+    arguments[n++] = &renderer->counts.pointer;
+    int block = renderer->shape.group_size;
+    int blocks = (step->count + block - 1) / block;
+    if (step->is_first || blocks > launches->blocks)
+        blocks = launches->blocks;
+    HdStatus status = launch_blocks(renderer, renderer->render, blocks, arguments, error);
+    if (status == HD_OK)
+        status = CALL(renderer, copy_to_host, cuMemcpyDtoH,
+                      (taken, renderer->queue_taken.pointer, sizeof *taken), error);
+    return status;
 }
 
-static HdStatus trace(Renderer *renderer, int items, int samples_per_side, double *seconds,
-                      HdError *error) {
+static HdStatus store_batch(void *context, int first_item, int item_count, HdError *error) {
+    const WaveLaunches *launches = context;
+    Renderer *renderer = launches->renderer;
+    HdWavePlan plan = renderer->plan;
+    void *arguments[] = {&renderer->frame[HD_TABLE_view].pointer,
+                         &renderer->queue_sums.pointer,
+                         &plan.sum_stride,
+                         &first_item,
+                         &item_count,
+                         &renderer->pixels.pointer};
+    return launch(renderer, renderer->store, item_count, renderer->shape.group_size, arguments,
+                  error);
+}
+
+static HdStatus launch_waves(Renderer *renderer, int items, int samples_per_side, int blocks,
+                             HdError *error) {
+    WaveLaunches launches = {renderer, blocks};
+    HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
+    HdWaveFrame frame = {
+        .items = items,
+        .samples_per_item = samples_per_side * samples_per_side,
+        .depth = renderer->depth,
+        .grain = renderer->shape.group_size,
+    };
+    return hd_wave_run(&renderer->plan, &frame, &device, error);
+}
+
+static HdStatus launch_sum(Renderer *renderer, int count_slots, HdError *error) {
+    int workers = HD_SUM_WORKERS, block = renderer->shape.group_size;
+    void *arguments[] = {&renderer->counts.pointer, &count_slots, &renderer->sums.pointer,
+                         &workers};
+    return launch_blocks(renderer, renderer->sum, (HD_SUM_WORKERS + block - 1) / block, arguments,
+                         error);
+}
+
+static HdStatus trace(Renderer *renderer, int items, int samples_per_side, int count_slots,
+                      double *seconds, HdError *error) {
     float milliseconds = 0.0f;
     HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->start, NULL), error);
     if (status == HD_OK)
-        status = launch_render(renderer, items, samples_per_side, error);
+        status = renderer->shape.wavefront
+                     ? launch_waves(renderer, items, samples_per_side, count_slots, error)
+                     : launch_mega(renderer, items, samples_per_side, error);
     if (status == HD_OK)
-        status = launch_sum(renderer, items, error);
+        status = launch_sum(renderer, count_slots, error);
     if (status == HD_OK)
         status = CALL(renderer, event_record, cuEventRecord, (renderer->end, NULL), error);
     if (status == HD_OK)
@@ -481,13 +647,22 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
     Renderer *renderer = state;
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
+    int samples = tables->samples_per_side * tables->samples_per_side, count_slots = items;
     HdRayCounts sums[HD_SUM_WORKERS];
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = prepare(renderer, tables, items, error);
+    if (renderer->shape.wavefront) {
+        status = plan_waves(renderer, items, samples, error);
+        count_slots = hd_wave_groups(&renderer->plan, renderer->shape.group_size, renderer->grid);
+        if (status == HD_OK)
+            status = prepare_waves(renderer, error);
+    }
     if (status == HD_OK)
-        status = trace(renderer, items, tables->samples_per_side, &frame->trace_seconds, error);
+        status = prepare(renderer, tables, count_slots, error);
+    if (status == HD_OK)
+        status = trace(renderer, items, tables->samples_per_side, count_slots,
+                       &frame->trace_seconds, error);
     if (status == HD_OK)
         status = read_back(renderer, &renderer->pixels, frame->rgb, error);
     if (status == HD_OK)
@@ -505,9 +680,10 @@ static HdKernelCache *cuda_kernels(void *state) {
 
 static void cuda_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
-    int length = snprintf(
-        text, (size_t)capacity, "sm_%d, 1 lane of %s, blocks of %d threads", renderer->arch,
-        renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float", (int)BLOCK_THREADS);
+    int length = snprintf(text, (size_t)capacity, "sm_%d, 1 lane of %s, blocks of %d threads, %s",
+                          renderer->arch,
+                          renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
+                          renderer->shape.group_size, hd_pipeline_name(renderer->pipeline));
     if (renderer->module && length > 0 && length < capacity)
         snprintf(text + length, (size_t)(capacity - length),
                  ", %d registers and %d bytes of local memory a thread, %s", renderer->registers,

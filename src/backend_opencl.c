@@ -9,8 +9,13 @@
 #include "device_launch.h"
 #include "interrupt.h"
 #include "opencl_program.h"
+#include "pipeline.h"
+#include "wave_plan.h"
 
 enum { CPU_PIXELS_PER_ITEM = HD_BLOCK_PIXELS, GPU_LOCAL_SIZE = 64 };
+
+/* Of the wavefront on CPUs: work items that strive to be even, each with a queue of its own. */
+enum { WORKERS_PER_UNIT = 8, CPU_QUEUE_BYTES = 512 << 10 };
 
 /* Arguments of hedron_render that follow the tables. */
 enum {
@@ -19,6 +24,17 @@ enum {
     ARGUMENT_PARTS,
     ARGUMENT_PIXELS,
     ARGUMENT_COUNTS
+};
+
+/* Those of hedron_trace_take and hedron_render_by_waves. */
+enum {
+    WAVE_ARGUMENT_REALS = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT,
+    WAVE_ARGUMENT_INTS,
+    WAVE_ARGUMENT_SUMS,
+    WAVE_ARGUMENT_QUEUE_STRIDE,
+    WAVE_ARGUMENT_SUM_STRIDE,
+    WAVE_ARGUMENT_COMPACT,
+    WAVE_ARGUMENT_OWN
 };
 
 typedef struct Buffer {
@@ -31,8 +47,14 @@ typedef struct Renderer {
     HdOpenclDevice device;
     HdKernelCache kernels;
     HdKernelShape shape; /* of the program, if there is one */
-    size_t local_size;   /* fixed: some drivers compile anew for each */
+    HdPipeline pipeline;
+    size_t local_size; /* fixed: some drivers compile anew for each */
     int launch_items;
+    int block, grid;    /* as asked for; 0: what suits the device */
+    bool has_groups;    /* of threads that work together, as GPUs have them */
+    size_t queue_bytes; /* of the wavefront, for a worker or for the device */
+    HdWavePlan plan;
+    int depth;
     bool has_profiling;
     cl_context context;
     cl_command_queue queue;
@@ -40,6 +62,7 @@ typedef struct Renderer {
     Buffer scene[HD_SCENE_TABLE_COUNT];
     Buffer frame[HD_FRAME_TABLE_COUNT];
     Buffer pixels, counts, sums;
+    Buffer queue_reals, queue_ints, queue_sums, queue_taken;
 } Renderer;
 
 static HdStatus check(cl_int code, const char *function, HdError *error) {
@@ -56,20 +79,31 @@ static int natural_lanes(int native_width) {
 }
 
 static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
-    bool is_cpu = renderer->device.is_cpu;
+    const HdOpenclDevice *device = &renderer->device;
+    bool has_groups = !device->is_cpu || options->test.groups;
     int lanes = options->lanes;
     if (lanes == 0)
-        lanes = is_cpu ? natural_lanes(renderer->device.native_width[options->precision]) : 1;
+        lanes = has_groups ? 1 : natural_lanes(device->native_width[options->precision]);
+    renderer->has_groups = has_groups;
+    renderer->pipeline = options->pipeline;
+    renderer->block = options->block;
+    renderer->grid = options->grid;
     renderer->shape = (HdKernelShape){
         .lanes = lanes,
-        .pixels_per_item = is_cpu ? CPU_PIXELS_PER_ITEM : 1,
-        .group_size = is_cpu ? 0 : GPU_LOCAL_SIZE,
+        .pixels_per_item = has_groups ? 1 : CPU_PIXELS_PER_ITEM,
+        .group_size = !has_groups          ? 0
+                      : options->block > 0 ? options->block
+                                           : GPU_LOCAL_SIZE,
+        .wavefront = hd_pipeline_is_wavefront(options->pipeline),
         .precision = options->precision,
         .math = options->math,
     };
-    renderer->local_size = is_cpu ? 1 : GPU_LOCAL_SIZE;
+    renderer->local_size = has_groups ? (size_t)renderer->shape.group_size : 1;
     renderer->launch_items =
-        is_cpu ? HD_MAX_LAUNCH_ITEMS : hd_gpu_launch_items(renderer->device.compute_units);
+        has_groups ? hd_gpu_launch_items(device->compute_units) : HD_MAX_LAUNCH_ITEMS;
+    renderer->queue_bytes = has_groups ? hd_wave_budget(device->memory) : CPU_QUEUE_BYTES;
+    if (options->test.queue_bytes > 0)
+        renderer->queue_bytes = options->test.queue_bytes;
 }
 
 static HdStatus create_queue(Renderer *renderer, HdError *error) {
@@ -100,6 +134,10 @@ static void opencl_close(void *state) {
     release(&renderer->pixels);
     release(&renderer->counts);
     release(&renderer->sums);
+    release(&renderer->queue_reals);
+    release(&renderer->queue_ints);
+    release(&renderer->queue_sums);
+    release(&renderer->queue_taken);
     hd_opencl_program_free(&renderer->program);
     if (renderer->queue)
         clReleaseCommandQueue(renderer->queue);
@@ -182,7 +220,12 @@ static HdStatus limit_local_size(Renderer *renderer, HdError *error) {
     size_t limit = 0;
     cl_int code = clGetKernelWorkGroupInfo(renderer->program.render, renderer->device.id,
                                            CL_KERNEL_WORK_GROUP_SIZE, sizeof limit, &limit, NULL);
-    renderer->local_size = renderer->device.is_cpu ? 1 : GPU_LOCAL_SIZE;
+    renderer->local_size = renderer->has_groups ? (size_t)renderer->shape.group_size : 1;
+    if (code == CL_SUCCESS && renderer->has_groups && renderer->block > 0 &&
+        renderer->local_size > limit)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "%s runs the kernel in work groups of at most %zu threads, not %d",
+                       renderer->name, limit, renderer->block);
     while (renderer->local_size > 1 && renderer->local_size > limit)
         renderer->local_size /= 2;
     return check(code, "clGetKernelWorkGroupInfo", error);
@@ -199,12 +242,15 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
                                       renderer->name, shape, &renderer->kernels, error);
     if (status == HD_OK)
         status = limit_local_size(renderer, error);
+    if (status != HD_OK)
+        hd_opencl_program_free(&renderer->program);
     return status;
 }
 
 static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
+    renderer->depth = tables->depth;
     HdStatus status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
         Buffer *buffer = &renderer->scene[i];
@@ -217,49 +263,99 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
 
 /* ---- render ---- */
 
-static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int items,
+typedef struct BufferNeed {
+    Buffer *buffer;
+    size_t bytes;
+    const char *what;
+} BufferNeed;
+
+static HdStatus resize_all(Renderer *renderer, const BufferNeed *needs, size_t count,
+                           HdError *error) {
+    HdStatus status = HD_OK;
+    for (size_t i = 0; status == HD_OK && i < count; i++)
+        status = resize(renderer, needs[i].buffer, needs[i].bytes, CL_MEM_READ_WRITE, needs[i].what,
+                        error);
+    return status;
+}
+
+/* `count_slots` parts of the frame are counted one by one. */
+static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int count_slots,
                         HdError *error) {
-    cl_kernel render = renderer->program.render, sum = renderer->program.sum;
+    cl_kernel sum = renderer->program.sum;
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
         Buffer *buffer = &renderer->frame[i];
         status = copy_table(renderer, buffer, &tables->table[i], "tables of the frame", error);
         if (status == HD_OK)
-            status = set_buffer(render, HD_SCENE_TABLE_COUNT + i, buffer, error);
+            status = set_buffer(renderer->program.render, HD_SCENE_TABLE_COUNT + i, buffer, error);
     }
-    const struct {
-        Buffer *buffer;
-        size_t bytes;
-        const char *what;
-    } outputs[] = {
+    const BufferNeed needs[] = {
         {&renderer->pixels, sizeof(float) * 3 * (size_t)tables->width * (size_t)tables->height,
          "pixels"},
-        {&renderer->counts, sizeof(HdRayCounts) * (size_t)items, "counts of the work items"},
+        {&renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots, "counts of the work items"},
         {&renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS, "sums of the counts"},
     };
-    for (size_t i = 0; status == HD_OK && i < sizeof outputs / sizeof *outputs; i++)
-        status = resize(renderer, outputs[i].buffer, outputs[i].bytes, CL_MEM_READ_WRITE,
-                        outputs[i].what, error);
     if (status == HD_OK)
-        status = set_buffer(render, ARGUMENT_PIXELS, &renderer->pixels, error);
-    if (status == HD_OK)
-        status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
+        status = resize_all(renderer, needs, sizeof needs / sizeof *needs, error);
     if (status == HD_OK)
         status = set_buffer(sum, 0, &renderer->counts, error);
     if (status == HD_OK)
-        status = set_int(sum, 1, items, error);
+        status = set_int(sum, 1, count_slots, error);
     if (status == HD_OK)
         status = set_buffer(sum, 2, &renderer->sums, error);
+    if (status == HD_OK)
+        status = set_int(sum, 3, HD_SUM_WORKERS, error);
     return status;
 }
 
-static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int items_per_group,
-                       cl_event *event, HdError *error) {
-    size_t local = renderer->local_size, share = (size_t)items_per_group;
-    size_t global = ((size_t)items + share - 1) / share * local;
+static HdStatus prepare_mega(Renderer *renderer, HdError *error) {
+    cl_kernel render = renderer->program.render;
+    HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &renderer->pixels, error);
+    if (status == HD_OK)
+        status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
+    return status;
+}
+
+/* The queues of `workers`, which have one each. */
+static HdStatus prepare_waves(Renderer *renderer, int workers, HdError *error) {
+    const HdWavePlan *plan = &renderer->plan;
+    cl_kernel render = renderer->program.render;
+    const BufferNeed needs[] = {
+        {&renderer->queue_reals, plan->real_bytes * (size_t)workers, "rays of the queue"},
+        {&renderer->queue_ints, plan->int_bytes * (size_t)workers, "numbers of the queue"},
+        {&renderer->queue_sums, plan->sum_bytes * (size_t)workers, "sums of the samples"},
+        {&renderer->queue_taken, HD_MIN_TABLE_BYTES, "counter of the queue"},
+    };
+    HdStatus status = resize_all(renderer, needs, sizeof needs / sizeof *needs, error);
+    for (int i = 0; status == HD_OK && i < 3; i++)
+        status = set_buffer(render, WAVE_ARGUMENT_REALS + i, needs[i].buffer, error);
+    if (status == HD_OK)
+        status = set_int(render, WAVE_ARGUMENT_QUEUE_STRIDE, plan->queue_stride, error);
+    if (status == HD_OK)
+        status = set_int(render, WAVE_ARGUMENT_SUM_STRIDE, plan->sum_stride, error);
+    if (status == HD_OK)
+        status = set_int(render, WAVE_ARGUMENT_COMPACT, renderer->pipeline == HD_PIPELINE_WAVEFRONT,
+                         error);
+    return status;
+}
+
+/* ---- launches ---- */
+
+static HdStatus launch_groups(Renderer *renderer, cl_kernel kernel, int groups, cl_event *event,
+                              HdError *error) {
+    size_t local = renderer->local_size, global = (size_t)groups * local;
     cl_int code =
         clEnqueueNDRangeKernel(renderer->queue, kernel, 1, NULL, &global, &local, 0, NULL, event);
     return check(code, "clEnqueueNDRangeKernel", error);
+}
+
+/* As many groups as the items need, but no more than the grid may have. */
+static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int items_per_group,
+                       cl_event *event, HdError *error) {
+    int groups = (items + items_per_group - 1) / items_per_group;
+    if (renderer->has_groups && renderer->grid > 0 && groups > renderer->grid)
+        groups = renderer->grid;
+    return launch_groups(renderer, kernel, groups, event, error);
 }
 
 /* Launches are queued one by one, so that a signal ends the frame between two of them. */
@@ -270,14 +366,16 @@ static HdStatus wait_between(const Renderer *renderer, HdError *error) {
     return status;
 }
 
-/* events[0] is the first launch's, events[1] the last one's. */
-static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, cl_event events[2],
-                           HdError *error) {
+/* Of all functions that launch: events[0] becomes that of the frame's first launch. */
+static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side, cl_event events[2],
+                            HdError *error) {
     cl_kernel render = renderer->program.render;
     int group_size = (int)renderer->local_size;
-    int parts = renderer->device.is_cpu ? 1 : hd_gpu_sample_parts(samples_per_side, group_size);
+    int parts = renderer->has_groups ? hd_gpu_sample_parts(samples_per_side, group_size) : 1;
     int count;
-    HdStatus status = set_int(render, ARGUMENT_PARTS, parts, error);
+    HdStatus status = prepare_mega(renderer, error);
+    if (status == HD_OK)
+        status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
         status = first > 0 ? wait_between(renderer, error) : HD_OK;
         if (status != HD_OK)
@@ -290,9 +388,118 @@ static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, 
             status = launch(renderer, render, count, group_size / parts,
                             first == 0 ? &events[0] : NULL, error);
     }
+    return status;
+}
+
+/* The wavefront of CPUs. */
+static HdStatus launch_workers(Renderer *renderer, int items, cl_event events[2], HdError *error) {
+    cl_kernel render = renderer->program.render;
+    int workers = renderer->device.compute_units * WORKERS_PER_UNIT;
+    workers = workers < items ? workers : items;
+    HdStatus status = prepare_waves(renderer, workers, error);
     if (status == HD_OK)
-        status =
-            launch(renderer, renderer->program.sum, HD_SUM_WORKERS, group_size, &events[1], error);
+        status = set_int(render, WAVE_ARGUMENT_OWN, items, error);
+    if (status == HD_OK)
+        status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &renderer->pixels, error);
+    if (status == HD_OK)
+        status = set_buffer(render, WAVE_ARGUMENT_OWN + 2, &renderer->counts, error);
+    return status == HD_OK ? launch_groups(renderer, render, workers, &events[0], error) : status;
+}
+
+typedef struct WaveLaunches {
+    Renderer *renderer;
+    int groups; /* at most */
+    cl_event *first_event;
+} WaveLaunches;
+
+static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
+    const WaveLaunches *launches = context;
+    Renderer *renderer = launches->renderer;
+    cl_kernel render = renderer->program.render;
+    const int numbers[] = {step->first_item, step->level, step->first,
+                           step->count,      step->to,    (int)step->taken_before,
+                           step->is_first};
+    HdStatus status = HD_OK;
+    for (int i = 0; status == HD_OK && i < (int)(sizeof numbers / sizeof *numbers); i++)
+        status = set_int(render, WAVE_ARGUMENT_OWN + i, numbers[i], error);
+    int local = (int)renderer->local_size;
+    int groups = (step->count + local - 1) / local;
+    if (step->is_first || groups > launches->groups)
+        groups = launches->groups;
+    if (status == HD_OK)
+        status = launch_groups(renderer, render, groups,
+                               step->is_first ? launches->first_event : NULL, error);
+    if (status == HD_OK)
+        status = check(clEnqueueReadBuffer(renderer->queue, renderer->queue_taken.memory, CL_TRUE,
+                                           0, sizeof *taken, taken, 0, NULL, NULL),
+                       "clEnqueueReadBuffer", error);
+    return status;
+}
+
+static HdStatus store_batch(void *context, int first_item, int item_count, HdError *error) {
+    const WaveLaunches *launches = context;
+    Renderer *renderer = launches->renderer;
+    cl_kernel store = renderer->program.store;
+    HdStatus status = set_int(store, 3, first_item, error);
+    if (status == HD_OK)
+        status = set_int(store, 4, item_count, error);
+    if (status == HD_OK)
+        status = launch(renderer, store, item_count, (int)renderer->local_size, NULL, error);
+    return status;
+}
+
+static HdStatus prepare_steps(Renderer *renderer, HdError *error) {
+    static const unsigned none = 0;
+    cl_kernel render = renderer->program.render, store = renderer->program.store;
+    const int own = WAVE_ARGUMENT_OWN + 7; /* after the numbers of a step */
+    HdStatus status = prepare_waves(renderer, 1, error);
+    if (status == HD_OK)
+        status = check(clEnqueueWriteBuffer(renderer->queue, renderer->queue_taken.memory, CL_TRUE,
+                                            0, sizeof none, &none, 0, NULL, NULL),
+                       "clEnqueueWriteBuffer", error);
+    if (status == HD_OK)
+        status = set_buffer(render, own, &renderer->queue_taken, error);
+    if (status == HD_OK)
+        status = set_buffer(render, own + 1, &renderer->counts, error);
+    if (status == HD_OK)
+        status = set_buffer(store, 0, &renderer->frame[HD_TABLE_view], error);
+    if (status == HD_OK)
+        status = set_buffer(store, 1, &renderer->queue_sums, error);
+    if (status == HD_OK)
+        status = set_int(store, 2, renderer->plan.sum_stride, error);
+    if (status == HD_OK)
+        status = set_buffer(store, 5, &renderer->pixels, error);
+    return status;
+}
+
+/* The wavefront of devices with groups of threads. */
+static HdStatus launch_steps(Renderer *renderer, int items, int samples_per_side, int groups,
+                             cl_event events[2], HdError *error) {
+    WaveLaunches launches = {renderer, groups, &events[0]};
+    HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
+    HdWaveFrame frame = {
+        .items = items,
+        .samples_per_item = samples_per_side * samples_per_side,
+        .depth = renderer->depth,
+        .grain = (int)renderer->local_size,
+    };
+    HdStatus status = prepare_steps(renderer, error);
+    return status == HD_OK ? hd_wave_run(&renderer->plan, &frame, &device, error) : status;
+}
+
+static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, int count_slots,
+                           cl_event events[2], HdError *error) {
+    HdStatus status;
+    if (!renderer->shape.wavefront)
+        status = launch_mega(renderer, items, samples_per_side, events, error);
+    else if (renderer->has_groups)
+        status = launch_steps(renderer, items, samples_per_side, count_slots, events, error);
+    else
+        status = launch_workers(renderer, items, events, error);
+    int local = (int)renderer->local_size;
+    if (status == HD_OK)
+        status = launch_groups(renderer, renderer->program.sum,
+                               (HD_SUM_WORKERS + local - 1) / local, &events[1], error);
     if (status == HD_OK)
         status = check(clFinish(renderer->queue), "clFinish", error);
     return status;
@@ -308,11 +515,11 @@ static double seconds_between(const cl_event events[2], double otherwise) {
     return has_start && has_end && end > start ? 1e-9 * (double)(end - start) : otherwise;
 }
 
-static HdStatus trace(Renderer *renderer, int items, int samples_per_side, double *seconds,
-                      HdError *error) {
+static HdStatus trace(Renderer *renderer, int items, int samples_per_side, int count_slots,
+                      double *seconds, HdError *error) {
     cl_event events[2] = {NULL, NULL};
     double start = hd_monotonic_seconds();
-    HdStatus status = launch_all(renderer, items, samples_per_side, events, error);
+    HdStatus status = launch_all(renderer, items, samples_per_side, count_slots, events, error);
     *seconds = hd_monotonic_seconds() - start;
     if (status == HD_OK && renderer->has_profiling)
         *seconds = seconds_between(events, *seconds);
@@ -328,15 +535,35 @@ static HdStatus read_back(Renderer *renderer, const Buffer *buffer, void *to, Hd
     return check(code, "clEnqueueReadBuffer", error);
 }
 
+static void plan_waves(Renderer *renderer, int items, int samples_per_side) {
+    const HdKernelShape *shape = &renderer->shape;
+    int per_item = shape->pixels_per_item * samples_per_side * samples_per_side;
+    HdWaveNeeds needs = {
+        .bytes = renderer->queue_bytes,
+        .precision = shape->precision,
+        .depth = renderer->depth,
+        .grain = renderer->has_groups ? (int)renderer->local_size : shape->lanes,
+        .samples_at_once = renderer->has_groups ? per_item : HD_WAVE_BUNDLE,
+        .samples = renderer->has_groups ? hd_wave_samples(items, per_item) : per_item,
+    };
+    renderer->plan = hd_wave_plan(&needs);
+}
+
 static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame *frame,
                               HdError *error) {
     Renderer *renderer = state;
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
     HdRayCounts sums[HD_SUM_WORKERS];
-    HdStatus status = prepare(renderer, tables, items, error);
+    int count_slots = items;
+    if (renderer->shape.wavefront)
+        plan_waves(renderer, items, tables->samples_per_side);
+    if (renderer->shape.wavefront && renderer->has_groups)
+        count_slots = hd_wave_groups(&renderer->plan, (int)renderer->local_size, renderer->grid);
+    HdStatus status = prepare(renderer, tables, count_slots, error);
     if (status == HD_OK)
-        status = trace(renderer, items, tables->samples_per_side, &frame->trace_seconds, error);
+        status = trace(renderer, items, tables->samples_per_side, count_slots,
+                       &frame->trace_seconds, error);
     if (status == HD_OK)
         status = read_back(renderer, &renderer->pixels, frame->rgb, error);
     if (status == HD_OK)
@@ -354,12 +581,14 @@ static HdKernelCache *opencl_kernels(void *state) {
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
-    snprintf(text, (size_t)capacity,
-             "%d lane%s of %s, work groups of %zu, %d pixel%s for each work item, %d compute units",
-             shape->lanes, shape->lanes == 1 ? "" : "s",
-             shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", renderer->local_size,
-             shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s",
-             renderer->device.compute_units);
+    snprintf(
+        text, (size_t)capacity,
+        "%d lane%s of %s, work groups of %zu, %d pixel%s for each work item, %d compute units, "
+        "%s",
+        shape->lanes, shape->lanes == 1 ? "" : "s",
+        shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", renderer->local_size,
+        shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s",
+        renderer->device.compute_units, hd_pipeline_name(renderer->pipeline));
 }
 
 const HdBackend hd_backend_opencl = {

@@ -17,6 +17,7 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_DOUBLE", shape->precision == HD_PRECISION_DOUBLE},
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
         {"HD_GROUP_SIZE", shape->group_size},
+        {"HD_WAVEFRONT", shape->wavefront},
         {"HD_PLANE_BOUND", shape->needs.plane_bound},
         {"HD_DEPTH_BOUND", shape->needs.depth_bound},
         {"HD_REFRACTS", shape->needs.refracts},
@@ -25,6 +26,16 @@ void hd_kernel_defines(const HdKernelShape *shape,
     };
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
+}
+
+const char *hd_kernel_tracing(const HdKernelShape *shape) {
+    if (!shape->wavefront)
+        return "hedron_render";
+    return shape->group_size > 0 ? "hedron_trace_take" : "hedron_render_by_waves";
+}
+
+const char *hd_kernel_storing(const HdKernelShape *shape) {
+    return shape->wavefront && shape->group_size > 0 ? "hedron_store_batch" : NULL;
 }
 
 int hd_kernel_bound(int count) {

@@ -26,6 +26,7 @@ typedef struct HdKernelShape {
     int lanes;
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
     int group_size;      /* most threads of a group that share items; 0: none do */
+    bool wavefront;      /* the kernels of that pipeline, or those of the other one */
     HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
@@ -36,12 +37,17 @@ typedef struct HdKernelShape {
    and all; 56 and 72 are no better. */
 enum { HD_REGISTER_LIMIT = 64 };
 
-enum { HD_KERNEL_DEFINE_COUNT = 9, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINE_COUNT = 10, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
    -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */
 void hd_kernel_defines(const HdKernelShape *shape,
                        char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
+
+/* The kernel that traces rays, and the one that stores the pixels of a batch; NULL: there is none.
+ */
+const char *hd_kernel_tracing(const HdKernelShape *shape);
+const char *hd_kernel_storing(const HdKernelShape *shape);
 
 /* A bound that scenes of similar size share, so that one build serves them all: the least power of
    two that is at least 8 and `count`. */

@@ -122,6 +122,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     find_obstacles(entry.device, device->unusable, sizeof device->unusable);
     find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
 }

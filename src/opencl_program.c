@@ -43,15 +43,21 @@ static HdStatus create_kernel(cl_kernel *kernel, cl_program program, const char 
     return *kernel ? HD_OK : hd_opencl_fail(error, "clCreateKernel", code);
 }
 
-static HdStatus create_kernels(HdOpenclProgram *program, HdError *error) {
-    HdStatus status = create_kernel(&program->render, program->program, "hedron_render", error);
+static HdStatus create_kernels(HdOpenclProgram *program, const HdKernelShape *shape,
+                               HdError *error) {
+    const char *storing = hd_kernel_storing(shape);
+    HdStatus status =
+        create_kernel(&program->render, program->program, hd_kernel_tracing(shape), error);
+    if (status == HD_OK && storing != NULL)
+        status = create_kernel(&program->store, program->program, storing, error);
     if (status == HD_OK)
         status = create_kernel(&program->sum, program->program, "hedron_sum_counts", error);
     return status;
 }
 
 static HdStatus compile(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
-                        const char *name, const char *options, HdError *error) {
+                        const char *name, const char *options, const HdKernelShape *shape,
+                        HdError *error) {
     const char *text = (const char *)hd_opencl_source;
     cl_int code;
     program->program = clCreateProgramWithSource(context, 1, &text, &hd_opencl_source_size, &code);
@@ -60,7 +66,7 @@ static HdStatus compile(HdOpenclProgram *program, cl_context context, const HdOp
     code = clBuildProgram(program->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS)
         return fail_with_log(program->program, device->id, name, code, error);
-    return create_kernels(program, error);
+    return create_kernels(program, shape, error);
 }
 
 /* ---- the driver's own form of the compiled kernels ---- */
@@ -82,8 +88,8 @@ static void read_platform_version(const HdOpenclDevice *device, char *text, size
 }
 
 static HdStatus load(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
-                     const char *options, const unsigned char *binary, size_t size,
-                     HdError *error) {
+                     const char *options, const HdKernelShape *shape, const unsigned char *binary,
+                     size_t size, HdError *error) {
     cl_int loaded = CL_SUCCESS, code;
     program->program =
         clCreateProgramWithBinary(context, 1, &device->id, &size, &binary, &loaded, &code);
@@ -94,7 +100,7 @@ static HdStatus load(HdOpenclProgram *program, cl_context context, const HdOpenc
     code = clBuildProgram(program->program, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS)
         return hd_opencl_fail(error, "clBuildProgram", code);
-    return create_kernels(program, error);
+    return create_kernels(program, shape, error);
 }
 
 static bool load_cached(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
@@ -107,7 +113,7 @@ static bool load_cached(HdOpenclProgram *program, cl_context context, const HdOp
     if (!hd_kernel_cache_find(cache, shape, hd_opencl_source, hd_opencl_source_size, options,
                               version, &binary, &size))
         return false;
-    bool loaded = load(program, context, device, options, binary, size, error) == HD_OK;
+    bool loaded = load(program, context, device, options, shape, binary, size, error) == HD_OK;
     free(binary);
     if (!loaded) {
         hd_kernel_cache_refuse(cache, error->message);
@@ -141,7 +147,7 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
     if (load_cached(program, context, device, options, shape, cache, error))
         return HD_OK;
     double start = hd_monotonic_seconds();
-    HdStatus status = compile(program, context, device, name, options, error);
+    HdStatus status = compile(program, context, device, name, options, shape, error);
     if (status == HD_OK)
         hd_kernel_cache_compiled(cache, read_binary, program, "", hd_monotonic_seconds() - start);
     else
@@ -152,6 +158,8 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
 void hd_opencl_program_free(HdOpenclProgram *program) {
     if (program->render)
         clReleaseKernel(program->render);
+    if (program->store)
+        clReleaseKernel(program->store);
     if (program->sum)
         clReleaseKernel(program->sum);
     if (program->program)

@@ -7,8 +7,8 @@
 #include "opencl_devices.h"
 
 typedef struct HdOpenclProgram {
-    cl_program program; /* NULL: there is none */
-    cl_kernel render, sum;
+    cl_program program;           /* NULL: there is none */
+    cl_kernel render, store, sum; /* hd_kernel_tracing, hd_kernel_storing, hedron_sum_counts */
 } HdOpenclProgram;
 
 /* Takes the kernels from the cache or compiles the embedded text; then `program` must stay where it

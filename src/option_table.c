@@ -50,6 +50,14 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)"},
     {HD_OPTION_THREADS, "--threads", NULL, "N", NULL, false, 1, HD_MAX_THREADS, RENDERING,
      "threads of the C backend (default: one for each core)"},
+    {HD_OPTION_PIPELINE, "--pipeline", NULL, "NAME", "auto mega wavefront wavefront-uncompacted",
+     false, 0, 0, RENDERING,
+     "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
+     "wavefront-uncompacted: with its dead rays, for comparison (default auto: the faster one)"},
+    {HD_OPTION_BLOCK, "--block", NULL, "N", NULL, false, HD_BLOCK_STEP, HD_MAX_BLOCK, RENDERING,
+     "threads of a GPU's work group, a multiple of 32 (default: what suits it)"},
+    {HD_OPTION_GRID, "--grid", NULL, "N", NULL, false, 1, HD_MAX_GRID, RENDERING,
+     "work groups of one launch on a GPU, at most (default: what suits it)"},
     {HD_OPTION_PRECISION, "--precision", NULL, "P", "float double", false, 0, 0, RENDERING,
      "float or double (default float)"},
     {HD_OPTION_MATH, "--math", NULL, "M", "strict fast", false, 0, 0, RENDERING,
@@ -69,7 +77,7 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
     {HD_OPTION_VERSION, "--version", "-V", NULL, NULL, false, 0, 0, RENDERING, "print the version"},
 };
 _Static_assert(HD_CLASSIC_VARIANTS == 10 && HD_CLASSIC_DEFAULT_VARIANT == 4 &&
-                   HD_MAX_OUTPUTS == 8 && HD_MAX_CHANGES == 64,
+                   HD_MAX_OUTPUTS == 8 && HD_MAX_CHANGES == 64 && HD_BLOCK_STEP == 32,
                "the help says so");
 
 /* The next word of a list, and its length; false at the end. */

@@ -22,6 +22,9 @@ typedef enum HdOptionId {
     HD_OPTION_DEVICE,
     HD_OPTION_LANES,
     HD_OPTION_THREADS,
+    HD_OPTION_PIPELINE,
+    HD_OPTION_BLOCK,
+    HD_OPTION_GRID,
     HD_OPTION_PRECISION,
     HD_OPTION_MATH,
     HD_OPTION_STATS,
@@ -46,7 +49,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 25 };
+enum { HD_OPTION_SPEC_COUNT = 28 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

@@ -41,6 +41,14 @@ static HdStatus parse_integer(const HdOptionSpec *spec, const char *text, int *o
     return HD_OK;
 }
 
+static HdStatus parse_block(const HdOptionSpec *spec, const char *text, int *out, HdError *error) {
+    HdStatus status = parse_integer(spec, text, out, error);
+    if (status == HD_OK && *out % HD_BLOCK_STEP != 0)
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a multiple of %d", spec->name,
+                       text, (int)HD_BLOCK_STEP);
+    return status;
+}
+
 static HdStatus parse_size(const HdOptionSpec *spec, const char *text, HdOptions *options,
                            HdError *error) {
     char *end;
@@ -150,6 +158,8 @@ static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const
         options->backend = number == 0 ? NULL : value;
     else if (spec->id == HD_OPTION_LANES)
         options->render.lanes = lanes[number];
+    else if (spec->id == HD_OPTION_PIPELINE)
+        options->render.pipeline = (HdPipeline)number;
     else if (spec->id == HD_OPTION_PRECISION)
         options->render.precision = number == 0 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE;
     else
@@ -194,7 +204,12 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
                           &options->device, error);
     case HD_OPTION_THREADS:
         return parse_integer(spec, value, &options->render.threads, error);
+    case HD_OPTION_BLOCK:
+        return parse_block(spec, value, &options->render.block, error);
+    case HD_OPTION_GRID:
+        return parse_integer(spec, value, &options->render.grid, error);
     case HD_OPTION_BACKEND:
+    case HD_OPTION_PIPELINE:
     case HD_OPTION_LANES:
     case HD_OPTION_PRECISION:
     case HD_OPTION_MATH:

@@ -2,8 +2,8 @@
 /* Compiles the kernels for an NVIDIA architecture, without a device, and tells what they need of
    it:
 
-       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--planes N] [--depth N] [--log]
-                    [--cubin FILE]
+       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--block N]
+                    [--planes N] [--depth N] [--log] [--cubin FILE]
 
    Exits 0 when they compile, 1 when they do not, 77 when no NVRTC here knows the architecture. */
 #include <stdbool.h>
@@ -36,6 +36,8 @@ static bool parse(Options *options, int argc, char **argv) {
             options->shape.precision = HD_PRECISION_DOUBLE;
         else if (strcmp(argv[i], "--fast") == 0)
             options->shape.math = HD_MATH_FAST;
+        else if (strcmp(argv[i], "--wavefront") == 0)
+            options->shape.wavefront = true;
         else if (strcmp(argv[i], "--refracts") == 0)
             options->shape.needs.refracts = true;
         else if (strcmp(argv[i], "--lit-from-behind") == 0)
@@ -48,6 +50,8 @@ static bool parse(Options *options, int argc, char **argv) {
             options->arch = atoi(argv[++i]);
         else if (strcmp(argv[i], "--nvrtc") == 0)
             options->nvrtc = argv[++i];
+        else if (strcmp(argv[i], "--block") == 0)
+            options->shape.group_size = atoi(argv[++i]);
         else if (strcmp(argv[i], "--planes") == 0)
             options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
@@ -102,13 +106,14 @@ static Usage kernel_usage(const char *log, const char *kernel) {
 }
 
 static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCode *code) {
-    static const char *const kernels[] = {"hedron_render", "hedron_sum_counts"};
+    const char *const kernels[] = {hd_kernel_tracing(&options->shape), "hedron_sum_counts",
+                                   hd_kernel_storing(&options->shape)};
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
            options->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
            options->shape.needs.plane_bound, options->shape.needs.depth_bound, code->size);
     bool complete = true;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3 && kernels[i] != NULL; i++) {
         Usage usage = kernel_usage(code->log, kernels[i]);
         printf("%s: %d registers, %d bytes of stack, spills of %d bytes stored and %d loaded\n",
                kernels[i], usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);
@@ -137,7 +142,8 @@ int main(int argc, char **argv) {
     Options options;
     if (!parse(&options, argc, argv)) {
         fprintf(stderr, "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
-                        "[--planes N] [--depth N] [--log] [--cubin FILE]\n");
+                        "[--wavefront] [--block N] [--planes N] [--depth N] [--log] "
+                        "[--cubin FILE]\n");
         return USAGE;
     }
     HdNvrtc nvrtc;

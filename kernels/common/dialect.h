@@ -655,4 +655,102 @@ FN vint count_lanes(vint counts, vmask m) {
     return counts + pick_int(m, splat_int(1), splat_int(0));
 }
 
+/* 0, 1, 2, ... */
+FN vint lane_numbers(void) {
+    vint numbers = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        set_lane_int(&numbers, lane, lane);
+    return numbers;
+}
+
+/* ---- memory: as many consecutive numbers as a bundle has lanes, wherever they begin; and the
+   lanes of a mask stored side by side, which may overwrite as much as a bundle ---- */
+
+#if HD_LANES == 1
+FN vreal load_reals(GLOBAL const real *from) {
+    return *from;
+}
+FN vint load_ints(GLOBAL const int *from) {
+    return *from;
+}
+#elif defined(__OPENCL_C_VERSION__)
+FN vreal load_reals(GLOBAL const real *from) {
+    return HD_PASTE(vload, HD_LANES)(0, from);
+}
+FN vint load_ints(GLOBAL const int *from) {
+    return HD_CONVERT_INT(HD_PASTE(vload, HD_LANES)(0, from));
+}
+#else
+FN vreal load_reals(const real *from) {
+    vreal a;
+    __builtin_memcpy(&a, from, sizeof a);
+    return a;
+}
+FN vint load_ints(const int *from) {
+    int32_t a __attribute__((vector_size(HD_LANES * 4)));
+    __builtin_memcpy(&a, from, sizeof a);
+    return __builtin_convertvector(a, vint);
+}
+#endif
+
+/* Where each lane of `m` is stored; returns how many these are. */
+FN int lane_offsets(vmask m, int offset[HD_LANES]) {
+    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+    int count = 0;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        offset[lane] = count;
+        count += lane_int(&chosen, lane);
+    }
+    return count;
+}
+
+#if HD_REGISTER_512
+#if HD_DOUBLE
+FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)offset;
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(HD_MASK(m), (__m512d)*a));
+}
+#else
+FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)offset;
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(HD_MASK(m), (__m512)*a));
+}
+#endif
+#else
+FN void store_lanes(GLOBAL real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
+    (void)m;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        to[offset[lane]] = lane_real(a, lane);
+}
+#endif
+FN void store_lanes_int(GLOBAL int *to, const int offset[HD_LANES], const vint *a) {
+    for (int lane = 0; lane < HD_LANES; lane++)
+        to[offset[lane]] = lane_int(a, lane);
+}
+
+/* What threads share. Where no group of threads works together (HD_GROUP_SIZE is 0), each has
+   memory of its own, and an addition is a plain one. */
+#if !HD_GROUP_SIZE
+FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
+    *sum += amount;
+}
+#elif defined(__OPENCL_C_VERSION__)
+#ifdef cl_khr_int64_base_atomics
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
+    atom_add(sum, amount);
+}
+#endif
+FN uint take_shared(GLOBAL uint *counter, uint amount) {
+    return atomic_add(counter, amount);
+}
+#else
+FN void add_shared(fixed64 *sum, fixed64 amount) {
+    atomicAdd((uint64 *)sum, (uint64)amount);
+}
+FN uint take_shared(uint *counter, uint amount) {
+    return atomicAdd(counter, amount);
+}
+#endif
+
 #endif

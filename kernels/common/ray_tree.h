@@ -76,8 +76,9 @@ FN void turn_over(Surface *surface, LitPoints *points, vmask is_solid) {
     points->inside = is_solid & ~points->inside;
 }
 
-/* Shades the lanes that hit something and prepares the two rays that may go on. */
-FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit, vmask struck,
+/* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
+   may go on. */
+FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit, vmask struck,
               Sample *sample, Ray *mirror, Ray *through) {
     Surface surface = surface_at(SCENE_ARGUMENTS ray, reference, hit, struck);
     vreal zero = splat(R(0.0));
@@ -101,7 +102,6 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
             radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & lit, &points, mirrored,
                                                        &sample->shadow_tests));
     }
-    add_radiance(SCENE_ARGUMENTS sample, struck, radiance, ray->weight);
 
     vreal reflection = surface.material.reflection, transmission = surface.material.transmission;
     Vec3 passing = ray->direction;
@@ -117,6 +117,7 @@ FN void shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     *through =
         next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
                  is_solid & hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
+    return radiance;
 }
 
 FN Ray eye_ray(Vec3 direction, vmask alive) {
@@ -130,6 +131,28 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     return ray;
 }
 
+/* Adds to `sample` what the rays see and the rays that go on, which come back in `mirror` and
+   `through`; no lane of these is alive where the tree of rays ends. */
+FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *mirror,
+               Ray *through) {
+    Vec3 radiance = vec3_splat(header->background[0], header->background[1], header->background[2]);
+    Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, level == 0);
+    Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
+    vmask struck = ray->alive & ~lt_int(hit.object, splat_int(0));
+    mirror->alive = through->alive = mask_none();
+    if (!any_lane(struck)) {
+        add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
+        return;
+    }
+    Vec3 shaded = shade(SCENE_ARGUMENTS ray, reference, &hit, struck, sample, mirror, through);
+    radiance = vec3_pick(struck, shaded, radiance);
+    add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
+    if (level == view->depth)
+        mirror->alive = through->alive = mask_none();
+    sample->mirrored = count_lanes(sample->mirrored, mirror->alive);
+    sample->transmitted = count_lanes(sample->transmitted, through->alive);
+}
+
 /* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
    for each level waits on the stack. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
@@ -137,31 +160,19 @@ FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     int stack_level[DEPTH_BOUND];
     int waiting = 0, level = 0;
     Ray ray = eye_ray(direction, alive);
-    Vec3 background =
-        vec3_splat(header->background[0], header->background[1], header->background[2]);
     for (;;) {
-        Reference reference = reference_of(SCENE_ARGUMENTS ray.touched, level == 0);
-        Hit hit = closest_hit(SCENE_ARGUMENTS & ray, reference);
-        vmask struck = ray.alive & ~lt_int(hit.object, splat_int(0));
-        add_radiance(SCENE_ARGUMENTS sample, ray.alive & ~struck, background, ray.weight);
-        if (any_lane(struck)) {
-            Ray mirror, through;
-            shade(SCENE_ARGUMENTS & ray, reference, &hit, struck, sample, &mirror, &through);
-            if (level < view->depth) {
-                level++;
-                sample->mirrored = count_lanes(sample->mirrored, mirror.alive);
-                sample->transmitted = count_lanes(sample->transmitted, through.alive);
-                int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
-                if (mirrors && passes) {
-                    stack[waiting] = mirror;
-                    stack_level[waiting] = level;
-                    waiting++;
-                }
-                if (mirrors || passes) {
-                    ray = passes ? through : mirror;
-                    continue;
-                }
-            }
+        Ray mirror, through;
+        follow(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
+        int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
+        level++;
+        if (mirrors && passes) {
+            stack[waiting] = mirror;
+            stack_level[waiting] = level;
+            waiting++;
+        }
+        if (mirrors || passes) {
+            ray = passes ? through : mirror;
+            continue;
         }
         if (waiting == 0)
             break;

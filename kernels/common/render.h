@@ -36,37 +36,36 @@ FN int in_picture(GLOBAL const View *view, Pixel pixel) {
     return pixel.x < view->width && pixel.y < view->height;
 }
 
+/* a / divisor, rounded down, of 0 <= a < 2^22: the half keeps it further from whole numbers than
+   what is rounded. */
+FN vint divide_int(vint a, int divisor) {
+    return to_int((to_real(a) + splat(R(0.5))) * splat(R(1.0) / (real)divisor));
+}
+
 /* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel and row by
    row; returns the lanes that hold one. */
 FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *direction) {
     int n = view->samples_per_side;
-    int place = first / (n * n), column = first % n, row = first / n % n;
+    vint within = lane_numbers() + first % (n * n); /* from the first lane's pixel on */
+    vint pixels = divide_int(within, n * n);
+    within = within - pixels * (n * n);
+    vint row = divide_int(within, n);
+    vint column = within - row * n;
+    vint place = pixels + first / (n * n);
+    vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
-    vreal right = splat(R(0.0)), down = splat(R(0.0));
-    vint alive = splat_int(0);
-    for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
-        Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
-        if (in_picture(view, pixel)) {
-            set_lane_real(&right, lane, (real)(2 * (pixel.x * n + column) + 1 - view->width * n));
-            set_lane_real(&down, lane, (real)(2 * (pixel.y * n + row) + 1 - view->height * n));
-            set_lane_int(&alive, lane, -1);
-        }
-        column++;
-        if (column == n) {
-            column = 0;
-            row++;
-        }
-        if (row == n) {
-            row = 0;
-            place++;
-        }
-    }
+    vint x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
+    vint y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
+    vmask alive = lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(x, splat_int(view->width)) &
+                  lt_int(y, splat_int(view->height));
+    vreal right = to_real((x * n + column) * 2 + (1 - view->width * n));
+    vreal down = to_real((y * n + row) * 2 + (1 - view->height * n));
     Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
     Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
     sum = vec3_scale_add(axis, down, sum);
     axis = vec3_splat(view->right[0], view->right[1], view->right[2]);
     *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
-    return ~eq_int(alive, splat_int(0));
+    return alive;
 }
 
 FN Sample empty_sample(void) {
@@ -148,38 +147,58 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
     *counts = gathered.counts;
 }
 
-FN void add_part(Gathered *whole, LOCAL const Gathered *part) {
-    for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
-        whole->sums[i] += part->sums[i];
-    whole->counts.mirrored += part->counts.mirrored;
-    whole->counts.transmitted += part->counts.transmitted;
-    whole->counts.shadow_tests += part->counts.shadow_tests;
-    whole->counts.clamps += part->counts.clamps;
+/* Numbers that each thread of a group needs to pass its share on: its sums, then its counts. */
+enum { GROUP_ROOM = HD_PIXELS_PER_ITEM * 3 > 4 ? HD_PIXELS_PER_ITEM * 3 : 4 };
+
+/* Adds to `whole`, of the first of `parts` neighbouring threads, what the others gathered. All
+   threads of the group must call this. */
+FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
+    const int sums = HD_PIXELS_PER_ITEM * 3;
+    for (int i = 0; i < sums; i++)
+        own[i] = whole->sums[i];
+    BARRIER();
+    for (int p = 1; part == 0 && p < parts; p++)
+        for (int i = 0; i < sums; i++)
+            whole->sums[i] += own[p * GROUP_ROOM + i];
+    BARRIER();
+    own[0] = (fixed64)whole->counts.mirrored;
+    own[1] = (fixed64)whole->counts.transmitted;
+    own[2] = (fixed64)whole->counts.shadow_tests;
+    own[3] = (fixed64)whole->counts.clamps;
+    BARRIER();
+    for (int p = 1; part == 0 && p < parts; p++) {
+        whole->counts.mirrored += (uint64)own[p * GROUP_ROOM];
+        whole->counts.transmitted += (uint64)own[p * GROUP_ROOM + 1];
+        whole->counts.shadow_tests += (uint64)own[p * GROUP_ROOM + 2];
+        whole->counts.clamps += (uint64)own[p * GROUP_ROOM + 3];
+    }
+    BARRIER();
 }
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
    threads share the samples of an item, and the first of them adds up what all of them gathered.
-   `group` has room for each of the group's threads, all of which must call this. Sums are integers:
-   how the samples are shared changes no bit. */
+   `room` has GROUP_ROOM numbers for each of the group's threads, all of which must call this. Sums
+   are integers: how the samples are shared changes no bit. */
 FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int parts, int group_index,
-                        int thread, int thread_count, LOCAL Gathered *group, GLOBAL float *pixels,
-                        GLOBAL RayCounts *counts) {
+                        int group_count, int thread, int thread_count, LOCAL fixed64 *room,
+                        GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     int items_per_group = thread_count / parts;
     int place = thread / parts, part = thread % parts;
-    int item = group_index * items_per_group + place;
-    int has_item = place < items_per_group && item < item_count;
-    Gathered gathered;
-    clear_gathered(&gathered);
-    if (has_item)
-        gather_samples(SCENE_ARGUMENTS first_item + item, part, parts, &gathered);
-    group[thread] = gathered;
-    BARRIER();
-    if (!has_item || part > 0)
-        return;
-    for (int i = 1; i < parts; i++)
-        add_part(&gathered, group + thread + i);
-    store_pixels(view, first_item + item, &gathered, pixels);
-    counts[first_item + item] = gathered.counts;
+    for (int first = group_index * items_per_group; first < item_count;
+         first += group_count * items_per_group) {
+        int item = first_item + first + place;
+        int has_item = place < items_per_group && first + place < item_count;
+        Gathered gathered;
+        clear_gathered(&gathered);
+        if (has_item)
+            gather_samples(SCENE_ARGUMENTS item, part, parts, &gathered);
+        /* Threads without an item may have no neighbours to read from. */
+        add_parts(&gathered, has_item ? part : 1, parts, room + thread * GROUP_ROOM);
+        if (has_item && part == 0) {
+            store_pixels(view, item, &gathered, pixels);
+            counts[item] = gathered.counts;
+        }
+    }
 }
 
 /* Adds up every `workers`-th count from number `worker` on. */

@@ -83,6 +83,28 @@ for value in 0 -1 1.5 abc '' 100000 99999999999999999999; do
     wrong --threads "$value"
 done
 
+for value in auto mega wavefront wavefront-uncompacted; do
+    right --pipeline "$value"
+done
+right --pipeline=wavefront
+for value in Mega wave '' 1; do
+    wrong --pipeline "$value"
+done
+
+# Plain C has no work groups: as --threads on a GPU, they are for another device.
+for value in 32 96 1024; do
+    right --block "$value"
+done
+for value in 0 1 33 1056 -32 abc ''; do
+    wrong --block "$value"
+done
+for value in 1 7 1048576; do
+    right --grid "$value"
+done
+for value in 0 -1 1048577 abc ''; do
+    wrong --grid "$value"
+done
+
 right --precision float
 right --precision=double
 for value in single Float '' 64; do
@@ -175,12 +197,12 @@ for option in --help --version; do
     expect_refusal 2 "$hedron" render "$option=1"
     expect_stderr_contains "$option"
 done
-for option in --variant --backend --device --lanes --threads --precision --math --frames --size \
+for option in --variant --backend --device --lanes --threads --pipeline --block --grid --precision --math --frames --size \
     --samples --depth --cutoff; do
     expect_refusal 2 "$hedron" --cpu "$option" <"$input"
     expect_stderr_contains "$option needs a value"
 done
-for option in --output --backend --device --lanes --threads --precision --math --frames --size \
+for option in --output --backend --device --lanes --threads --pipeline --block --grid --precision --math --frames --size \
     --samples --depth --cutoff --set --stats; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "$option needs a value"
@@ -204,7 +226,8 @@ for option in --output=x.png '-o x.png'; do
     expect_refusal 2 "$hedron" --cpu $option <"$input"
     expect_stderr_contains --output
 done
-for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --precision=float --math=fast \
+for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --pipeline=mega \
+    --block=32 --grid=1 --precision=float --math=fast \
     --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0 --set=a=1 --stats=x --verbose --quiet; do
     expect_refusal 2 "$hedron" devices "$option"
     expect_stderr_contains "${option%%=*}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every backend, number of lanes and number of threads gives the same bytes.
+# Every backend, pipeline, number of lanes and number of threads gives the same bytes.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -29,6 +29,10 @@ for precision in float double; do
     done
     picture other --backend c --precision "$precision"
     expect_same other.data "$precision.data"
+    for pipeline in mega wavefront wavefront-uncompacted; do
+        picture other --backend c --precision "$precision" --pipeline "$pipeline"
+        expect_same other.data "$precision.data"
+    done
 done
 picture other
 expect_same other.data float.data
@@ -69,6 +73,8 @@ if has_opencl; then
     done
     picture other --backend opencl --threads 1
     expect_same other.data float.data
+    picture other --backend opencl --pipeline wavefront
+    expect_same other.data float.data
     picture other --backend opencl --precision double
     expect_same other.data double.data
     picture fast --backend opencl --math fast
@@ -85,6 +91,11 @@ else
     for precision in float double; do
         expect_exit 0 "$hedron" render "${scene[@]}" --backend cuda --precision "$precision" -o other.data
         expect_same other.data "$precision.data"
+    done
+    for options in '--block 96 --grid 2' '--pipeline wavefront' '--pipeline wavefront --block 256 --grid 1'; do
+        # shellcheck disable=SC2086 # options and their values
+        expect_exit 0 "$hedron" render "${scene[@]}" --backend cuda $options -o other.data
+        expect_same other.data float.data
     done
     expect_exit 0 "$hedron" render "${scene[@]}" --backend cuda --math fast -o fast.data
     expect_close float.data fast.data

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one. The options --backend, --lanes and --precision leave out the others.
+   one. The options --backend, --lanes and --precision leave out the others. Then it renders with
+   the other pipeline and with other launches (variants.h).
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -17,6 +18,7 @@
 #include "render_scene.h"
 #include "scenes.h"
 #include "truths.h"
+#include "variants.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
@@ -139,61 +141,96 @@ static uint64_t render_hash(HdRenderer *renderer, int number, HdPrecision precis
     return hash;
 }
 
-static void compare_frames(HdRenderer *renderer, const char *label, HdPrecision precision,
-                           const Options *options, Golden *golden, Tally *tally) {
-    int different = 0;
-    for (int i = 0; i < conformance_frame_count; i++) {
-        uint64_t hash = render_hash(renderer, i, precision, options);
-        uint64_t *expected = &golden->hash[i][precision];
-        if (!golden->known[i][precision] && !golden->fixed) {
-            *expected = hash;
-            golden->known[i][precision] = true;
-        }
-        tally->frames++;
-        if (!golden->known[i][precision] || *expected != hash) {
-            different++;
-            printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n",
-                   conformance_frames[i].name, hash, *expected, label);
-        }
+static void compare_frame(HdRenderer *renderer, int number, const char *label,
+                          HdPrecision precision, const Options *options, Golden *golden,
+                          Tally *tally) {
+    uint64_t hash = render_hash(renderer, number, precision, options);
+    uint64_t *expected = &golden->hash[number][precision];
+    if (!golden->known[number][precision] && !golden->fixed) {
+        *expected = hash;
+        golden->known[number][precision] = true;
     }
-    tally->different += different;
-    printf("%-4s %2d frames  %s\n", different == 0 ? "same" : "DIFF", conformance_frame_count,
-           label);
+    tally->frames++;
+    if (golden->known[number][precision] && *expected == hash)
+        return;
+    tally->different++;
+    printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n",
+           conformance_frames[number].name, hash, *expected, label);
+}
+
+static void compare_frames(HdRenderer *renderer, bool only_few, const char *label,
+                           HdPrecision precision, const Options *options, Golden *golden,
+                           Tally *tally) {
+    int different = tally->different, compared = tally->frames;
+    for (int i = 0; i < conformance_frame_count; i++)
+        if (!only_few || is_variant_frame(conformance_frames[i].name))
+            compare_frame(renderer, i, label, precision, options, golden, tally);
+    printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
+           tally->frames - compared, label);
     fflush(stdout);
 }
 
-static void check_renderer(const HdDevice *device, int lanes, int threads, HdPrecision precision,
+/* Renders all frames and checks the truths, or only some of the frames. */
+static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, bool only_few,
                            const Options *options, Golden *golden, Tally *tally) {
     HdError error;
     HdRenderer *renderer;
     char text[256], label[1024];
-    HdRenderOptions wanted = {
-        .lanes = lanes, .threads = threads, .precision = precision, .math = (HdMath)options->math};
-    HdStatus status = hd_renderer_open(&renderer, device, &wanted, &error);
+    const char *precision = precision_names[wanted->precision];
+    HdStatus status = hd_renderer_open(&renderer, device, wanted, &error);
     if (status == HD_UNAVAILABLE) {
         printf("skip            %s %s, %d lanes, %s: %s\n", device->backend->name, device->name,
-               lanes, precision_names[precision], error.message);
+               wanted->lanes, precision, error.message);
         return;
     }
     if (status != HD_OK)
         fail(device->name, &error);
     hd_renderer_describe(renderer, text, (int)sizeof text);
-    snprintf(label, sizeof label, "%-6s %-6s %s (%s)", device->backend->name,
-             precision_names[precision], device->name, text);
-    compare_frames(renderer, label, precision, options, golden, tally);
-    check_truths(renderer, precision, label, &tally->truths, &tally->untrue);
+    snprintf(label, sizeof label, "%-6s %-6s %s (%s)", device->backend->name, precision,
+             device->name, text);
+    compare_frames(renderer, only_few, label, wanted->precision, options, golden, tally);
+    if (!only_few)
+        check_truths(renderer, wanted->precision, label, &tally->truths, &tally->untrue);
     tally->renderers++;
     hd_renderer_close(renderer);
 }
 
+static void check_lanes(const HdDevice *device, HdPrecision precision, const Options *options,
+                        Golden *golden, Tally *tally) {
+    for (int i = 0; i < (device->is_cpu ? LANE_COUNTS : 1); i++) {
+        if (options->lanes != ALL && options->lanes != i)
+            continue;
+        HdRenderOptions wanted = {
+            .lanes = lane_counts[i],
+            .threads = 1 + i % 2,
+            .precision = precision,
+            .math = (HdMath)options->math,
+            .pipeline = HD_PIPELINE_MEGA,
+        };
+        check_renderer(device, &wanted, false, options, golden, tally);
+    }
+}
+
+static void check_variants(const HdDevice *device, HdPrecision precision, const Options *options,
+                           Golden *golden, Tally *tally) {
+    for (int i = 0; i < variant_count; i++) {
+        const Variant *variant = &variants[i];
+        if (options->lanes != ALL || !variant_suits(variant, device))
+            continue;
+        HdRenderOptions wanted = variant->options;
+        wanted.precision = precision;
+        wanted.math = (HdMath)options->math;
+        check_renderer(device, &wanted, !variant->all_frames, options, golden, tally);
+    }
+}
+
 static void check_device(const HdDevice *device, const Options *options, Golden *golden,
                          Tally *tally) {
-    for (int precision = HD_PRECISION_FLOAT; precision <= HD_PRECISION_DOUBLE; precision++)
-        for (int i = 0; i < (device->is_cpu ? LANE_COUNTS : 1); i++)
-            if ((options->precision == ALL || options->precision == precision) &&
-                (options->lanes == ALL || options->lanes == i))
-                check_renderer(device, lane_counts[i], 1 + i % 2, (HdPrecision)precision, options,
-                               golden, tally);
+    for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
+        if (options->precision == ALL || options->precision == p) {
+            check_lanes(device, (HdPrecision)p, options, golden, tally);
+            check_variants(device, (HdPrecision)p, options, golden, tally);
+        }
 }
 
 static void check_backend(const HdBackend *backend, const Options *options, Golden *golden,

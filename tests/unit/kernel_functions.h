@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "../../kernels/common/render.h"
+#include "../../kernels/common/wavefront.h"
 
 #define CLOSE(found, expected) assert_true(fabs((double)(found) - (double)(expected)) < 1e-5)
 
@@ -417,6 +417,41 @@ static void samples_fill_the_lanes(void **state) {
     assert_int_equal(live, 64 * 9);
 }
 
+static void live_lanes_are_stored_side_by_side(void **state) {
+    (void)state;
+    real reals[3 * HD_LANES];
+    int ints[3 * HD_LANES], offset[HD_LANES];
+    for (int left_out = 0; left_out <= HD_LANES; left_out++) {
+        vint numbers = int_ramp(5, 1);
+        vreal values = ramp(R(5.0), R(1.0));
+        vmask m = ~eq_int(numbers, splat_int(5 + left_out));
+        int count = lane_offsets(m, offset);
+        assert_int_equal(count, HD_LANES - (left_out < HD_LANES));
+        store_lanes(reals + 1, m, offset, &values);
+        store_lanes_int(ints + 1, offset, &numbers);
+        for (int i = 0; i < count; i++) {
+            assert_int_equal(ints[1 + i], 5 + i + (i >= left_out));
+            assert_true(reals[1 + i] == (real)ints[1 + i]);
+        }
+    }
+}
+
+static void numbers_are_loaded_from_anywhere(void **state) {
+    (void)state;
+    real reals[HD_LANES + 1];
+    int ints[HD_LANES + 1];
+    for (int i = 0; i <= HD_LANES; i++) {
+        reals[i] = (real)i;
+        ints[i] = -i;
+    }
+    vreal values = load_reals(reals + 1);
+    vint numbers = load_ints(ints + 1);
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        assert_true(lane_real(&values, lane) == (real)(lane + 1));
+        assert_int_equal(lane_int(&numbers, lane), -lane - 1);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masks_tell_lanes_apart),
@@ -438,6 +473,8 @@ int main(void) {
         cmocka_unit_test(falloff_ends),
         cmocka_unit_test(every_pixel_has_one_place),
         cmocka_unit_test(samples_fill_the_lanes),
+        cmocka_unit_test(live_lanes_are_stored_side_by_side),
+        cmocka_unit_test(numbers_are_loaded_from_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

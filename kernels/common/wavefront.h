@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT */
+/* The tree of rays level by level: the rays of a level wait in a queue, those that go on are
+   appended to the next level's. Bundles and groups of threads are filled with live rays only.
+
+   A batch is the samples whose trees are traced together; each has a sum of its own, for it loses
+   bits (View.pixel_shift) before it joins its pixel's. */
+#ifndef HD_WAVEFRONT_H
+#define HD_WAVEFRONT_H
+
+#include "render.h"
+#include "wave_stack.h"
+
+/* The queue and the batch's sums as structures of arrays: ray_reals has WAVE_REALS arrays of
+   queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. `compact` is 0 where rays
+   are appended with the dead ones of their bundle or group, to see what leaving them out is worth.
+ */
+#define QUEUE_PARAMETERS                                                                           \
+    GLOBAL real *RESTRICT ray_reals, GLOBAL int *RESTRICT ray_ints, GLOBAL fixed64 *RESTRICT sums, \
+        int queue_stride, int sum_stride, int compact,
+#define QUEUE_ARGUMENTS ray_reals, ray_ints, sums, queue_stride, sum_stride, compact,
+
+/* The first `count` lanes. */
+FN vmask lanes_below(int count) {
+    return lt_int(lane_numbers(), splat_int(count));
+}
+
+/* ---- the queue ---- */
+
+/* The first word of a ray: the object touched last and the side it runs on; -1: it is dead. */
+FN vint ray_state(const Ray *ray) {
+    vint side = pick_int(ray->inside, splat_int(1), splat_int(0));
+    return pick_int(ray->alive, (ray->touched + ray->touched) | side, splat_int(-1));
+}
+
+/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. */
+FN Ray load_rays(QUEUE_PARAMETERS int from, int count, vint *numbers) {
+    GLOBAL const real *reals = ray_reals + from;
+    uint64 stride = (uint64)queue_stride;
+    vint state = load_ints(ray_ints + from);
+    Ray ray;
+    ray.alive = lanes_below(count) & ~lt_int(state, splat_int(0));
+    ray.inside = eq_int(state & 1, splat_int(1));
+    ray.touched = spread_first(state >> 1, ray.alive);
+    *numbers = load_ints(ray_ints + stride + from);
+    ray.origin =
+        vec3(load_reals(reals), load_reals(reals + stride), load_reals(reals + 2 * stride));
+    ray.direction = vec3(load_reals(reals + 3 * stride), load_reals(reals + 4 * stride),
+                         load_reals(reals + 5 * stride));
+    ray.weight = vec3(load_reals(reals + 6 * stride), load_reals(reals + 7 * stride),
+                      load_reals(reals + 8 * stride));
+    return ray;
+}
+
+/* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
+   places are overwritten. */
+FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, vint numbers) {
+    GLOBAL real *reals = ray_reals + to;
+    uint64 stride = (uint64)queue_stride;
+    vint state = ray_state(ray);
+    int offset[HD_LANES];
+    int count = lane_offsets(m, offset);
+    store_lanes_int(ray_ints + to, offset, &state);
+    store_lanes_int(ray_ints + stride + to, offset, &numbers);
+    store_lanes(reals, m, offset, &ray->origin.x);
+    store_lanes(reals + stride, m, offset, &ray->origin.y);
+    store_lanes(reals + 2 * stride, m, offset, &ray->origin.z);
+    store_lanes(reals + 3 * stride, m, offset, &ray->direction.x);
+    store_lanes(reals + 4 * stride, m, offset, &ray->direction.y);
+    store_lanes(reals + 5 * stride, m, offset, &ray->direction.z);
+    store_lanes(reals + 6 * stride, m, offset, &ray->weight.x);
+    store_lanes(reals + 7 * stride, m, offset, &ray->weight.y);
+    store_lanes(reals + 8 * stride, m, offset, &ray->weight.z);
+    return count;
+}
+
+/* ---- the batch's sums ---- */
+
+/* Level 0 has one ray for each sample and sets its sum, so that nobody need clear it. */
+FN void set_sums(QUEUE_PARAMETERS int number, const Sample *sample) {
+    GLOBAL fixed64 *sum = sums + number;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        sum[0] = lane_fix(&sample->r, lane);
+        sum[(uint64)sum_stride] = lane_fix(&sample->g, lane);
+        sum[2 * (uint64)sum_stride] = lane_fix(&sample->b, lane);
+        sum++;
+    }
+}
+
+FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, const Sample *sample) {
+    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        if (!lane_int(&chosen, lane))
+            continue;
+        GLOBAL fixed64 *sum = sums + lane_int(&numbers, lane);
+        add_shared(sum, lane_fix(&sample->r, lane));
+        add_shared(sum + (uint64)sum_stride, lane_fix(&sample->g, lane));
+        add_shared(sum + 2 * (uint64)sum_stride, lane_fix(&sample->b, lane));
+    }
+}
+
+/* Adds the sums of `count` samples, the item's from number `first` on, to its pixels. */
+FN void gather_sums(GLOBAL const View *view, GLOBAL const fixed64 *sums, int sum_stride, int first,
+                    int count, Gathered *gathered) {
+    int per_pixel = view->samples_per_side * view->samples_per_side;
+    int place = first / per_pixel, left = per_pixel - first % per_pixel;
+    for (int i = 0; i < count; i++) {
+        for (int channel = 0; channel < 3; channel++)
+            gathered->sums[place * 3 + channel] +=
+                sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
+        left--;
+        if (left == 0) {
+            left = per_pixel;
+            place++;
+        }
+    }
+}
+
+/* ---- one thread with a queue of its own ---- */
+
+FN void add_counts(const Sample *sample, RayCounts *counts) {
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        counts->mirrored += (uint64)lane_int(&sample->mirrored, lane);
+        counts->transmitted += (uint64)lane_int(&sample->transmitted, lane);
+        counts->shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
+        counts->clamps += (uint64)lane_int(&sample->clamps, lane);
+    }
+}
+
+FN void add_vector_counts(const Sample *sample, Sample *sum) {
+    sum->mirrored = sum->mirrored + sample->mirrored;
+    sum->transmitted = sum->transmitted + sample->transmitted;
+    sum->shadow_tests = sum->shadow_tests + sample->shadow_tests;
+    sum->clamps = sum->clamps + sample->clamps;
+}
+
+/* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
+FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, vint numbers) {
+    if (!any_lane(ray->alive))
+        return 0;
+    return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, numbers);
+}
+
+/* The ray of each sample from number `number` of the item on, at most `count`. */
+FN Ray first_rays(GLOBAL const View *view, int item, int number, int count) {
+    Vec3 direction;
+    vmask alive = sample_directions(view, item, number, &direction);
+    return eye_ray(direction, alive & lanes_below(count));
+}
+
+FN vint numbers_from(int number) {
+    return lane_numbers() + number;
+}
+
+/* Traces the rays of a take, whose batch begins with the item's sample `first_sample`. Rays that
+   pass go on from the place take.to, mirrored ones from take.room places behind it: rays that went
+   the same way stay together. */
+FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample, WaveTake take,
+                   int *passing, int *mirrored, RayCounts *counts) {
+    Sample sum = empty_sample();
+    *passing = *mirrored = 0;
+    for (int i = 0; i < take.count; i += HD_LANES) {
+        int number = take.first + i;
+        Sample sample = empty_sample();
+        Ray ray, mirror, through;
+        vint numbers;
+        if (take.level == 0) {
+            ray = first_rays(view, item, first_sample + number, take.count - i);
+            numbers = numbers_from(number);
+        } else {
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, &numbers);
+        }
+        if (!any_lane(ray.alive))
+            continue;
+        follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
+        if (take.level == 0)
+            set_sums(QUEUE_ARGUMENTS number, &sample);
+        else
+            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, &sample);
+        add_vector_counts(&sample, &sum);
+        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, numbers);
+        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, numbers);
+    }
+    add_counts(&sum, counts);
+}
+
+/* Traces the samples [first, first + batch) of an item. */
+FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int batch,
+                    RayCounts *counts) {
+    WaveSegment stack[WAVE_STACK_SIZE(DEPTH_BOUND)];
+    int top = -1;
+    wave_put(stack, &top, 0, 0, batch);
+    while (top >= 0) {
+        int passing, mirrored;
+        WaveTake take = wave_take(stack, &top, view->depth, queue_stride, HD_LANES);
+        trace_take(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, take, &passing, &mirrored, counts);
+        wave_put(stack, &top, take.level + 1, take.to, passing);
+        wave_put(stack, &top, take.level + 1, take.to + take.room, mirrored);
+    }
+}
+
+/* Renders the pixels of one item, as render_item does, in batches of at most sum_stride samples, a
+   multiple of HD_LANES. */
+FN void render_item_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item, GLOBAL float *pixels,
+                             GLOBAL RayCounts *counts) {
+    Gathered gathered;
+    int samples = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    clear_gathered(&gathered);
+    for (int first = 0; first < samples; first += sum_stride) {
+        int batch = samples - first < sum_stride ? samples - first : sum_stride;
+        trace_batch(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, batch, &gathered.counts);
+        gather_sums(view, sums, sum_stride, first, batch, &gathered);
+    }
+    store_pixels(view, item, &gathered, pixels);
+    *counts = gathered.counts;
+}
+
+/* Renders every `workers`-th item from number `worker` on, with the worker's own part of the
+   buffers. */
+FN void render_items_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item_count, int worker,
+                              int workers, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
+    uint64 own = (uint64)worker;
+    ray_reals += own * (WAVE_REALS * (uint64)queue_stride + WAVE_SPARE);
+    ray_ints += own * (WAVE_INTS * (uint64)queue_stride + WAVE_SPARE);
+    sums += own * (WAVE_SUMS * (uint64)sum_stride + WAVE_SPARE);
+    for (int item = worker; item < item_count; item += workers)
+        render_item_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, pixels, counts + item);
+}
+
+/* ---- groups of threads with a queue in common ---- */
+
+#if HD_GROUP_SIZE
+
+/* What a thread brings to its group, in one number, so that one scan adds it all up: rays that go
+   on mirrored and transmitted, clamps (at most three a thread), shadow tests. */
+enum { PASSING_SHIFT = 11, CLAMPS_SHIFT = 22, SHADOW_TESTS_SHIFT = 34, COUNT_MASK = (1 << 11) - 1 };
+
+FN uint64 pack_counts(const Sample *sample) {
+    return (uint64)lane_int(&sample->mirrored, 0) |
+           (uint64)lane_int(&sample->transmitted, 0) << PASSING_SHIFT |
+           (uint64)lane_int(&sample->clamps, 0) << CLAMPS_SHIFT |
+           (uint64)lane_int(&sample->shadow_tests, 0) << SHADOW_TESTS_SHIFT;
+}
+
+/* The sum of the values of the group's threads up to this one, and of all of them. `room` has two
+   numbers for each. */
+FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 value,
+                     uint64 *total) {
+    int side = 0;
+    room[thread] = value;
+    BARRIER();
+    for (int step = 1; step < thread_count; step *= 2) {
+        if (thread >= step)
+            value += room[side + thread - step];
+        side = thread_count - side;
+        room[side + thread] = value;
+        BARRIER();
+    }
+    *total = room[side + thread_count - 1];
+    return value;
+}
+
+/* The ray that is number `number` of its batch, as level 0 has it. */
+FN Ray first_ray(GLOBAL const View *view, int first_item, int number) {
+    int per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    Vec3 direction;
+    vmask alive =
+        sample_directions(view, first_item + number / per_item, number % per_item, &direction);
+    return eye_ray(direction, alive);
+}
+
+/* Appends what goes on from the group's rays, the mirrored ones first. All of its threads must call
+   this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
+   counted, packed. */
+FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
+                          const Ray *through, vint number, const Sample *sample, int thread,
+                          int thread_count, LOCAL uint64 *room, LOCAL uint *place,
+                          GLOBAL uint *taken) {
+    uint64 total, own = pack_counts(sample);
+    uint64 before = scan_group(room, thread, thread_count, own, &total) - own;
+    int mirrors = (int)(total & COUNT_MASK), passes = (int)(total >> PASSING_SHIFT & COUNT_MASK);
+    int mirror_place = (int)(before & COUNT_MASK);
+    int through_place = (int)(before >> PASSING_SHIFT & COUNT_MASK);
+    vmask keeps_mirror = mirror->alive, keeps_through = through->alive;
+    if (!compact) {
+        mirror_place = through_place = thread;
+        keeps_mirror = mirrors > 0 ? mask_all() : mask_none();
+        keeps_through = passes > 0 ? mask_all() : mask_none();
+        mirrors = mirrors > 0 ? thread_count : 0;
+        passes = passes > 0 ? thread_count : 0;
+    }
+    if (thread == 0 && mirrors + passes > 0)
+        *place = take_shared(taken, (uint)(mirrors + passes)) - taken_before;
+    BARRIER();
+    if (any_lane(keeps_mirror))
+        store_rays(QUEUE_ARGUMENTS to + (int)*place + mirror_place, keeps_mirror, mirror, number);
+    if (any_lane(keeps_through))
+        store_rays(QUEUE_ARGUMENTS to + (int)*place + mirrors + through_place, keeps_through,
+                   through, number);
+    return total;
+}
+
+/* Traces the rays [first, first + count) of a level by work groups, one lane a thread, and appends
+   those that go on from the place `to` on. A batch begins with the item `first_item`. Each group
+   adds to counts[group_index] what it counted; the frame's first launch sets it. `room` has two
+   numbers for each of the group's threads. */
+FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, int level, int first,
+                            int count, int to, uint taken_before, int is_first_launch,
+                            int group_index, int group_count, int thread, int thread_count,
+                            LOCAL uint64 *room, LOCAL uint *place, GLOBAL uint *taken,
+                            GLOBAL RayCounts *counts) {
+    RayCounts sum;
+    sum.mirrored = sum.transmitted = sum.shadow_tests = sum.clamps = 0;
+    for (int start = group_index * thread_count; start < count;
+         start += group_count * thread_count) {
+        int i = start + thread;
+        Sample sample = empty_sample();
+        vint number = splat_int(first + i);
+        Ray ray, mirror, through;
+        mirror.alive = through.alive = ray.alive = mask_none();
+        if (i < count)
+            ray = level == 0 ? first_ray(view, first_item, first + i)
+                             : load_rays(QUEUE_ARGUMENTS first + i, 1, &number);
+        if (any_lane(ray.alive)) {
+            follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
+            if (level == 0)
+                set_sums(QUEUE_ARGUMENTS first + i, &sample);
+            else
+                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, &sample);
+        }
+        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, number,
+                                       &sample, thread, thread_count, room, place, taken);
+        sum.mirrored += total & COUNT_MASK;
+        sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
+        sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);
+        sum.shadow_tests += total >> SHADOW_TESTS_SHIFT;
+    }
+    if (thread > 0)
+        return;
+    if (!is_first_launch) {
+        sum.mirrored += counts[group_index].mirrored;
+        sum.transmitted += counts[group_index].transmitted;
+        sum.shadow_tests += counts[group_index].shadow_tests;
+        sum.clamps += counts[group_index].clamps;
+    }
+    counts[group_index] = sum;
+}
+
+/* Stores the pixels of a finished batch, those of the items [first_item, first_item + item_count);
+   every `workers`-th item is this worker's. */
+FN void store_batch(GLOBAL const View *view, GLOBAL const fixed64 *sums, int sum_stride,
+                    int first_item, int item_count, int worker, int workers, GLOBAL float *pixels) {
+    int per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    for (int i = worker; i < item_count; i += workers) {
+        Gathered gathered;
+        clear_gathered(&gathered);
+        gather_sums(view, sums + i * per_item, sum_stride, 0, per_item, &gathered);
+        store_pixels(view, first_item + i, &gathered, pixels);
+    }
+}
+
+#endif
+
+#endif

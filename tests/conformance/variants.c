@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+#include "variants.h"
+
+#include <string.h>
+
+/* The least memory that works: a bundle or a group of threads at a time. */
+enum { LEAST = 1, LITTLE = 100000 };
+
+#define WAVEFRONT   .pipeline = HD_PIPELINE_WAVEFRONT
+#define UNCOMPACTED .pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED
+#define MEGA        .pipeline = HD_PIPELINE_MEGA
+
+const Variant variants[] = {
+    {FOR_CPUS, true, {WAVEFRONT, .threads = 2}},
+    {FOR_CPUS, false, {UNCOMPACTED, .threads = 2, .test.queue_bytes = LEAST}},
+
+    {FOR_PLAIN_C, false, {WAVEFRONT, .lanes = 1, .threads = 1}},
+    {FOR_PLAIN_C, false, {WAVEFRONT, .lanes = 4, .threads = 2, .test.queue_bytes = LITTLE}},
+    {FOR_PLAIN_C, false, {WAVEFRONT, .threads = 1, .test.queue_bytes = LEAST}},
+
+    {FOR_GPUS, true, {WAVEFRONT}},
+    {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 3, .test.queue_bytes = LEAST}},
+    {FOR_GPUS, true, {WAVEFRONT, .block = 96, .test.queue_bytes = LITTLE}},
+    {FOR_GPUS, false, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
+    {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1}},
+    {FOR_GPUS, false, {MEGA, .block = 1024, .grid = 2}},
+
+    {FOR_CPUS_AS_GPUS, false, {MEGA, .block = 96, .grid = 3, .test.groups = true}},
+    {FOR_CPUS_AS_GPUS,
+     false,
+     {WAVEFRONT, .block = 96, .grid = 3, .test = {.groups = true, .queue_bytes = LEAST}}},
+    {FOR_CPUS_AS_GPUS, false, {UNCOMPACTED, .test = {.groups = true, .queue_bytes = LITTLE}}},
+};
+const int variant_count = sizeof variants / sizeof *variants;
+
+bool variant_suits(const Variant *variant, const HdDevice *device) {
+    bool is_plain_c = device->backend == &hd_backend_c;
+    switch (variant->kind) {
+    case FOR_CPUS:
+        return device->is_cpu;
+    case FOR_PLAIN_C:
+        return is_plain_c;
+    case FOR_CPUS_AS_GPUS:
+        return device->is_cpu && !is_plain_c;
+    case FOR_GPUS:
+        return !device->is_cpu;
+    }
+    return false;
+}
+
+bool is_variant_frame(const char *name) {
+    static const char *const names[] = {"three-overlapping", "one-pixel", "clamped", "everything"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], name) == 0)
+            return true;
+    return false;
+}

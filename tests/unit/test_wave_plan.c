@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT */
+/* The order in which a wavefront's rays are traced, with a device that only keeps account of them.
+ */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../../kernels/common/scene_tables.h"
+#include "../../kernels/common/wave_stack.h"
+#include "interrupt.h"
+#include "wave_plan.h"
+
+/* Every ray has `children` rays that go on, which a launch appends with those of its group: places
+   of rays that do not live are filled too. */
+typedef struct Account {
+    const HdWavePlan *plan;
+    const HdWaveFrame *frame;
+    int children;
+    char *waits; /* 1 for each place of the queue whose ray is still to be traced */
+    int64_t traced, steps;
+    unsigned taken;
+    int next_item;   /* the first one that is not stored */
+    int batch_first; /* item of the batch that is being traced */
+    int batch_samples;
+} Account;
+
+static void leave_queue(Account *account, const HdWaveStep *step) {
+    for (int i = step->first; i < step->first + step->count; i++) {
+        assert_true(account->waits[i]);
+        account->waits[i] = 0;
+    }
+}
+
+static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
+    (void)error;
+    Account *account = context;
+    assert_true(step->count > 0);
+    assert_int_equal(step->taken_before, account->taken);
+    assert_int_equal(step->is_first, account->steps == 0);
+    assert_in_range(step->level, 0, account->frame->depth);
+    if (step->level == 0) {
+        assert_int_equal(step->first_item, account->next_item);
+        account->batch_samples += step->count;
+        assert_true(step->first + step->count <= account->plan->sum_stride);
+    }
+    int grain = account->frame->grain;
+    int groups = (step->count + grain - 1) / grain;
+    int going_on = step->level < account->frame->depth ? account->children * groups * grain : 0;
+    assert_true(step->to + going_on <= account->plan->queue_stride);
+    for (int i = step->to; i < step->to + going_on; i++) {
+        assert_false(account->waits[i]); /* nor is it one of those that are being read */
+        account->waits[i] = 1;
+    }
+    if (step->level > 0)
+        leave_queue(account, step);
+    account->traced += step->count;
+    account->steps++;
+    account->taken += (unsigned)going_on;
+    *taken = account->taken;
+    return HD_OK;
+}
+
+static HdStatus store(void *context, int first_item, int item_count, HdError *error) {
+    (void)error;
+    Account *account = context;
+    assert_int_equal(first_item, account->next_item);
+    assert_int_equal(account->batch_samples, item_count * account->frame->samples_per_item);
+    for (int i = 0; i < account->plan->queue_stride; i++)
+        assert_false(account->waits[i]);
+    account->batch_samples = 0;
+    account->next_item += item_count;
+    return HD_OK;
+}
+
+/* Runs a frame; returns the number of rays traced. */
+static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t *steps) {
+    HdError error;
+    HdWaveNeeds needs = {
+        .bytes = bytes,
+        .depth = frame->depth,
+        .grain = frame->grain,
+        .samples = frame->items * frame->samples_per_item,
+        .samples_at_once = frame->samples_per_item,
+    };
+    HdWavePlan plan = hd_wave_plan(&needs);
+    assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    Account account = {.plan = &plan, .frame = frame, .children = children};
+    account.waits = calloc((size_t)plan.queue_stride, 1);
+    HdWaveDevice device = {.context = &account, .trace = trace, .store = store};
+    assert_int_equal(hd_wave_run(&plan, frame, &device, &error), HD_OK);
+    assert_int_equal(account.next_item, frame->items);
+    free(account.waits);
+    if (steps != NULL)
+        *steps = account.steps;
+    return account.traced;
+}
+
+/* Whole groups on each level, since the account rounds up to them only where they are split. */
+static void all_rays_are_traced_in_any_memory(void **state) {
+    (void)state;
+    static const size_t budgets[] = {1, 5000, 20000, 100000, 1 << 20, 1 << 28};
+    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
+        for (int depth = 0; depth <= 6; depth++)
+            for (int children = 0; children <= 2; children++) {
+                HdWaveFrame frame = {
+                    .items = 24, .samples_per_item = 4, .depth = depth, .grain = 4};
+                int64_t expected = 0, of_level = 96;
+                for (int level = 0; level <= depth; level++, of_level *= children)
+                    expected += of_level;
+                assert_int_equal(run(budgets[b], &frame, children, NULL), expected);
+            }
+}
+
+static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
+    (void)state;
+    static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
+    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
+        for (int depth = 0; depth <= 5; depth++) {
+            HdWaveFrame frame = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
+            run(budgets[b], &frame, 2, NULL);
+            run(budgets[b], &frame, 1, NULL);
+        }
+}
+
+static void enough_memory_takes_a_step_a_level(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    int64_t steps, few, many;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 6);
+    run(20000, &frame, 1, &few);
+    run(1, &frame, 1, &many);
+    assert_true(few > steps && many > few);
+}
+
+static void plans_keep_to_their_budget(void **state) {
+    (void)state;
+    for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
+        for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
+            HdWaveNeeds needs = {.bytes = bytes,
+                                 .precision = HD_PRECISION_DOUBLE,
+                                 .depth = depth,
+                                 .grain = 128,
+                                 .samples = hd_wave_samples(1 << 22, 16),
+                                 .samples_at_once = 16};
+            HdWavePlan plan = hd_wave_plan(&needs);
+            size_t used = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+            assert_true(used < bytes + 10000);
+            assert_true(used > bytes / 2);
+            assert_int_equal(plan.sum_stride % 16, 0);
+            assert_true(plan.queue_stride >= wave_least_capacity(depth, 128));
+        }
+}
+
+static void launches_have_the_groups_that_they_need(void **state) {
+    (void)state;
+    HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
+    assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
+    assert_int_equal(hd_wave_groups(&plan, 128, 5), 5);
+    plan.queue_stride = 1 << 30;
+    assert_int_equal(hd_wave_groups(&plan, 128, 0), 1 << 15);
+}
+
+/* The last test: a signal is remembered. */
+static void a_signal_ends_the_frame(void **state) {
+    (void)state;
+    HdError error;
+    HdWavePlan plan = {.queue_stride = 64, .sum_stride = 64};
+    HdWaveFrame frame = {.items = 1, .samples_per_item = 1, .grain = 32};
+    HdWaveDevice device = {.trace = trace, .store = store};
+    hd_interrupt_install();
+    raise(SIGTERM);
+    assert_int_equal(hd_wave_run(&plan, &frame, &device, &error), HD_INTERRUPTED);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_rays_are_traced_in_any_memory),
+        cmocka_unit_test(groups_that_do_not_fit_evenly_never_overlap),
+        cmocka_unit_test(enough_memory_takes_a_step_a_level),
+        cmocka_unit_test(plans_keep_to_their_budget),
+        cmocka_unit_test(launches_have_the_groups_that_they_need),
+        cmocka_unit_test(a_signal_ends_the_frame),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
