@@ -298,9 +298,21 @@ FN vreal pick(vmask m, vreal a, vreal b) {
 FN vint pick_int(vmask m, vint a, vint b) {
     return select(b, a, m);
 }
+/* A byte for each lane: drivers for CPUs are slow with any(). */
+#if HD_LANES == 16
 FN int any_lane(vmask m) {
-    return any(m);
+    ulong2 bytes = as_ulong2(convert_char16(m));
+    return (bytes.x | bytes.y) != 0;
 }
+#elif HD_LANES == 8
+FN int any_lane(vmask m) {
+    return as_ulong(convert_char8(m)) != 0;
+}
+#else
+FN int any_lane(vmask m) {
+    return as_int(convert_char4(m)) != 0;
+}
+#endif
 FN real lane_real(const vreal *a, int lane) {
     return ((const real *)a)[lane];
 }
