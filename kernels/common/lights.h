@@ -248,6 +248,40 @@ FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
            eq_int(points->face, splat_int(light->own_face[1]));
 }
 
+/* The objects that a bundle's points lie on, each once: the first of its lights in light_offsets,
+   and its points. */
+typedef struct {
+    int count;
+    int first[HD_LANES];
+    vmask points[HD_LANES];
+} LightRows;
+
+FN LightRows light_rows(SCENE_PARAMETERS vint object) {
+    LightRows rows;
+    rows.count = 0;
+    vmask left = mask_all();
+    do {
+        int number = lane_int(&object, first_lane(left));
+        vmask same = eq_int(object, splat_int(number));
+        rows.first[rows.count] = number * header->light_count;
+        rows.points[rows.count] = same;
+        rows.count++;
+        left = left & ~same;
+    } while (any_lane(left));
+    return rows;
+}
+
+/* Where a light is, relative to the objects that the points lie on. */
+FN Vec3 light_position(GLOBAL const Vector *light_offsets, const LightRows *rows, int light) {
+    GLOBAL const Vector *v = light_offsets + rows->first[0] + light;
+    Vec3 position = vec3_splat(v->x, v->y, v->z);
+    for (int i = 1; i < rows->count; i++) {
+        v = light_offsets + rows->first[i] + light;
+        position = vec3_pick(rows->points[i], vec3_splat(v->x, v->y, v->z), position);
+    }
+    return position;
+}
+
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
    Lights are the outer loop and lanes the points, so that everything about a light is the same for
    a bundle. `mirrored` is the viewing ray's mirror direction, unit. */
@@ -260,14 +294,12 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vmask open_to[SOLID_BOUND];
     measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
-    int same_object = all_same(points->object);
+    LightRows rows = light_rows(SCENE_ARGUMENTS points->object);
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
     for (int i = 0; i < header->light_count; i++) {
-        Vec3 position =
-            fetch_vector(light_offsets, points->object * header->light_count + i, same_object);
-        Vec3 to_light = vec3_sub(position, surface->point);
+        Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), surface->point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
         vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
@@ -277,10 +309,11 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         *shadow_tests = count_lanes(*shadow_tests, lit);
         Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, coordinates, outer, some_outer,
                                               open_to, points, lit);
+        /* Nothing arrives where the point is not lit. */
         Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
                                vec3_dot(mirrored, to_light), squared);
-        sum = vec3_pick(lit, vec3_add(sum, vec3_mul(arriving, reflected)), sum);
+        sum = vec3_mul_add(arriving, reflected, sum);
     }
     return sum;
 }

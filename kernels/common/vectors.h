@@ -36,6 +36,12 @@ FN Vec3 vec3_scale(Vec3 a, vreal s) {
     return vec3(a.x * s, a.y * s, a.z * s);
 }
 
+/* a * b + c, channel by channel */
+FN Vec3 vec3_mul_add(Vec3 a, Vec3 b, Vec3 c) {
+    return vec3(multiply_add(a.x, b.x, c.x), multiply_add(a.y, b.y, c.y),
+                multiply_add(a.z, b.z, c.z));
+}
+
 /* a * s + b */
 FN Vec3 vec3_scale_add(Vec3 a, vreal s, Vec3 b) {
     return vec3(multiply_add(a.x, s, b.x), multiply_add(a.y, s, b.y), multiply_add(a.z, s, b.z));
