@@ -437,11 +437,12 @@ static bool run(const HdTable *scene, const HdTable *frame, HdQueueOrder order, 
     int size = batches.samples > per_item ? batches.samples / per_item : 1;
     size = size < items ? size : items;
     int every = (items - 1) / (batches.most / per_item + 1) + 1;
+    int begin = every / 2 * size < items ? every / 2 * size : 0; /* one alone is in the middle */
     /* The first batch warms the caches and has the pages of the queues brought in. */
-    bool done = begin_waves(&waves, size) && trace_batch_of(&waves, 0, size);
+    bool done = begin_waves(&waves, size) && trace_batch_of(&waves, begin, size);
     memset(result, 0, sizeof *result);
     waves.result = result;
-    for (int first = 0; done && first < items; first += size * every)
+    for (int first = begin; done && first < items; first += size * every)
         done = trace_batch_of(&waves, first, items - first < size ? items - first : size);
     free_waves(&waves);
     return done;
