@@ -34,7 +34,8 @@ def demand_gpu(backends):
 def execute(command, what):
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.returncode != 0:
-        raise Problem(3 if done.returncode == 3 else 1, f"{what}: {(done.stderr or done.stdout).strip()[-600:]}")
+        said = (done.stderr or done.stdout).strip()[-600:] or f"it ended with {done.returncode}"
+        raise Problem(3 if done.returncode == 3 else 1, f"{what}: {said}")
     return done.stdout
 
 

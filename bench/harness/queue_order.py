@@ -18,7 +18,7 @@ def run(program, words):
         raise Problem(3, f"there is no {program}: ./dev build builds it")
     done = subprocess.run([program, *words], capture_output=True, text=True)
     if done.returncode != 0:
-        raise Problem(1, f"{program.name}: {done.stderr.strip()}")
+        raise Problem(1, f"{program.name}: {done.stderr.strip() or f'it ended with {done.returncode}'}")
     return done.stdout
 
 

@@ -38,8 +38,8 @@ static const char *const order_names[HD_ORDER_COUNT] = {
 
 enum { MOST_SCENES = 8 };
 
-/* Samples of a batch: an item of the headline scene, and what caches of the first, second and third
-   level may hold. */
+/* Samples of a batch: an item of the headline scene, and what caches of the second and third level
+   may hold. None is larger than all samples together. */
 static const int batch_samples[] = {256, 4096, 65536};
 enum { BATCH_SIZES = sizeof batch_samples / sizeof batch_samples[0] };
 
@@ -99,6 +99,8 @@ static bool study_scene(const Study *study, const HdOrderBuild *build, const HdL
     uint64_t digests[BATCH_SIZES] = {0};
     for (int round = 0; round <= study->rounds; round++)
         for (int size = 0; size < BATCH_SIZES; size++) {
+            if (batch_samples[size] > study->most_samples)
+                continue;
             HdBatches batches = {batch_samples[size], study->most_samples};
             for (int order = 0; order < HD_ORDER_COUNT; order++)
                 if (!(round == 0
