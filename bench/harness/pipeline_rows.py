@@ -22,14 +22,21 @@ def add_jobs(plan, runnable, frames, extra):
     return jobs
 
 
+def processor_ratio(plan, job, base):
+    """Of whole runs' processor time, round by round: other work on the machine changes it little."""
+    return median(one["cpu"] / other["cpu"] for one, other in zip(plan.done(job), plan.done(base)))
+
+
 def row(plan, device, scene, scale, pipeline, job, base):
     done = {"device": device, "scene": scene, "pipeline": pipeline, "scale": scale, "trace_ms": None,
-            "ratio_to_mega": None, "reason": None}
+            "ratio_to_mega": None, "processor_ratio_to_mega": None, "reason": None}
     try:
         first, middle, third = summary.quartiles(plan.trace_ms(job, scale))
         done["trace_ms"] = {"median": middle, "q1": first, "q3": third}
         ratios = plan.ratios(job, base)
         done["ratio_to_mega"] = median(ratios) if ratios else None
+        if plan.devices[device]["is_cpu"]:
+            done["processor_ratio_to_mega"] = processor_ratio(plan, job, base)
     except Missing as missing:
         done["reason"] = str(missing)
     return done
@@ -44,13 +51,13 @@ def cells(each):
     scaled = f" (scaled {each['scale']} times)" if each["scale"] != 1 else ""
     start = [each["device"], each["scene"] + scaled, each["pipeline"]]
     if each["reason"]:
-        return [*start, "-", each["reason"]]
+        return [*start, each["reason"], "-", "-"]
     times = each["trace_ms"]
     return [*start, f"{report.number(times['median'])} [{report.number(times['q1'])}..{report.number(times['q3'])}]",
-            report.number(each["ratio_to_mega"], 3)]
+            report.number(each["ratio_to_mega"], 3), report.number(each["processor_ratio_to_mega"], 3)]
 
 
-HEAD = ["device", "scene", "pipeline", "trace ms [q1..q3]", "to mega"]
+HEAD = ["device", "scene", "pipeline", "trace ms [q1..q3]", "to mega", "processor time to mega"]
 
 
 def chart(result):
