@@ -66,7 +66,7 @@ def sum_cells(found, name):
 def sum_chart(result):
     found = result["image_sums"]
     worst = found["float_pixels"]["runs_differ_by_255ths"]
-    caption = (f"{found['device']}. What {found['contributions']} rays add to the headline picture, a launch for each "
+    caption = (f"{found['device']}. What {found['contributions']:,} rays add to the headline picture, a launch for each "
                f"of {found['levels']} levels. {found['runs']} runs of float atomics differ by up to {worst['max']:.3g} "
                "of 1/255, those of fixed point by nothing." if fixed_is_exact(found) else "RUNS OF FIXED POINT DIFFER.")
     rows = [bars.Bar(name, (found[key]["ns_each"],),
