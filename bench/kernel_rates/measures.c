@@ -38,7 +38,7 @@ bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor) {
         hd_scene_file_free(&file);
     }
     if (!done)
-        fprintf(stderr, "hedron_kernel_rates: %s\n", error.message);
+        fprintf(stderr, "%s\n", error.message);
     return done;
 }
 
@@ -78,8 +78,7 @@ double hd_measure_run(const HdMeasure *measure) {
     return done;
 }
 
-/* Of this thread: what others do to the machine is not in it, but for caches and clocks. */
-static double processor_seconds(void) {
+double hd_processor_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
@@ -87,10 +86,10 @@ static double processor_seconds(void) {
 
 double hd_measure_rate(const HdMeasure *measure, double seconds) {
     hd_measure_run(measure); /* warms the caches */
-    double start = processor_seconds(), end = start, done = 0;
+    double start = hd_processor_seconds(), end = start, done = 0;
     while (end - start < seconds) {
         done += hd_measure_run(measure);
-        end = processor_seconds();
+        end = hd_processor_seconds();
     }
     return done / (end - start);
 }
