@@ -9,11 +9,13 @@
 #include "json_device_text.h"
 #include "launch_tuning.h"
 #include "pipeline.h"
+#include "progress.h"
 
 typedef struct Run {
     const HdOptions *options;
     const HdScene *scene;
     HdDevice device;
+    char note[4096]; /* about the choice of the device, worth telling; "": nothing is */
     HdTuning tuning;
     const char *obstacle; /* why nothing is remembered; NULL: the best is */
 } Run;
@@ -33,23 +35,21 @@ static void print_heading(const Run *run) {
     printf("%-52s %10s %7s\n", "candidate", "ms", "ratio");
 }
 
-static void print_candidate(void *context, const HdTuning *tuning) {
-    const Run *run = context;
-    int last = tuning->count - 1;
-    const HdTuningCandidate *candidate = &tuning->candidates[last];
+static void print_candidate(const HdTuning *tuning, int index) {
+    const HdTuningCandidate *candidate = &tuning->candidates[index];
     char name[128];
-    if (last == 0)
-        print_heading(run);
     hd_launch_describe(&candidate->launch, name, sizeof name);
     if (candidate->failure[0] == '\0')
-        printf("%-52s %10.3f %7.3f\n", name, 1e3 * candidate->seconds, ratio(tuning, last));
+        printf("%-52s %10.3f %7.3f\n", name, 1e3 * candidate->seconds, ratio(tuning, index));
     else
         printf("%-52s cannot be used: %s\n", name, candidate->failure);
-    fflush(stdout);
 }
 
-static void print_end(const Run *run) {
+static void print_table(const Run *run) {
     char name[128];
+    print_heading(run);
+    for (int i = 0; i < run->tuning.count; i++)
+        print_candidate(&run->tuning, i);
     hd_launch_describe(&run->tuning.candidates[run->tuning.best].launch, name, sizeof name);
     printf("\nthe best: %s; ", name);
     if (run->obstacle == NULL)
@@ -120,8 +120,7 @@ static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
     if (status != HD_OK)
         return status;
     hd_renderer_close(renderer);
-    if (reason.note[0] != '\0')
-        fprintf(stderr, "hedron: %s\n", reason.note);
+    snprintf(run->note, sizeof run->note, "%s", reason.note);
     return HD_OK;
 }
 
@@ -134,11 +133,14 @@ static HdStatus remember(Run *run, HdError *error) {
 }
 
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
-    const HdOptions *options = run->options;
+    HdProgress progress = hd_progress_start(hd_progress_form(false), 1);
+    hd_progress_prepare(&progress, "measuring");
     HdStatus status = choose_device(run, job, error);
     if (status == HD_OK)
-        status = hd_tune(&run->tuning, &run->device, &options->render, job,
-                         options->json ? NULL : print_candidate, run, error);
+        status = hd_tune(&run->tuning, &run->device, &run->options->render, job, error);
+    hd_progress_end(&progress);
+    if (run->note[0] != '\0')
+        fprintf(stderr, "hedron: %s\n", run->note);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted; nothing is remembered");
     return status;
@@ -150,7 +152,7 @@ static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
         return status;
     status = remember(run, error);
     if (!run->options->json) {
-        print_end(run);
+        print_table(run);
         return status;
     }
     HdStatus printed = print_json(run, error);

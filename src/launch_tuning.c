@@ -14,19 +14,17 @@ typedef struct Tuner {
     const HdDevice *device;
     const HdRenderOptions *options;
     const HdJob *job;
-    HdTuningWatcher *watcher;
-    void *context;
     double share; /* of a frame's pixels, for all candidates; 0: not known yet */
     int times;    /* that the picture is rendered for a candidate */
 } Tuner;
 
 /* ---- one candidate ---- */
 
-/* As much of the frame as takes a tenth of a second. Renders everything twice: the first time some
+/* As much of the frame as takes a fifth of a second. Renders everything twice: the first time some
    drivers are still compiling. */
 static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
-    const double first_samples = 4096.0, picture_seconds = 0.1, all_seconds = 0.5;
-    const int least_times = 3, most_times = 200;
+    const double first_samples = 4096.0, picture_seconds = 0.2, all_seconds = 0.5;
+    const int least_times = 2, most_times = 40;
     const HdScene *scene = tuner->job->scene;
     double samples =
         (double)scene->width * scene->height * scene->samples_per_side * scene->samples_per_side;
@@ -61,10 +59,6 @@ static HdStatus measure(Tuner *tuner, const HdLaunch *launch, HdTrialTime *time,
     return status;
 }
 
-static bool is_clearly_faster(const HdTuning *tuning, double seconds) {
-    return seconds < CLEARLY_FASTER * tuning->candidates[tuning->best].seconds;
-}
-
 static HdStatus try(Tuner *tuner, const HdLaunch *launch, HdError *error) {
     HdTuning *tuning = tuner->tuning;
     HdTrialTime time = {0};
@@ -82,12 +76,49 @@ static HdStatus try(Tuner *tuner, const HdLaunch *launch, HdError *error) {
         tuning->width = time.width;
         tuning->height = time.height;
     }
-    if (status == HD_OK && is_clearly_faster(tuning, time.trace_seconds))
-        tuning->best = tuning->count;
     tuning->count++;
-    if (tuner->watcher != NULL)
-        tuner->watcher(tuner->context, tuning);
     return HD_OK;
+}
+
+/* ---- the best of those so far ---- */
+
+static void find_best(HdTuning *tuning) {
+    tuning->best = 0;
+    for (int i = 1; i < tuning->count; i++) {
+        const HdTuningCandidate *candidate = &tuning->candidates[i];
+        if (candidate->failure[0] == '\0' &&
+            candidate->seconds < CLEARLY_FASTER * tuning->candidates[tuning->best].seconds)
+            tuning->best = i;
+    }
+}
+
+/* Where others use the machine too, they do so for a while: what was slow may have been unlucky. */
+static HdStatus measure_again(Tuner *tuner, HdError *error) {
+    const double near = 1.5;
+    HdTuning *tuning = tuner->tuning;
+    double limit = near * tuning->candidates[tuning->best].seconds;
+    for (int i = 0; i < tuning->count; i++) {
+        HdTuningCandidate *candidate = &tuning->candidates[i];
+        HdTrialTime time;
+        if (candidate->failure[0] != '\0' || candidate->seconds > limit)
+            continue;
+        HdStatus status = measure(tuner, &candidate->launch, &time, error);
+        if (status != HD_OK)
+            return status;
+        candidate->seconds = fmin(candidate->seconds, time.trace_seconds);
+    }
+    return HD_OK;
+}
+
+static HdStatus choose(Tuner *tuner, HdError *error) {
+    const int rounds = 2;
+    HdStatus status = HD_OK;
+    find_best(tuner->tuning);
+    for (int i = 0; status == HD_OK && i < rounds; i++) {
+        status = measure_again(tuner, error);
+        find_best(tuner->tuning);
+    }
+    return status;
 }
 
 /* ---- all of them ---- */
@@ -163,21 +194,18 @@ static HdStatus try_grids(Tuner *tuner, HdError *error) {
 }
 
 HdStatus hd_tune(HdTuning *tuning, const HdDevice *device, const HdRenderOptions *options,
-                 const HdJob *job, HdTuningWatcher *watcher, void *context, HdError *error) {
-    Tuner tuner = {
-        .tuning = tuning,
-        .device = device,
-        .options = options,
-        .job = job,
-        .watcher = watcher,
-        .context = context,
-    };
+                 const HdJob *job, HdError *error) {
+    typedef HdStatus Stage(Tuner *, HdError *);
+    Stage *const of_cpus[] = {try_pipelines, try_lanes, NULL};
+    Stage *const of_gpus[] = {try_pipelines, try_blocks, try_grids, NULL};
+    bool has_groups = !device->is_cpu || options->test.groups;
+    Tuner tuner = {.tuning = tuning, .device = device, .options = options, .job = job};
+    HdStatus status = HD_OK;
     tuning->count = tuning->best = 0;
-    HdStatus status = try_pipelines(&tuner, error);
-    if (status != HD_OK)
-        return status;
-    if (device->is_cpu && !options->test.groups)
-        return try_lanes(&tuner, error);
-    status = try_blocks(&tuner, error);
-    return status == HD_OK ? try_grids(&tuner, error) : status;
+    for (Stage *const *stage = has_groups ? of_gpus : of_cpus; status == HD_OK && *stage; stage++) {
+        status = (*stage)(&tuner, error);
+        if (status == HD_OK)
+            status = choose(&tuner, error);
+    }
+    return status;
 }

@@ -21,15 +21,13 @@ typedef struct HdTuning {
     int width, height; /* of the pictures */
 } HdTuning;
 
-/* Called after each candidate. */
-typedef void HdTuningWatcher(void *context, const HdTuning *tuning);
-
 /* Measures what the options leave open: first pipelines, on NVIDIA devices each with several limits
    of registers; then, with the best of those, lanes on CPUs, the size of groups and how many there
-   are at most on GPUs. Another candidate must be clearly faster to be the best. One that cannot be
-   used is told with the reason; the first one must work. A scene's frame is rendered whole where
-   that takes less than a tenth of a second, else a smaller picture of it. */
+   are at most on GPUs. The fastest are measured several times, in turn. Another candidate must be
+   clearly faster to be the best. One that cannot be used is told with the reason; the first one
+   must work. A scene's frame is rendered whole where
+   that takes less than a fifth of a second, else a smaller picture of it. */
 HdStatus hd_tune(HdTuning *tuning, const HdDevice *device, const HdRenderOptions *options,
-                 const HdJob *job, HdTuningWatcher *watcher, void *context, HdError *error);
+                 const HdJob *job, HdError *error);
 
 #endif
