@@ -9,6 +9,7 @@ add_library(hedron_program STATIC
     src/command_render.c
     src/command_scene.c
     src/command_table.c
+    src/command_tune.c
     src/completion.c
     src/json_device_text.c
     src/man_page.c

@@ -30,7 +30,7 @@ const HdBackend *hd_backend_find(const char *name) {
     return NULL;
 }
 
-static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
+HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error) {
     int lanes = options->lanes;
     if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
         return hd_fail(error, HD_BAD_INPUT, "the number of lanes must be 1, 4, 8 or 16, not %d",
@@ -46,6 +46,11 @@ static HdStatus check_options(const HdRenderOptions *options, HdError *error) {
     if (options->grid < 0 || options->grid > HD_MAX_GRID)
         return hd_fail(error, HD_BAD_INPUT, "the blocks of a grid must be 0 to %d, not %d",
                        (int)HD_MAX_GRID, options->grid);
+    int registers = options->registers;
+    if (registers != 0 && (registers < HD_MIN_REGISTERS || registers > HD_MAX_REGISTERS))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the registers of a thread must be 0 or %d to %d, not %d",
+                       (int)HD_MIN_REGISTERS, (int)HD_MAX_REGISTERS, registers);
     if ((int)options->pipeline < 0 || options->pipeline >= HD_PIPELINE_COUNT)
         return hd_fail(error, HD_BAD_INPUT, "unknown pipeline %d", (int)options->pipeline);
     if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)
@@ -81,7 +86,7 @@ static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError 
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error) {
     *renderer = NULL;
-    HdStatus status = check_options(options, error);
+    HdStatus status = hd_render_options_check(options, error);
     if (status != HD_OK)
         return status;
     const char *obstacle = hd_device_obstacle(device, options);

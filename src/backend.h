@@ -22,14 +22,23 @@ typedef enum HdPipeline {
     HD_PIPELINE_COUNT
 } HdPipeline;
 
-enum { HD_MAX_THREADS = 1024, HD_BLOCK_STEP = 32, HD_MAX_BLOCK = 1024, HD_MAX_GRID = 1 << 20 };
+enum {
+    HD_MAX_THREADS = 1024,
+    HD_BLOCK_STEP = 32,
+    HD_MAX_BLOCK = 1024,
+    HD_MAX_GRID = 1 << 20,
+    HD_MIN_REGISTERS = 16,
+    HD_MAX_REGISTERS = 255
+};
 
 typedef struct HdRenderOptions {
-    int lanes;   /* 1, 4, 8 or 16; 0: what suits the device */
-    int threads; /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
-    int block;   /* threads of a GPU's work group, a multiple of HD_BLOCK_STEP up to HD_MAX_BLOCK;
-                    0: what suits the device */
-    int grid;    /* work groups of one launch on a GPU, at most this; 0: what suits the device */
+    int lanes;     /* 1, 4, 8 or 16; 0: what suits the device */
+    int threads;   /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
+    int block;     /* threads of a GPU's work group, a multiple of HD_BLOCK_STEP up to HD_MAX_BLOCK;
+                      0: what suits the device */
+    int grid;      /* work groups of one launch on a GPU, at most this; 0: what suits the device */
+    int registers; /* of a thread on an NVIDIA device, at most this, HD_MIN_REGISTERS to
+                      HD_MAX_REGISTERS; 0: what suits the device. No option of the command line */
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;
@@ -51,6 +60,8 @@ typedef struct HdDevice {
     bool is_cpu;       /* takes several lanes */
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
+    int nvidia_arch; /* where kernels can be built with a limit of registers, which is on NVIDIA
+                        devices: 61 stands for sm_61; else 0 */
     bool has_double;
     bool
         has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
@@ -101,6 +112,9 @@ extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 
 /* NULL where no backend has that name. */
 const HdBackend *hd_backend_find(const char *name);
+
+/* HD_BAD_INPUT where a number of the options is none that any device can have. */
+HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error);
 
 /* Why the device cannot do what the options ask (strict arithmetic, double precision, several
    lanes, a wavefront), in words; NULL: it can. The words live as long as the device. */

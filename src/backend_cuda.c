@@ -113,6 +113,7 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
         status = query_speed(driver, handle, device, error);
     if (status != HD_OK)
         return status;
+    device->nvidia_arch = arch;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
     /* Fails where there is no compiler, so that a choice among devices can pass it over. */
@@ -270,6 +271,8 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     renderer->grid = options->grid;
     renderer->queue_bytes = options->test.queue_bytes;
     HdStatus status = open_device(renderer, device->index, error);
+    renderer->shape.register_limit =
+        hd_register_limit(&renderer->shape, renderer->arch, options->registers);
     if (status == HD_OK)
         status = retain_context(renderer, error);
     if (status == HD_OK)

@@ -98,6 +98,9 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
         .precision = options->precision,
         .math = options->math,
     };
+    if (device->nvidia_arch > 0)
+        renderer->shape.register_limit =
+            hd_register_limit(&renderer->shape, device->nvidia_arch, options->registers);
     renderer->local_size = has_groups ? (size_t)renderer->shape.group_size : 1;
     renderer->launch_items =
         has_groups ? hd_gpu_launch_items(device->compute_units) : HD_MAX_LAUNCH_ITEMS;

@@ -35,8 +35,19 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
     {HD_COMMAND_DEVICES, "devices", "", NULL, NULL, 0,
      "list backends and devices, and what is missing",
      "Lists backends and devices; for what is missing, the reason."},
-    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL, "render check convert devices help man completion",
-     1, "explain a command",
+    {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", NULL, 1,
+     "measure what suits a device and a scene best, and remember it",
+     "Measures, on the device that 'hedron render' would take for SCENE.json (-: standard input) "
+     "or "
+     "the built-in scene, which pipeline is the fastest, with how many lanes on a CPU, and on a "
+     "GPU "
+     "in which groups and with how many registers. What --pipeline, --lanes, --block or --grid "
+     "fix is left as it is. Prints a line for each candidate, its time for a picture and the ratio "
+     "to the device's default, and remembers the best in the cache folder: 'hedron render' uses it "
+     "for scenes of this kind and size with the same options, and says so with --verbose. The "
+     "bytes of strict pictures do not depend on it."},
+    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL,
+     "render check convert devices tune help man completion", 1, "explain a command",
      "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
      "of this program."},
     {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, NULL, 0,
@@ -77,6 +88,7 @@ const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
     {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
      "times and rays of each frame, a line of JSON each"},
     {"hedron check scene.json", "mistakes of a scene"},
+    {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
     {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
     {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
     {"source <(hedron help completion)", "completion for this bash"},

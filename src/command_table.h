@@ -10,8 +10,9 @@ typedef enum HdCommand {
     HD_COMMAND_CHECK = 4,
     HD_COMMAND_CONVERT = 8,
     HD_COMMAND_DEVICES = 16,
-    HD_COMMAND_HELP = 32,
-    HD_COMMAND_VERSION = 64
+    HD_COMMAND_TUNE = 32,
+    HD_COMMAND_HELP = 64,
+    HD_COMMAND_VERSION = 128
 } HdCommand;
 
 /* What there is help about, apart from commands: the man page and the completion script. */
@@ -33,7 +34,7 @@ typedef struct HdCommandSpec {
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
-enum { HD_COMMAND_SPEC_COUNT = 6 };
+enum { HD_COMMAND_SPEC_COUNT = 7 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
 /* NULL where no command has that name. */
@@ -47,7 +48,7 @@ typedef struct HdExplained {
     const char *text, *meaning;
 } HdExplained;
 
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 9 };
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 10 };
 extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
 

@@ -53,7 +53,7 @@ void hd_cuda_options(char options[HD_CUDA_OPTIONS_LENGTH], int arch, const HdKer
     hd_kernel_defines(shape, defines);
     int length = snprintf(
         options, HD_CUDA_OPTIONS_LENGTH, "--gpu-architecture=sm_%d --maxrregcount=%d %s", arch,
-        (int)HD_REGISTER_LIMIT,
+        shape->register_limit,
         shape->math == HD_MATH_FAST ? "--use_fast_math"
                                     : "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false");
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)

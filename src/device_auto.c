@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "device_auto.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,8 +9,8 @@
 #include <string.h>
 
 #include "cache_folder.h"
-#include "hash.h"
-#include "kernel_source.h"
+#include "job_kind.h"
+#include "launch_choice.h"
 
 enum { MAX_COMPARED = 16, KEY_LENGTH = 1 << 14, WHY_LENGTH = 1024, NOTE_LENGTH = 2048 };
 
@@ -29,34 +28,15 @@ typedef struct Choosing {
 
 /* ---- the record of an earlier measurement ---- */
 
-static int power_of_two(double number) {
-    return number < 1.0 ? 0 : (int)ceil(log2(number));
-}
-
 static void write_key(const Choosing *choosing, char key[KEY_LENGTH]) {
     const HdAutoChoice *choice = choosing->choice;
-    const HdRenderOptions *options = choice->options;
-    const HdScene *scene = choice->job->scene;
-    double samples =
-        (double)scene->samples_per_side * scene->samples_per_side * scene->width * scene->height;
-    int planes = 0;
-    for (int i = 0; i < scene->solid_count; i++) {
-        HdPlatonic shape;
-        hd_platonic(scene->solids[i].kind, &shape);
-        planes += shape.face_count;
-    }
-    int length =
-        snprintf(key, KEY_LENGTH,
-                 "hedron %s, kernels %016" PRIx64 "\n2^%d samples, 2^%d planes, %s floor, 2^%d "
-                 "lights, depth 2^%d\nprecision %d, math %d, %d lanes, %d threads\n",
-                 HD_VERSION, hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size),
-                 power_of_two(samples), power_of_two(planes), scene->floor.present ? "a" : "no",
-                 power_of_two(hd_scene_light_count(scene)), power_of_two(scene->depth),
-                 (int)options->precision, (int)options->math, options->lanes, options->threads);
+    hd_job_kind(choice->job->scene, choice->options, key, KEY_LENGTH);
+    size_t length = strlen(key);
     for (int i = 0; i < choosing->compared && length < KEY_LENGTH; i++) {
         const HdDevice *device = &choice->candidates[i];
-        length += snprintf(key + length, (size_t)(KEY_LENGTH - length), "%s %d %s (%s)\n",
-                           device->backend->name, device->index, device->name, device->driver);
+        length +=
+            (size_t)snprintf(key + length, KEY_LENGTH - length, "%s %d %s (%s)\n",
+                             device->backend->name, device->index, device->name, device->driver);
     }
 }
 
@@ -125,18 +105,26 @@ static double share_to_measure(const HdAutoChoice *choice) {
     return choice->frame_seconds > seconds ? seconds / choice->frame_seconds : 1.0;
 }
 
+static HdStatus open_trial(HdRenderer **renderer, const HdAutoChoice *choice, int index,
+                           HdError *error) {
+    const HdDevice *device = &choice->candidates[index];
+    HdRenderOptions options =
+        hd_launch_remembered_options(device, choice->options, choice->job->scene);
+    return hd_trial_open(renderer, device, &options, choice->job, error);
+}
+
 /* The first of two frames warms up. */
 static HdStatus measure_one(Choosing *choosing, int index, HdError *error) {
     const HdAutoChoice *choice = choosing->choice;
     HdRenderer *renderer = NULL;
-    double rendered;
-    HdStatus status =
-        hd_trial_open(&renderer, &choice->candidates[index], choice->options, choice->job, error);
+    HdTrialTime time;
+    HdStatus status = open_trial(&renderer, choice, index, error);
     if (status == HD_OK)
         status = hd_trial_measure(renderer, choice->options->precision, choice->job,
-                                  share_to_measure(choice), 2, &choosing->seconds[index], &rendered,
-                                  error);
+                                  share_to_measure(choice), 2, &time, error);
     choosing->failed[index] = status != HD_OK;
+    if (status == HD_OK)
+        choosing->seconds[index] = time.seconds;
     int before = choosing->best;
     if (status == HD_OK && (before < 0 || choosing->seconds[index] < choosing->seconds[before])) {
         HdRenderer *slower = choosing->renderer;
@@ -201,8 +189,9 @@ static HdStatus open_candidate(Choosing *choosing, int index, HdError *error) {
     const HdAutoChoice *choice = choosing->choice;
     const HdDevice *device = &choice->candidates[index];
     if (device->backend->kernels == NULL)
-        return hd_renderer_open(&choosing->renderer, device, choice->options, error);
-    return hd_trial_open(&choosing->renderer, device, choice->options, choice->job, error);
+        return hd_launch_open(&choosing->renderer, device, choice->options, choice->job->scene,
+                              error);
+    return open_trial(&choosing->renderer, choice, index, error);
 }
 
 /* The candidate, else those that follow it, else those before it. */

@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "device_auto.h"
+#include "launch_choice.h"
 
 enum { MAX_CANDIDATES = 32 };
 
@@ -179,14 +180,14 @@ static HdStatus search_devices(Search *search, HdError *error) {
                    device != NULL ? "; see 'hedron devices'" : "");
 }
 
-static HdStatus open_best(Search *search, HdRenderer **renderer, HdDevice *device,
+static HdStatus open_best(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
                           HdDeviceReason *reason, HdError *error) {
     HdStatus status = search_devices(search, error);
     if (status != HD_OK)
         return status;
     *device = search->candidates[0];
     explain(search, device, "", reason);
-    return hd_renderer_open(renderer, device, search->options, error);
+    return hd_launch_open(renderer, device, search->options, job->scene, error);
 }
 
 /* ---- without a name ---- */
@@ -221,14 +222,15 @@ static HdStatus open_fastest(const Search *search, HdRenderer **renderer, HdDevi
 }
 
 static HdStatus open_plain_c(const Search *search, HdRenderer **renderer, HdDevice *device,
-                             double seconds, HdDeviceReason *reason, HdError *error) {
+                             const HdJob *job, double seconds, HdDeviceReason *reason,
+                             HdError *error) {
     int count;
     HdStatus status = plain_c()->enumerate(device, 1, &count, error);
     if (status != HD_OK)
         return status;
     snprintf(reason->why, sizeof reason->why,
              "it needs about %.2g s, less than other devices take to start", seconds);
-    return hd_renderer_open(renderer, device, search->options, error);
+    return hd_launch_open(renderer, device, search->options, job->scene, error);
 }
 
 /* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
@@ -241,7 +243,7 @@ static HdStatus open_any(Search *search, HdRenderer **renderer, HdDevice *device
         return status;
     double seconds = frame_seconds * job->frame_count;
     if (seconds <= HD_AUTO_SMALL_SECONDS)
-        return open_plain_c(search, renderer, device, seconds, reason, error);
+        return open_plain_c(search, renderer, device, job, seconds, reason, error);
     status = search_devices(search, error);
     if (status != HD_OK)
         return status;
@@ -263,7 +265,7 @@ static HdStatus open_wanted(Search *search, HdRenderer **renderer, HdDevice *dev
                             const HdJob *job, HdDeviceReason *reason, HdError *error) {
     const HdDeviceWish *wish = search->wish;
     if (wish->backend != NULL || wish->device != NULL || wish->kind == HD_ONLY_CPU)
-        return open_best(search, renderer, device, reason, error);
+        return open_best(search, renderer, device, job, reason, error);
     return wish->kind == HD_PREFER_GPU ? open_gpu(search, renderer, device, job, reason, error)
                                        : open_any(search, renderer, device, job, reason, error);
 }

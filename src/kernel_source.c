@@ -28,6 +28,17 @@ void hd_kernel_defines(const HdKernelShape *shape,
         snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
 }
 
+int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
+    enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
+    int few = 64, many = 128;
+    bool takes_many = nvidia_arch >= 70 && shape->precision == HD_PRECISION_FLOAT;
+    if (asked > 0)
+        return asked;
+    int limit = takes_many ? many : few;
+    int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
+    return share < limit ? share : limit;
+}
+
 const char *hd_kernel_tracing(const HdKernelShape *shape) {
     if (!shape->wavefront)
         return "hedron_render";

@@ -30,12 +30,14 @@ typedef struct HdKernelShape {
     HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
+    int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
 } HdKernelShape;
 
-/* NVIDIA's compilers take so many registers, left alone, that few threads are in flight. On an H200
-   a limit of 64 renders 29 % more frames in a second with floats and 75 % more with doubles, spills
-   and all; 56 and 72 are no better. */
-enum { HD_REGISTER_LIMIT = 64 };
+/* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
+   that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
+   are in flight. On an H200 the limit 128 is the best for floats and 64 for doubles, spills and
+   all. A block's threads share 65536 registers, so that large blocks get fewer. */
+int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINE_COUNT = 10, HD_KERNEL_DEFINE_LENGTH = 40 };
 

@@ -108,6 +108,14 @@ static bool has_extension(cl_device_id device, const char *name) {
     return strstr(extensions, name) != NULL;
 }
 
+/* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version. */
+static int find_nvidia_arch(cl_device_id device) {
+    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
+    if (!has_extension(device, "cl_nv_compiler_options"))
+        return 0;
+    return (int)(10 * query_uint(device, CAPABILITY_MAJOR) + query_uint(device, CAPABILITY_MINOR));
+}
+
 static void describe_device(HdDevice *device, Entry entry, int index) {
     memset(device, 0, sizeof *device);
     device->backend = &hd_backend_opencl;
@@ -121,6 +129,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->is_cpu = query_ulong(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
     device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
     device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    device->nvidia_arch = find_nvidia_arch(entry.device);
     device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     find_obstacles(entry.device, device->unusable, sizeof device->unusable);
@@ -193,7 +202,7 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     *device = (HdOpenclDevice){
         .id = id,
         .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
-        .takes_register_limit = has_extension(id, "cl_nv_compiler_options"),
+        .nvidia_arch = find_nvidia_arch(id),
         .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
         .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
                          (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},

@@ -9,7 +9,7 @@
 typedef struct HdOpenclDevice {
     cl_device_id id;
     bool is_cpu;
-    bool takes_register_limit; /* NVIDIA's build option -cl-nv-maxrregcount */
+    int nvidia_arch; /* as HdDevice's */
     int compute_units;
     int native_width[2]; /* lanes of a register, by HdPrecision */
     cl_ulong memory, max_allocation;

@@ -8,8 +8,7 @@
 
 enum { OPTIONS_LENGTH = 128 + HD_KERNEL_DEFINE_COUNT * (HD_KERNEL_DEFINE_LENGTH + 1) };
 
-static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *shape,
-                          bool takes_register_limit) {
+static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *shape) {
     char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
     hd_kernel_defines(shape, defines);
     int length = snprintf(options, OPTIONS_LENGTH, "-cl-std=CL1.2 %s",
@@ -17,9 +16,9 @@ static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *sha
                                                       : "-cl-fp32-correctly-rounded-divide-sqrt");
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
-    if (takes_register_limit)
+    if (shape->register_limit > 0)
         snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " -cl-nv-maxrregcount=%d",
-                 (int)HD_REGISTER_LIMIT);
+                 shape->register_limit);
 }
 
 static HdStatus fail_with_log(cl_program program, cl_device_id device, const char *name,
@@ -143,7 +142,7 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
                          HdError *error) {
     char options[OPTIONS_LENGTH];
     *program = (HdOpenclProgram){0};
-    write_options(options, shape, device->takes_register_limit);
+    write_options(options, shape);
     if (load_cached(program, context, device, options, shape, cache, error))
         return HD_OK;
     double start = hd_monotonic_seconds();

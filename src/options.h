@@ -37,7 +37,7 @@ typedef struct HdOptions {
     const char *frames;     /* NULL: not given */
     const char *statistics; /* a file, "-": standard output; NULL: not given */
     bool verbose, quiet;    /* not both */
-    bool json;              /* of 'devices' */
+    bool json;              /* of 'devices' and 'tune' */
     bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
                                float, strict */

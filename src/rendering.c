@@ -48,6 +48,13 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     return status;
 }
 
+static void note_device(const Run *run, const char *why) {
+    HdLaunch launch;
+    hd_note_device(&run->device, why);
+    if (hd_launch_recall(&launch, &run->device, &run->options->render, run->rendering->scene))
+        hd_note_launch(&launch);
+}
+
 static HdStatus open_device(Run *run, HdError *error) {
     const HdOptions *options = run->options;
     HdDeviceReason reason;
@@ -73,7 +80,7 @@ static HdStatus open_device(Run *run, HdError *error) {
     if (reason.note[0] != '\0' && !options->quiet)
         fprintf(stderr, "hedron: %s\n", reason.note);
     if (options->verbose)
-        hd_note_device(&run->device, reason.why);
+        note_device(run, reason.why);
     return HD_OK;
 }
 

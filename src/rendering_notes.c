@@ -31,6 +31,12 @@ void hd_note_device(const HdDevice *device, const char *why) {
             device->name, device->driver, why);
 }
 
+void hd_note_launch(const HdLaunch *launch) {
+    char line[128];
+    hd_launch_describe(launch, line, sizeof line);
+    fprintf(stderr, "launch    %s: the best for this kind of scene, by 'hedron tune'\n", line);
+}
+
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
                       const HdSceneTables *tables) {
     char line[256];

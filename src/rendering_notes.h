@@ -3,13 +3,16 @@
 #ifndef HD_RENDERING_NOTES_H
 #define HD_RENDERING_NOTES_H
 
-#include "backend.h"
+#include "launch_choice.h"
 #include "outputs.h"
 #include "scene.h"
 
 void hd_note_scene(const char *name, const HdScene *scene);
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count);
 void hd_note_device(const HdDevice *device, const char *why);
+
+/* What 'hedron tune' found the best. */
+void hd_note_launch(const HdLaunch *launch);
 
 /* `renderer` is hd_renderer_describe's line, `kernels` hd_renderer_kernels_note's. */
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,

@@ -35,36 +35,40 @@ static int scaled(int side, double factor) {
 }
 
 static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int times,
-                       double *seconds, HdError *error) {
+                       HdTrialTime *time, HdError *error) {
     HdFrame frame;
     HdStatus status = hd_frame_create(&frame, tables->width, tables->height, error);
-    *seconds = 0.0;
     for (int i = 0; status == HD_OK && i < times; i++) {
         double start = hd_monotonic_seconds();
         status = hd_renderer_render(renderer, tables, &frame, error);
         double taken = hd_monotonic_seconds() - start;
-        *seconds = i == 0 ? taken : fmin(*seconds, taken);
+        time->seconds = i == 0 ? taken : fmin(time->seconds, taken);
+        time->trace_seconds =
+            i == 0 ? frame.trace_seconds : fmin(time->trace_seconds, frame.trace_seconds);
     }
     hd_frame_free(&frame);
     return status;
 }
 
 HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                          double share, int times, double *seconds, double *rendered,
-                          HdError *error) {
+                          double share, int times, HdTrialTime *time, HdError *error) {
     HdScene small = *job->scene; /* what it owns stays with the other */
     HdCamera camera;
     HdFrameTables tables;
     small.width = scaled(job->scene->width, sqrt(share));
     small.height = scaled(job->scene->height, sqrt(share));
-    *rendered = (double)small.width * small.height /
-                ((double)job->scene->width * (double)job->scene->height);
+    *time = (HdTrialTime){
+        .width = small.width,
+        .height = small.height,
+        .share = (double)small.width * small.height /
+                 ((double)job->scene->width * (double)job->scene->height),
+    };
     HdStatus status = hd_camera_at(&camera, &small, job->first_frame, error);
     if (status == HD_OK)
         status = hd_compile_frame(&tables, &small, &camera, precision, error);
     if (status != HD_OK)
         return status;
-    status = render(renderer, &tables, times, seconds, error);
+    status = render(renderer, &tables, times, time, error);
     hd_frame_tables_free(&tables);
     return status;
 }
@@ -79,13 +83,12 @@ static HdStatus estimate(HdRenderer *renderer, HdPrecision precision, const HdJo
         (double)scene->width * scene->height * scene->samples_per_side * scene->samples_per_side;
     double share = fmin(1.0, first_samples / samples);
     for (;;) {
-        double seconds, rendered;
-        HdStatus status =
-            hd_trial_measure(renderer, precision, job, share, 1, &seconds, &rendered, error);
+        HdTrialTime time;
+        HdStatus status = hd_trial_measure(renderer, precision, job, share, 1, &time, error);
         if (status != HD_OK)
             return status;
-        *frame_seconds = seconds / rendered;
-        if (share >= 1.0 || seconds > believed_seconds ||
+        *frame_seconds = time.seconds / time.share;
+        if (share >= 1.0 || time.seconds > believed_seconds ||
             *frame_seconds * job->frame_count <= enough)
             return HD_OK;
         share = fmin(1.0, 4.0 * share);

@@ -17,11 +17,17 @@ typedef struct HdJob {
 HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error);
 
-/* Renders `share` of the pixels of a frame, more than 0 and at most 1, some times over. `*seconds`
-   is the least that one took, copies included, `*rendered` the share that was really rendered. */
+/* Each is the least of several. */
+typedef struct HdTrialTime {
+    double seconds;       /* of a picture, copies included */
+    double trace_seconds; /* of tracing alone */
+    int width, height;
+    double share; /* of the pixels of a frame */
+} HdTrialTime;
+
+/* Renders about `share` of the pixels of a frame, more than 0 and at most 1, some times over. */
 HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                          double share, int times, double *seconds, double *rendered,
-                          HdError *error);
+                          double share, int times, HdTrialTime *time, HdError *error);
 
 /* About how many seconds plain C takes for a whole frame. Measures no longer than it must to know,
    some hundredths of a second, and stops early where `frame_count` of them take less than

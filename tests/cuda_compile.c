@@ -17,6 +17,7 @@ enum { SKIPPED = 77, USAGE = 2 };
 
 typedef struct Options {
     int arch;
+    int registers; /* 0: as many as suit */
     const char *nvrtc, *cubin;
     bool show_log;
     HdKernelShape shape;
@@ -52,6 +53,8 @@ static bool parse(Options *options, int argc, char **argv) {
             options->nvrtc = argv[++i];
         else if (strcmp(argv[i], "--block") == 0)
             options->shape.group_size = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--registers") == 0)
+            options->registers = atoi(argv[++i]);
         else if (strcmp(argv[i], "--planes") == 0)
             options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
@@ -61,6 +64,8 @@ static bool parse(Options *options, int argc, char **argv) {
         else
             return false;
     }
+    options->shape.register_limit =
+        hd_register_limit(&options->shape, options->arch, options->registers);
     return options->arch > 0;
 }
 
@@ -141,9 +146,10 @@ int main(int argc, char **argv) {
     static HdError error;
     Options options;
     if (!parse(&options, argc, argv)) {
-        fprintf(stderr, "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
-                        "[--wavefront] [--block N] [--planes N] [--depth N] [--log] "
-                        "[--cubin FILE]\n");
+        fprintf(stderr,
+                "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
+                "[--wavefront] [--block N] [--registers N] [--planes N] [--depth N] [--log] "
+                "[--cubin FILE]\n");
         return USAGE;
     }
     HdNvrtc nvrtc;

@@ -32,7 +32,7 @@ expect_completions() {
     fi
 }
 
-commands='render check convert devices help'
+commands='render check convert devices tune help'
 touch a.json b.json c.in 'with space.json'
 mkdir scenes
 
@@ -40,7 +40,7 @@ expect_completions "$commands" ''
 expect_completions 'render' r
 expect_completions 'check convert' c
 expect_completions '' x
-expect_completions '--gpu' --g
+expect_completions '--gpu --grid' --g
 expect_completions '--variant --verbose --version' --v
 expect_completions '' --cpu ''
 # ---- a command's own options, which are those of its help
@@ -53,6 +53,7 @@ for command in $commands; do
 done
 expect_completions '--schema' check --s
 expect_completions '--json' devices --j
+expect_completions '--json' tune --j
 expect_completions '' devices ''
 expect_completions "$commands man completion" help ''
 expect_completions 'man' help m

@@ -95,6 +95,28 @@ done
 expect_exit 0 env HEDRON_CACHE=off "${long[@]}"
 expect_stderr_contains 'the fastest of 2 on this kind of scene, '
 
+# ---- 'hedron tune': every limit of registers is compiled; with strict arithmetic the device cannot be used at all
+tune=("$hedron" tune --backend cuda "${small[@]}" --pipeline mega)
+expect_exit 0 "${tune[@]}" --math fast
+for candidate in mega 'mega, at most 64 registers' 'mega, at most 96 registers' 'mega, at most 128 registers' \
+    'mega, at most 168 registers' 'mega, groups of 64' 'mega, groups of 128' 'mega, groups of 256' \
+    'mega, at most 8000 groups' 'mega, at most 32000 groups'; do
+    if ! grep -q -x -E "$candidate +1\.000 +1\.000" "$logs/stdout"; then
+        fail "there is no candidate $candidate"
+        show_logs
+    fi
+done
+expect_stdout_contains 'the best: mega; remembered for scenes of this kind'
+for registers in 64 96 128 168; do
+    if ! grep -q -a -e "--maxrregcount=$registers " "$HEDRON_CACHE"/cuda-*; then
+        fail "no kernels were compiled for $registers registers"
+    fi
+done
+expect_exit 0 "${fast[@]}" --pipeline mega
+expect_stderr_contains "launch    mega: the best for this kind of scene, by 'hedron tune'"
+expect_refusal 3 "${tune[@]}"
+expect_stderr_contains 'computes wrongly'
+
 # ---- a library that is gone is missed, though kernels are kept
 expect_refusal 3 env HEDRON_NVRTC="$work/libnvrtc.so.12" "${render[@]}" --backend cuda --math fast --quiet
 expect_stderr_contains 'cannot be loaded as an NVRTC library'

@@ -49,7 +49,7 @@ expect_help '--help --output --variant' "$hedron" help convert
 expect_help '--help' "$hedron" help --help
 expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render check convert devices help --default '[OPTIONS] < INPUT'; do
+for usage in render check convert devices tune help --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
 

@@ -211,6 +211,11 @@ expect_refusal 2 "$hedron" render -o
 expect_stderr_contains '--output'
 
 # ---- options of another command
+for option in --output=x.png --stats=x --verbose --quiet --schema --gpu; do
+    expect_refusal 2 "$hedron" tune "$option"
+    expect_stderr_contains "${option%=*}"
+    expect_stderr_contains "tune"
+done
 for option in --gpu --cpu --default --variant=4 --json --schema; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "${option%=*}"

@@ -78,9 +78,8 @@ HdCuResult cuModuleGetFunction(HdCuFunction *function, HdCuModule module, const 
 }
 
 HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction function) {
-    (void)attribute;
     (void)function;
-    *value = 64;
+    *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? 1024 : 64;
     return HD_CU_SUCCESS;
 }
 

@@ -19,6 +19,10 @@ static struct {
     const char *options;
     int slow_milliseconds; /* more, for each frame of the device with this number */
     int slow_index;
+    /* What a frame's tracing is said to take; NULL: what it took. */
+    double (*trace_seconds)(const HdRenderOptions *options);
+    /* Opening fails where it says so; NULL: never. */
+    bool (*refuses)(const HdRenderOptions *options);
     int opened, compiled, loaded, rendered;
 } fake;
 
@@ -28,6 +32,7 @@ typedef struct FakeRenderer {
     HdKernelShape shape;
     bool is_built;
     int index;
+    HdRenderOptions options;
 } FakeRenderer;
 
 static HdStatus fake_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
@@ -39,9 +44,12 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
     fake.opened++;
     if (fake.is_missing)
         return hd_fail(error, HD_UNAVAILABLE, "it is missing");
+    if (fake.refuses != NULL && fake.refuses(options))
+        return hd_fail(error, HD_UNAVAILABLE, "it refuses");
     FakeRenderer *opened = calloc(1, sizeof *opened);
     assert_non_null(opened);
     opened->index = device->index;
+    opened->options = *options;
     opened->shape.precision = options->precision;
     opened->shape.math = options->math;
     hd_kernel_cache_begin(&opened->kernels, device);
@@ -98,6 +106,8 @@ static HdStatus fake_render(void *state, const HdFrameTables *tables, HdFrame *f
     if (fake.fails)
         return hd_fail(error, HD_FAILED, "it fails");
     HdStatus status = hd_backend_c.render(renderer->c, tables, frame, error);
+    if (status == HD_OK && fake.trace_seconds != NULL)
+        frame->trace_seconds = fake.trace_seconds(&renderer->options);
     if (status == HD_OK && fake.renders_wrongly) {
         uint32_t bits;
         float *last = &frame->rgb[(size_t)frame->width * (size_t)frame->height * 3 - 1];

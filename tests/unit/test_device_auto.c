@@ -105,6 +105,8 @@ static void scenes_and_devices_of_another_kind_are_measured(void **state) {
     expect_measured(true);
     options.precision = HD_PRECISION_DOUBLE;
     expect_measured(true);
+    options.block = 64;
+    expect_measured(true);
     snprintf(candidates[FAKE].driver, sizeof candidates[FAKE].driver, "driver 8");
     expect_measured(true);
     expect_measured(false);
