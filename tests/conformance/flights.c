@@ -32,7 +32,7 @@ static void build(const char *name, HdScene *scene, HdCamera *camera) {
 /* The second view is the first scene's, upside down. */
 static void turn(HdCamera *camera) {
     for (int i = 0; i < 3; i++) {
-        camera->right[i] = -camera->right[i];
+    X = -camera->right[i];
         camera->down[i] = -camera->down[i];
     }
 }
