@@ -32,6 +32,8 @@ typedef struct CRenderer {
     HdSceneTables scene; /* our own copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
+    const HdFrameTables *waiting[HD_FRAMES_IN_FLIGHT]; /* submitted frames, the oldest first */
+    int waiting_count;
 } CRenderer;
 
 static int core_count(void) {
@@ -199,9 +201,32 @@ static bool is_interrupted(void) {
     return hd_interrupt_signal() != 0;
 }
 
-static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+/* Nothing works by itself here: a frame is rendered when it is collected. */
+static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
                          HdError *error) {
     CRenderer *c = renderer;
+    (void)wish;
+    (void)error;
+    c->waiting[c->waiting_count++] = tables;
+    return HD_OK;
+}
+
+static const HdFrameTables *take_oldest(CRenderer *c) {
+    const HdFrameTables *oldest = c->waiting[0];
+    c->waiting_count--;
+    for (int i = 0; i < c->waiting_count; i++)
+        c->waiting[i] = c->waiting[i + 1];
+    return oldest;
+}
+
+static void c_drop(void *renderer) {
+    CRenderer *c = renderer;
+    c->waiting_count = 0;
+}
+
+static HdStatus c_collect(void *renderer, HdFrame *frame, HdError *error) {
+    CRenderer *c = renderer;
+    const HdFrameTables *tables = take_oldest(c);
     int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
     HdStatus status = reserve_counts(c, items, error);
     if (status == HD_OK && c->queues != NULL)
@@ -212,6 +237,7 @@ static HdStatus c_render(void *renderer, const HdFrameTables *tables, HdFrame *f
     double start = hd_monotonic_seconds();
     if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, is_interrupted))
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    frame->is_encoded = false;
     frame->trace_seconds = hd_monotonic_seconds() - start;
     hd_frame_set_counts(frame, tables->samples_per_side, c->counts, items);
     return HD_OK;
@@ -229,7 +255,9 @@ const HdBackend hd_backend_c = {
     .enumerate = c_enumerate,
     .open = c_open,
     .upload = c_upload,
-    .render = c_render,
+    .submit = c_submit,
+    .collect = c_collect,
+    .drop = c_drop,
     .describe = c_describe,
     .close = c_close,
 };

@@ -21,6 +21,11 @@ struct HdRenderer {
     HdDevice device;
     HdRenderOptions options;
     bool has_scene;
+    int in_flight;
+    struct {
+        int width, height;
+        bool wants_radiance;
+    } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
 
 const HdBackend *hd_backend_find(const char *name) {
@@ -150,9 +155,20 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
     return status;
 }
 
+/* Must hold for `what` to be done. */
+static HdStatus check_in_flight(const HdRenderer *renderer, int most, const char *what,
+                                HdError *error) {
+    if (renderer->in_flight > most)
+        return hd_fail(error, HD_BAD_INPUT, "%s while %d frames were under way, at most %d may be",
+                       what, renderer->in_flight, most);
+    return HD_OK;
+}
+
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdStatus status =
         check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, 0, "a scene was uploaded", error);
     if (status == HD_OK)
         status = check_precision(renderer, tables->precision, "scene", error);
     if (status == HD_OK &&
@@ -184,23 +200,82 @@ static HdStatus check_size(int width, int height, HdError *error) {
     return HD_OK;
 }
 
-HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
-                            HdError *error) {
+static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTables *tables,
+                                   HdError *error) {
     if (!renderer->has_scene)
         return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
     HdStatus status =
         check_tables(tables->table, tables->table_count, HD_FRAME_TABLE_COUNT, "frame", error);
     if (status == HD_OK)
         status = check_precision(renderer, tables->precision, "frame", error);
-    if (status == HD_OK)
-        status = check_size(tables->width, tables->height, error);
-    if (status != HD_OK)
-        return status;
-    if (!frame->rgb || frame->width != tables->width || frame->height != tables->height)
+    return status == HD_OK ? check_size(tables->width, tables->height, error) : status;
+}
+
+static HdStatus check_room(const HdFrame *frame, int width, int height, bool wants_radiance,
+                           HdError *error) {
+    if (!frame->rgb || frame->width != width || frame->height != height)
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
-                       frame->height, tables->width, tables->height);
-    status = renderer->backend->render(renderer->state, tables, frame, error);
+                       frame->height, width, height);
+    if (!frame->rgba && !wants_radiance)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was given that has no room for 8 bits");
+    return HD_OK;
+}
+
+HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
+                            const HdFrameWish *wish, HdError *error) {
+    HdStatus status = check_frame_tables(renderer, tables, error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
+    if (status != HD_OK)
+        return status;
+    status = renderer->backend->submit(renderer->state, tables, wish, error);
+    if (status != HD_OK)
+        return name_backend(renderer->backend, status, error);
+    int place = renderer->in_flight++;
+    renderer->flights[place].width = tables->width;
+    renderer->flights[place].height = tables->height;
+    renderer->flights[place].wants_radiance = wish->radiance;
+    return HD_OK;
+}
+
+HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
+    if (renderer->in_flight == 0)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
+    HdStatus status = check_room(frame, renderer->flights[0].width, renderer->flights[0].height,
+                                 renderer->flights[0].wants_radiance, error);
+    if (status != HD_OK)
+        return status;
+    status = renderer->backend->collect(renderer->state, frame, error);
+    renderer->in_flight--;
+    for (int i = 0; i < renderer->in_flight; i++)
+        renderer->flights[i] = renderer->flights[i + 1];
+    return name_backend(renderer->backend, status, error);
+}
+
+void hd_renderer_drop(HdRenderer *renderer) {
+    if (renderer->in_flight > 0)
+        renderer->backend->drop(renderer->state);
+    renderer->in_flight = 0;
+}
+
+HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           HdFrame *frame, HdError *error) {
+    static const HdFrameWish radiance = {.radiance = true};
+    HdStatus status = backend->submit(renderer, tables, &radiance, error);
+    return status == HD_OK ? backend->collect(renderer, frame, error) : status;
+}
+
+HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
+    HdStatus status = check_frame_tables(renderer, tables, error);
+    if (status == HD_OK)
+        status = check_room(frame, tables->width, tables->height, true, error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, 0, "a frame was rendered", error);
+    if (status != HD_OK)
+        return status;
+    status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
     return name_backend(renderer->backend, status, error);
 }
 
@@ -219,6 +294,7 @@ const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
 void hd_renderer_close(HdRenderer *renderer) {
     if (!renderer)
         return;
+    hd_renderer_drop(renderer);
     renderer->backend->close(renderer->state);
     free(renderer);
 }

@@ -31,6 +31,9 @@ enum {
     HD_MAX_REGISTERS = 255
 };
 
+/* Frames that were submitted and not collected yet. */
+enum { HD_FRAMES_IN_FLIGHT = 2 };
+
 typedef struct HdRenderOptions {
     int lanes;     /* 1, 4, 8 or 16; 0: what suits the device */
     int threads;   /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
@@ -89,10 +92,20 @@ struct HdBackend {
        the call. A later upload replaces an earlier one. */
     HdStatus (*upload)(void *renderer, const HdSceneTables *tables, HdError *error);
 
-    /* Renders one frame of the uploaded scene and waits for it: fills every pixel, the counts and
-       trace_seconds of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then
-       `frame` is worth nothing. */
-    HdStatus (*render)(void *renderer, const HdFrameTables *tables, HdFrame *frame, HdError *error);
+    /* Begins a frame of the uploaded scene; fewer than HD_FRAMES_IN_FLIGHT are under way. The
+       tables live until the frame is collected or dropped. A device that works by itself should be
+       given all there is to do, and not be waited for. On failure, also HD_INTERRUPTED as below,
+       the tables are no longer used, and the earlier frames are still under way. */
+    HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
+                       HdError *error);
+
+    /* Waits for the oldest frame under way, which is so no longer in any case: fills every pixel as
+       wished for at its submission, is_encoded, the counts and trace_seconds of `frame`.
+       HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth nothing. */
+    HdStatus (*collect)(void *renderer, HdFrame *frame, HdError *error);
+
+    /* Waits until the device is done with all frames under way, and forgets them. */
+    void (*drop)(void *renderer);
 
     /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
        where they are compiled ahead. */
@@ -101,6 +114,7 @@ struct HdBackend {
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
     void (*describe)(const void *renderer, char *text, int capacity);
 
+    /* No frame is under way. */
     void (*close)(void *renderer);
 };
 
@@ -131,12 +145,35 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
 /* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
    strict arithmetic: HD_UNAVAILABLE where they do not. Those that do are kept on disk. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
+
+/* Begins a frame, so that the device works on it while the caller does other things; at most
+   HD_FRAMES_IN_FLIGHT are under way. The tables must live until the frame is collected or dropped;
+   on failure they need not, and the earlier frames are still under way. */
+HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
+                            const HdFrameWish *wish, HdError *error);
+
+/* Waits for the oldest frame under way; whatever comes of it, it is so no longer. `frame` must have
+   its size, and `rgba` unless radiance was wished for. HD_INTERRUPTED where a signal came first
+   (interrupt.h). */
+HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
+
+/* Waits until the device is done with the frames under way, and forgets them. */
+void hd_renderer_drop(HdRenderer *renderer);
+
+/* Submits a frame and collects its radiance. No other may be under way. */
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error);
+
+/* The same with a backend's own renderer, whose arguments were checked. */
+HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           HdFrame *frame, HdError *error);
+
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 
 /* Where the kernels came from and what became of them, for people; "" where nobody compiles. */
 const char *hd_renderer_kernels_note(const HdRenderer *renderer);
-void hd_renderer_close(HdRenderer *renderer); /* NULL is allowed */
+
+/* Drops what is under way. NULL is allowed. */
+void hd_renderer_close(HdRenderer *renderer);
 
 #endif

@@ -7,6 +7,8 @@
 #include "../kernels/common/scene_tables.h"
 #include "clock.h"
 #include "cuda_compile.h"
+#include "cuda_flight.h"
+#include "cuda_memory.h"
 #include "device_launch.h"
 #include "interrupt.h"
 #include "kernel_cache.h"
@@ -15,11 +17,6 @@
 #include "wave_plan.h"
 
 enum { BLOCK_THREADS = 128 };
-
-typedef struct Memory {
-    HdCuPointer pointer;
-    size_t bytes;
-} Memory;
 
 typedef struct Renderer {
     HdCudaDriver driver;
@@ -33,30 +30,29 @@ typedef struct Renderer {
     HdKernelShape shape; /* of the module, if there is one */
     HdCuContext context;
     HdCuModule module;
-    HdCuFunction render, store, sum; /* hd_kernel_tracing, hd_kernel_storing, hedron_sum_counts */
-    int registers, local_bytes;      /* of `render` */
-    HdCuEvent start, end;
-    Memory scene[HD_SCENE_TABLE_COUNT];
-    Memory frame[HD_FRAME_TABLE_COUNT];
-    Memory pixels, counts, sums;
+    HdCuFunction render, store; /* hd_kernel_tracing, hd_kernel_storing */
+    HdCuFunction sum, encode;   /* hedron_sum_counts, hedron_encode */
+    int registers, local_bytes; /* of `render` */
+    HdCuStream stream;          /* of everything but the copies to the host */
+    HdCuEvent between;          /* launches of a frame */
+    HdCudaMemory scene[HD_SCENE_TABLE_COUNT];
+    HdCudaMemory frame[HD_FRAME_TABLE_COUNT];
+    HdCudaMemory counts;
+    HdCudaMemory thresholds; /* of `curve`, if there are any */
+    HdCurve curve;
+    HdCudaFlights flights;
     HdPipeline pipeline;
     int grid;           /* as asked for; 0: what suits the device */
     int depth;          /* of the scene */
     size_t queue_bytes; /* what the wavefront may use; 0: what suits the device */
     HdWavePlan plan;
-    Memory queue_reals, queue_ints, queue_sums, queue_taken;
+    HdCudaMemory queue_reals, queue_ints, queue_sums, queue_taken;
+    HdCudaHostMemory taken; /* what the host reads of it */
 } Renderer;
-
-static HdStatus check(const Renderer *renderer, HdCuResult code, const char *function,
-                      HdError *error) {
-    if (code == HD_CU_SUCCESS)
-        return HD_OK;
-    return hd_cuda_fail(&renderer->driver, function, code, error);
-}
 
 /* Calls a function of the driver: CALL(renderer, memory_free, cuMemFree, (pointer), error). */
 #define CALL(renderer, member, function, arguments, error)                                         \
-    check(renderer, (renderer)->driver.member arguments, #function, error)
+    hd_cuda_check(&(renderer)->driver, (renderer)->driver.member arguments, #function, error)
 
 /* ---- devices ---- */
 
@@ -195,22 +191,25 @@ static void leave(const Renderer *renderer) {
     renderer->driver.context_pop(&popped);
 }
 
-static HdStatus create_events(Renderer *renderer, HdError *error) {
+static HdStatus create_streams(Renderer *renderer, HdError *error) {
+    HdCudaOwner owner = {&renderer->driver, renderer->name};
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = CALL(renderer, event_create, cuEventCreate, (&renderer->start, 0), error);
+    status = hd_cuda_create_stream(&renderer->driver, &renderer->stream, error);
     if (status == HD_OK) /* to wait for it must not cost a core */
         status = CALL(renderer, event_create, cuEventCreate,
-                      (&renderer->end, HD_CU_EVENT_BLOCKING_SYNC), error);
+                      (&renderer->between, HD_CU_EVENT_BLOCKING_SYNC | HD_CU_EVENT_DISABLE_TIMING),
+                      error);
+    if (status == HD_OK)
+        status = hd_cuda_flights_open(&renderer->flights, &owner, error);
     leave(renderer);
     return status;
 }
 
-static void release(const Renderer *renderer, Memory *memory) {
-    if (memory->pointer)
-        renderer->driver.memory_free(memory->pointer);
-    *memory = (Memory){0};
+static void release(const Renderer *renderer, HdCudaMemory *memory) {
+    HdCudaOwner owner = {&renderer->driver, renderer->name};
+    hd_cuda_release(&owner, memory);
 }
 
 static void unload_module(Renderer *renderer) {
@@ -220,22 +219,25 @@ static void unload_module(Renderer *renderer) {
 }
 
 static void release_all(Renderer *renderer) {
+    HdCudaOwner owner = {&renderer->driver, renderer->name};
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
         release(renderer, &renderer->scene[i]);
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         release(renderer, &renderer->frame[i]);
-    release(renderer, &renderer->pixels);
     release(renderer, &renderer->counts);
-    release(renderer, &renderer->sums);
     release(renderer, &renderer->queue_reals);
     release(renderer, &renderer->queue_ints);
     release(renderer, &renderer->queue_sums);
     release(renderer, &renderer->queue_taken);
+    release(renderer, &renderer->thresholds);
+    hd_cuda_release_host(&owner, &renderer->taken);
+    if (renderer->flights.owner.driver != NULL)
+        hd_cuda_flights_close(&renderer->flights);
     unload_module(renderer);
-    if (renderer->start)
-        renderer->driver.event_destroy(renderer->start);
-    if (renderer->end)
-        renderer->driver.event_destroy(renderer->end);
+    if (renderer->between)
+        renderer->driver.event_destroy(renderer->between);
+    if (renderer->stream)
+        renderer->driver.stream_destroy(renderer->stream);
 }
 
 static void cuda_close(void *state) {
@@ -276,7 +278,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     if (status == HD_OK)
         status = retain_context(renderer, error);
     if (status == HD_OK)
-        status = create_events(renderer, error);
+        status = create_streams(renderer, error);
     if (status != HD_OK) {
         cuda_close(renderer);
         return status;
@@ -287,32 +289,31 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
 
 /* ---- memory ---- */
 
-static HdStatus resize(Renderer *renderer, Memory *memory, size_t bytes, const char *what,
+static HdStatus resize(Renderer *renderer, HdCudaMemory *memory, size_t bytes, const char *what,
                        HdError *error) {
-    if (memory->pointer && memory->bytes == bytes)
-        return HD_OK;
-    release(renderer, memory);
-    HdCuPointer pointer = 0;
-    HdCuResult code = renderer->driver.memory_alloc(&pointer, bytes);
-    if (code == HD_CU_SUCCESS) {
-        *memory = (Memory){pointer, bytes};
-        return HD_OK;
-    }
-    size_t available = 0, total = 0;
-    renderer->driver.memory_info(&available, &total);
-    return hd_fail(error, HD_FAILED,
-                   "the %s need %zu bytes; %s has %zu free of %zu (cuMemAlloc: %s)", what, bytes,
-                   renderer->name, available, total, hd_cuda_error_name(&renderer->driver, code));
+    return hd_cuda_resize(&renderer->flights.owner, memory, bytes, what, error);
 }
 
-static HdStatus copy_table(Renderer *renderer, Memory *memory, const HdTable *table,
+/* Copies in the order of the launches. Only from memory that the device reads by itself does the
+   host not wait, and then `data` must live until the stream is through with it. */
+static HdStatus copy(Renderer *renderer, const HdCudaMemory *memory, const void *data, size_t bytes,
+                     HdError *error) {
+    return CALL(renderer, copy_to_device_async, cuMemcpyHtoDAsync,
+                (memory->pointer, data, bytes, renderer->stream), error);
+}
+
+/* An empty table needs a valid pointer too. */
+static HdStatus copy_table(Renderer *renderer, HdCudaMemory *memory, const void *data, size_t bytes,
                            const char *what, HdError *error) {
-    size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
-    HdStatus status = resize(renderer, memory, bytes, what, error);
-    if (status != HD_OK || table->bytes == 0)
+    size_t room = bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : bytes;
+    HdStatus status = resize(renderer, memory, room, what, error);
+    if (status != HD_OK || bytes == 0)
         return status;
-    return CALL(renderer, copy_to_device, cuMemcpyHtoD,
-                (memory->pointer, table->data, table->bytes), error);
+    return copy(renderer, memory, data, bytes, error);
+}
+
+static HdStatus wait_for_stream(const Renderer *renderer, HdError *error) {
+    return CALL(renderer, stream_synchronize, cuStreamSynchronize, (renderer->stream), error);
 }
 
 /* ---- upload ---- */
@@ -352,6 +353,8 @@ static HdStatus load_module(Renderer *renderer, HdError *error) {
         status = get_function(renderer, &renderer->store, storing, error);
     if (status == HD_OK)
         status = get_function(renderer, &renderer->sum, "hedron_sum_counts", error);
+    if (status == HD_OK)
+        status = get_function(renderer, &renderer->encode, "hedron_encode", error);
     if (status == HD_OK)
         status = check_block(renderer, error);
     if (status == HD_OK)
@@ -419,8 +422,10 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
         return status;
     status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
-        status = copy_table(renderer, &renderer->scene[i], &tables->table[i], "tables of the scene",
-                            error);
+        status = copy_table(renderer, &renderer->scene[i], tables->table[i].data,
+                            tables->table[i].bytes, "tables of the scene", error);
+    if (status == HD_OK)
+        status = wait_for_stream(renderer, error);
     leave(renderer);
     return status;
 }
@@ -428,21 +433,21 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
 /* ---- render ---- */
 
 /* `count_slots` parts of the frame are counted one by one. */
-static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int count_slots,
-                        HdError *error) {
+static HdStatus prepare(Renderer *renderer, const HdCudaFlight *flight, const HdFrameTables *tables,
+                        int count_slots, HdError *error) {
     HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
-        status = copy_table(renderer, &renderer->frame[i], &tables->table[i], "tables of the frame",
-                            error);
-    size_t pixel_bytes = sizeof(float) * 3 * (size_t)tables->width * (size_t)tables->height;
-    if (status == HD_OK)
-        status = resize(renderer, &renderer->pixels, pixel_bytes, "pixels", error);
+    char *from = flight->tables.data;
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
+        const HdTable *table = &tables->table[i];
+        if (table->bytes > 0)
+            memcpy(from, table->data, table->bytes);
+        status = copy_table(renderer, &renderer->frame[i], from, table->bytes,
+                            "tables of the frame", error);
+        from += table->bytes;
+    }
     if (status == HD_OK)
         status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
                         "counts of the work items", error);
-    if (status == HD_OK)
-        status = resize(renderer, &renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS,
-                        "sums of the counts", error);
     return status;
 }
 
@@ -480,17 +485,20 @@ static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
         status =
             resize(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
     if (status == HD_OK)
-        status = CALL(renderer, copy_to_device, cuMemcpyHtoD,
-                      (renderer->queue_taken.pointer, none, sizeof none), error);
+        status = hd_cuda_resize_host(&renderer->flights.owner, &renderer->taken, sizeof none,
+                                     "counter of the queue", error);
+    if (status == HD_OK)
+        status = copy(renderer, &renderer->queue_taken, none, sizeof none, error);
     return status;
 }
 
 static HdStatus launch_blocks(const Renderer *renderer, HdCuFunction function, int blocks,
                               void **arguments, HdError *error) {
     unsigned int threads = (unsigned int)renderer->shape.group_size;
-    return CALL(renderer, launch, cuLaunchKernel,
-                (function, (unsigned int)blocks, 1, 1, threads, 1, 1, 0, NULL, arguments, NULL),
-                error);
+    return CALL(
+        renderer, launch, cuLaunchKernel,
+        (function, (unsigned int)blocks, 1, 1, threads, 1, 1, 0, renderer->stream, arguments, NULL),
+        error);
 }
 
 /* As many blocks as the items need, but no more than the grid may have. */
@@ -504,9 +512,10 @@ static HdStatus launch(const Renderer *renderer, HdCuFunction function, int item
 
 /* Launches are queued one by one, so that a signal ends the frame between two of them. */
 static HdStatus wait_between(const Renderer *renderer, HdError *error) {
-    HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->end, NULL), error);
+    HdStatus status =
+        CALL(renderer, event_record, cuEventRecord, (renderer->between, renderer->stream), error);
     if (status == HD_OK)
-        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->end), error);
+        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->between), error);
     if (status == HD_OK && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     return status;
@@ -524,15 +533,15 @@ static int table_arguments(Renderer *renderer, void **arguments) {
 
 enum { MOST_ARGUMENTS = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 };
 
-static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side, HdError *error) {
+static HdStatus launch_mega(Renderer *renderer, HdCudaFlight *flight, int items, HdError *error) {
     int block = renderer->shape.group_size;
-    int first, count, parts = hd_gpu_sample_parts(samples_per_side, block);
+    int first, count, parts = hd_gpu_sample_parts(flight->samples_per_side, block);
     void *arguments[MOST_ARGUMENTS];
     int n = table_arguments(renderer, arguments);
     arguments[n++] = &first;
     arguments[n++] = &count;
     arguments[n++] = &parts;
-    arguments[n++] = &renderer->pixels.pointer;
+    arguments[n++] = &flight->pixels.pointer;
     arguments[n++] = &renderer->counts.pointer;
     HdStatus status = HD_OK;
     for (first = 0; status == HD_OK && first < items; first += count) {
@@ -547,6 +556,7 @@ static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side,
 
 typedef struct WaveLaunches {
     Renderer *renderer;
+    HdCudaFlight *flight;
     int blocks; /* at most */
 } WaveLaunches;
 
@@ -579,8 +589,14 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
         blocks = launches->blocks;
     HdStatus status = launch_blocks(renderer, renderer->render, blocks, arguments, error);
     if (status == HD_OK)
-        status = CALL(renderer, copy_to_host, cuMemcpyDtoH,
-                      (taken, renderer->queue_taken.pointer, sizeof *taken), error);
+        status = CALL(
+            renderer, copy_to_host_async, cuMemcpyDtoHAsync,
+            (renderer->taken.data, renderer->queue_taken.pointer, sizeof *taken, renderer->stream),
+            error);
+    if (status == HD_OK)
+        status = wait_for_stream(renderer, error);
+    if (status == HD_OK)
+        memcpy(taken, renderer->taken.data, sizeof *taken);
     return status;
 }
 
@@ -593,68 +609,87 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
                          &plan.sum_stride,
                          &first_item,
                          &item_count,
-                         &renderer->pixels.pointer};
+                         &launches->flight->pixels.pointer};
     return launch(renderer, renderer->store, item_count, renderer->shape.group_size, arguments,
                   error);
 }
 
-static HdStatus launch_waves(Renderer *renderer, int items, int samples_per_side, int blocks,
+static HdStatus launch_waves(Renderer *renderer, HdCudaFlight *flight, int items, int blocks,
                              HdError *error) {
-    WaveLaunches launches = {renderer, blocks};
+    WaveLaunches launches = {renderer, flight, blocks};
     HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
     HdWaveFrame frame = {
         .items = items,
-        .samples_per_item = samples_per_side * samples_per_side,
+        .samples_per_item = flight->samples_per_side * flight->samples_per_side,
         .depth = renderer->depth,
         .grain = renderer->shape.group_size,
     };
     return hd_wave_run(&renderer->plan, &frame, &device, error);
 }
 
-static HdStatus launch_sum(Renderer *renderer, int count_slots, HdError *error) {
+static HdStatus launch_sum(Renderer *renderer, HdCudaFlight *flight, int count_slots,
+                           HdError *error) {
     int workers = HD_SUM_WORKERS, block = renderer->shape.group_size;
-    void *arguments[] = {&renderer->counts.pointer, &count_slots, &renderer->sums.pointer,
-                         &workers};
+    void *arguments[] = {&renderer->counts.pointer, &count_slots, &flight->sums.pointer, &workers};
     return launch_blocks(renderer, renderer->sum, (HD_SUM_WORKERS + block - 1) / block, arguments,
                          error);
 }
 
-static HdStatus trace(Renderer *renderer, int items, int samples_per_side, int count_slots,
-                      double *seconds, HdError *error) {
-    float milliseconds = 0.0f;
-    HdStatus status = CALL(renderer, event_record, cuEventRecord, (renderer->start, NULL), error);
+static HdStatus record(const Renderer *renderer, HdCuEvent event, HdError *error) {
+    return CALL(renderer, event_record, cuEventRecord, (event, renderer->stream), error);
+}
+
+static HdStatus trace(Renderer *renderer, HdCudaFlight *flight, int items, int count_slots,
+                      HdError *error) {
+    HdStatus status = record(renderer, flight->start, error);
     if (status == HD_OK)
         status = renderer->shape.wavefront
-                     ? launch_waves(renderer, items, samples_per_side, count_slots, error)
-                     : launch_mega(renderer, items, samples_per_side, error);
+                     ? launch_waves(renderer, flight, items, count_slots, error)
+                     : launch_mega(renderer, flight, items, error);
     if (status == HD_OK)
-        status = launch_sum(renderer, count_slots, error);
+        status = launch_sum(renderer, flight, count_slots, error);
+    return status == HD_OK ? record(renderer, flight->end, error) : status;
+}
+
+/* ---- 8 bits ---- */
+
+static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *error) {
+    int32_t thresholds[256];
+    if (renderer->thresholds.pointer && renderer->curve == curve)
+        return HD_OK;
+    hd_curve_thresholds8(curve, thresholds);
+    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds,
+                             "thresholds of the curve", error);
     if (status == HD_OK)
-        status = CALL(renderer, event_record, cuEventRecord, (renderer->end, NULL), error);
+        status = copy(renderer, &renderer->thresholds, thresholds, sizeof thresholds, error);
     if (status == HD_OK)
-        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->end), error);
-    if (status == HD_OK)
-        status = CALL(renderer, event_elapsed, cuEventElapsedTime,
-                      (&milliseconds, renderer->start, renderer->end), error);
-    *seconds = 1e-3 * (double)milliseconds;
+        status = wait_for_stream(renderer, error);
+    if (status != HD_OK)
+        release(renderer, &renderer->thresholds);
+    renderer->curve = curve;
     return status;
 }
 
-static HdStatus read_back(const Renderer *renderer, const Memory *memory, void *to,
-                          HdError *error) {
-    return CALL(renderer, copy_to_host, cuMemcpyDtoH, (to, memory->pointer, memory->bytes), error);
+static HdStatus encode(Renderer *renderer, HdCudaFlight *flight, HdCurve curve, HdError *error) {
+    int pixels = flight->width * flight->height;
+    void *arguments[] = {&flight->pixels.pointer, &pixels, &renderer->thresholds.pointer,
+                         &flight->image.pointer};
+    HdStatus status = copy_thresholds(renderer, curve, error);
+    if (status == HD_OK)
+        status = launch(renderer, renderer->encode, pixels, renderer->shape.group_size, arguments,
+                        error);
+    return status;
 }
 
-static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *frame,
-                            HdError *error) {
-    Renderer *renderer = state;
+/* ---- frames ---- */
+
+/* Queues all that the frame needs, up to its copies. */
+static HdStatus launch_frame(Renderer *renderer, HdCudaFlight *flight, const HdFrameTables *tables,
+                             HdCurve curve, HdError *error) {
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
     int samples = tables->samples_per_side * tables->samples_per_side, count_slots = items;
-    HdRayCounts sums[HD_SUM_WORKERS];
-    HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
+    HdStatus status = HD_OK;
     if (renderer->shape.wavefront) {
         status = plan_waves(renderer, items, samples, error);
         count_slots = hd_wave_groups(&renderer->plan, renderer->shape.group_size, renderer->grid);
@@ -662,18 +697,49 @@ static HdStatus cuda_render(void *state, const HdFrameTables *tables, HdFrame *f
             status = prepare_waves(renderer, error);
     }
     if (status == HD_OK)
-        status = prepare(renderer, tables, count_slots, error);
+        status = prepare(renderer, flight, tables, count_slots, error);
     if (status == HD_OK)
-        status = trace(renderer, items, tables->samples_per_side, count_slots,
-                       &frame->trace_seconds, error);
+        status = trace(renderer, flight, items, count_slots, error);
+    if (status == HD_OK && flight->encodes)
+        status = encode(renderer, flight, curve, error);
+    return status == HD_OK ? record(renderer, flight->ready, error) : status;
+}
+
+static HdStatus cuda_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+                            HdError *error) {
+    Renderer *renderer = state;
+    HdCudaFlight *flight;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_cuda_flight_begin(&renderer->flights, tables, !wish->radiance, &flight, error);
     if (status == HD_OK)
-        status = read_back(renderer, &renderer->pixels, frame->rgb, error);
+        status = launch_frame(renderer, flight, tables, wish->curve, error);
     if (status == HD_OK)
-        status = read_back(renderer, &renderer->sums, sums, error);
-    if (status == HD_OK)
-        hd_frame_set_counts(frame, tables->samples_per_side, sums, HD_SUM_WORKERS);
+        status = hd_cuda_flight_send(&renderer->flights, flight, error);
+    if (status != HD_OK) /* the next frame takes the flight's memory */
+        renderer->driver.context_synchronize();
     leave(renderer);
     return status;
+}
+
+static HdStatus cuda_collect(void *state, HdFrame *frame, HdError *error) {
+    Renderer *renderer = state;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_cuda_flight_collect(&renderer->flights, frame, error);
+    leave(renderer);
+    return status;
+}
+
+static void cuda_drop(void *state) {
+    Renderer *renderer = state;
+    HdError ignored;
+    if (enter(renderer, &ignored) != HD_OK)
+        return;
+    hd_cuda_flights_drop(&renderer->flights);
+    leave(renderer);
 }
 
 static HdKernelCache *cuda_kernels(void *state) {
@@ -698,7 +764,9 @@ const HdBackend hd_backend_cuda = {
     .enumerate = cuda_enumerate,
     .open = cuda_open,
     .upload = cuda_upload,
-    .render = cuda_render,
+    .submit = cuda_submit,
+    .collect = cuda_collect,
+    .drop = cuda_drop,
     .kernels = cuda_kernels,
     .describe = cuda_describe,
     .close = cuda_close,

@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "../kernels/common/scene_tables.h"
-#include "clock.h"
 #include "device_launch.h"
 #include "interrupt.h"
+#include "opencl_flight.h"
+#include "opencl_memory.h"
 #include "opencl_program.h"
 #include "pipeline.h"
 #include "wave_plan.h"
@@ -37,11 +38,6 @@ enum {
     WAVE_ARGUMENT_OWN
 };
 
-typedef struct Buffer {
-    cl_mem memory;
-    size_t bytes;
-} Buffer;
-
 typedef struct Renderer {
     char name[256];
     HdOpenclDevice device;
@@ -55,14 +51,16 @@ typedef struct Renderer {
     size_t queue_bytes; /* of the wavefront, for a worker or for the device */
     HdWavePlan plan;
     int depth;
-    bool has_profiling;
     cl_context context;
     cl_command_queue queue;
     HdOpenclProgram program;
-    Buffer scene[HD_SCENE_TABLE_COUNT];
-    Buffer frame[HD_FRAME_TABLE_COUNT];
-    Buffer pixels, counts, sums;
-    Buffer queue_reals, queue_ints, queue_sums, queue_taken;
+    HdOpenclBuffer scene[HD_SCENE_TABLE_COUNT];
+    HdOpenclBuffer frame[HD_FRAME_TABLE_COUNT];
+    HdOpenclBuffer counts;
+    HdOpenclBuffer queue_reals, queue_ints, queue_sums, queue_taken;
+    HdOpenclBuffer thresholds; /* of `curve`, if there are any */
+    HdCurve curve;
+    HdOpenclFlights flights;
 } Renderer;
 
 static HdStatus check(cl_int code, const char *function, HdError *error) {
@@ -116,31 +114,27 @@ static HdStatus create_queue(Renderer *renderer, HdError *error) {
     if (!renderer->context)
         return hd_opencl_fail(error, "clCreateContext", code);
     renderer->queue = clCreateCommandQueue(renderer->context, id, CL_QUEUE_PROFILING_ENABLE, &code);
-    renderer->has_profiling = renderer->queue != NULL;
     if (!renderer->queue)
         renderer->queue = clCreateCommandQueue(renderer->context, id, 0, &code);
-    return renderer->queue ? HD_OK : hd_opencl_fail(error, "clCreateCommandQueue", code);
-}
-
-static void release(Buffer *buffer) {
-    if (buffer->memory)
-        clReleaseMemObject(buffer->memory);
-    *buffer = (Buffer){0};
+    if (!renderer->queue)
+        return hd_opencl_fail(error, "clCreateCommandQueue", code);
+    HdOpenclOwner owner = {renderer->context, &renderer->device, renderer->name};
+    return hd_opencl_flights_open(&renderer->flights, &owner, error);
 }
 
 static void opencl_close(void *state) {
     Renderer *renderer = state;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
-        release(&renderer->scene[i]);
+        hd_opencl_release(&renderer->scene[i]);
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
-        release(&renderer->frame[i]);
-    release(&renderer->pixels);
-    release(&renderer->counts);
-    release(&renderer->sums);
-    release(&renderer->queue_reals);
-    release(&renderer->queue_ints);
-    release(&renderer->queue_sums);
-    release(&renderer->queue_taken);
+        hd_opencl_release(&renderer->frame[i]);
+    hd_opencl_release(&renderer->counts);
+    hd_opencl_release(&renderer->queue_reals);
+    hd_opencl_release(&renderer->queue_ints);
+    hd_opencl_release(&renderer->queue_sums);
+    hd_opencl_release(&renderer->queue_taken);
+    hd_opencl_release(&renderer->thresholds);
+    hd_opencl_flights_close(&renderer->flights);
     hd_opencl_program_free(&renderer->program);
     if (renderer->queue)
         clReleaseCommandQueue(renderer->queue);
@@ -171,33 +165,19 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
 
 /* ---- buffers ---- */
 
-static HdStatus resize(Renderer *renderer, Buffer *buffer, size_t bytes, cl_mem_flags flags,
+static HdStatus resize(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes, cl_mem_flags flags,
                        const char *what, HdError *error) {
-    if (buffer->memory && buffer->bytes == bytes)
-        return HD_OK;
-    release(buffer);
-    if (bytes > renderer->device.max_allocation)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "the %s need %zu bytes in one buffer; %s allows %llu of its %llu", what,
-                       bytes, renderer->name, (unsigned long long)renderer->device.max_allocation,
-                       (unsigned long long)renderer->device.memory);
-    cl_int code;
-    buffer->memory = clCreateBuffer(renderer->context, flags, bytes, NULL, &code);
-    if (!buffer->memory)
-        return hd_fail(error, HD_FAILED,
-                       "%s has no room for the %s, %zu bytes (clCreateBuffer: %s)", renderer->name,
-                       what, bytes, hd_opencl_error_name(code));
-    buffer->bytes = bytes;
-    return HD_OK;
+    return hd_opencl_resize(&renderer->flights.owner, buffer, bytes, flags, what, error);
 }
 
-static HdStatus copy_table(Renderer *renderer, Buffer *buffer, const HdTable *table,
+/* The table must live until the queue is through with it. */
+static HdStatus copy_table(Renderer *renderer, HdOpenclBuffer *buffer, const HdTable *table,
                            const char *what, HdError *error) {
     size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
     HdStatus status = resize(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
     if (status != HD_OK || table->bytes == 0)
         return status;
-    cl_int code = clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_TRUE, 0, table->bytes,
+    cl_int code = clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_FALSE, 0, table->bytes,
                                        table->data, 0, NULL, NULL);
     return check(code, "clEnqueueWriteBuffer", error);
 }
@@ -207,7 +187,8 @@ static HdStatus set_argument(cl_kernel kernel, int index, size_t size, const voi
     return check(clSetKernelArg(kernel, (cl_uint)index, size, value), "clSetKernelArg", error);
 }
 
-static HdStatus set_buffer(cl_kernel kernel, int index, const Buffer *buffer, HdError *error) {
+static HdStatus set_buffer(cl_kernel kernel, int index, const HdOpenclBuffer *buffer,
+                           HdError *error) {
     return set_argument(kernel, index, sizeof(cl_mem), &buffer->memory, error);
 }
 
@@ -256,18 +237,19 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
     renderer->depth = tables->depth;
     HdStatus status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
-        Buffer *buffer = &renderer->scene[i];
+        HdOpenclBuffer *buffer = &renderer->scene[i];
         status = copy_table(renderer, buffer, &tables->table[i], "tables of the scene", error);
         if (status == HD_OK)
             status = set_buffer(renderer->program.render, i, buffer, error);
     }
-    return status;
+    cl_int code = clFinish(renderer->queue);
+    return status == HD_OK ? check(code, "clFinish", error) : status;
 }
 
 /* ---- render ---- */
 
 typedef struct BufferNeed {
-    Buffer *buffer;
+    HdOpenclBuffer *buffer;
     size_t bytes;
     const char *what;
 } BufferNeed;
@@ -282,40 +264,27 @@ static HdStatus resize_all(Renderer *renderer, const BufferNeed *needs, size_t c
 }
 
 /* `count_slots` parts of the frame are counted one by one. */
-static HdStatus prepare(Renderer *renderer, const HdFrameTables *tables, int count_slots,
-                        HdError *error) {
+static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
+                        const HdFrameTables *tables, int count_slots, HdError *error) {
     cl_kernel sum = renderer->program.sum;
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
-        Buffer *buffer = &renderer->frame[i];
+        HdOpenclBuffer *buffer = &renderer->frame[i];
         status = copy_table(renderer, buffer, &tables->table[i], "tables of the frame", error);
         if (status == HD_OK)
             status = set_buffer(renderer->program.render, HD_SCENE_TABLE_COUNT + i, buffer, error);
     }
-    const BufferNeed needs[] = {
-        {&renderer->pixels, sizeof(float) * 3 * (size_t)tables->width * (size_t)tables->height,
-         "pixels"},
-        {&renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots, "counts of the work items"},
-        {&renderer->sums, sizeof(HdRayCounts) * HD_SUM_WORKERS, "sums of the counts"},
-    };
     if (status == HD_OK)
-        status = resize_all(renderer, needs, sizeof needs / sizeof *needs, error);
+        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
+                        CL_MEM_READ_WRITE, "counts of the work items", error);
     if (status == HD_OK)
         status = set_buffer(sum, 0, &renderer->counts, error);
     if (status == HD_OK)
         status = set_int(sum, 1, count_slots, error);
     if (status == HD_OK)
-        status = set_buffer(sum, 2, &renderer->sums, error);
+        status = set_buffer(sum, 2, &flight->sums, error);
     if (status == HD_OK)
         status = set_int(sum, 3, HD_SUM_WORKERS, error);
-    return status;
-}
-
-static HdStatus prepare_mega(Renderer *renderer, HdError *error) {
-    cl_kernel render = renderer->program.render;
-    HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &renderer->pixels, error);
-    if (status == HD_OK)
-        status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
     return status;
 }
 
@@ -369,14 +338,16 @@ static HdStatus wait_between(const Renderer *renderer, HdError *error) {
     return status;
 }
 
-/* Of all functions that launch: events[0] becomes that of the frame's first launch. */
-static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side, cl_event events[2],
-                            HdError *error) {
+/* All functions that launch set the event of the flight's first launch. */
+static HdStatus launch_mega(Renderer *renderer, HdOpenclFlight *flight, int items, HdError *error) {
     cl_kernel render = renderer->program.render;
     int group_size = (int)renderer->local_size;
-    int parts = renderer->has_groups ? hd_gpu_sample_parts(samples_per_side, group_size) : 1;
+    int parts =
+        renderer->has_groups ? hd_gpu_sample_parts(flight->samples_per_side, group_size) : 1;
     int count;
-    HdStatus status = prepare_mega(renderer, error);
+    HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &flight->pixels, error);
+    if (status == HD_OK)
+        status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
     if (status == HD_OK)
         status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
@@ -389,13 +360,14 @@ static HdStatus launch_mega(Renderer *renderer, int items, int samples_per_side,
             status = set_int(render, ARGUMENT_ITEM_COUNT, count, error);
         if (status == HD_OK)
             status = launch(renderer, render, count, group_size / parts,
-                            first == 0 ? &events[0] : NULL, error);
+                            first == 0 ? &flight->first : NULL, error);
     }
     return status;
 }
 
 /* The wavefront of CPUs. */
-static HdStatus launch_workers(Renderer *renderer, int items, cl_event events[2], HdError *error) {
+static HdStatus launch_workers(Renderer *renderer, HdOpenclFlight *flight, int items,
+                               HdError *error) {
     cl_kernel render = renderer->program.render;
     int workers = renderer->device.compute_units * WORKERS_PER_UNIT;
     workers = workers < items ? workers : items;
@@ -403,10 +375,11 @@ static HdStatus launch_workers(Renderer *renderer, int items, cl_event events[2]
     if (status == HD_OK)
         status = set_int(render, WAVE_ARGUMENT_OWN, items, error);
     if (status == HD_OK)
-        status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &renderer->pixels, error);
+        status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 2, &renderer->counts, error);
-    return status == HD_OK ? launch_groups(renderer, render, workers, &events[0], error) : status;
+    return status == HD_OK ? launch_groups(renderer, render, workers, &flight->first, error)
+                           : status;
 }
 
 typedef struct WaveLaunches {
@@ -451,13 +424,13 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     return status;
 }
 
-static HdStatus prepare_steps(Renderer *renderer, HdError *error) {
+static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, HdError *error) {
     static const unsigned none = 0;
     cl_kernel render = renderer->program.render, store = renderer->program.store;
     const int own = WAVE_ARGUMENT_OWN + 7; /* after the numbers of a step */
     HdStatus status = prepare_waves(renderer, 1, error);
     if (status == HD_OK)
-        status = check(clEnqueueWriteBuffer(renderer->queue, renderer->queue_taken.memory, CL_TRUE,
+        status = check(clEnqueueWriteBuffer(renderer->queue, renderer->queue_taken.memory, CL_FALSE,
                                             0, sizeof none, &none, 0, NULL, NULL),
                        "clEnqueueWriteBuffer", error);
     if (status == HD_OK)
@@ -471,72 +444,78 @@ static HdStatus prepare_steps(Renderer *renderer, HdError *error) {
     if (status == HD_OK)
         status = set_int(store, 2, renderer->plan.sum_stride, error);
     if (status == HD_OK)
-        status = set_buffer(store, 5, &renderer->pixels, error);
+        status = set_buffer(store, 5, &flight->pixels, error);
     return status;
 }
 
 /* The wavefront of devices with groups of threads. */
-static HdStatus launch_steps(Renderer *renderer, int items, int samples_per_side, int groups,
-                             cl_event events[2], HdError *error) {
-    WaveLaunches launches = {renderer, groups, &events[0]};
+static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int items, int groups,
+                             HdError *error) {
+    WaveLaunches launches = {renderer, groups, &flight->first};
     HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
     HdWaveFrame frame = {
         .items = items,
-        .samples_per_item = samples_per_side * samples_per_side,
+        .samples_per_item = flight->samples_per_side * flight->samples_per_side,
         .depth = renderer->depth,
         .grain = (int)renderer->local_size,
     };
-    HdStatus status = prepare_steps(renderer, error);
+    HdStatus status = prepare_steps(renderer, flight, error);
     return status == HD_OK ? hd_wave_run(&renderer->plan, &frame, &device, error) : status;
 }
 
-static HdStatus launch_all(Renderer *renderer, int items, int samples_per_side, int count_slots,
-                           cl_event events[2], HdError *error) {
+static HdStatus trace(Renderer *renderer, HdOpenclFlight *flight, int items, int count_slots,
+                      HdError *error) {
     HdStatus status;
     if (!renderer->shape.wavefront)
-        status = launch_mega(renderer, items, samples_per_side, events, error);
+        status = launch_mega(renderer, flight, items, error);
     else if (renderer->has_groups)
-        status = launch_steps(renderer, items, samples_per_side, count_slots, events, error);
+        status = launch_steps(renderer, flight, items, count_slots, error);
     else
-        status = launch_workers(renderer, items, events, error);
+        status = launch_workers(renderer, flight, items, error);
     int local = (int)renderer->local_size;
     if (status == HD_OK)
         status = launch_groups(renderer, renderer->program.sum,
-                               (HD_SUM_WORKERS + local - 1) / local, &events[1], error);
+                               (HD_SUM_WORKERS + local - 1) / local, &flight->last, error);
+    return status;
+}
+
+/* ---- 8 bits ---- */
+
+static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *error) {
+    int32_t thresholds[256];
+    if (renderer->thresholds.memory && renderer->curve == curve)
+        return HD_OK;
+    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds, CL_MEM_READ_ONLY,
+                             "thresholds of the curve", error);
+    if (status != HD_OK)
+        return status;
+    hd_curve_thresholds8(curve, thresholds);
+    cl_int code = clEnqueueWriteBuffer(renderer->queue, renderer->thresholds.memory, CL_TRUE, 0,
+                                       sizeof thresholds, thresholds, 0, NULL, NULL);
+    if (code != CL_SUCCESS)
+        hd_opencl_release(&renderer->thresholds);
+    renderer->curve = curve;
+    return check(code, "clEnqueueWriteBuffer", error);
+}
+
+static HdStatus encode(Renderer *renderer, HdOpenclFlight *flight, HdCurve curve, HdError *error) {
+    cl_kernel kernel = renderer->program.encode;
+    int pixels = flight->width * flight->height;
+    HdStatus status = copy_thresholds(renderer, curve, error);
     if (status == HD_OK)
-        status = check(clFinish(renderer->queue), "clFinish", error);
+        status = set_buffer(kernel, 0, &flight->pixels, error);
+    if (status == HD_OK)
+        status = set_int(kernel, 1, pixels, error);
+    if (status == HD_OK)
+        status = set_buffer(kernel, 2, &renderer->thresholds, error);
+    if (status == HD_OK)
+        status = set_buffer(kernel, 3, &flight->image, error);
+    if (status == HD_OK)
+        status = launch(renderer, kernel, pixels, (int)renderer->local_size, &flight->ready, error);
     return status;
 }
 
-/* From the start of the first to the end of the last; `otherwise` where the driver did not tell. */
-static double seconds_between(const cl_event events[2], double otherwise) {
-    cl_ulong start = 0, end = 0;
-    bool has_start = clGetEventProfilingInfo(events[0], CL_PROFILING_COMMAND_START, sizeof start,
-                                             &start, NULL) == CL_SUCCESS;
-    bool has_end = clGetEventProfilingInfo(events[1], CL_PROFILING_COMMAND_END, sizeof end, &end,
-                                           NULL) == CL_SUCCESS;
-    return has_start && has_end && end > start ? 1e-9 * (double)(end - start) : otherwise;
-}
-
-static HdStatus trace(Renderer *renderer, int items, int samples_per_side, int count_slots,
-                      double *seconds, HdError *error) {
-    cl_event events[2] = {NULL, NULL};
-    double start = hd_monotonic_seconds();
-    HdStatus status = launch_all(renderer, items, samples_per_side, count_slots, events, error);
-    *seconds = hd_monotonic_seconds() - start;
-    if (status == HD_OK && renderer->has_profiling)
-        *seconds = seconds_between(events, *seconds);
-    for (int i = 0; i < 2; i++)
-        if (events[i])
-            clReleaseEvent(events[i]);
-    return status;
-}
-
-static HdStatus read_back(Renderer *renderer, const Buffer *buffer, void *to, HdError *error) {
-    cl_int code = clEnqueueReadBuffer(renderer->queue, buffer->memory, CL_TRUE, 0, buffer->bytes,
-                                      to, 0, NULL, NULL);
-    return check(code, "clEnqueueReadBuffer", error);
-}
+/* ---- frames ---- */
 
 static void plan_waves(Renderer *renderer, int items, int samples_per_side) {
     const HdKernelShape *shape = &renderer->shape;
@@ -552,28 +531,57 @@ static void plan_waves(Renderer *renderer, int items, int samples_per_side) {
     renderer->plan = hd_wave_plan(&needs);
 }
 
-static HdStatus opencl_render(void *state, const HdFrameTables *tables, HdFrame *frame,
-                              HdError *error) {
-    Renderer *renderer = state;
+/* Queues all that the frame needs, up to its copies. */
+static HdStatus launch_frame(Renderer *renderer, HdOpenclFlight *flight,
+                             const HdFrameTables *tables, HdCurve curve, HdError *error) {
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
-    HdRayCounts sums[HD_SUM_WORKERS];
     int count_slots = items;
     if (renderer->shape.wavefront)
         plan_waves(renderer, items, tables->samples_per_side);
     if (renderer->shape.wavefront && renderer->has_groups)
         count_slots = hd_wave_groups(&renderer->plan, (int)renderer->local_size, renderer->grid);
-    HdStatus status = prepare(renderer, tables, count_slots, error);
+    HdStatus status = prepare(renderer, flight, tables, count_slots, error);
     if (status == HD_OK)
-        status = trace(renderer, items, tables->samples_per_side, count_slots,
-                       &frame->trace_seconds, error);
-    if (status == HD_OK)
-        status = read_back(renderer, &renderer->pixels, frame->rgb, error);
-    if (status == HD_OK)
-        status = read_back(renderer, &renderer->sums, sums, error);
-    if (status == HD_OK)
-        hd_frame_set_counts(frame, tables->samples_per_side, sums, HD_SUM_WORKERS);
+        status = trace(renderer, flight, items, count_slots, error);
+    if (status == HD_OK && flight->encodes)
+        status = encode(renderer, flight, curve, error);
+    if (status == HD_OK && !flight->encodes) {
+        status = check(clRetainEvent(flight->last), "clRetainEvent", error);
+        flight->ready = status == HD_OK ? flight->last : NULL;
+    }
+    if (status == HD_OK) /* before another queue waits for it */
+        status = check(clFlush(renderer->queue), "clFlush", error);
     return status;
+}
+
+/* CPUs have no bus to cross, and the host's conversion is as fast. */
+static HdStatus opencl_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+                              HdError *error) {
+    Renderer *renderer = state;
+    HdOpenclFlight *flight;
+    bool encodes = renderer->has_groups && !wish->radiance;
+    HdStatus status = hd_opencl_flight_begin(&renderer->flights, tables, encodes, &flight, error);
+    if (status == HD_OK)
+        status = launch_frame(renderer, flight, tables, wish->curve, error);
+    if (status == HD_OK)
+        status = hd_opencl_flight_send(&renderer->flights, flight, error);
+    if (status != HD_OK) {
+        clFinish(renderer->queue);
+        hd_opencl_flight_cancel(flight);
+    }
+    return status;
+}
+
+static HdStatus opencl_collect(void *state, HdFrame *frame, HdError *error) {
+    Renderer *renderer = state;
+    return hd_opencl_flight_collect(&renderer->flights, frame, error);
+}
+
+static void opencl_drop(void *state) {
+    Renderer *renderer = state;
+    clFinish(renderer->queue);
+    hd_opencl_flights_drop(&renderer->flights);
 }
 
 static HdKernelCache *opencl_kernels(void *state) {
@@ -599,7 +607,9 @@ const HdBackend hd_backend_opencl = {
     .enumerate = hd_opencl_enumerate,
     .open = opencl_open,
     .upload = opencl_upload,
-    .render = opencl_render,
+    .submit = opencl_submit,
+    .collect = opencl_collect,
+    .drop = opencl_drop,
     .kernels = opencl_kernels,
     .describe = opencl_describe,
     .close = opencl_close,

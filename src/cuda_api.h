@@ -31,7 +31,9 @@ enum {
     HD_CU_FUNCTION_MAX_THREADS = 0,
     HD_CU_FUNCTION_LOCAL_BYTES = 3,
     HD_CU_FUNCTION_REGISTERS = 4,
-    HD_CU_EVENT_BLOCKING_SYNC = 1
+    HD_CU_EVENT_BLOCKING_SYNC = 1,
+    HD_CU_EVENT_DISABLE_TIMING = 2,
+    HD_CU_STREAM_NON_BLOCKING = 1
 };
 
 /* X(member, symbol, parameters); all return HdCuResult. The suffix _v2 belongs to the symbol: the
@@ -59,8 +61,18 @@ enum {
     X(memory_info, cuMemGetInfo_v2, (size_t * available, size_t * total))                          \
     X(memory_alloc, cuMemAlloc_v2, (HdCuPointer * pointer, size_t bytes))                          \
     X(memory_free, cuMemFree_v2, (HdCuPointer pointer))                                            \
-    X(copy_to_device, cuMemcpyHtoD_v2, (HdCuPointer to, const void *from, size_t bytes))           \
-    X(copy_to_host, cuMemcpyDtoH_v2, (void *to, HdCuPointer from, size_t bytes))                   \
+    X(host_alloc, cuMemHostAlloc, (void **data, size_t bytes, unsigned int flags))                 \
+    X(host_free, cuMemFreeHost, (void *data))                                                      \
+    X(copy_to_device_async, cuMemcpyHtoDAsync_v2,                                                  \
+      (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream))                         \
+    X(copy_to_host_async, cuMemcpyDtoHAsync_v2,                                                    \
+      (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))                               \
+    X(context_synchronize, cuCtxSynchronize, (void))                                               \
+    X(stream_create, cuStreamCreate, (HdCuStream * stream, unsigned int flags))                    \
+    X(stream_synchronize, cuStreamSynchronize, (HdCuStream stream))                                \
+    X(stream_wait_event, cuStreamWaitEvent,                                                        \
+      (HdCuStream stream, HdCuEvent event, unsigned int flags))                                    \
+    X(stream_destroy, cuStreamDestroy_v2, (HdCuStream stream))                                     \
     X(launch, cuLaunchKernel,                                                                      \
       (HdCuFunction function, unsigned int grid_x, unsigned int grid_y, unsigned int grid_z,       \
        unsigned int block_x, unsigned int block_y, unsigned int block_z,                           \

@@ -178,6 +178,28 @@ void hd_curve_encode8(HdCurve curve, const float *restrict values, size_t count,
         out[i] = srgb8(values[i]);
 }
 
+/* Halves the range of bits in which the code begins; positive floats have their bits' order. */
+static uint32_t find_linear8(unsigned code) {
+    uint32_t below = 0, above = bits_of(1.0f);
+    while (above - below > 1) {
+        const uint32_t middle = below + (above - below) / 2;
+        if (linear8(float_of(middle)) < code)
+            below = middle;
+        else
+            above = middle;
+    }
+    return above;
+}
+
+void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]) {
+    float values[257];
+    fill_thresholds(values, 255);
+    thresholds[0] = 0;
+    for (unsigned code = 1; code < 256; code++)
+        thresholds[code] =
+            (int32_t)(curve == HD_CURVE_LINEAR ? find_linear8(code) : bits_of(values[code]));
+}
+
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     if (curve == HD_CURVE_LINEAR) {

@@ -17,6 +17,10 @@ typedef enum HdCurve {
 void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t *out);
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out);
 
+/* By code: the bits of the least float that hd_curve_encode8 gives it; 0 for the code 0. A value
+   has the greatest code whose threshold is not above it. */
+void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]);
+
 /* The way back, in place, 0..65535 for 0..1. */
 void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count);
 

@@ -1,15 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* A rendered frame: linear radiance and what was counted on the way. */
+/* A rendered frame: linear radiance, or what files store of it, and what was counted on the way. */
 #ifndef HD_FRAME_H
 #define HD_FRAME_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
+#include "curve.h"
 #include "error.h"
+
+/* What is wanted of a frame's pixels. */
+typedef struct HdFrameWish {
+    bool radiance; /* `rgb` must be filled */
+    HdCurve curve; /* without it: 8 bits on this curve will do, where the device makes them */
+} HdFrameWish;
 
 typedef struct HdFrame {
     int width, height;
-    float *rgb; /* owned; width * height * 3, row by row from the top; radiance times exposure */
+    float *rgb;    /* owned; width * height * 3, row by row from the top; radiance times exposure */
+    uint8_t *rgba; /* not owned; room for width * height * 4: r, g, b and an alpha of 255, as
+                      hd_curve_encode8 makes them; NULL: radiance must be wished for */
+    bool is_encoded; /* the device filled `rgba`, and `rgb` is worth nothing; otherwise it filled
+                        `rgb` and left `rgba` alone */
     uint64_t primary_rays, mirrored_rays, transmitted_rays; /* closest-hit searches */
     uint64_t shadow_tests; /* pairs of a point and a light that may reach it */
     uint64_t clamps;       /* contributions cut to 2^16 */
@@ -22,6 +34,7 @@ typedef struct HdRayCounts {
 } HdRayCounts;
 _Static_assert(sizeof(HdRayCounts) == 32, "the kernels count in 32 bytes");
 
+/* A frame without `rgba`. */
 HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error);
 void hd_frame_free(HdFrame *frame);
 
@@ -32,7 +45,7 @@ void hd_frame_set_counts(HdFrame *frame, int samples_per_side, const HdRayCounts
 /* Rays of all kinds. */
 uint64_t hd_frame_rays(const HdFrame *frame);
 
-/* A 64-bit hash (FNV-1a) of size, pixels and counts of rays, shadow tests and clamps: two frames
+/* A 64-bit hash (FNV-1a) of size, radiance and counts of rays, shadow tests and clamps: two frames
    are the same when their hashes are. */
 uint64_t hd_frame_hash(const HdFrame *frame);
 

@@ -58,6 +58,8 @@ static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
     (void)error;
+    if (hd_parcel_frame(place->parcel)->is_encoded)
+        return HD_OK;
     place->times.convert = begin(store);
     hd_parcel_convert(place->parcel);
     end(store, &place->times.convert);

@@ -18,8 +18,8 @@ typedef struct HdSpan {
 typedef struct HdFrameTimes {
     HdSpan prepare; /* the camera and its tables */
     HdSpan trace;   /* on the device */
-    HdSpan copy;    /* the rest of the renderer's call */
-    HdSpan convert; /* to 8 bits, where a film needs it */
+    HdSpan copy;    /* what the frame was waited for beyond that */
+    HdSpan convert; /* to 8 bits, where a film needs it and the device has not done it */
     HdSpan store;   /* encoding and writing pictures */
     HdSpan film;    /* handing it to FFmpeg: from the first film's begin to the last one's end */
 } HdFrameTimes;

@@ -36,7 +36,8 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
    then renamed; missing folders are made. On failure nothing is left behind under either name, and
    a file that was there before is untouched. The data format: int32 width, int32 height, then r g b
    a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk
-   where the values are on that curve. PFM: float, little endian, rows from the bottom. */
+   where the values are on that curve. PFM: float, little endian, rows from the bottom. A frame that
+   is encoded already must be so on the style's curve; only what has 8 bits can be made of it. */
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
 

@@ -30,8 +30,12 @@ static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t
     put_int32(head + 4, frame->height);
     bool good = fwrite(head, 1, HEAD_SIZE, stream) == HEAD_SIZE;
     for (int y = 0; y < frame->height && good; y++) {
-        hd_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
-        good = fwrite(row, 4, width, stream) == width;
+        const uint8_t *pixels = row;
+        if (frame->is_encoded)
+            pixels = frame->rgba + width * 4 * (size_t)y;
+        else
+            hd_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
+        good = fwrite(pixels, 4, width, stream) == width;
     }
     return good;
 }

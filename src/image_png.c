@@ -171,12 +171,18 @@ static void encode_row(const HdPictureStyle *style, const float *rgb, size_t val
     }
 }
 
+/* Of a frame that is encoded: the same without alpha. */
+static void copy_row(const uint8_t *rgba, size_t pixels, uint8_t *row) {
+    for (size_t i = 0; i < pixels; i++)
+        memcpy(row + 3 * i, rgba + 4 * i, 3);
+}
+
 /* Runs under setjmp. Speed comes before size: frames are many and short-lived. After the filter
    what repeats is mostly zeros, and looking for nothing else is both faster and smaller than
    level 1. */
 static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
                        uint16_t *row) {
-    const size_t values = (size_t)frame->width * 3;
+    const size_t width = (size_t)frame->width, values = width * 3;
     png_set_write_fn(job->png, job, write_bytes, flush_nothing);
     png_set_compression_strategy(job->png, Z_RLE);
     png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
@@ -187,7 +193,10 @@ static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *
         png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job->png, job->info);
     for (int y = 0; y < frame->height; y++) {
-        encode_row(style, frame->rgb + values * (size_t)y, values, row);
+        if (frame->is_encoded)
+            copy_row(frame->rgba + width * 4 * (size_t)y, width, (uint8_t *)row);
+        else
+            encode_row(style, frame->rgb + values * (size_t)y, values, row);
         png_write_row(job->png, (png_const_bytep)row);
     }
     png_write_end(job->png, NULL);

@@ -51,6 +51,8 @@ static HdStatus create_kernels(HdOpenclProgram *program, const HdKernelShape *sh
         status = create_kernel(&program->store, program->program, storing, error);
     if (status == HD_OK)
         status = create_kernel(&program->sum, program->program, "hedron_sum_counts", error);
+    if (status == HD_OK && shape->group_size > 0)
+        status = create_kernel(&program->encode, program->program, "hedron_encode", error);
     return status;
 }
 
@@ -161,6 +163,8 @@ void hd_opencl_program_free(HdOpenclProgram *program) {
         clReleaseKernel(program->store);
     if (program->sum)
         clReleaseKernel(program->sum);
+    if (program->encode)
+        clReleaseKernel(program->encode);
     if (program->program)
         clReleaseProgram(program->program);
     *program = (HdOpenclProgram){0};

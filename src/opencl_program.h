@@ -9,6 +9,7 @@
 typedef struct HdOpenclProgram {
     cl_program program;           /* NULL: there is none */
     cl_kernel render, store, sum; /* hd_kernel_tracing, hd_kernel_storing, hedron_sum_counts */
+    cl_kernel encode;             /* hedron_encode, of devices with groups of threads */
 } HdOpenclProgram;
 
 /* Takes the kernels from the cache or compiles the embedded text; then `program` must stay where it

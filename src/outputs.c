@@ -112,6 +112,19 @@ static HdStatus probe_picture(const char *name, int number, HdError *error) {
     return HD_OK;
 }
 
+static bool needs_radiance(const char *name, int bits) {
+    HdOutputKind kind = hd_output_kind(name);
+    return kind == HD_OUTPUT_PFM || (kind == HD_OUTPUT_PNG && bits > 8);
+}
+
+HdFrameWish hd_outputs_wish(const HdOutputPlan *plan) {
+    HdFrameWish wish = {.curve = plan->style.picture.curve};
+    for (int i = 0; i < plan->count; i++)
+        if (needs_radiance(plan->names[i], plan->style.picture.bits))
+            wish.radiance = true;
+    return wish;
+}
+
 HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < plan->count && status == HD_OK; i++)

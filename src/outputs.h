@@ -35,6 +35,9 @@ HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *er
 HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
 HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
 
+/* What a frame must hold for all outputs of the plan. */
+HdFrameWish hd_outputs_wish(const HdOutputPlan *plan);
+
 typedef struct HdOutputs HdOutputs;
 
 /* Finds out before the first frame whether its pictures can be written, which makes their folders.

@@ -11,7 +11,7 @@
 struct HdParcel {
     HdOutputs *outputs;
     HdFrame frame;
-    HdImage8 image;                     /* what films get; empty where there is none */
+    HdImage8 image; /* what films get, and room for what a device encodes; empty: nobody needs it */
     HdAtomicFile files[HD_MAX_OUTPUTS]; /* stream NULL: not written, or published */
 };
 
@@ -22,6 +22,10 @@ static bool has_film(const HdOutputs *outputs) {
     return false;
 }
 
+static bool has_image(const HdOutputs *outputs) {
+    return has_film(outputs) || !hd_outputs_wish(hd_outputs_plan(outputs)).radiance;
+}
+
 HdStatus hd_parcel_create(HdParcel **out, HdOutputs *outputs, int width, int height,
                           HdError *error) {
     HdParcel *parcel = calloc(1, sizeof *parcel);
@@ -30,8 +34,9 @@ HdStatus hd_parcel_create(HdParcel **out, HdOutputs *outputs, int width, int hei
         return hd_fail(error, HD_FAILED, "out of memory: no room for a frame's outputs");
     parcel->outputs = outputs;
     HdStatus status = hd_frame_create(&parcel->frame, width, height, error);
-    if (status == HD_OK && has_film(outputs))
+    if (status == HD_OK && has_image(outputs))
         status = hd_image8_create(&parcel->image, width, height, error);
+    parcel->frame.rgba = parcel->image.rgba;
     if (status == HD_OK)
         *out = parcel;
     else
@@ -56,7 +61,7 @@ void hd_parcel_free(HdParcel *parcel) {
 
 size_t hd_parcel_bytes(const HdOutputs *outputs, int width, int height) {
     size_t pixels = (size_t)width * (size_t)height;
-    return sizeof(HdParcel) + pixels * 3 * sizeof(float) + (has_film(outputs) ? 4 * pixels : 0);
+    return sizeof(HdParcel) + pixels * 3 * sizeof(float) + (has_image(outputs) ? 4 * pixels : 0);
 }
 
 HdFrame *hd_parcel_frame(HdParcel *parcel) {

@@ -22,14 +22,14 @@ void hd_parcel_free(HdParcel *parcel);
 /* About how many bytes a parcel takes. */
 size_t hd_parcel_bytes(const HdOutputs *outputs, int width, int height);
 
-/* The frame, to be filled and read; it belongs to the parcel. */
+/* The frame, to be filled as hd_outputs_wish says, and read; it belongs to the parcel. */
 HdFrame *hd_parcel_frame(HdParcel *parcel);
 
-/* Makes of the frame what films take. */
+/* Makes of a frame that is not encoded what films take. */
 void hd_parcel_convert(HdParcel *parcel);
 
-/* Hands over what hd_parcel_convert made to the film that is output `index` of the plan. A film
-   takes its frames in order; blocks while FFmpeg is busy. */
+/* Hands over what hd_parcel_convert or the device made to the film that is output `index` of the
+   plan. A film takes its frames in order; blocks while FFmpeg is busy. */
 HdStatus hd_parcel_film(HdParcel *parcel, int index, HdError *error);
 
 /* Writes the pictures of frame `number` under temporary names. */

@@ -76,7 +76,7 @@ static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *
     if (status == HD_OK) {
         status = backend->upload(renderer, &tables, error);
         if (status == HD_OK)
-            status = backend->render(renderer, &view, &image, error);
+            status = hd_backend_render(backend, renderer, &view, &image, error);
         *hash = hd_frame_hash(&image);
         hd_frame_free(&image);
     }

@@ -5,53 +5,109 @@
 #include "clock.h"
 #include "interrupt.h"
 
+/* A frame that the renderer works on. */
+typedef struct Flight {
+    HdFrameTables tables;
+    HdSpan prepare;
+} Flight;
+
 typedef struct Run {
     const HdSequence *sequence;
     HdRenderer *renderer;
     double start;
+    HdFrameWish wish;
     HdOutputs *outputs;
     HdFrameStore *store;
+    int submitted, collected; /* frames of the list */
+    Flight
+        flights[HD_FRAMES_IN_FLIGHT]; /* a frame's is its place in the list modulo their number */
+    double traced;                    /* when the last frame's tracing was over */
 } Run;
 
-static HdStatus trace_frame(Run *run, int number, HdFrame *frame, HdFrameTimes *times,
-                            HdError *error) {
+static double seconds_since_start(const Run *run) {
+    return hd_monotonic_seconds() - run->start;
+}
+
+static Flight *flight_of(Run *run, int place) {
+    return &run->flights[place % HD_FRAMES_IN_FLIGHT];
+}
+
+static HdStatus submit_next(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
+    Flight *flight = flight_of(run, run->submitted);
     HdCamera camera;
-    HdFrameTables tables;
-    double began = hd_monotonic_seconds();
-    HdStatus status = hd_camera_at(&camera, sequence->scene, number, error);
+    double began = seconds_since_start(run);
+    HdStatus status =
+        hd_camera_at(&camera, sequence->scene, sequence->frames->frames[run->submitted], error);
     if (status == HD_OK)
-        status = hd_compile_frame(&tables, sequence->scene, &camera, sequence->precision, error);
+        status =
+            hd_compile_frame(&flight->tables, sequence->scene, &camera, sequence->precision, error);
     if (status != HD_OK)
         return status;
-    double prepared = hd_monotonic_seconds();
-    status = hd_renderer_render(run->renderer, &tables, frame, error);
-    double traced = hd_monotonic_seconds();
-    hd_frame_tables_free(&tables);
-    times->prepare = (HdSpan){began - run->start, prepared - began};
-    times->trace = (HdSpan){prepared - run->start, frame->trace_seconds};
-    /* A device has a clock of its own, which may not agree to the last digit. */
-    double rest = traced - prepared - frame->trace_seconds;
-    double copy = rest > 0.0 ? rest : 0.0;
-    times->copy = (HdSpan){traced - copy - run->start, copy};
+    flight->prepare = (HdSpan){began, seconds_since_start(run) - began};
+    status = hd_renderer_submit(run->renderer, &flight->tables, &run->wish, error);
+    if (status == HD_OK)
+        run->submitted++;
+    else
+        hd_frame_tables_free(&flight->tables);
     return status;
 }
 
-/* Renders until a frame fails here or, which hd_frame_store_end tells, in the store. */
+/* Frames are traced one after the other. One that was waited for as long as its tracing took was
+   traced then; another one as soon as the device could. What a device says by its own clock may not
+   agree with ours to the last digit. */
+static void note_times(Run *run, const Flight *flight, double waited_from, double trace_seconds,
+                       HdFrameTimes *times) {
+    double now = seconds_since_start(run);
+    double prepared = flight->prepare.began + flight->prepare.seconds;
+    double began = prepared > run->traced ? prepared : run->traced;
+    if (now - waited_from >= trace_seconds)
+        began = waited_from;
+    run->traced = began + trace_seconds < now ? began + trace_seconds : now;
+    double rest_from = run->traced > waited_from ? run->traced : waited_from;
+    times->prepare = flight->prepare;
+    times->trace = (HdSpan){began, trace_seconds};
+    times->copy = (HdSpan){rest_from, now - rest_from};
+}
+
+static HdStatus collect_oldest(Run *run, HdError *error) {
+    Flight *flight = flight_of(run, run->collected);
+    HdFrameTimes *times;
+    HdFrame *frame = hd_frame_store_next(run->store, &times);
+    if (frame == NULL)
+        return HD_FAILED; /* hd_frame_store_end tells why */
+    double waited_from = seconds_since_start(run);
+    HdStatus status = hd_renderer_collect(run->renderer, frame, error);
+    run->collected++;
+    hd_frame_tables_free(&flight->tables);
+    if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
+        return HD_INTERRUPTED;
+    if (status != HD_OK)
+        return status;
+    note_times(run, flight, waited_from, frame->trace_seconds, times);
+    hd_frame_store_give(run->store);
+    return HD_OK;
+}
+
+static void drop_rest(Run *run) {
+    hd_renderer_drop(run->renderer);
+    for (; run->collected < run->submitted; run->collected++)
+        hd_frame_tables_free(&flight_of(run, run->collected)->tables);
+}
+
+/* Renders until a frame fails here or in the store. A frame that cannot be submitted fails after
+   those that were. */
 static HdStatus render_frames(Run *run, HdError *error) {
-    const HdFrameList *frames = run->sequence->frames;
-    HdStatus status = HD_OK;
-    for (int i = 0; i < frames->count && status == HD_OK; i++) {
-        HdFrameTimes *times;
-        HdFrame *frame = hd_frame_store_next(run->store, &times);
-        if (frame == NULL)
-            break;
-        status = trace_frame(run, frames->frames[i], frame, times, error);
-        if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
-            status = HD_INTERRUPTED;
-        if (status == HD_OK)
-            hd_frame_store_give(run->store);
+    const int count = run->sequence->frames->count;
+    HdStatus status = HD_OK, submitting = HD_OK;
+    while (status == HD_OK && run->collected < count) {
+        int in_flight = run->submitted - run->collected;
+        if (submitting == HD_OK && run->submitted < count && in_flight < HD_FRAMES_IN_FLIGHT)
+            submitting = submit_next(run, error);
+        else
+            status = in_flight > 0 ? collect_oldest(run, error) : submitting;
     }
+    drop_rest(run);
     return status;
 }
 
@@ -104,7 +160,12 @@ static HdStatus prepare(Run *run, HdError *error) {
 }
 
 HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error) {
-    Run run = {.sequence = sequence, .renderer = renderer, .start = hd_monotonic_seconds()};
+    Run run = {
+        .sequence = sequence,
+        .renderer = renderer,
+        .start = hd_monotonic_seconds(),
+        .wish = hd_outputs_wish(sequence->outputs),
+    };
     HdStatus status = prepare(&run, error);
     if (status == HD_OK)
         status = render_and_store(&run, error);

@@ -112,13 +112,13 @@ static Usage kernel_usage(const char *log, const char *kernel) {
 
 static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCode *code) {
     const char *const kernels[] = {hd_kernel_tracing(&options->shape), "hedron_sum_counts",
-                                   hd_kernel_storing(&options->shape)};
+                                   "hedron_encode", hd_kernel_storing(&options->shape)};
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
            options->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
            options->shape.needs.plane_bound, options->shape.needs.depth_bound, code->size);
     bool complete = true;
-    for (int i = 0; i < 3 && kernels[i] != NULL; i++) {
+    for (int i = 0; i < 4 && kernels[i] != NULL; i++) {
         Usage usage = kernel_usage(code->log, kernels[i]);
         printf("%s: %d registers, %d bytes of stack, spills of %d bytes stored and %d loaded\n",
                kernels[i], usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);

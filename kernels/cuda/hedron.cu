@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry points for CUDA. Arguments: the tables in the order of scene_tables.h, then as listed. */
+#include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT
 #include "../common/wavefront.h"
@@ -45,4 +46,11 @@ extern "C" __global__ void hedron_sum_counts(const RayCounts *__restrict__ count
     int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
     if (worker < workers)
         sum_counts(counts, count, worker, workers, sums);
+}
+
+extern "C" __global__ void hedron_encode(const int *__restrict__ pixels, int count,
+                                         const int *__restrict__ thresholds,
+                                         uint *__restrict__ image) {
+    int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
+    encode_pixels(pixels, count, thresholds, worker, (int)(gridDim.x * blockDim.x), image);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry points for OpenCL. Arguments: the tables in the order of scene_tables.h, then as listed.
    Without a group size every work item renders for itself, which suits CPUs. */
+#include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT
 #include "../common/wavefront.h"
@@ -57,3 +58,12 @@ __kernel void hedron_sum_counts(__global const RayCounts *counts, int count,
     if ((int)get_global_id(0) < workers)
         sum_counts(counts, count, (int)get_global_id(0), workers, sums);
 }
+
+#if HD_GROUP_SIZE
+
+__kernel void hedron_encode(__global const int *pixels, int count, __global const int *thresholds,
+                            __global uint *image) {
+    encode_pixels(pixels, count, thresholds, (int)get_global_id(0), (int)get_global_size(0), image);
+}
+
+#endif

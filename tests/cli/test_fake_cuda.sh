@@ -82,6 +82,33 @@ expect_stderr_contains 'does not load what NVRTC 12.'
 expect_exit 0 "${fast[@]}"
 expect_build 'taken from .*'
 
+# ---- frames under way together: the driver carries out what is queued as late as it may
+frames=("$hedron" render "${small[@]}" --frames 0-6 --backend cuda --math fast --quiet)
+expect_exit 0 env FAKE_CUDA_EAGER=1 "${frames[@]}" -o eager/%d.data
+expect_exit 0 "${frames[@]}" -o late/%d.data
+expect_silent_stderr
+expect_exit 0 "${frames[@]}" -o late/%d.png -o radiance/%d.data -o radiance/%d.pfm
+expect_silent_stderr
+for i in 0 1 2 3 4 5 6; do
+    expect_same "late/$i.data" "eager/$i.data"
+    expect_same "late/$i.data" "radiance/$i.data"
+    if ((i > 0)); then
+        expect_different "late/$i.data" "late/$((i - 1)).data"
+    fi
+done
+rm -r eager late radiance
+
+expect_exit 0 "${frames[@]}" --pipeline wavefront -o waves/%d.data
+expect_silent_stderr
+rm -r waves
+
+# ---- whatever fails, nothing is left behind
+for function in cuMemAlloc cuMemHostAlloc cuMemcpyHtoDAsync cuMemcpyDtoHAsync cuLaunchKernel cuStreamWaitEvent cuEventSynchronize; do
+    expect_refusal 1 env FAKE_CUDA_FAILS=$function "${frames[@]}" -o failed/%d.data
+    expect_stderr_contains "$function"
+    rm -rf failed
+done
+
 # ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
 long=("$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)
 fastest='device +cuda 0, .*: the fastest of 2 on this kind of scene'

@@ -2,7 +2,8 @@
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
    one. The options --backend, --lanes and --precision leave out the others. Then it renders with
-   the other pipeline and with other launches (variants.h).
+   the other pipeline and with other launches (variants.h). Each renderer also has frames under way
+   together (flights.h).
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -14,6 +15,7 @@
 #include <string.h>
 
 #include "backend.h"
+#include "flights.h"
 #include "image.h"
 #include "render_scene.h"
 #include "scenes.h"
@@ -191,6 +193,7 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     compare_frames(renderer, only_few, label, wanted->precision, options, golden, tally);
     if (!only_few)
         check_truths(renderer, wanted->precision, label, &tally->truths, &tally->untrue);
+    check_flights(renderer, wanted->precision, label, &tally->frames, &tally->different);
     tally->renderers++;
     hd_renderer_close(renderer);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
-   device, up to what its kernels render: a device of sm_61 whose memory is the host's, and whose
-   launches do nothing (others.c). FAKE_CUDA_REFUSES is the number of modules that it does not load
-   at first. */
+   device, up to what its kernels render: a device of sm_61 whose memory is the host's, with streams
+   (streams.c), and much that does nothing (others.c). FAKE_CUDA_REFUSES is the number of modules
+   that it does not load at first. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,37 +70,9 @@ HdCuResult cuModuleLoadData(HdCuModule *module, const void *image) {
     return HD_CU_SUCCESS;
 }
 
-HdCuResult cuModuleGetFunction(HdCuFunction *function, HdCuModule module, const char *name) {
-    (void)module;
-    (void)name;
-    *function = (HdCuFunction)(void *)&anything;
-    return HD_CU_SUCCESS;
-}
-
 HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction function) {
     (void)function;
     *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? 1024 : 64;
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuMemAlloc_v2(HdCuPointer *pointer, size_t bytes) {
-    void *memory = calloc(1, bytes);
-    *pointer = (HdCuPointer)memory;
-    return memory != NULL ? HD_CU_SUCCESS : HD_CU_ERROR_OUT_OF_MEMORY;
-}
-
-HdCuResult cuMemFree_v2(HdCuPointer pointer) {
-    free((void *)pointer);
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuMemcpyHtoD_v2(HdCuPointer to, const void *from, size_t bytes) {
-    memcpy((void *)to, from, bytes);
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuMemcpyDtoH_v2(void *to, HdCuPointer from, size_t bytes) {
-    memcpy(to, (const void *)from, bytes);
     return HD_CU_SUCCESS;
 }
 

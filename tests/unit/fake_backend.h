@@ -96,16 +96,26 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
     return hd_backend_c.upload(renderer->c, tables, error);
 }
 
-static HdStatus fake_render(void *state, const HdFrameTables *tables, HdFrame *frame,
+static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
                             HdError *error) {
+    FakeRenderer *renderer = state;
+    return hd_backend_c.submit(renderer->c, tables, wish, error);
+}
+
+static void fake_drop(void *state) {
+    FakeRenderer *renderer = state;
+    hd_backend_c.drop(renderer->c);
+}
+
+static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
     FakeRenderer *renderer = state;
     const struct timespec pause = {.tv_nsec = 1000000L * fake.slow_milliseconds};
     fake.rendered++;
     if (renderer->index == fake.slow_index)
         nanosleep(&pause, NULL);
+    HdStatus status = hd_backend_c.collect(renderer->c, frame, error);
     if (fake.fails)
         return hd_fail(error, HD_FAILED, "it fails");
-    HdStatus status = hd_backend_c.render(renderer->c, tables, frame, error);
     if (status == HD_OK && fake.trace_seconds != NULL)
         frame->trace_seconds = fake.trace_seconds(&renderer->options);
     if (status == HD_OK && fake.renders_wrongly) {
@@ -140,7 +150,9 @@ static const HdBackend fake_backend = {
     .enumerate = fake_enumerate,
     .open = fake_open,
     .upload = fake_upload,
-    .render = fake_render,
+    .submit = fake_submit,
+    .collect = fake_collect,
+    .drop = fake_drop,
     .kernels = fake_kernels,
     .describe = fake_describe,
     .close = fake_close,

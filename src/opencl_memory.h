@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* Memory of an OpenCL device, and memory of the host that it copies to and from quickly. */
+#ifndef HD_OPENCL_MEMORY_H
+#define HD_OPENCL_MEMORY_H
+
+#include "opencl_devices.h"
+
+/* Whose memory; for messages as well. */
+typedef struct HdOpenclOwner {
+    cl_context context;
+    const HdOpenclDevice *device;
+    const char *name;
+} HdOpenclOwner;
+
+typedef struct HdOpenclBuffer {
+    cl_mem memory; /* NULL: there is none */
+    size_t bytes;
+} HdOpenclBuffer;
+
+/* Makes it a buffer of `bytes`, unless it is one; its contents are lost if not. What is queued may
+   still use the old one. `what` is for messages: "pixels". */
+HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
+                          cl_mem_flags flags, const char *what, HdError *error);
+void hd_opencl_release(HdOpenclBuffer *buffer);
+
+/* Memory of the host that stays where it is, so that the device copies to it by itself. */
+typedef struct HdOpenclHostMemory {
+    HdOpenclBuffer buffer;
+    void *data;
+} HdOpenclHostMemory;
+
+/* As above, but waits for the queue. No copy to the old memory may be under way. */
+HdStatus hd_opencl_resize_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory, size_t bytes,
+                               cl_command_queue queue, HdError *error);
+void hd_opencl_release_host(HdOpenclHostMemory *memory, cl_command_queue queue);
+
+#endif

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+#include "flights.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "image.h"
+#include "render_scene.h"
+#include "scenes.h"
+
+enum { ROUNDS = 5, VIEWS = 2 };
+
+static const char frame_name[] = "everything";
+static const HdFrameWish wishes[ROUNDS] = {
+    {.curve = HD_CURVE_SRGB}, {.radiance = true},         {.curve = HD_CURVE_LINEAR},
+    {.curve = HD_CURVE_SRGB}, {.curve = HD_CURVE_LINEAR},
+};
+
+/* One scene seen in two ways, so that no frame can be taken for its neighbour. */
+typedef struct Views {
+    HdFrameTables tables[VIEWS];
+    HdFrame alone[VIEWS];
+    HdImage8 image;
+} Views;
+
+static void build(HdScene *scene, HdCamera *camera) {
+    for (int i = 0; i < conformance_frame_count; i++)
+        if (strcmp(conformance_frames[i].name, frame_name) == 0)
+            conformance_frames[i].build(scene, camera);
+}
+
+static void open_views(Views *views, HdRenderer *renderer, HdPrecision precision) {
+    HdScene scene;
+    HdCamera camera;
+    HdError error;
+    build(&scene, &camera);
+    for (int i = 0; i < VIEWS; i++) {
+        views->alone[i] = render_scene(renderer, &scene, &camera, precision, frame_name);
+        if (hd_compile_frame(&views->tables[i], &scene, &camera, precision, &error) != HD_OK)
+            fail(frame_name, &error);
+        camera.right = hd_scale(camera.right, -1.0);
+        camera.up = hd_scale(camera.up, -1.0);
+    }
+    if (hd_image8_create(&views->image, scene.width, scene.height, &error) != HD_OK)
+        fail(frame_name, &error);
+    hd_scene_free(&scene);
+}
+
+static void close_views(Views *views) {
+    for (int i = 0; i < VIEWS; i++) {
+        hd_frame_tables_free(&views->tables[i]);
+        hd_frame_free(&views->alone[i]);
+    }
+    hd_image8_free(&views->image);
+}
+
+/* Of a frame that arrived as wished for. */
+static bool is_same(Views *views, int round, HdFrame *frame) {
+    const HdFrame *alone = &views->alone[round % VIEWS];
+    size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    if (!frame->is_encoded)
+        return hd_frame_hash(frame) == hd_frame_hash(alone);
+    hd_frame_to_image8(alone, wishes[round].curve, &views->image);
+    return !wishes[round].radiance && memcmp(frame->rgba, views->image.rgba, 4 * pixels) == 0 &&
+           hd_frame_rays(frame) == hd_frame_rays(alone) &&
+           frame->shadow_tests == alone->shadow_tests && frame->clamps == alone->clamps;
+}
+
+static bool collect(Views *views, HdRenderer *renderer, int round) {
+    HdFrame frame;
+    HdImage8 image;
+    HdError error;
+    int width = views->image.width, height = views->image.height;
+    if (hd_frame_create(&frame, width, height, &error) != HD_OK ||
+        hd_image8_create(&image, width, height, &error) != HD_OK)
+        fail(frame_name, &error);
+    frame.rgba = image.rgba;
+    if (hd_renderer_collect(renderer, &frame, &error) != HD_OK)
+        fail(frame_name, &error);
+    bool same = is_same(views, round, &frame);
+    hd_frame_free(&frame);
+    hd_image8_free(&image);
+    return same;
+}
+
+/* Each frame is submitted before its predecessor is collected. The last one is dropped. */
+void check_flights(HdRenderer *renderer, HdPrecision precision, const char *label, int *pictures,
+                   int *different) {
+    Views views;
+    HdError error;
+    open_views(&views, renderer, precision);
+    for (int round = 0; round < ROUNDS; round++) {
+        if (hd_renderer_submit(renderer, &views.tables[round % VIEWS], &wishes[round], &error) !=
+            HD_OK)
+            fail(frame_name, &error);
+        if (round == 0)
+            continue;
+        ++*pictures;
+        if (collect(&views, renderer, round - 1))
+            continue;
+        ++*different;
+        printf("DIFFERENT frame %d of those under way together, on %s\n", round - 1, label);
+    }
+    hd_renderer_drop(renderer);
+    close_views(&views);
+}
