@@ -134,7 +134,7 @@ if [[ -x $(dirname "$hedron")/bench/hedron_kernel_rates ]]; then
     expect_value '[true, true, true]' '[min(r["kernel_rates"]["rates"][k]) > 0 for k in ("search:meeting", "light:lights-200", "peak:fma")]'
 fi
 if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
-    expect_value '["veryfast", [4, 16]]' \
+    expect_value '["superfast", [4, 16]]' \
         '[r["film"]["preset"], sorted({len(run["frames"]) for run in r["runs"] if run["output"] == "film.mp4"})]'
 fi
 if [[ ! -s out/speed.md ]]; then
