@@ -43,13 +43,14 @@ HdStatus hd_cuda_flights_open(HdCudaFlights *flights, const HdCudaOwner *owner, 
 
 static void close_flight(const HdCudaFlights *flights, HdCudaFlight *flight) {
     const HdCudaOwner *owner = &flights->owner;
-    HdCuEvent events[] = {flight->start, flight->end, flight->ready, flight->copied};
+    enum { EVENTS = 4 };
+    HdCuEvent events[EVENTS] = {flight->start, flight->end, flight->ready, flight->copied};
     hd_cuda_release(owner, &flight->pixels);
     hd_cuda_release(owner, &flight->sums);
     hd_cuda_release(owner, &flight->image);
     hd_cuda_release_host(owner, &flight->tables);
     hd_cuda_release_host(owner, &flight->copy);
-    for (size_t i = 0; i < sizeof events / sizeof *events; i++)
+    for (int i = 0; i < EVENTS; i++)
         if (events[i])
             owner->driver->event_destroy(events[i]);
 }

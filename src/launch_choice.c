@@ -119,7 +119,10 @@ HdRenderOptions hd_launch_remembered_options(const HdDevice *device, const HdRen
                                              const HdScene *scene) {
     HdLaunch launch;
     hd_launch_recall(&launch, device, options, scene);
-    return hd_launch_options(options, &launch);
+    HdRenderOptions changed = hd_launch_options(options, &launch);
+    if (changed.pipeline == HD_PIPELINE_AUTO)
+        changed.pipeline = hd_pipeline_of_scene(device, scene);
+    return changed;
 }
 
 HdStatus hd_launch_open(HdRenderer **renderer, const HdDevice *device,

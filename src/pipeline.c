@@ -1,8 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "pipeline.h"
 
+/* So many lights that no distance ends: from here on full bundles are worth the way through a
+ * queue. */
+enum { MANY_LIGHTS = 100 };
+
+HdPipeline hd_pipeline_of_scene(const HdDevice *device, const HdScene *scene) {
+    bool many = hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
+    return device->is_cpu && many ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
+}
+
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options) {
-    (void)device; /* the same everywhere, as far as has been measured */
+    (void)device; /* a scene may tell more: hd_pipeline_of_scene */
     return options->pipeline == HD_PIPELINE_AUTO ? HD_PIPELINE_MEGA : options->pipeline;
 }
 

@@ -118,6 +118,9 @@ int hd_edge_light_count(const HdSolid *solid);
 /* Point lights and lights of edges of a valid scene, those that light nothing included. */
 int hd_scene_light_count(const HdScene *scene);
 
+/* Of these the ones that light something and whose light no distance ends. */
+int hd_scene_endless_light_count(const HdScene *scene);
+
 /* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
 typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
 

@@ -21,6 +21,19 @@ static void auto_is_mega(void **state) {
                         "wavefront-uncompacted");
 }
 
+static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
+    (void)state;
+    HdLight lights[100] = {{.falloff = {.end = 0.0}}};
+    HdScene scene = {.lights = lights, .light_count = 100};
+    HdDevice cpu = {.is_cpu = true}, gpu = {.is_cpu = false};
+    assert_int_equal(hd_scene_endless_light_count(&scene), 100);
+    assert_int_equal(hd_pipeline_of_scene(&cpu, &scene), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_pipeline_of_scene(&gpu, &scene), HD_PIPELINE_MEGA);
+    lights[7].falloff.end = 2.0;
+    assert_int_equal(hd_scene_endless_light_count(&scene), 99);
+    assert_int_equal(hd_pipeline_of_scene(&cpu, &scene), HD_PIPELINE_MEGA);
+}
+
 static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
     (void)state;
     HdDevice gpu = {.name = "a GPU"};
@@ -61,6 +74,7 @@ static void sizes_of_launches_are_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(auto_is_mega),
+        cmocka_unit_test(many_endless_lights_on_a_cpu_take_the_wavefront),
         cmocka_unit_test(a_wavefront_of_groups_needs_wide_atomics),
         cmocka_unit_test(sizes_of_launches_are_checked),
     };
