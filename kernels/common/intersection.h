@@ -118,7 +118,7 @@ FN void hit_solid(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
     for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
         vreal width = splat(planes[k].distance);
         Crossing next;
-        next.slope = along_normal(planes + k, ray->direction);
+        next.slope = along_normal(planes + k, ray->direction) + zero; /* no -0 */
         next.plane = splat_int(k);
         vreal forward = times_sign_of(along_normal(planes + k, origin), next.slope);
         vreal to_exit = width - forward, to_entry = -width - forward;

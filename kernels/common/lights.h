@@ -41,9 +41,10 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
         for (int i = 0; i < solid->plane_count; i++) {
             GLOBAL const Plane *plane = planes + solid->first_plane + i;
             vreal width = splat(plane->distance), coordinate = along_normal(plane, point);
+            vreal least = solid->paired ? -width : splat(-REAL_LARGE);
             if (has_inside)
                 coordinate =
-                    pick(own_inside, lesser(greater(coordinate, -width), width), coordinate);
+                    pick(own_inside, lesser(greater(coordinate, least), width), coordinate);
             coordinates[solid->first_plane + i] = coordinate;
             vmask outside = le(zero, nearness(solid, plane, coordinate)) & ~own_inside;
             vint side =
@@ -208,11 +209,13 @@ FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int comm
 FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
     Vec3 intensity = vec3_splat(light->intensity[0], light->intensity[1], light->intensity[2]);
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
+    vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
     if (light->falloff_ends) {
         vreal rest = greater(multiply_add(-squared, scale, one), splat(R(0.0)));
         intensity = vec3_scale(intensity, rest * rest);
     } else if (light->inverse_falloff_squared > R(0.0)) {
-        intensity = vec3_scale(intensity, reciprocal(multiply_add(squared, scale, one)));
+        intensity =
+            vec3_scale(intensity, reciprocal(lesser(multiply_add(squared, scale, one), most)));
     }
     return intensity;
 }
