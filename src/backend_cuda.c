@@ -424,10 +424,11 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
         status = copy_table(renderer, &renderer->scene[i], tables->table[i].data,
                             tables->table[i].bytes, "tables of the scene", error);
-    if (status == HD_OK)
-        status = wait_for_stream(renderer, error);
+    /* After a failure too: copies that are under way read the tables, which are the caller's. */
+    HdError later;
+    HdStatus finished = wait_for_stream(renderer, status == HD_OK ? error : &later);
     leave(renderer);
-    return status;
+    return status == HD_OK ? finished : status;
 }
 
 /* ---- render ---- */
