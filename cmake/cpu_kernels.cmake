@@ -24,6 +24,12 @@ set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
 set(wider_than_a_register generic:8:float generic:16:float generic:8:double generic:16:double
     avx2:8:double avx512:16:double)
 
+set(arithmetics strict fast)
+if(HEDRON_SANITIZE)
+    set(arithmetics strict)
+    target_compile_definitions(hedron_core PRIVATE HD_CPU_STRICT_ONLY)
+endif()
+
 foreach(build IN LISTS builds)
     string(REPLACE ":" ";" parts ${build})
     list(GET parts 0 set)
@@ -34,7 +40,7 @@ foreach(build IN LISTS builds)
            CMAKE_BUILD_TYPE STREQUAL "Debug")
             set(level -O1)
         endif()
-        foreach(math strict fast)
+        foreach(math IN LISTS arithmetics)
             set(name ${set}_${lanes}_${precision}_${math})
             add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
             target_compile_definitions(hedron_kernel_${name} PRIVATE

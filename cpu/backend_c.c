@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* The plain C backend: the shared kernels in loops over blocks of pixels, on a pool of threads. */
 #define _GNU_SOURCE
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "../kernels/common/scene_tables.h"
 #include "../src/backend.h"
 #include "../src/clock.h"
 #include "../src/interrupt.h"
 #include "../src/kernel_source.h"
+#include "../src/large_memory.h"
 #include "../src/pipeline.h"
+#include "../src/processors.h"
 #include "../src/wave_plan.h"
 #include "instruction_set.h"
 #include "kernel.h"
@@ -36,14 +36,6 @@ typedef struct CRenderer {
     int waiting_count;
 } CRenderer;
 
-static int core_count(void) {
-    cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0)
-        return CPU_COUNT(&set);
-    long online = sysconf(_SC_NPROCESSORS_ONLN);
-    return online > 0 ? (int)online : 1;
-}
-
 static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
     (void)error;
     *count = capacity > 0 ? 1 : 0;
@@ -54,7 +46,7 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     device->backend = &hd_backend_c;
     hd_cpu_name(device->name, (int)sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
-             hd_cpu_best_instruction_set(), core_count());
+             hd_cpu_best_instruction_set(), hd_processor_count());
     device->is_cpu = true;
     device->has_double = true;
     return HD_OK;
@@ -86,7 +78,7 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     CRenderer *c = calloc(1, sizeof *c);
     if (c == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
-    c->threads = options->threads > 0 ? options->threads : core_count();
+    c->threads = options->threads > 0 ? options->threads : hd_processor_count();
     c->pipeline = options->pipeline;
     c->queue_budget = options->test.queue_bytes > 0 ? options->test.queue_bytes : QUEUE_BYTES;
     c->build = hd_cpu_find_build(options->lanes, options->precision, options->math);
@@ -103,8 +95,7 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
 }
 
 static HdStatus copy_table(HdTable *to, const HdTable *from, HdError *error) {
-    size_t bytes = (from->bytes + 63) / 64 * 64 + 64;
-    to->data = aligned_alloc(64, bytes);
+    to->data = hd_large_allocate(from->bytes);
     if (to->data == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene needs a table of %zu bytes",
                        from->bytes);

@@ -3,17 +3,14 @@
 #include "kernel.h"
 
 #include "../kernels/common/wavefront.h"
-
-#define TABLE_FROM_SCENE(type, name) const type *name = scene[HD_TABLE_##name].data;
-#define TABLE_FROM_FRAME(type, name) const type *name = frame[HD_TABLE_##name].data;
+#include "kernel_tables.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */
 #define APART static __attribute__((noinline))
 
 APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
                                 float *pixels) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
     return counted;
@@ -21,8 +18,7 @@ APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int 
 
 APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
                                 const HdCpuQueue *queue, float *pixels) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     RayCounts counted;
     render_item_by_waves(SCENE_ARGUMENTS queue->reals, queue->ints, queue->sums,
                          queue->queue_stride, queue->sum_stride, queue->compact, item, pixels,

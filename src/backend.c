@@ -76,7 +76,7 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
     if (has_groups && !device->has_wide_atomics &&
-        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options)))
+        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
     return NULL;
 }
@@ -104,7 +104,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     opened->backend = device->backend;
     opened->device = *device;
     opened->options = *options;
-    opened->options.pipeline = hd_choose_pipeline(device, options);
+    opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
     status = opened->backend->open(device, &opened->options, &opened->state, error);
     if (status != HD_OK) {
         free(opened);

@@ -511,10 +511,13 @@ static HdStatus launch(const Renderer *renderer, HdCuFunction function, int item
     return launch_blocks(renderer, function, blocks, arguments, error);
 }
 
+static HdStatus record(const Renderer *renderer, HdCuEvent event, HdError *error) {
+    return CALL(renderer, event_record, cuEventRecord, (event, renderer->stream), error);
+}
+
 /* Launches are queued one by one, so that a signal ends the frame between two of them. */
 static HdStatus wait_between(const Renderer *renderer, HdError *error) {
-    HdStatus status =
-        CALL(renderer, event_record, cuEventRecord, (renderer->between, renderer->stream), error);
+    HdStatus status = record(renderer, renderer->between, error);
     if (status == HD_OK)
         status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->between), error);
     if (status == HD_OK && hd_interrupt_signal() != 0)
@@ -634,10 +637,6 @@ static HdStatus launch_sum(Renderer *renderer, HdCudaFlight *flight, int count_s
     void *arguments[] = {&renderer->counts.pointer, &count_slots, &flight->sums.pointer, &workers};
     return launch_blocks(renderer, renderer->sum, (HD_SUM_WORKERS + block - 1) / block, arguments,
                          error);
-}
-
-static HdStatus record(const Renderer *renderer, HdCuEvent event, HdError *error) {
-    return CALL(renderer, event_record, cuEventRecord, (event, renderer->stream), error);
 }
 
 static HdStatus trace(Renderer *renderer, HdCudaFlight *flight, int items, int count_slots,

@@ -190,43 +190,26 @@ static HdStatus make_folder(const char *folder, HdError *error) {
     return HD_OK;
 }
 
-static bool write_all(int descriptor, const void *bytes, size_t size) {
-    const unsigned char *from = bytes;
-    for (size_t done = 0; done < size;) {
-        ssize_t count = write(descriptor, from + done, size - done);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return false;
-        done += (size_t)count;
-    }
-    return true;
-}
-
 static HdStatus write_entry(const char *path, const char *key, const void *bytes, size_t size,
                             HdError *error) {
-    char temporary[HD_MAX_PATH];
-    int descriptor = -1;
+    HdAtomicFile file;
     Header header = {.magic = magic,
                      .version = VERSION,
                      .key_bytes = (uint32_t)strlen(key),
                      .payload_bytes = size};
     header.checksum = checksum(header, key, bytes);
-    HdStatus status = hd_temporary_create(path, temporary, &descriptor, error);
+    HdStatus status = hd_atomic_file_open(&file, path, error);
     if (status != HD_OK)
         return status;
-    bool written = fchmod(descriptor, 0600) == 0 && write_all(descriptor, &header, sizeof header) &&
-                   write_all(descriptor, key, header.key_bytes) &&
-                   write_all(descriptor, bytes, size);
-    int reason = errno;
-    if (close(descriptor) != 0 && written) {
-        reason = errno;
-        written = false;
+    if (fchmod(fileno(file.stream), 0600) != 0) {
+        int reason = errno;
+        hd_atomic_file_discard(&file);
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
     }
-    if (written)
-        return hd_temporary_publish(temporary, path, error);
-    hd_temporary_remove(temporary);
-    return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
+    fwrite(&header, sizeof header, 1, file.stream); /* committing finds what fails */
+    fwrite(key, 1, header.key_bytes, file.stream);
+    fwrite(bytes, 1, size, file.stream);
+    return hd_atomic_file_commit(&file, error);
 }
 
 HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,

@@ -143,20 +143,15 @@ static void add_films(HdFrameStore *store) {
     }
 }
 
-static bool has_pictures(const HdOutputs *outputs) {
-    for (int i = 0; i < hd_outputs_plan(outputs)->count; i++)
-        if (hd_outputs_film(outputs, i) == NULL)
-            return true;
-    return false;
-}
-
 static int least(int a, int b) {
     return a < b ? a : b;
 }
 
 /* Where tracing has all processors too, they share them; elsewhere none of them idles. */
 static int encoder_count(const HdFrameStorePlan *plan) {
-    if (!has_pictures(plan->outputs))
+    bool has_pictures =
+        hd_outputs_film_count(plan->outputs) < hd_outputs_plan(plan->outputs)->count;
+    if (!has_pictures)
         return 0;
     return least(least(hd_processor_count(), MAX_ENCODERS), plan->frames->count);
 }

@@ -120,8 +120,7 @@ HdRenderOptions hd_launch_remembered_options(const HdDevice *device, const HdRen
     HdLaunch launch;
     hd_launch_recall(&launch, device, options, scene);
     HdRenderOptions changed = hd_launch_options(options, &launch);
-    if (changed.pipeline == HD_PIPELINE_AUTO)
-        changed.pipeline = hd_pipeline_of_scene(device, scene);
+    changed.pipeline = hd_choose_pipeline(device, &changed, scene);
     return changed;
 }
 

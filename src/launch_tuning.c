@@ -140,7 +140,7 @@ static HdStatus try_registers(Tuner *tuner, const HdLaunch *launch, HdError *err
 
 static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
     static const HdPipeline pipelines[] = {HD_PIPELINE_MEGA, HD_PIPELINE_WAVEFRONT};
-    HdPipeline suits = hd_choose_pipeline(tuner->device, tuner->options);
+    HdPipeline suits = hd_choose_pipeline(tuner->device, tuner->options, tuner->job->scene);
     bool has_limits = tuner->device->nvidia_arch > 0 && tuner->options->registers == 0;
     HdLaunch launch = hd_launch_of(tuner->options);
     launch.pipeline = suits;

@@ -158,6 +158,13 @@ HdVideo *hd_outputs_film(const HdOutputs *outputs, int index) {
     return outputs->films[index];
 }
 
+int hd_outputs_film_count(const HdOutputs *outputs) {
+    int count = 0;
+    for (int i = 0; i < outputs->plan->count; i++)
+        count += outputs->films[i] != NULL;
+    return count;
+}
+
 HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {

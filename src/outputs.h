@@ -55,6 +55,9 @@ const HdOutputPlan *hd_outputs_plan(const HdOutputs *outputs);
 /* The film that output `index` of the plan is; NULL: pictures. */
 HdVideo *hd_outputs_film(const HdOutputs *outputs, int index);
 
+/* How many of the outputs are films. */
+int hd_outputs_film_count(const HdOutputs *outputs);
+
 /* Ends the films and frees `outputs` in every case. A film that fails takes those after it with it;
    those before it stay. */
 HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error);

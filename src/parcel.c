@@ -15,15 +15,9 @@ struct HdParcel {
     HdAtomicFile files[HD_MAX_OUTPUTS]; /* stream NULL: not written, or published */
 };
 
-static bool has_film(const HdOutputs *outputs) {
-    for (int i = 0; i < hd_outputs_plan(outputs)->count; i++)
-        if (hd_outputs_film(outputs, i) != NULL)
-            return true;
-    return false;
-}
-
 static bool has_image(const HdOutputs *outputs) {
-    return has_film(outputs) || !hd_outputs_wish(hd_outputs_plan(outputs)).radiance;
+    return hd_outputs_film_count(outputs) > 0 ||
+           !hd_outputs_wish(hd_outputs_plan(outputs)).radiance;
 }
 
 HdStatus hd_parcel_create(HdParcel **out, HdOutputs *outputs, int width, int height,

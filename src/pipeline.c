@@ -5,14 +5,12 @@
  * queue. */
 enum { MANY_LIGHTS = 100 };
 
-HdPipeline hd_pipeline_of_scene(const HdDevice *device, const HdScene *scene) {
-    bool many = hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
-    return device->is_cpu && many ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
-}
-
-HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options) {
-    (void)device; /* a scene may tell more: hd_pipeline_of_scene */
-    return options->pipeline == HD_PIPELINE_AUTO ? HD_PIPELINE_MEGA : options->pipeline;
+HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
+                              const HdScene *scene) {
+    if (options->pipeline != HD_PIPELINE_AUTO)
+        return options->pipeline;
+    bool has_many = scene != NULL && hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
+    return device->is_cpu && has_many ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
 }
 
 bool hd_pipeline_is_wavefront(HdPipeline pipeline) {

@@ -6,13 +6,11 @@
 #include "backend.h"
 #include "scene.h"
 
-/* The pipeline that suits a scene on a device where nothing was measured and nobody asked for one:
-   on a CPU the wavefront where shading has most of the time (docs/performance.md), else the
-   megakernel. */
-HdPipeline hd_pipeline_of_scene(const HdDevice *device, const HdScene *scene);
-
-/* What `options` come to on that device: never HD_PIPELINE_AUTO. */
-HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options);
+/* What `options` come to on that device: never HD_PIPELINE_AUTO. Where they leave the choice, a CPU
+   takes the wavefront for a scene whose shading has most of the time (docs/performance.md), and
+   otherwise the megakernel is taken. `scene` may be NULL: not known. */
+HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
+                              const HdScene *scene);
 
 /* True for both kinds of wavefront. */
 bool hd_pipeline_is_wavefront(HdPipeline pipeline);

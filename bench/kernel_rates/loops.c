@@ -1,22 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* One build of the loops; HD_LOOPS names it, HD_LOOPS_SET is its instruction set. */
+/* One build of the loops; HD_BUILD names it, HD_BUILD_SET is its instruction set. */
 #include "loops.h"
 
 #include <stdlib.h>
 
+#include "../../cpu/kernel_tables.h"
 #include "../../kernels/common/render.h"
 
 #define QUOTED_(name)  #name
 #define QUOTED(name)   QUOTED_(name)
-#define OF_BUILD(name) HD_PASTE(HD_LOOPS, _##name)
+#define OF_BUILD(name) HD_PASTE(HD_BUILD, _##name)
 #define NOT_INLINED    __attribute__((noinline))
-
-#define TABLE_FROM_SCENE(type, name)                                                               \
-    const type *name = scene[HD_TABLE_##name].data;                                                \
-    (void)name;
-#define TABLE_FROM_FRAME(type, name)                                                               \
-    const type *name = frame[HD_TABLE_##name].data;                                                \
-    (void)name;
 
 typedef struct Bundle {
     Ray ray;
@@ -50,8 +44,7 @@ static int sum_of_lanes(vint a) {
 
 /* The bundle that begins at sample `first` of an item; 0 where it lies outside of the picture. */
 static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     Vec3 direction;
     vmask alive = sample_directions(view, item, first, &direction);
     if (!any_lane(alive))
@@ -77,8 +70,7 @@ static int is_of_kind(const Sight *sight, int kind) {
 
 static void bundle_of(const HdTable *scene, const HdTable *frame, const Sight *sight, int kind,
                       Bundle *bundle) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     bundle->ray = sight->ray;
     bundle->is_eye = kind != HD_RAYS_MIRRORED && kind != HD_RAYS_INSIDE;
     if (bundle->is_eye)
@@ -157,8 +149,7 @@ static HdWork make_rays(const HdTable *scene, const HdTable *frame, int kind, in
 /* As the ray tree does it before it calls for the direct light. */
 static void visit_points(const HdTable *scene, const HdTable *frame, const Sight *sight,
                          Walk *walk) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     Points points;
     if (!any_lane(sight->struck))
         return;
@@ -201,8 +192,7 @@ NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
 
 NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame,
                                       const HdWork *rays) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     const Bundle *bundles = rays->items;
     vreal nearest = splat(REAL_LARGE);
     vint mixed = splat_int(0);
@@ -218,8 +208,7 @@ NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame
 
 NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
                                      const HdWork *points, double *sum) {
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
+    HD_DECLARE_TABLES
     const Points *all = points->items;
     vint tests = splat_int(0);
     Vec3 radiance = vec3_zero();
@@ -266,9 +255,9 @@ static double multiplications_and_additions(long rounds) {
     return sum_of_chains(chains);
 }
 
-extern const HdLoops HD_LOOPS;
-const HdLoops HD_LOOPS = {
-    .instruction_set = HD_LOOPS_SET,
+extern const HdLoops HD_BUILD;
+const HdLoops HD_BUILD = {
+    .instruction_set = HD_BUILD_SET,
     .lanes = HD_LANES,
     .search_symbol = QUOTED(OF_BUILD(search)),
     .light_symbol = QUOTED(OF_BUILD(light)),

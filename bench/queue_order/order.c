@@ -1,21 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* One build of the orders; HD_ORDER_BUILD names it, HD_ORDER_SET is its instruction set. */
+/* One build of the orders; HD_BUILD names it, HD_BUILD_SET is its instruction set. */
 #include "order.h"
 
 #include <stdlib.h>
 
+#include "../../cpu/kernel_tables.h"
 #include "../../kernels/common/wavefront.h"
 #include "../kernel_rates/measures.h"
-
-#define TABLE_FROM_SCENE(type, name)                                                               \
-    const type *name = scene[HD_TABLE_##name].data;                                                \
-    (void)name;
-#define TABLE_FROM_FRAME(type, name)                                                               \
-    const type *name = frame[HD_TABLE_##name].data;                                                \
-    (void)name;
-#define SCENE_AND_FRAME                                                                            \
-    HD_SCENE_TABLES(TABLE_FROM_SCENE)                                                              \
-    HD_FRAME_TABLES(TABLE_FROM_FRAME)
 
 /* A level's rays: up to two runs of places. */
 typedef struct Queue {
@@ -144,7 +135,7 @@ FN void append(Waves *waves, const Ray *mirror, const Ray *through, vint numbers
 
 static void trace_first(Waves *waves, int first_item, int items) {
     const HdTable *scene = waves->scene, *frame = waves->frame;
-    SCENE_AND_FRAME
+    HD_DECLARE_TABLES
     for (int number = 0; number < items * waves->per_item; number += HD_LANES) {
         Sample sample = empty_sample();
         Ray mirror, through;
@@ -169,7 +160,7 @@ static Ray load(const Queue *queue, int place, int count, vint *numbers) {
 
 static void trace_run(Waves *waves, int level, int first, int count) {
     const HdTable *scene = waves->scene, *frame = waves->frame;
-    SCENE_AND_FRAME
+    HD_DECLARE_TABLES
     for (int i = 0; i < count; i += HD_LANES) {
         Sample sample = empty_sample();
         Ray mirror, through;
@@ -204,7 +195,7 @@ static int different(vint numbers, vmask alive) {
 /* 0: nothing is met; else the face's number and 1. */
 static vint faces_met(const Waves *waves, const Ray *ray) {
     const HdTable *scene = waves->scene, *frame = waves->frame;
-    SCENE_AND_FRAME
+    HD_DECLARE_TABLES
     Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, 0);
     Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
     return pick_int(lt_int(hit.object, splat_int(0)), splat_int(0), hit.face + 1);
@@ -398,7 +389,7 @@ static bool trace_levels(Waves *waves, int first_item, int items) {
 /* As the kernels of CPUs do it: an item is a batch. */
 static bool trace_by_product(Waves *waves, int first_item, int items) {
     const HdTable *scene = waves->scene, *frame = waves->frame;
-    SCENE_AND_FRAME
+    HD_DECLARE_TABLES
     RayCounts counts = {0};
     if (!reserve(&waves->now, wave_least_capacity(view->depth, round_up(waves->per_item))))
         return false;
@@ -466,9 +457,9 @@ static bool record_frame(const HdTable *scene, const HdTable *frame, FILE *file)
     return done;
 }
 
-extern const HdOrderBuild HD_ORDER_BUILD;
-const HdOrderBuild HD_ORDER_BUILD = {
-    .instruction_set = HD_ORDER_SET,
+extern const HdOrderBuild HD_BUILD;
+const HdOrderBuild HD_BUILD = {
+    .instruction_set = HD_BUILD_SET,
     .lanes = HD_LANES,
     .run = run,
     .record = record_frame,

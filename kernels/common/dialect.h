@@ -143,10 +143,6 @@ FN fixed64 lane_fix(const vfix *a, int lane) {
     (void)lane;
     return *a;
 }
-FN void set_lane_real(vreal *a, int lane, real value) {
-    (void)lane;
-    *a = value;
-}
 FN void set_lane_int(vint *a, int lane, int value) {
     (void)lane;
     *a = value;
@@ -322,9 +318,6 @@ FN int lane_int(const vint *a, int lane) {
 FN fixed64 lane_fix(const vfix *a, int lane) {
     return ((const fixed64 *)a)[lane];
 }
-FN void set_lane_real(vreal *a, int lane, real value) {
-    ((real *)a)[lane] = value;
-}
 FN void set_lane_int(vint *a, int lane, int value) {
     ((lane_integer *)a)[lane] = value;
 }
@@ -355,9 +348,9 @@ typedef int32_t lane_integer;
 #define HD_FMA_SCALAR  __builtin_fmaf
 #define HD_SQRT_SCALAR __builtin_sqrtf
 #endif
+/* Whether a bundle fills a register of 512 bits; a mask then has a bit for each lane. */
 #if defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
-#define HD_REGISTER_512                                                                            \
-    1 /* a bundle fills one register, and a mask register holds a bit for each lane */
+#define HD_REGISTER_512 1
 #else
 #define HD_REGISTER_512 0
 #endif
@@ -391,9 +384,6 @@ FN int lane_int(const vint *a, int lane) {
 FN fixed64 lane_fix(const vfix *a, int lane) {
     return (*a)[lane];
 }
-FN void set_lane_real(vreal *a, int lane, real value) {
-    (*a)[lane] = value;
-}
 FN void set_lane_int(vint *a, int lane, int value) {
     (*a)[lane] = value;
 }
@@ -410,58 +400,40 @@ FN vfix truncate_to_fix(vreal a) {
 #if HD_REGISTER_512
 typedef uint32_t vmask; /* bits above the lanes' have no meaning */
 #if HD_DOUBLE
-#define HD_MASK(m) ((__mmask8)(m))
-FN vmask lt(vreal a, vreal b) {
-    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
-}
-FN vmask le(vreal a, vreal b) {
-    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
-}
-FN vmask eq_int(vint a, vint b) {
-    return _mm512_cmpeq_epi64_mask((__m512i)a, (__m512i)b);
-}
-FN vmask lt_int(vint a, vint b) {
-    return _mm512_cmplt_epi64_mask((__m512i)a, (__m512i)b);
-}
-FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)_mm512_mask_blend_pd(HD_MASK(m), (__m512d)b, (__m512d)a);
-}
-FN vint pick_int(vmask m, vint a, vint b) {
-    return (vint)_mm512_mask_blend_epi64(HD_MASK(m), (__m512i)b, (__m512i)a);
-}
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
-}
-FN vreal square_root(vreal a) {
-    return (vreal)_mm512_sqrt_pd((__m512d)a);
-}
+typedef __m512d Reals512;
+#define HD_MASK(m)                 ((__mmask8)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_pd##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi64##ending
 #else
-#define HD_MASK(m) ((__mmask16)(m))
+typedef __m512 Reals512;
+#define HD_MASK(m)                 ((__mmask16)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_ps##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi32##ending
+#endif
 FN vmask lt(vreal a, vreal b) {
-    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LT_OQ);
 }
 FN vmask le(vreal a, vreal b) {
-    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LE_OQ);
 }
 FN vmask eq_int(vint a, vint b) {
-    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
+    return HD_INTS_512(cmpeq, _mask)((__m512i)a, (__m512i)b);
 }
 FN vmask lt_int(vint a, vint b) {
-    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+    return HD_INTS_512(cmplt, _mask)((__m512i)a, (__m512i)b);
 }
 FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)_mm512_mask_blend_ps(HD_MASK(m), (__m512)b, (__m512)a);
+    return (vreal)HD_REALS_512(mask_blend, )(HD_MASK(m), (Reals512)b, (Reals512)a);
 }
 FN vint pick_int(vmask m, vint a, vint b) {
-    return (vint)_mm512_mask_blend_epi32(HD_MASK(m), (__m512i)b, (__m512i)a);
+    return (vint)HD_INTS_512(mask_blend, )(HD_MASK(m), (__m512i)b, (__m512i)a);
 }
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+    return (vreal)HD_REALS_512(fmadd, )((Reals512)a, (Reals512)b, (Reals512)c);
 }
 FN vreal square_root(vreal a) {
-    return (vreal)_mm512_sqrt_ps((__m512)a);
+    return (vreal)HD_REALS_512(sqrt, )((Reals512)a);
 }
-#endif
 FN int any_lane(vmask m) {
     return HD_MASK(m) != 0;
 }
@@ -717,17 +689,10 @@ FN int lane_offsets(vmask m, int offset[HD_LANES]) {
 }
 
 #if HD_REGISTER_512
-#if HD_DOUBLE
 FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)offset;
-    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(HD_MASK(m), (__m512d)*a));
+    HD_REALS_512(storeu, )(to, HD_REALS_512(maskz_compress, )(HD_MASK(m), (Reals512)*a));
 }
-#else
-FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
-    (void)offset;
-    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(HD_MASK(m), (__m512)*a));
-}
-#endif
 #else
 FN void store_lanes(GLOBAL real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)m;

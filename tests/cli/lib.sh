@@ -12,6 +12,7 @@ if [[ $# -lt 1 || ! -x $1 ]]; then
 fi
 hedron=$(realpath "$1")
 cli_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
+project=$(realpath "$cli_folder/../..")
 
 # Compiled OpenCL kernels stay where this user has them, for compiling takes seconds.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/pocl/kcache}
@@ -52,6 +53,13 @@ skip() {
     echo "skipped: $*"
     finished=1
     exit 77
+}
+
+# The programs under bench/ are written in it.
+need_python() {
+    if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
+        skip "there is no python3 of version 3.10 or newer"
+    fi
 }
 
 # The line of the script, not of this file, that led here.
@@ -300,5 +308,15 @@ expect_end() {
     if ((code != $1)); then
         fail "exit code $code, expected $1"
         show_logs
+    fi
+}
+
+# expect_python EXPECTED STATEMENTS...: what they print.
+expect_python() {
+    local expected=$1 found
+    shift
+    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
+    if [[ $found != "$expected" ]]; then
+        fail "$* prints $found, expected $expected"
     fi
 }

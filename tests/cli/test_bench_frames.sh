@@ -5,9 +5,7 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
-    skip "there is no python3 of version 3.10 or newer"
-fi
+need_python
 bench=$(realpath "$cli_folder/../../bench/frames")
 has_gnuplot=0
 if command -v gnuplot >"$logs/which"; then

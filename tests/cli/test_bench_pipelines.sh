@@ -5,22 +5,9 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
-    skip "there is no python3 of version 3.10 or newer"
-fi
-project=$(realpath "$cli_folder/../..")
+need_python
 bench=$project/bench/pipelines
 orders=$(dirname "$hedron")/bench/hedron_queue_order
-
-# expect_python EXPECTED STATEMENTS...: what they print.
-expect_python() {
-    local expected=$1 found
-    shift
-    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
-    if [[ $found != "$expected" ]]; then
-        fail "$* prints $found, expected $expected"
-    fi
-}
 
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r`.
 expect_value() {

@@ -14,10 +14,7 @@
 
 /* A bundle whose lanes differ: lane l holds start + l * step. */
 static vreal ramp(real start, real step) {
-    vreal v = splat(R(0.0));
-    for (int lane = 0; lane < HD_LANES; lane++)
-        set_lane_real(&v, lane, start + (real)lane * step);
-    return v;
+    return splat(start) + to_real(lane_numbers()) * step;
 }
 
 static vint int_ramp(int start, int step) {

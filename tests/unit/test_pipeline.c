@@ -14,9 +14,9 @@ static void auto_is_mega(void **state) {
     (void)state;
     HdDevice device = {.is_cpu = true};
     HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO};
-    assert_int_equal(hd_choose_pipeline(&device, &options), HD_PIPELINE_MEGA);
+    assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_MEGA);
     options.pipeline = HD_PIPELINE_WAVEFRONT;
-    assert_int_equal(hd_choose_pipeline(&device, &options), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_WAVEFRONT);
     assert_string_equal(hd_pipeline_name(HD_PIPELINE_WAVEFRONT_UNCOMPACTED),
                         "wavefront-uncompacted");
 }
@@ -26,12 +26,13 @@ static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
     HdLight lights[100] = {{.falloff = {.end = 0.0}}};
     HdScene scene = {.lights = lights, .light_count = 100};
     HdDevice cpu = {.is_cpu = true}, gpu = {.is_cpu = false};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO};
     assert_int_equal(hd_scene_endless_light_count(&scene), 100);
-    assert_int_equal(hd_pipeline_of_scene(&cpu, &scene), HD_PIPELINE_WAVEFRONT);
-    assert_int_equal(hd_pipeline_of_scene(&gpu, &scene), HD_PIPELINE_MEGA);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, &scene), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, &scene), HD_PIPELINE_MEGA);
     lights[7].falloff.end = 2.0;
     assert_int_equal(hd_scene_endless_light_count(&scene), 99);
-    assert_int_equal(hd_pipeline_of_scene(&cpu, &scene), HD_PIPELINE_MEGA);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, &scene), HD_PIPELINE_MEGA);
 }
 
 static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
