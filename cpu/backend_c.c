@@ -13,10 +13,10 @@
 #include "../src/large_memory.h"
 #include "../src/pipeline.h"
 #include "../src/processors.h"
+#include "../src/thread_pool.h"
 #include "../src/wave_plan.h"
 #include "instruction_set.h"
 #include "kernel.h"
-#include "thread_pool.h"
 
 /* A thread's rays should stay in its processor's own cache. */
 enum { QUEUE_BYTES = 512 << 10 };

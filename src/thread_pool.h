@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "../src/error.h"
+#include "error.h"
 
 typedef struct HdThreadPool HdThreadPool;
 
