@@ -234,6 +234,11 @@ static HdStatus c_collect(void *renderer, HdFrame *frame, HdError *error) {
     return HD_OK;
 }
 
+static int c_lanes(const void *renderer) {
+    const CRenderer *c = renderer;
+    return c->build->lanes;
+}
+
 static void c_describe(const void *renderer, char *text, int capacity) {
     const CRenderer *c = renderer;
     snprintf(text, (size_t)capacity, "%d lanes, %s, %d thread%s, %s", c->build->lanes,
@@ -249,6 +254,7 @@ const HdBackend hd_backend_c = {
     .submit = c_submit,
     .collect = c_collect,
     .drop = c_drop,
+    .lanes = c_lanes,
     .describe = c_describe,
     .close = c_close,
 };

@@ -171,6 +171,9 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
         status = check_in_flight(renderer, 0, "a scene was uploaded", error);
     if (status == HD_OK)
         status = check_precision(renderer, tables->precision, "scene", error);
+    if (status == HD_OK && tables->node_stack > 0 && tables->lanes != hd_renderer_lanes(renderer))
+        status = hd_fail(error, HD_BAD_INPUT, "a scene was compiled for %d lanes, not %d",
+                         tables->lanes, hd_renderer_lanes(renderer));
     if (status == HD_OK &&
         (tables->plane_count < 0 || tables->depth < 0 || tables->depth > HD_MAX_DEPTH))
         status = hd_fail(error, HD_BAD_INPUT, "a scene cannot have %d planes and the depth %d",
@@ -277,6 +280,11 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
         return status;
     status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
     return name_backend(renderer->backend, status, error);
+}
+
+int hd_renderer_lanes(const HdRenderer *renderer) {
+    const HdBackend *backend = renderer->backend;
+    return backend->lanes != NULL ? backend->lanes(renderer->state) : 1;
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {

@@ -111,6 +111,9 @@ struct HdBackend {
        where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
+    /* The lanes of the kernels' bundles. NULL instead of a function: one. */
+    int (*lanes)(const void *renderer);
+
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
     void (*describe)(const void *renderer, char *text, int capacity);
 
@@ -167,6 +170,9 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
 /* The same with a backend's own renderer, whose arguments were checked. */
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error);
+
+/* How many lanes the renderer's kernels have: what scenes are compiled for. */
+int hd_renderer_lanes(const HdRenderer *renderer);
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 

@@ -589,6 +589,11 @@ static HdKernelCache *opencl_kernels(void *state) {
     return &renderer->kernels;
 }
 
+static int opencl_lanes(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->shape.lanes;
+}
+
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
@@ -611,6 +616,7 @@ const HdBackend hd_backend_opencl = {
     .collect = opencl_collect,
     .drop = opencl_drop,
     .kernels = opencl_kernels,
+    .lanes = opencl_lanes,
     .describe = opencl_describe,
     .close = opencl_close,
 };

@@ -22,9 +22,10 @@ void hd_frame_tables_free(HdFrameTables *tables) {
 }
 
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
-                          HdError *error) {
+                          int lanes, HdError *error) {
     memset(tables, 0, sizeof *tables);
     tables->precision = precision;
+    tables->lanes = lanes;
     HdStatus status = precision == HD_PRECISION_FLOAT
                           ? hd_compile_scene_float(tables, scene, error)
                           : hd_compile_scene_double(tables, scene, error);

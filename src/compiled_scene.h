@@ -19,13 +19,15 @@ typedef struct HdTable {
 
 /* In the order of HD_SCENE_TABLES; the counts are those that kernels are specialised by. */
 typedef struct HdSceneTables {
-    HdTable table[16];
+    HdTable table[32];
     int table_count;
     HdPrecision precision;
+    int lanes; /* of the kernels' bundles: nodes for single rays have as many children */
     int plane_count;
     int depth;
-    bool refracts;        /* some solid has an index of refraction that is not 1 */
-    bool lit_from_behind; /* some material is */
+    int node_stack, wide_stack; /* of the hierarchies of meshes; 0: there are no meshes */
+    bool refracts;              /* some solid has an index of refraction that is not 1 */
+    bool lit_from_behind;       /* some material is */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
@@ -37,9 +39,10 @@ typedef struct HdFrameTables {
 } HdFrameTables;
 
 /* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences
-   of centres are formed before they are rounded to the kernels' precision. */
+   of centres are formed before they are rounded to the kernels' precision. `lanes` is what
+   hd_renderer_lanes tells; a scene without meshes may be compiled for any number. */
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
-                          HdError *error);
+                          int lanes, HdError *error);
 void hd_scene_tables_free(HdSceneTables *tables);
 
 /* The tables of one frame of the same scene. */

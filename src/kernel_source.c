@@ -20,6 +20,8 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_WAVEFRONT", shape->wavefront},
         {"HD_PLANE_BOUND", shape->needs.plane_bound},
         {"HD_DEPTH_BOUND", shape->needs.depth_bound},
+        {"HD_NODE_STACK", shape->needs.node_stack_bound},
+        {"HD_WIDE_STACK", shape->needs.wide_stack_bound},
         {"HD_REFRACTS", shape->needs.refracts},
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
@@ -60,6 +62,8 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
     return (HdKernelNeeds){
         .plane_bound = hd_kernel_bound(tables->plane_count),
         .depth_bound = hd_kernel_bound(tables->depth),
+        .node_stack_bound = tables->node_stack > 0 ? hd_kernel_bound(tables->node_stack) : 0,
+        .wide_stack_bound = tables->wide_stack > 0 ? hd_kernel_bound(tables->wide_stack) : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
     };
@@ -67,13 +71,17 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
 
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
-           a->refracts == b->refracts && a->lit_from_behind == b->lit_from_behind;
+           a->node_stack_bound == b->node_stack_bound &&
+           a->wide_stack_bound == b->wide_stack_bound && a->refracts == b->refracts &&
+           a->lit_from_behind == b->lit_from_behind;
 }
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
-    snprintf(text, (size_t)capacity, "built for up to %d planes and depth %d, %s refraction, %s",
-             needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
-             needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind");
+    snprintf(text, (size_t)capacity,
+             "built for up to %d planes and depth %d, %s refraction, %s, %s", needs->plane_bound,
+             needs->depth_bound, needs->refracts ? "with" : "without",
+             needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
+             needs->node_stack_bound > 0 ? "meshes" : "no meshes");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -16,7 +16,8 @@ extern const size_t hd_cuda_source_size;
 
 /* What a build for one scene can do; what it cannot is not compiled in. */
 typedef struct HdKernelNeeds {
-    int plane_bound, depth_bound; /* private arrays are this large */
+    int plane_bound, depth_bound;           /* private arrays are this large */
+    int node_stack_bound, wide_stack_bound; /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
 } HdKernelNeeds;
@@ -39,7 +40,7 @@ typedef struct HdKernelShape {
    all. A block's threads share 65536 registers, so that large blocks get fewer. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
-enum { HD_KERNEL_DEFINE_COUNT = 10, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINE_COUNT = 12, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
    -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */

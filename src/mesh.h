@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "hierarchy.h"
 #include "scene_material.h"
 #include "vec3.h"
 
@@ -23,6 +24,10 @@ typedef struct HdMeshMaterial {
     HdMaterial material;
     HdVec3 emission; /* radiance of the surface's own */
     char *texture;
+    int picture;   /* number among the pictures of the scene; -1: none */
+    int passes_as; /* number of the material of the same mesh by which shadow rays are let through;
+                      -1: its own */
+    bool is_opaque_to_shadows;
 } HdMeshMaterial;
 
 /* Corners run counterclockwise as seen from the outer side. All arrays are owned. */
@@ -39,6 +44,8 @@ typedef struct HdMesh {
                           them meets another; NULL: all have group 0 */
     HdMeshMaterial *materials; /* at least one */
     int degenerate_count;      /* triangles without an area that were left out */
+    HdVec3 lower, upper;       /* the box about all triangles; set by hd_mesh_build */
+    HdHierarchy tree;          /* over the triangles; without nodes until hd_mesh_build */
 } HdMesh;
 
 /* Leaves out triangles that have no area: two corners at one place, or all three on a line up to
@@ -50,8 +57,9 @@ void hd_mesh_drop_degenerate(HdMesh *mesh);
    the triangles meet at more than `crease_degrees` the surface keeps its edge. */
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
 
-/* Corners of the box about all vertices; of a mesh without any, both are 0. */
-void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper);
+/* Finds the box and builds the hierarchy over the triangles of a finished mesh, which has at least
+   one. */
+HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
 
 /* Frees what the mesh owns and clears it. */
 void hd_mesh_free(HdMesh *mesh);

@@ -191,7 +191,13 @@ static void rotate_plane(double *u, double *v, double sine, double cosine) {
     *u = turned;
 }
 
-static void rotate_points(HdVec3 *points, int count, HdVec3 sine, HdVec3 cosine) {
+void hd_rotate_points(HdVec3 *points, int count, HdVec3 degrees) {
+    HdVec3 sine, cosine;
+    if (degrees.x == 0.0 && degrees.y == 0.0 && degrees.z == 0.0)
+        return;
+    hd_sine_cosine(degrees.x * (HD_PI / 180.0), &sine.x, &cosine.x);
+    hd_sine_cosine(degrees.y * (HD_PI / 180.0), &sine.y, &cosine.y);
+    hd_sine_cosine(degrees.z * (HD_PI / 180.0), &sine.z, &cosine.z);
     for (int i = 0; i < count; i++) {
         rotate_plane(&points[i].y, &points[i].z, sine.x, cosine.x);
         rotate_plane(&points[i].z, &points[i].x, sine.y, cosine.y);
@@ -200,12 +206,6 @@ static void rotate_points(HdVec3 *points, int count, HdVec3 sine, HdVec3 cosine)
 }
 
 void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees) {
-    HdVec3 sine, cosine;
-    if (degrees.x == 0.0 && degrees.y == 0.0 && degrees.z == 0.0)
-        return;
-    hd_sine_cosine(degrees.x * (HD_PI / 180.0), &sine.x, &cosine.x);
-    hd_sine_cosine(degrees.y * (HD_PI / 180.0), &sine.y, &cosine.y);
-    hd_sine_cosine(degrees.z * (HD_PI / 180.0), &sine.z, &cosine.z);
-    rotate_points(solid->vertex, solid->vertex_count, sine, cosine);
-    rotate_points(solid->face_normal, solid->face_count, sine, cosine);
+    hd_rotate_points(solid->vertex, solid->vertex_count, degrees);
+    hd_rotate_points(solid->face_normal, solid->face_count, degrees);
 }

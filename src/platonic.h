@@ -42,8 +42,11 @@ typedef struct HdPlatonic {
 /* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid);
 
-/* Turns the solid about the x axis, then the y axis, then the z axis, counterclockwise as seen from
+/* Turns points about the x axis, then the y axis, then the z axis, counterclockwise as seen from
    the axis's tip. Angles of 0 leave every bit as it is. */
+void hd_rotate_points(HdVec3 *points, int count, HdVec3 degrees);
+
+/* Turns the solid likewise. */
 void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "mesh.h"
 #include "platonic.h"
 #include "problems.h"
 #include "scene_limits.h"
@@ -63,6 +64,24 @@ typedef struct HdFloor {
     HdTexture texture; /* width 0: none */
 } HdFloor;
 
+/* A mesh in its place: its points are scaled, then turned as solids are, then moved. */
+typedef struct HdInstance {
+    int mesh; /* number in HdScene.meshes */
+    HdVec3 position;
+    HdVec3 rotation_degrees;
+    HdVec3 scale;      /* each positive */
+    bool has_material; /* `material` takes the place of all of the mesh's own ones */
+    HdMaterial material;
+} HdInstance;
+
+/* How triangles are searched. */
+typedef enum HdAccel { HD_ACCEL_AUTO, HD_ACCEL_BRUTE, HD_ACCEL_BVH } HdAccel;
+
+/* What solids and the floor are made of. With triangles, which hd_scene_triangulate makes, the
+   first instances of the scene are its solids, in order, and the solids themselves are no longer
+   seen, but for their lights; the floor follows. */
+typedef enum HdGeometry { HD_GEOMETRY_SOLIDS, HD_GEOMETRY_TRIANGLES } HdGeometry;
+
 /* r(t) = r0 + r_amplitude * sin(r_frequency * t + r_phase), z(t) likewise,
    phi(t) = phi0 + phi_frequency * t, for t in [0, 2 pi). */
 typedef struct HdCylinderPath {
@@ -94,6 +113,14 @@ typedef struct HdScene {
     int light_count;
     HdLight *lights; /* owned; the edge lights are not among them */
     HdFloor floor;
+    HdGeometry geometry;
+    HdAccel accel;
+    int mesh_count;
+    HdMesh *meshes; /* owned; each built */
+    int instance_count;
+    HdInstance *instances; /* owned */
+    int picture_count;
+    HdTexture *pictures; /* owned; textures of meshes */
 } HdScene;
 
 /* The lights on the edges of a solid whose values are valid. */

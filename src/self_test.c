@@ -51,11 +51,13 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
     HdCamera camera;
     HdStatus status = hd_camera_at(&camera, scene, 0, error);
     if (status == HD_OK)
-        status = hd_compile_scene(tables, scene, like->precision, error);
+        status = hd_compile_scene(tables, scene, like->precision, like->lanes, error);
     if (status != HD_OK)
         return status;
     tables->plane_count = greater(tables->plane_count, like->plane_count);
     tables->depth = greater(tables->depth, like->depth);
+    tables->node_stack = like->node_stack;
+    tables->wide_stack = like->wide_stack;
     tables->refracts = like->refracts;
     tables->lit_from_behind = like->lit_from_behind;
     status = hd_compile_frame(view, scene, &camera, like->precision, error);

@@ -144,7 +144,8 @@ static HdStatus prepare(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdScene *scene = sequence->scene;
     HdSceneTables tables;
-    HdStatus status = hd_compile_scene(&tables, scene, sequence->precision, error);
+    HdStatus status = hd_compile_scene(&tables, scene, sequence->precision,
+                                       hd_renderer_lanes(run->renderer), error);
     if (status != HD_OK)
         return status;
     status = hd_renderer_upload(run->renderer, &tables, error);

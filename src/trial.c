@@ -8,7 +8,8 @@
 static HdStatus upload(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
                        HdError *error) {
     HdSceneTables tables;
-    HdStatus status = hd_compile_scene(&tables, job->scene, precision, error);
+    HdStatus status =
+        hd_compile_scene(&tables, job->scene, precision, hd_renderer_lanes(renderer), error);
     if (status != HD_OK)
         return status;
     status = hd_renderer_upload(renderer, &tables, error);

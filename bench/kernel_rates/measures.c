@@ -16,7 +16,7 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, HdError *error) {
     return hd_scene_file_load_texture(file, error) == HD_OK &&
            hd_scene_validate(&file->scene, error) == HD_OK &&
            hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
-           hd_compile_scene(&scene->tables, &file->scene, HD_PRECISION_FLOAT, error) == HD_OK &&
+           hd_compile_scene(&scene->tables, &file->scene, HD_PRECISION_FLOAT, 1, error) == HD_OK &&
            hd_compile_frame(&scene->frame, &file->scene, &camera, HD_PRECISION_FLOAT, error) ==
                HD_OK;
 }

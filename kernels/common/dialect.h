@@ -30,6 +30,7 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
 #define FN         static inline
+#define FN_APART   static
 #define GLOBAL     __global
 #define LOCAL      __local
 #define BARRIER()  barrier(CLK_LOCAL_MEM_FENCE)
@@ -40,7 +41,8 @@ typedef long fixed64;
 
 #elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
 
-#define FN static __device__ __forceinline__
+#define FN       static __device__ __forceinline__
+#define FN_APART static __device__ __forceinline__
 #define GLOBAL
 #define LOCAL
 #define BARRIER()  __syncthreads()
@@ -61,7 +63,8 @@ typedef long long fixed64;
 #if defined(__AVX512F__) || defined(__AVX2__)
 #include <immintrin.h>
 #endif
-#define FN static inline __attribute__((always_inline, unused))
+#define FN       static inline __attribute__((always_inline, unused))
+#define FN_APART static __attribute__((noinline, unused)) /* spares its callers' registers */
 #define GLOBAL
 #define LOCAL
 #define BARRIER()  ((void)0) /* there is one work item in a group */
@@ -555,6 +558,13 @@ FN vreal greater(vreal a, vreal b) {
     return pick(lt(b, a), a, b);
 }
 
+FN vint least_int(vint a, vint b) {
+    return pick_int(lt_int(a, b), a, b);
+}
+FN vint greatest_int(vint a, vint b) {
+    return pick_int(lt_int(b, a), a, b);
+}
+
 #if defined(__OPENCL_C_VERSION__)
 FN vreal absolute(vreal a) {
     return fabs(a);
@@ -592,6 +602,23 @@ FN int lowest_bit(uint bits) {
 FN vmask pick_mask(vmask m, vmask a, vmask b) {
     return (m & a) | (~m & b);
 }
+
+/* A private array's numbers, one for each lane. */
+#if HD_LANES == 1
+FN vreal gather_reals(const real *from) {
+    return *from;
+}
+#elif defined(__OPENCL_C_VERSION__)
+FN vreal gather_reals(const real *from) {
+    return HD_PASTE(vload, HD_LANES)(0, from);
+}
+#else
+FN vreal gather_reals(const real *from) {
+    vreal a;
+    __builtin_memcpy(&a, from, sizeof a);
+    return a;
+}
+#endif
 
 /* The four words of a table from number `index` of each lane on. */
 typedef struct {
@@ -639,6 +666,40 @@ FN vint count_lanes(vint counts, vmask m) {
     return counts + pick_int(m, splat_int(1), splat_int(0));
 }
 
+/* A bit for each lane of a mask, the first lane's the lowest. */
+#if HD_REGISTER_512
+FN uint lane_bits(vmask m) {
+    return HD_MASK(m);
+}
+#elif HD_LANES == 8 && !HD_DOUBLE && defined(__AVX2__)
+FN uint lane_bits(vmask m) {
+    return (uint)_mm256_movemask_ps((__m256)m);
+}
+#else
+FN uint lane_bits(vmask m) {
+    vint chosen = pick_int(m, splat_int(1), splat_int(0));
+    uint bits = 0;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        bits |= (uint)lane_int(&chosen, lane) << lane;
+    return bits;
+}
+#endif
+
+/* How many bits are set. */
+#if defined(__OPENCL_C_VERSION__)
+FN int count_bits(uint bits) {
+    return (int)popcount(bits);
+}
+#elif defined(__CUDACC__) || defined(__CUDACC_RTC__)
+FN int count_bits(uint bits) {
+    return __popc(bits);
+}
+#else
+FN int count_bits(uint bits) {
+    return __builtin_popcount(bits);
+}
+#endif
+
 /* 0, 1, 2, ... */
 FN vint lane_numbers(void) {
     vint numbers = splat_int(0);
@@ -646,6 +707,39 @@ FN vint lane_numbers(void) {
         set_lane_int(&numbers, lane, lane);
     return numbers;
 }
+
+/* The first `count` lanes. */
+FN vmask lanes_below(int count) {
+    return lt_int(lane_numbers(), splat_int(count));
+}
+
+/* The four numbers of a table from number `index` of each lane on. */
+typedef struct {
+    vreal number[4];
+} FourReals;
+
+#if HD_REGISTER_512 && !HD_DOUBLE
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    FourWords words = fetch_four_words((const void *)table, index);
+    FourReals reals;
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = from_bits(words.word[i]);
+    return reals;
+}
+#else
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    real rows[4][HD_LANES];
+    FourReals reals;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        GLOBAL const real *row = table + lane_int(&index, lane);
+        for (int i = 0; i < 4; i++)
+            rows[i][lane] = row[i];
+    }
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = gather_reals(rows[i]);
+    return reals;
+}
+#endif
 
 /* ---- memory: as many consecutive numbers as a bundle has lanes, wherever they begin; and the
    lanes of a mask stored side by side, which may overwrite as much as a bundle ---- */

@@ -12,6 +12,7 @@ typedef struct {
     Vec3 direction; /* unit, up to rounding */
     Vec3 weight;    /* what this ray's radiance is multiplied by on its way to the eye */
     vint touched;   /* number of the object touched last; only in rays that left an object */
+    vint face;      /* and of its face; of account in scenes with meshes only */
     vmask inside;   /* runs inside the solid touched last */
     vmask alive;
 } Ray;
@@ -30,8 +31,14 @@ typedef struct {
     vint row; /* first entry of the lane's object in object_offsets */
 } Reference;
 
+/* Where numbers may be those of mesh instances: the object that these belong to. */
+FN vint object_of(SCENE_PARAMETERS vint number) {
+    return MESHES ? least_int(number, splat_int(header->floor_end)) : number;
+}
+
 FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
     Reference reference;
+    object = object_of(SCENE_ARGUMENTS object);
     reference.is_eye = is_eye;
     reference.same = is_eye || all_same(object);
     reference.row = is_eye ? splat_int(0) : object * header->object_count;
@@ -164,20 +171,6 @@ FN void hit_floor(SCENE_PARAMETERS const Ray *ray, Reference reference, int obje
         crossing = crossing & le(beyond, zero);
     }
     keep_closer(hit, crossing & ~own, t, object, splat_int(2 * first), lt(slope, zero));
-}
-
-/* For the floor, `entering` says that it is met from above its normal. */
-FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
-    Hit hit;
-    hit.t = splat(REAL_LARGE);
-    hit.object = splat_int(-1);
-    hit.face = splat_int(0);
-    hit.entering = mask_none();
-    for (int object = 0; object < header->solid_count; object++)
-        hit_solid(SCENE_ARGUMENTS ray, reference, object, &hit);
-    for (int object = header->solid_count; object < header->object_count; object++)
-        hit_floor(SCENE_ARGUMENTS ray, reference, object, &hit);
-    return hit;
 }
 
 #endif

@@ -55,7 +55,7 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
         outer[object] = not_inside;
         some_outer[object] = some;
     }
-    for (int object = header->solid_count; object < header->object_count; object++) {
+    for (int object = header->solid_count; object < header->floor_end; object++) {
         Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
         int first = objects[object].first_plane;
         for (int k = first; k < first + objects[object].plane_count; k++)
@@ -228,18 +228,23 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
 }
 
 /* What the segments to one light let through in the lanes of `lit`. */
-FN Vec3 transmittance_to(SCENE_PARAMETERS int light, const vreal *coordinates, const vint *outer,
-                         const uint *some_outer, const vmask *open_to, const LitPoints *points,
-                         vmask lit) {
+FN Vec3 transmittance_to(SCENE_PARAMETERS int light, Vec3 to_light, const Surface *surface,
+                         const vreal *coordinates, const vint *outer, const uint *some_outer,
+                         const vmask *open_to, const LitPoints *points, vmask lit) {
     GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + light * header->object_count;
-    for (int object = header->solid_count; object < header->object_count; object++)
+    for (int object = header->solid_count; object < header->floor_end; object++)
         lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
     vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
     Vec3 transmittance = vec3(open, open, open);
     for (int object = 0; object < header->solid_count; object++)
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
                     some_outer[object], open_to[object] & lit, &transmittance);
+    if (MESHES && any_lane(lit))
+        transmittance =
+            vec3_mul(transmittance, transmittance_of_meshes(SCENE_ARGUMENTS surface->point,
+                                                            to_light, points->object, points->face,
+                                                            points->inside, light, lit));
     return transmittance;
 }
 
@@ -297,7 +302,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vmask open_to[SOLID_BOUND];
     measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
-    LightRows rows = light_rows(SCENE_ARGUMENTS points->object);
+    LightRows rows = light_rows(SCENE_ARGUMENTS object_of(SCENE_ARGUMENTS points->object));
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
@@ -310,8 +315,8 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (!any_lane(lit))
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
-        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, coordinates, outer, some_outer,
-                                              open_to, points, lit);
+        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, to_light, surface, coordinates,
+                                              outer, some_outer, open_to, points, lit);
         /* Nothing arrives where the point is not lit. */
         Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,

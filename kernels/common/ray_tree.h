@@ -45,6 +45,7 @@ FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 dir
     next.origin = surface->point;
     next.direction = direction;
     next.touched = spread_first(hit->object, alive);
+    next.face = hit->face;
     next.inside = inside;
     return next;
 }
@@ -66,38 +67,36 @@ FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index,
 }
 
 /* Turns a lit surface over, for what shines through it from behind. */
-FN void turn_over(Surface *surface, LitPoints *points, vmask is_solid) {
+FN void turn_over(Surface *surface, LitPoints *points) {
     LaneMaterial *material = &surface->material;
     surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
     material->diffuse = material->diffuse * material->transmission;
     material->specular = splat(R(0.0));
     points->active =
         points->active & material->lit_from_behind & lt(splat(R(0.0)), material->diffuse);
-    points->inside = is_solid & ~points->inside;
+    points->inside = ~points->inside;
 }
 
 /* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
    may go on. */
-FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit, vmask struck,
+FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vmask struck,
               Sample *sample, Ray *mirror, Ray *through) {
     Surface surface = surface_at(SCENE_ARGUMENTS ray, reference, hit, struck);
     vreal zero = splat(R(0.0));
     vreal facing = vec3_dot(surface.normal, ray->direction);
     Vec3 mirrored = vec3_scale_add(surface.normal, facing * R(-2.0), ray->direction);
-    vmask is_solid = lt_int(hit->object, splat_int(header->solid_count));
-
     LitPoints points;
     points.active =
         struck & (lt(zero, surface.material.diffuse) | lt(zero, surface.material.specular));
     points.object = spread_first(hit->object, struck);
     points.face = hit->face;
-    points.inside = is_solid & ~hit->entering;
+    points.inside = ~hit->entering;
     Vec3 radiance =
         vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
     Surface lit = surface;
     for (int side = 0; side <= LIT_FROM_BEHIND; side++) {
         if (side > 0)
-            turn_over(&lit, &points, is_solid);
+            turn_over(&lit, &points);
         if (any_lane(points.active))
             radiance = vec3_add(radiance, direct_light(SCENE_ARGUMENTS & lit, &points, mirrored,
                                                        &sample->shadow_tests));
@@ -113,10 +112,10 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *h
     }
     *mirror =
         next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.material.mirror_tint, reflection),
-                 is_solid & ~hit->entering, struck & lt(zero, reflection), view->cutoff);
+                 ~hit->entering, struck & lt(zero, reflection), view->cutoff);
     *through =
         next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
-                 is_solid & hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
+                 hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
     return radiance;
 }
 
@@ -126,6 +125,7 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     ray.direction = direction;
     ray.weight = vec3_splat(R(1.0), R(1.0), R(1.0));
     ray.touched = splat_int(0);
+    ray.face = splat_int(-1);
     ray.inside = mask_none();
     ray.alive = alive;
     return ray;

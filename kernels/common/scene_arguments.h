@@ -21,12 +21,18 @@
 #define DEPTH_BOUND     HD_DEPTH_BOUND
 #define REFRACTS        HD_REFRACTS
 #define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
+#define MESHES          (HD_NODE_STACK > 0)
+#define NODE_STACK      (HD_NODE_STACK + 1)
+#define WIDE_STACK      (HD_WIDE_STACK + 1)
 #else
 #define PLANE_BOUND     (header->plane_count + 1)
 #define SOLID_BOUND     (header->solid_count + 1)
 #define DEPTH_BOUND     (view->depth + 1)
 #define REFRACTS        (header->refracts)
 #define LIT_FROM_BEHIND (header->lit_from_behind)
+#define MESHES          (header->instance_count > 0)
+#define NODE_STACK      (header->node_stack + 1)
+#define WIDE_STACK      (header->wide_stack + 1)
 #endif
 
 #endif

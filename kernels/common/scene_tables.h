@@ -3,8 +3,10 @@
    (src/compile_tables.inc), a backend copies them as they are.
 
    Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
-   it has no padding in float and in double. "Object" is a solid or, last of all, the floor.
-   Geometry of an object is relative to its own centre. Signed distances are positive outside. */
+   it has no padding in float and in double. "Object" is a solid, the floor or, last of all, one
+   object for all meshes. Geometry of an object is relative to its own centre. Signed distances are
+   positive outside. Rays and hits count on beyond the objects: number floor_end + i is the mesh
+   instance i, whose object is floor_end. */
 #ifndef HD_SCENE_TABLES_H
 #define HD_SCENE_TABLES_H
 
@@ -17,13 +19,20 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real background[3]; /* radiance */
     real exposure;
+    real mesh_reach; /* no coordinate of a mesh, relative to their centre, is larger */
+    real unused[3];
     int solid_count; /* the floor, if there is one, is object number solid_count */
+    int floor_end;
     int object_count;
     int plane_count;
     int light_count;
+    int instance_count;
+    int top_root;        /* node over all instances; -1: they are tried one by one */
+    int node_stack;      /* most nodes that wait while one walks through a hierarchy */
+    int wide_stack;      /* likewise of the wide nodes */
     int refracts;        /* some index of refraction is not 1 */
     int lit_from_behind; /* some material is */
-    int unused[2];
+    int unused_int;
 } Header;
 
 /* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
@@ -97,6 +106,66 @@ typedef struct ALIGNED_16 {
     int unused_int;
 } FloorMap;
 
+/* A mesh in its place. A mesh has coordinates of its own, in which its box's longest side runs from
+   -1 to 1: row . (p, 1) for each row of `to_mesh` and a point p relative to the meshes' centre;
+   `to_world` leads back. Its triangles have the numbers [first_triangle, first_triangle +
+   triangle_count). */
+typedef struct ALIGNED_16 {
+    real to_mesh[3][4];
+    real to_world[3][4];
+    real contact_squared; /* of the distance, in the mesh's coordinates, that rounding may put
+                             between a point of the mesh and its surface */
+    real unused[3];
+    int root, wide_root; /* nodes; -1: every triangle is tried */
+    int first_triangle, triangle_count;
+    int first_skin;
+    int first_face;           /* number of the face that is its group 1 */
+    int first_corner_normals; /* place of its first triangle's in corner_normals; -1: it is flat */
+    int first_corner_uvs;     /* likewise; -1: there are none */
+} Instance;
+
+/* Counterclockwise as seen from outside. */
+typedef struct ALIGNED_16 {
+    real a[3], tag; /* a whole number: skin * HD_TRIANGLE_GROUPS + group */
+    real b[3], unused0;
+    real c[3], unused1;
+} Triangle;
+
+enum { HD_TRIANGLE_GROUPS = 32, HD_LEAF_ITEM_BITS = 4, HD_LEAF_ITEM_MASK = 15 };
+
+/* The boxes of two children: bounds[axis][0] their lower bounds, bounds[axis][1] the upper ones. A
+   child that is negative is a leaf: ~child is first << HD_LEAF_ITEM_BITS | count, and its items are
+   the triangles, or the entries of top_items, from number `first` on. The first child lies lower on
+   `axis`. */
+typedef struct ALIGNED_16 {
+    real bounds[3][2][2];
+    int child[2];
+    int axis;
+    int wide; /* the wide node with the same items; -1: there is none */
+} MeshNode;
+
+/* What a mesh's triangles show: a material, and how they filter light on its way to a point, met
+   from outside and from inside: in octaves, the binary logarithm of 1 over what passes, as whole
+   numbers of 2^-24 and, what that leaves out, of 2^-48; each is at most HD_OPAQUE_OCTAVES. */
+typedef struct ALIGNED_16 {
+    real emission[3], unused;            /* radiance */
+    int filter[2][4], filter_rest[2][4]; /* red, green, blue; the fourth: nothing passes at all */
+    int material;
+    int picture; /* -1: none */
+    int unused_int[2];
+} Skin;
+
+enum { HD_OCTAVE = 1 << 24, HD_OPAQUE_OCTAVES = 41 << 24, HD_DARK_OCTAVES = 40 << 24 };
+
+/* A texture of meshes, repeated without end. */
+typedef struct ALIGNED_16 {
+    int first_texel, width, height, unused;
+} Picture;
+
+typedef struct ALIGNED_16 {
+    real u, v, unused[2];
+} TextureCoordinates;
+
 /* One frame. The direction to the image point (i, j), counted in half sample steps from the middle
    of the picture, is forward + i * right + j * down. */
 typedef struct ALIGNED_16 {
@@ -114,7 +183,7 @@ typedef struct ALIGNED_16 {
     typedef char hd_size_of_##type##_is_as_documented                                              \
         [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
-HD_ASSERT_SIZE(Header, 4, 8);
+HD_ASSERT_SIZE(Header, 8, 12);
 HD_ASSERT_SIZE(Plane, 4, 0);
 HD_ASSERT_SIZE(Object, 8, 8);
 HD_ASSERT_SIZE(Edge, 12, 0);
@@ -122,6 +191,12 @@ HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
 HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 32, 4);
+HD_ASSERT_SIZE(Instance, 28, 8);
+HD_ASSERT_SIZE(Triangle, 12, 0);
+HD_ASSERT_SIZE(MeshNode, 12, 4);
+HD_ASSERT_SIZE(Skin, 4, 20);
+HD_ASSERT_SIZE(Picture, 0, 4);
+HD_ASSERT_SIZE(TextureCoordinates, 4, 0);
 HD_ASSERT_SIZE(View, 12, 8);
 
 /* The tables of a scene, in the order of the kernels' arguments:
@@ -131,7 +206,15 @@ HD_ASSERT_SIZE(View, 12, 8);
    light_sides[light * object_count + object]    of solids only
    object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
    texels                                        two words each: r | g << 16, b; row by row, and one
-                                                 more after the last */
+                                                 more after the last; the floor's first
+   triangles                                     of all meshes, in the order of the leaves
+   mesh_nodes                                    of all meshes and over the instances
+   wide_bounds, wide_children                    of the wide nodes, which have as many children as a
+                                                 bundle has lanes: lower x, y, z of all of them,
+   then upper; no entries where bundles have one lane top_items numbers of instances
+   corner_normals[3 * triangle + corner]         places in mesh_normals; negative: the triangle is
+                                                 flat
+   corner_uvs[3 * triangle + corner]             places in mesh_uvs */
 #define HD_SCENE_TABLES(X)                                                                         \
     X(Header, header)                                                                              \
     X(Object, objects)                                                                             \
@@ -144,7 +227,19 @@ HD_ASSERT_SIZE(View, 12, 8);
     X(LightSides, light_sides)                                                                     \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \
-    X(uint, texels)
+    X(uint, texels)                                                                                \
+    X(Instance, instances)                                                                         \
+    X(Triangle, triangles)                                                                         \
+    X(MeshNode, mesh_nodes)                                                                        \
+    X(real, wide_bounds)                                                                           \
+    X(int, wide_children)                                                                          \
+    X(int, top_items)                                                                              \
+    X(Skin, skins)                                                                                 \
+    X(Vector, mesh_normals)                                                                        \
+    X(int, corner_normals)                                                                         \
+    X(TextureCoordinates, mesh_uvs)                                                                \
+    X(int, corner_uvs)                                                                             \
+    X(Picture, pictures)
 
 /* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of
  * `to`. */

@@ -4,7 +4,7 @@
 #ifndef HD_SURFACE_H
 #define HD_SURFACE_H
 
-#include "intersection.h"
+#include "closest_hit.h"
 #include "texture.h"
 
 /* A material for each lane. */
@@ -158,9 +158,123 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     }
 }
 
+/* ---- meshes ---- */
+
+/* The three words that a triangle of each lane has in a table. */
+FN FourWords fetch_corner_words(GLOBAL const int *table, int first, vint triangle) {
+    return fetch_four_words((GLOBAL const uint *)table, triangle * 3 + first);
+}
+
+/* Unit; no component may be much smaller than the least normal number's root. */
+FN Vec3 direction_of(Vec3 v) {
+    vreal most = greater(absolute(v.x), greater(absolute(v.y), absolute(v.z)));
+    return vec3_normalize(vec3_scale(v, reciprocal(most)));
+}
+
+/* Blends the corners' normals, where the triangle has any and where what is seen of the surface is
+   its front and a mirrored ray stays on it; elsewhere the triangle's own normal is taken. All
+   normals point towards the viewer. */
+FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
+                      vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
+    vint within = triangle - instance->first_triangle;
+    FourWords corner = fetch_corner_words(corner_normals, instance->first_corner_normals, within);
+    vmask has = ~lt_int(corner.word[0], splat_int(0));
+    if (!any_lane(has))
+        return flat;
+    GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
+    Vec3 sum = vec3_zero();
+    vreal shares[3];
+    shares[0] = crossing->a;
+    shares[1] = crossing->b;
+    shares[2] = crossing->c;
+    for (int i = 0; i < 3; i++) {
+        FourReals n = fetch_four_reals(table, pick_int(has, corner.word[i], splat_int(0)) * 4);
+        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), shares[i], sum);
+    }
+    vreal towards = pick(entering, splat(R(1.0)), splat(R(-1.0)));
+    Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
+    vreal facing = vec3_dot(smooth, direction);
+    Vec3 mirrored = vec3_scale_add(smooth, facing * R(-2.0), direction);
+    vmask sound = has & lt(facing, splat(R(0.0))) & lt(splat(R(0.0)), vec3_dot(mirrored, flat));
+    return vec3_pick(sound, smooth, flat);
+}
+
+/* The colour of a skin's picture; white without one. */
+FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOBAL const Skin *skin,
+                          vint triangle, const TriangleCrossing *crossing) {
+    Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
+    if (skin->picture < 0 || instance->first_corner_uvs < 0)
+        return white;
+    FourWords corner = fetch_corner_words(corner_uvs, instance->first_corner_uvs,
+                                          triangle - instance->first_triangle);
+    vmask has = ~lt_int(corner.word[0], splat_int(0));
+    GLOBAL const real *table = (GLOBAL const real *)mesh_uvs;
+    vreal u = splat(R(0.0)), v = splat(R(0.0));
+    vreal shares[3];
+    shares[0] = crossing->a;
+    shares[1] = crossing->b;
+    shares[2] = crossing->c;
+    for (int i = 0; i < 3; i++) {
+        FourReals at = fetch_four_reals(table, pick_int(has, corner.word[i], splat_int(0)) * 4);
+        u = multiply_add(at.number[0], shares[i], u);
+        v = multiply_add(at.number[1], shares[i], v);
+    }
+    return vec3_pick(has, sample_picture(pictures + skin->picture, texels, u, v), white);
+}
+
+FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
+                  const TriangleLanes *triangle, const TriangleCrossing *crossing, vmask entering,
+                  Surface *surface) {
+    while (any_lane(m)) {
+        int number = lane_int(&triangle->skin, first_lane(m));
+        GLOBAL const Skin *skin = skins + number;
+        vmask same = m & eq_int(triangle->skin, splat_int(number));
+        m = m & ~same;
+        LaneMaterial material = splat_material(materials + skin->material, entering);
+        material.colour =
+            vec3_mul(material.colour,
+                     colour_of_picture(SCENE_ARGUMENTS instance, skin, triangle->number, crossing));
+        set_material(surface, same, material);
+        surface->emission =
+            vec3_pick(same, vec3_splat(skin->emission[0], skin->emission[1], skin->emission[2]),
+                      surface->emission);
+    }
+}
+
+/* The lanes of `m` have met triangles of the instance; hit->face becomes the number of the face. */
+FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, Reference reference, int number,
+                            vmask m, Hit *hit, Surface *surface) {
+    GLOBAL const Instance *instance = instances + number;
+    Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, header->floor_end);
+    Vec3 in_mesh = transform_point(instance->to_mesh, origin);
+    Vec3 along = transform_direction(instance->to_mesh, ray->direction);
+    RayFrame frame = ray_frame(in_mesh, along);
+    Slabs slabs = ray_slabs(in_mesh, along, splat(R(1.0)));
+    TriangleLanes triangle =
+        fetch_triangles(triangles, pick_int(m, hit->face, splat_int(instance->first_triangle)),
+                        instance->first_face);
+    TriangleCrossing crossing;
+    crossing.a = crossing.b = crossing.c = splat(R(0.0));
+    cross_triangle(&frame, &slabs, m, triangle.a, triangle.b, triangle.c, &crossing);
+    Vec3 point =
+        vec3_scale_add(triangle.a, crossing.a,
+                       vec3_scale_add(triangle.b, crossing.b, vec3_scale(triangle.c, crossing.c)));
+    surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
+    Vec3 normal = vec3_cross(vec3_sub(triangle.b, triangle.a), vec3_sub(triangle.c, triangle.a));
+    normal = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
+    normal = vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
+    if (instance->first_corner_normals >= 0)
+        normal = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering, &crossing,
+                               ray->direction, normal);
+    surface->normal = vec3_pick(m, normal, surface->normal);
+    set_skins(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
+    hit->face = pick_int(m, triangle.face, hit->face);
+}
+
 /* Describes the lanes of `struck`; the bundle is worked off object by object, so that a material is
-   read once for all lanes that met it. */
-FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, const Hit *hit,
+   read once for all lanes that met it. Where a mesh was met, hit->face becomes the number of the
+   face. */
+FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit,
                       vmask struck) {
     Surface surface;
     surface.point = surface.normal = surface.emission = vec3_zero();
@@ -170,6 +284,11 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, cons
         int object = lane_int(&hit->object, first_lane(left));
         vmask m = left & eq_int(hit->object, splat_int(object));
         left = left & ~m;
+        if (MESHES && object >= header->floor_end) {
+            describe_mesh(SCENE_ARGUMENTS ray, reference, object - header->floor_end, m, hit,
+                          &surface);
+            continue;
+        }
         Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
         surface.point = vec3_pick(m, vec3_scale_add(ray->direction, hit->t, origin), surface.point);
         if (object < header->solid_count)

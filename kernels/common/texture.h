@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The floor's texture: inverse bilinear coordinates and a bilinear lookup. */
+/* Textures: the floor's inverse bilinear coordinates, and bilinear lookups. */
 #ifndef HD_TEXTURE_H
 #define HD_TEXTURE_H
 
@@ -62,6 +62,14 @@ FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
                 blend(low_half(words.word[1]), low_half(words.word[3]), weight));
 }
 
+/* Between four texels, the upper two from number `upper`, the lower two from `lower` on. */
+FN Vec3 blend_texels(GLOBAL const uint *texels, vint upper, vint lower, vreal across, vreal down) {
+    Vec3 above = blend_row(texels, upper, across), below = blend_row(texels, lower, across);
+    vreal scale = splat(R(1.0) / R(65535.0));
+    return vec3(blend(above.x, below.x, down) * scale, blend(above.y, below.y, down) * scale,
+                blend(above.z, below.z, down) * scale);
+}
+
 /* Bilinear between texel centres, the border's texels continued outwards. */
 FN Vec3 sample_texture(GLOBAL const FloorMap *map, GLOBAL const uint *texels, vreal s, vreal t) {
     int width = map->texture_width, height = map->texture_height;
@@ -74,11 +82,25 @@ FN Vec3 sample_texture(GLOBAL const FloorMap *map, GLOBAL const uint *texels, vr
     vreal across = x - to_real(column), down = y - to_real(row);
     /* In the last column and row the weight is 0: any second texel will do. */
     vint below = pick_int(lt(to_real(row), last_row), row + 1, row);
-    Vec3 upper = blend_row(texels, row * width + column, across);
-    Vec3 lower = blend_row(texels, below * width + column, across);
-    vreal scale = splat(R(1.0) / R(65535.0));
-    return vec3(blend(upper.x, lower.x, down) * scale, blend(upper.y, lower.y, down) * scale,
-                blend(upper.z, lower.z, down) * scale);
+    return blend_texels(texels, row * width + column, below * width + column, across, down);
+}
+
+/* A coordinate of a texture that repeats, in texels from the middle of the first one on. */
+FN vreal repeat(vreal u, int texels) {
+    vreal part = u - to_real(to_int(u)), zero = splat(R(0.0)), whole = splat((real)texels);
+    part = pick(lt(part, zero), part + splat(R(1.0)), part);
+    vreal at = multiply_add(part, whole, splat(R(-0.5)));
+    at = pick(lt(at, zero), at + whole, at);
+    return lesser(at, whole - splat(R(0.5)));
+}
+
+/* A picture that repeats. Its first column and row are stored once more after its last ones. */
+FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
+    vreal x = repeat(u, picture->width), y = repeat(v, picture->height);
+    vint column = to_int(x), row = to_int(y);
+    int stride = picture->width + 1;
+    vint place = row * stride + column + picture->first_texel;
+    return blend_texels(texels, place, place + stride, x - to_real(column), y - to_real(row));
 }
 
 #endif

@@ -51,6 +51,10 @@ FN vreal vec3_dot(Vec3 a, Vec3 b) {
     return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
 }
 
+FN Vec3 vec3_cross(Vec3 a, Vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
 FN Vec3 vec3_pick(vmask m, Vec3 a, Vec3 b) {
     return vec3(pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z));
 }

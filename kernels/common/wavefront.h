@@ -19,11 +19,6 @@
         int queue_stride, int sum_stride, int compact,
 #define QUEUE_ARGUMENTS ray_reals, ray_ints, sums, queue_stride, sum_stride, compact,
 
-/* The first `count` lanes. */
-FN vmask lanes_below(int count) {
-    return lt_int(lane_numbers(), splat_int(count));
-}
-
 /* ---- the queue ---- */
 
 /* The first word of a ray: the object touched last and the side it runs on; -1: it is dead. */
@@ -32,8 +27,9 @@ FN vint ray_state(const Ray *ray) {
     return pick_int(ray->alive, (ray->touched + ray->touched) | side, splat_int(-1));
 }
 
-/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. */
-FN Ray load_rays(QUEUE_PARAMETERS int from, int count, vint *numbers) {
+/* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. Only
+   scenes with meshes need the faces that rays leave. */
+FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
     GLOBAL const real *reals = ray_reals + from;
     uint64 stride = (uint64)queue_stride;
     vint state = load_ints(ray_ints + from);
@@ -42,6 +38,7 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, vint *numbers) {
     ray.inside = eq_int(state & 1, splat_int(1));
     ray.touched = spread_first(state >> 1, ray.alive);
     *numbers = load_ints(ray_ints + stride + from);
+    ray.face = has_faces ? load_ints(ray_ints + 2 * stride + from) : splat_int(-1);
     ray.origin =
         vec3(load_reals(reals), load_reals(reals + stride), load_reals(reals + 2 * stride));
     ray.direction = vec3(load_reals(reals + 3 * stride), load_reals(reals + 4 * stride),
@@ -53,7 +50,7 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, vint *numbers) {
 
 /* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
    places are overwritten. */
-FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, vint numbers) {
+FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
     vint state = ray_state(ray);
@@ -61,6 +58,8 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, vint numbers
     int count = lane_offsets(m, offset);
     store_lanes_int(ray_ints + to, offset, &state);
     store_lanes_int(ray_ints + stride + to, offset, &numbers);
+    if (has_faces)
+        store_lanes_int(ray_ints + 2 * stride + to, offset, &ray->face);
     store_lanes(reals, m, offset, &ray->origin.x);
     store_lanes(reals + stride, m, offset, &ray->origin.y);
     store_lanes(reals + 2 * stride, m, offset, &ray->origin.z);
@@ -134,10 +133,11 @@ FN void add_vector_counts(const Sample *sample, Sample *sum) {
 }
 
 /* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
-FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, vint numbers) {
+FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint numbers) {
     if (!any_lane(ray->alive))
         return 0;
-    return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, numbers);
+    return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, has_faces,
+                      numbers);
 }
 
 /* The ray of each sample from number `number` of the item on, at most `count`. */
@@ -167,7 +167,7 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
             ray = first_rays(view, item, first_sample + number, take.count - i);
             numbers = numbers_from(number);
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES, &numbers);
         }
         if (!any_lane(ray.alive))
             continue;
@@ -177,8 +177,9 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         else
             add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, &sample);
         add_vector_counts(&sample, &sum);
-        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, numbers);
-        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, numbers);
+        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES, numbers);
+        *mirrored +=
+            append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, MESHES, numbers);
     }
     add_counts(&sum, counts);
 }
@@ -272,8 +273,8 @@ FN Ray first_ray(GLOBAL const View *view, int first_item, int number) {
    this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
    counted, packed. */
 FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
-                          const Ray *through, vint number, const Sample *sample, int thread,
-                          int thread_count, LOCAL uint64 *room, LOCAL uint *place,
+                          const Ray *through, int has_faces, vint number, const Sample *sample,
+                          int thread, int thread_count, LOCAL uint64 *room, LOCAL uint *place,
                           GLOBAL uint *taken) {
     uint64 total, own = pack_counts(sample);
     uint64 before = scan_group(room, thread, thread_count, own, &total) - own;
@@ -292,10 +293,11 @@ FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray 
         *place = take_shared(taken, (uint)(mirrors + passes)) - taken_before;
     BARRIER();
     if (any_lane(keeps_mirror))
-        store_rays(QUEUE_ARGUMENTS to + (int)*place + mirror_place, keeps_mirror, mirror, number);
+        store_rays(QUEUE_ARGUMENTS to + (int)*place + mirror_place, keeps_mirror, mirror, has_faces,
+                   number);
     if (any_lane(keeps_through))
         store_rays(QUEUE_ARGUMENTS to + (int)*place + mirrors + through_place, keeps_through,
-                   through, number);
+                   through, has_faces, number);
     return total;
 }
 
@@ -319,7 +321,7 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         mirror.alive = through.alive = ray.alive = mask_none();
         if (i < count)
             ray = level == 0 ? first_ray(view, first_item, first + i)
-                             : load_rays(QUEUE_ARGUMENTS first + i, 1, &number);
+                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES, &number);
         if (any_lane(ray.alive)) {
             follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
             if (level == 0)
@@ -327,8 +329,8 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
             else
                 add_to_sums(QUEUE_ARGUMENTS ray.alive, number, &sample);
         }
-        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, number,
-                                       &sample, thread, thread_count, room, place, taken);
+        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES,
+                                       number, &sample, thread, thread_count, room, place, taken);
         sum.mirrored += total & COUNT_MASK;
         sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
         sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);

@@ -17,7 +17,7 @@ HdFrame render_scene(HdRenderer *renderer, const HdScene *scene, const HdCamera 
     HdSceneTables tables;
     HdFrameTables view;
     if (hd_scene_validate(scene, &error) != HD_OK ||
-        hd_compile_scene(&tables, scene, precision, &error) != HD_OK ||
+        hd_compile_scene(&tables, scene, precision, hd_renderer_lanes(renderer), &error) != HD_OK ||
         hd_compile_frame(&view, scene, camera, precision, &error) != HD_OK ||
         hd_frame_create(&frame, scene->width, scene->height, &error) != HD_OK ||
         hd_renderer_upload(renderer, &tables, &error) != HD_OK ||

@@ -35,7 +35,7 @@ static HdStatus upload_with(bool refracts, uint64_t *hash) {
     HdSceneTables tables;
     assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, refracts, false, &error),
                      HD_OK);
-    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, 1, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     HdStatus status = hd_renderer_upload(renderer, &tables, &error);
     snprintf(note, sizeof note, "%s", hd_renderer_kernels_note(renderer));
@@ -171,7 +171,7 @@ static void wrong_kernels_render_nothing(void **state) {
     HdFrameTables view = {0};
     fake.renders_wrongly = true;
     assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_FLOOR, false, false, &error), HD_OK);
-    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, 1, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_UNAVAILABLE);

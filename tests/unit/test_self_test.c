@@ -49,7 +49,7 @@ static void frames_are_valid_and_fit_every_build(void **state) {
                                             (i & 1) != 0, &error),
                          HD_OK);
         assert_int_equal(hd_scene_validate(&scene, &error), HD_OK);
-        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, &error), HD_OK);
+        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
         assert_true(tables.plane_count <= hd_kernel_bound(0));
         assert_true(tables.depth <= hd_kernel_bound(0));
         if (i / 4 == HD_SELF_TEST_SOLID) {

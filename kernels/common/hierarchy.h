@@ -1,0 +1,452 @@
+/* SPDX-License-Identifier: MIT */
+/* The search of one mesh by a bundle of rays: for the closest hit, or for all that filters light.
+
+   Rays that run the same way share a walk through the hierarchy's nodes. Where few do, each lane's
+   ray walks by itself through the wide nodes, and the lanes are a node's children and a leaf's
+   triangles. What is found does not depend on the way. */
+#ifndef HD_HIERARCHY_H
+#define HD_HIERARCHY_H
+
+#include "triangle.h"
+
+/* What the rays look for, and what was found. */
+typedef struct {
+    vmask alive;
+    vreal limit;           /* nothing is looked for from here on: the closest hit so far, or
+                              the light */
+    vint object, triangle; /* the closest hit's */
+    vmask entering;
+    vint octaves[3], rest[3]; /* what filters light, added up (Skin.filter) */
+} Findings;
+
+/* The rays in a mesh's own coordinates. */
+typedef struct {
+    RayFrame frame;
+    Slabs slabs;
+    vmask own;     /* leaves this very mesh, */
+    vint own_face; /* this face of it, or -1, */
+    vmask inside;  /* and on its inner side */
+    int object;    /* number of the mesh among the objects */
+    int first_face;
+    int light_face[2]; /* a light's own faces are not in its way; -1: none */
+    real contact_squared;
+} MeshRays;
+
+/* Triangles of a mesh, one for all lanes or one for each. */
+typedef struct {
+    Vec3 a, b, c;
+    vint number, face, skin;
+} TriangleLanes;
+
+/* Triangles of a group count as one face; others have a negative number each. */
+FN vint face_of_triangle(vint number, vint group, int first_face) {
+    vmask grouped = lt_int(splat_int(0), group);
+    return pick_int(grouped, group + (first_face - 1), splat_int(-2) - number);
+}
+
+FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_face) {
+    vint group = tag & (HD_TRIANGLE_GROUPS - 1);
+    lanes->number = number;
+    lanes->skin = tag >> 5;
+    lanes->face = face_of_triangle(number, group, first_face);
+}
+
+FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, int first_face) {
+    GLOBAL const Triangle *triangle = triangles + number;
+    TriangleLanes lanes;
+    lanes.a = vec3_splat(triangle->a[0], triangle->a[1], triangle->a[2]);
+    lanes.b = vec3_splat(triangle->b[0], triangle->b[1], triangle->b[2]);
+    lanes.c = vec3_splat(triangle->c[0], triangle->c[1], triangle->c[2]);
+    name_triangles(&lanes, splat_int(number), splat_int((int)triangle->tag), first_face);
+    return lanes;
+}
+
+FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, int first_face) {
+    GLOBAL const real *table = (GLOBAL const real *)triangles;
+    vint place = number * 12;
+    FourReals a = fetch_four_reals(table, place);
+    FourReals b = fetch_four_reals(table, place + 4);
+    FourReals c = fetch_four_reals(table, place + 8);
+    TriangleLanes lanes;
+    lanes.a = vec3(a.number[0], a.number[1], a.number[2]);
+    lanes.b = vec3(b.number[0], b.number[1], b.number[2]);
+    lanes.c = vec3(c.number[0], c.number[1], c.number[2]);
+    name_triangles(&lanes, number, to_int(a.number[3]), first_face);
+    return lanes;
+}
+
+/* A ray that leaves a mesh meets its outer side next if it runs outside, and its inner side if it
+   runs inside. Where rounding has put its origin past a neighbour of the triangle that it left,
+   that neighbour is met from the wrong side, nearby. */
+FN vmask is_spurious(const MeshRays *rays, const TriangleLanes *triangle, vmask m, vmask entering) {
+    vmask wrong = m & rays->own & ~(entering ^ rays->inside);
+    if (!any_lane(wrong))
+        return wrong;
+    Vec3 normal =
+        vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
+    vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));
+    return wrong & le(away * away, vec3_dot(normal, normal) * rays->contact_squared);
+}
+
+/* Tries triangles, with the rays of `m`. */
+FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vmask m,
+                        TriangleCrossing *crossing) {
+    vmask met = cross_triangle(&rays->frame, &rays->slabs, m, triangle->a, triangle->b, triangle->c,
+                               crossing);
+    if (!any_lane(met))
+        return met;
+    met = met & le(splat(R(0.0)), crossing->t) &
+          ~(rays->own & eq_int(triangle->face, rays->own_face));
+    return met & ~is_spurious(rays, triangle, met, crossing->entering);
+}
+
+/* ---- the closest hit ---- */
+
+/* Of two hits at one distance that of the lower number counts. */
+FN vmask is_closer(const Findings *found, vreal t, int object, vint triangle) {
+    vmask level = ~lt(t, found->limit) & ~lt(found->limit, t);
+    vmask same = eq_int(found->object, splat_int(object));
+    vmask lower = (same & lt_int(triangle, found->triangle)) |
+                  (~same & lt_int(splat_int(object), found->object));
+    return lt(t, found->limit) | (level & lower);
+}
+
+FN void keep_closest(Findings *found, const MeshRays *rays, const TriangleLanes *triangle,
+                     vmask met, const TriangleCrossing *crossing) {
+    vmask closer = met & is_closer(found, crossing->t, rays->object, triangle->number);
+    found->limit = pick(closer, crossing->t, found->limit);
+    found->object = pick_int(closer, splat_int(rays->object), found->object);
+    found->triangle = pick_int(closer, triangle->number, found->triangle);
+    found->entering = pick_mask(closer, crossing->entering, found->entering);
+}
+
+/* ---- what filters light ---- */
+
+FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *rays,
+                    const TriangleLanes *triangle, vmask met, const TriangleCrossing *crossing) {
+    met = met & lt(crossing->t, found->limit) & found->alive;
+    met = met & ~(eq_int(triangle->face, splat_int(rays->light_face[0])) |
+                  eq_int(triangle->face, splat_int(rays->light_face[1])));
+    vint most = splat_int(HD_OPAQUE_OCTAVES);
+    while (any_lane(met)) {
+        int number = lane_int(&triangle->skin, first_lane(met));
+        GLOBAL const Skin *skin = skins + number;
+        vmask m = met & eq_int(triangle->skin, splat_int(number));
+        met = met & ~m;
+        for (int channel = 0; channel < 3; channel++) {
+            vint more = pick_int(crossing->entering, splat_int(skin->filter[0][channel]),
+                                 splat_int(skin->filter[1][channel]));
+            vint rest = pick_int(crossing->entering, splat_int(skin->filter_rest[0][channel]),
+                                 splat_int(skin->filter_rest[1][channel]));
+            vint sum = found->octaves[channel] + pick_int(m, more, splat_int(0));
+            found->octaves[channel] = pick_int(lt_int(sum, most), sum, most);
+            found->rest[channel] = found->rest[channel] + pick_int(m, rest, splat_int(0));
+        }
+        vint opaque = pick_int(crossing->entering, splat_int(skin->filter[0][3]),
+                               splat_int(skin->filter[1][3]));
+        found->alive = found->alive & ~(m & lt_int(splat_int(0), opaque));
+    }
+}
+
+/* ---- leaves ---- */
+
+FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
+                 int count, int is_shadow) {
+    for (int i = first; i < first + count; i++) {
+        TriangleCrossing crossing;
+        TriangleLanes triangle = same_triangle(triangles, i, rays->first_face);
+        vmask met = meet_triangles(rays, &triangle, m, &crossing);
+        if (!any_lane(met))
+            continue;
+        if (is_shadow)
+            keep_filter(skins, found, rays, &triangle, met, &crossing);
+        else
+            keep_closest(found, rays, &triangle, met, &crossing);
+    }
+}
+
+/* ---- rays that share a walk ---- */
+
+FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
+                        int child) {
+    real x = node->bounds[0][negative[0]][child], y = node->bounds[1][negative[1]][child];
+    real z = node->bounds[2][negative[2]][child];
+    vreal near = multiply_add(splat(x), slabs->inverse.x, slabs->near.x);
+    near = greater(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
+    near = greater(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
+    return greater(near, splat(R(0.0)));
+}
+
+FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
+                       int child) {
+    real x = node->bounds[0][!negative[0]][child], y = node->bounds[1][!negative[1]][child];
+    real z = node->bounds[2][!negative[2]][child];
+    vreal far = multiply_add(splat(x), slabs->inverse.x, slabs->far.x);
+    far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
+    return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
+}
+
+/* The rays of `m`, whose directions have the signs `negative`. */
+FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                      const int negative[3], int root, int is_shadow) {
+    int stack[NODE_STACK];
+    vreal stack_near[NODE_STACK];
+    int waiting = 0, current = root;
+    for (;;) {
+        int next = -1, has_next = 0;
+        if (current >= 0) {
+            GLOBAL const MeshNode *node = mesh_nodes + current;
+            vreal near0 = entry_of_child(node, &rays->slabs, negative, 0);
+            vreal near1 = entry_of_child(node, &rays->slabs, negative, 1);
+            vreal far0 = lesser(exit_of_child(node, &rays->slabs, negative, 0), found->limit);
+            vreal far1 = lesser(exit_of_child(node, &rays->slabs, negative, 1), found->limit);
+            vmask alive = is_shadow ? m & found->alive : m;
+            int meets0 = any_lane(alive & le(near0, far0));
+            int meets1 = any_lane(alive & le(near1, far1));
+            int last = negative[node->axis] ? 0 : 1; /* the child further along the rays */
+            if (meets0 && meets1) {
+                stack[waiting] = node->child[last];
+                stack_near[waiting] = last ? near1 : near0;
+                waiting++;
+                next = node->child[!last];
+                has_next = 1;
+            } else if (meets0 || meets1) {
+                next = node->child[meets1 ? 1 : 0];
+                has_next = 1;
+            }
+        } else {
+            int items = ~current;
+            vmask alive = is_shadow ? m & found->alive : m;
+            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
+                     items & HD_LEAF_ITEM_MASK, is_shadow);
+        }
+        while (!has_next && waiting > 0) {
+            waiting--;
+            next = stack[waiting];
+            vmask alive = is_shadow ? m & found->alive : m;
+            has_next = any_lane(alive & le(stack_near[waiting], found->limit));
+        }
+        if (!has_next)
+            return;
+        current = next;
+    }
+}
+
+/* ---- a ray by itself ---- */
+
+#if HD_LANES > 1
+
+FN vreal spread_real(vreal a, int lane) {
+    return splat(lane_real(&a, lane));
+}
+
+FN Vec3 spread_vector(Vec3 a, int lane) {
+    return vec3(spread_real(a.x, lane), spread_real(a.y, lane), spread_real(a.z, lane));
+}
+
+FN vmask spread_mask(uint bits, int lane) {
+    return bits >> lane & 1 ? mask_all() : mask_none();
+}
+
+/* One lane's ray in all lanes. */
+FN MeshRays spread_rays(const MeshRays *rays, int lane) {
+    MeshRays one = *rays;
+    one.frame.origin = spread_vector(rays->frame.origin, lane);
+    one.frame.across = spread_vector(rays->frame.across, lane);
+    one.frame.upward = spread_vector(rays->frame.upward, lane);
+    one.frame.forward = spread_vector(rays->frame.forward, lane);
+    one.frame.backward = spread_mask(lane_bits(rays->frame.backward), lane);
+    one.slabs.inverse = spread_vector(rays->slabs.inverse, lane);
+    one.slabs.near = spread_vector(rays->slabs.near, lane);
+    one.slabs.far = spread_vector(rays->slabs.far, lane);
+    for (int axis = 0; axis < 3; axis++)
+        one.slabs.negative[axis] = spread_mask(lane_bits(rays->slabs.negative[axis]), lane);
+    one.own = spread_mask(lane_bits(rays->own), lane);
+    one.inside = spread_mask(lane_bits(rays->inside), lane);
+    one.own_face = splat_int(lane_int(&rays->own_face, lane));
+    return one;
+}
+
+FN Findings spread_findings(const Findings *found, int lane) {
+    Findings one;
+    one.alive = mask_all();
+    one.limit = spread_real(found->limit, lane);
+    one.object = splat_int(lane_int(&found->object, lane));
+    one.triangle = splat_int(lane_int(&found->triangle, lane));
+    one.entering = spread_mask(lane_bits(found->entering), lane);
+    for (int channel = 0; channel < 3; channel++)
+        one.octaves[channel] = one.rest[channel] = splat_int(0);
+    return one;
+}
+
+/* Tries the triangles of a leaf side by side. What is found in the lanes is brought together, so
+   that all of them hold it. */
+FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int first,
+                         int count, int is_shadow) {
+    for (int done = 0; done < count; done += HD_LANES) {
+        vmask m = lanes_below(count - done);
+        vint number = lane_numbers() + (first + done);
+        number = pick_int(m, number, splat_int(first));
+        TriangleCrossing crossing;
+        TriangleLanes triangle = fetch_triangles(triangles, number, ray->first_face);
+        vmask met = meet_triangles(ray, &triangle, m, &crossing);
+        if (!any_lane(met))
+            continue;
+        if (is_shadow) {
+            keep_filter(skins, found, ray, &triangle, met, &crossing);
+            if (any_lane(~found->alive))
+                found->alive = mask_none();
+            continue;
+        }
+        vmask closer = met & is_closer(found, crossing.t, ray->object, triangle.number);
+        uint entering = lane_bits(crossing.entering);
+        for (uint left = lane_bits(closer); left; left &= left - 1) {
+            int lane = lowest_bit(left);
+            vreal t = spread_real(crossing.t, lane);
+            vint triangle_number = splat_int(lane_int(&triangle.number, lane));
+            vmask best = is_closer(found, t, ray->object, triangle_number);
+            if (!any_lane(best))
+                continue;
+            found->limit = t;
+            found->object = splat_int(ray->object);
+            found->triangle = triangle_number;
+            found->entering = spread_mask(entering, lane);
+        }
+    }
+}
+
+/* The ray that all lanes of `ray` hold. */
+FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int root, int is_shadow) {
+    int stack[WIDE_STACK];
+    real stack_near[WIDE_STACK];
+    int lower[3], upper[3];
+    for (int axis = 0; axis < 3; axis++) {
+        int negative = any_lane(ray->slabs.negative[axis]);
+        lower[axis] = (negative ? 3 + axis : axis) * HD_LANES;
+        upper[axis] = (negative ? axis : 3 + axis) * HD_LANES;
+    }
+    int waiting = 1;
+    stack[0] = root;
+    stack_near[0] = R(0.0);
+    while (waiting > 0) {
+        waiting--;
+        int current = stack[waiting];
+        if (lane_real(&found->limit, 0) < stack_near[waiting])
+            continue;
+        if (current < 0) {
+            int items = ~current;
+            try_leaf_at_once(SCENE_ARGUMENTS found, ray, items >> HD_LEAF_ITEM_BITS,
+                             items & HD_LEAF_ITEM_MASK, is_shadow);
+            if (is_shadow && !any_lane(found->alive))
+                return;
+            continue;
+        }
+        GLOBAL const real *bounds = wide_bounds + (uint64)current * (6 * HD_LANES);
+        const Slabs *slabs = &ray->slabs;
+        vreal near = multiply_add(load_reals(bounds + lower[0]), slabs->inverse.x, slabs->near.x);
+        vreal far = multiply_add(load_reals(bounds + upper[0]), slabs->inverse.x, slabs->far.x);
+        near = greater(
+            near, multiply_add(load_reals(bounds + lower[1]), slabs->inverse.y, slabs->near.y));
+        far = lesser(far,
+                     multiply_add(load_reals(bounds + upper[1]), slabs->inverse.y, slabs->far.y));
+        near = greater(
+            near, multiply_add(load_reals(bounds + lower[2]), slabs->inverse.z, slabs->near.z));
+        far = lesser(far,
+                     multiply_add(load_reals(bounds + upper[2]), slabs->inverse.z, slabs->far.z));
+        near = greater(near, splat(R(0.0)));
+        far = lesser(far, found->limit);
+        int bottom = waiting;
+        for (uint left = lane_bits(le(near, far)); left; left &= left - 1) {
+            int lane = lowest_bit(left);
+            real at = lane_real(&near, lane);
+            int place = waiting;
+            while (place > bottom && stack_near[place - 1] < at) {
+                stack[place] = stack[place - 1];
+                stack_near[place] = stack_near[place - 1];
+                place--;
+            }
+            stack[place] = wide_children[(uint64)current * HD_LANES + (uint64)lane];
+            stack_near[place] = at;
+            waiting++;
+        }
+    }
+}
+
+FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, int lane, int root,
+                     int is_shadow) {
+    MeshRays ray = spread_rays(rays, lane);
+    Findings one = spread_findings(found, lane);
+    walk_alone(SCENE_ARGUMENTS & one, &ray, root, is_shadow);
+    vmask m = eq_int(lane_numbers(), splat_int(lane));
+    if (is_shadow) {
+        for (int channel = 0; channel < 3; channel++) {
+            int sum = 0, rest = 0;
+            for (int i = 0; i < HD_LANES; i++) {
+                sum += lane_int(&one.octaves[channel], i);
+                sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+                rest += lane_int(&one.rest[channel], i);
+            }
+            sum += lane_int(&found->octaves[channel], lane);
+            sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+            rest += lane_int(&found->rest[channel], lane);
+            found->octaves[channel] = pick_int(m, splat_int(sum), found->octaves[channel]);
+            found->rest[channel] = pick_int(m, splat_int(rest), found->rest[channel]);
+        }
+        found->alive = found->alive & (~m | one.alive);
+        return;
+    }
+    found->limit = pick(m, one.limit, found->limit);
+    found->object = pick_int(m, one.object, found->object);
+    found->triangle = pick_int(m, one.triangle, found->triangle);
+    found->entering = pick_mask(m, one.entering, found->entering);
+}
+
+/* Fewer rays than these walk alone. */
+enum { FEW_RAYS = HD_LANES / 4 + 1 };
+
+#endif
+
+/* ---- the search ---- */
+
+/* The lanes of `m` whose directions have the same signs as the first one's. */
+FN vmask same_signs(const Slabs *slabs, vmask m, int negative[3]) {
+    int lane = first_lane(m);
+    for (int axis = 0; axis < 3; axis++) {
+        vmask other = slabs->negative[axis];
+        negative[axis] = (int)(lane_bits(other) >> lane & 1);
+        m = m & (negative[axis] ? other : ~other);
+    }
+    return m;
+}
+
+FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                         GLOBAL const Instance *instance, int is_shadow) {
+    vmask left = m;
+    while (any_lane(left)) {
+        int negative[3];
+        vmask same = same_signs(&rays->slabs, left, negative);
+        left = left & ~same;
+#if HD_LANES > 1
+        uint bits = lane_bits(same);
+        if (count_bits(bits) < FEW_RAYS) {
+            for (; bits; bits &= bits - 1)
+                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), instance->wide_root,
+                             is_shadow);
+            continue;
+        }
+#endif
+        walk_together(SCENE_ARGUMENTS found, rays, same, negative, instance->root, is_shadow);
+    }
+}
+
+/* Searches one mesh with the rays of `m`, whichever way it is laid out. */
+FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                    GLOBAL const Instance *instance, int is_shadow) {
+    if (instance->root >= 0)
+        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance, is_shadow);
+    else
+        try_leaf(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count,
+                 is_shadow);
+}
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+/* All meshes of a scene: what rays meet first, and what filters light on its way. */
+#ifndef HD_MESHES_H
+#define HD_MESHES_H
+
+#include "hierarchy.h"
+#include "intersection.h"
+
+/* Rays relative to the meshes' centre. */
+typedef struct {
+    Vec3 origin, direction;
+    vint touched, face; /* the object touched last, -1: none, and which face of it */
+    vmask inside;
+    int light_face[2]; /* a light's own faces, -1: none */
+} WorldRays;
+
+FN Vec3 transform_point(const GLOBAL real (*rows)[4], Vec3 p) {
+    vreal at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = multiply_add(splat(rows[i][0]), p.x,
+                             multiply_add(splat(rows[i][1]), p.y,
+                                          multiply_add(splat(rows[i][2]), p.z, splat(rows[i][3]))));
+    return vec3(at[0], at[1], at[2]);
+}
+
+FN Vec3 transform_direction(const GLOBAL real (*rows)[4], Vec3 d) {
+    vreal at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = multiply_add(splat(rows[i][0]), d.x,
+                             multiply_add(splat(rows[i][1]), d.y, splat(rows[i][2]) * d.z));
+    return vec3(at[0], at[1], at[2]);
+}
+
+/* Normals of a mesh in the world, by the transpose of the rows that lead to the mesh. */
+FN Vec3 transform_normal(const GLOBAL real (*rows)[4], Vec3 n) {
+    vreal at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = multiply_add(splat(rows[0][i]), n.x,
+                             multiply_add(splat(rows[1][i]), n.y, splat(rows[2][i]) * n.z));
+    return vec3(at[0], at[1], at[2]);
+}
+
+FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
+    GLOBAL const Instance *instance = instances + number;
+    Vec3 origin = transform_point(instance->to_mesh, world->origin);
+    Vec3 direction = transform_direction(instance->to_mesh, world->direction);
+    MeshRays rays;
+    rays.object = header->floor_end + number;
+    rays.frame = ray_frame(origin, direction);
+    rays.slabs = ray_slabs(origin, direction, splat(R(1.0)));
+    rays.own = eq_int(world->touched, splat_int(rays.object));
+    rays.own_face = pick_int(rays.own, world->face, splat_int(-1));
+    rays.inside = world->inside;
+    rays.first_face = instance->first_face;
+    rays.light_face[0] = world->light_face[0];
+    rays.light_face[1] = world->light_face[1];
+    rays.contact_squared = instance->contact_squared;
+    return rays;
+}
+
+FN void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
+                        int number, int is_shadow) {
+    MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
+    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, is_shadow);
+}
+
+/* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the
+   instances. */
+FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
+                       vmask m, const int negative[3], int is_shadow) {
+    int stack[NODE_STACK];
+    int waiting = 1;
+    stack[0] = header->top_root;
+    while (waiting > 0) {
+        waiting--;
+        int current = stack[waiting];
+        vmask alive = m & found->alive;
+        if (current < 0) {
+            int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
+            for (int i = first; i < first + count; i++)
+                search_instance(SCENE_ARGUMENTS found, world, alive & found->alive, top_items[i],
+                                is_shadow);
+            continue;
+        }
+        GLOBAL const MeshNode *node = mesh_nodes + current;
+        int last = negative[node->axis] ? 0 : 1;
+        for (int i = 0; i < 2; i++) {
+            int child = i == 0 ? last : !last; /* the nearer one ends on top */
+            vreal near = entry_of_child(node, slabs, negative, child);
+            vreal far = lesser(exit_of_child(node, slabs, negative, child), found->limit);
+            if (any_lane(alive & le(near, far))) {
+                stack[waiting] = node->child[child];
+                waiting++;
+            }
+        }
+    }
+}
+
+FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world, int is_shadow) {
+    if (header->top_root < 0) {
+        for (int i = 0; i < header->instance_count; i++)
+            search_instance(SCENE_ARGUMENTS found, world, found->alive, i, is_shadow);
+        return;
+    }
+    Slabs slabs = ray_slabs(world->origin, world->direction, splat(header->mesh_reach));
+    vmask left = found->alive;
+    while (any_lane(left)) {
+        int negative[3];
+        vmask same = same_signs(&slabs, left, negative);
+        left = left & ~same;
+        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, negative, is_shadow);
+    }
+}
+
+/* ---- what rays meet ---- */
+
+/* Adds the meshes to a search; a hit's face is then the number of the triangle. */
+FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit) {
+    WorldRays world;
+    world.origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, header->floor_end);
+    world.direction = ray->direction;
+    world.touched = reference.is_eye ? splat_int(-1) : ray->touched;
+    world.face = ray->face;
+    world.inside = ray->inside;
+    world.light_face[0] = world.light_face[1] = -1;
+    Findings found;
+    found.alive = ray->alive;
+    found.limit = hit->t;
+    found.object = hit->object;
+    found.triangle = hit->face;
+    found.entering = hit->entering;
+    search_meshes(SCENE_ARGUMENTS & found, &world, 0);
+    hit->t = found.limit;
+    hit->object = found.object;
+    hit->face = found.triangle;
+    hit->entering = found.entering;
+}
+
+/* ---- what light passes ---- */
+
+/* 2^-x of x = octaves 2^-24 + rest 2^-48: the Taylor series about the middle of an octave. */
+FN vreal passing_share(vint octaves, vint rest) {
+    vreal one = splat(R(1.0));
+    vint whole = octaves >> 24;
+    vreal part = multiply_add(to_real(rest), splat(R(3.5527136788005009e-15)),
+                              to_real(octaves & (HD_OCTAVE - 1)) * splat(R(5.9604644775390625e-8)));
+    vreal x = (splat(R(0.5)) - part) * splat(R(0.69314718055994530942));
+    vreal share = one;
+    for (int k = 14; k > 0; k--)
+        share = multiply_add(share, x * splat(R(1.0) / (real)k), one);
+    share = share * splat(R(0.70710678118654752440));
+    for (vint left = whole; any_lane(lt_int(splat_int(0), left)); left = left - 1)
+        share = pick(lt_int(splat_int(0), left), share * splat(R(0.5)), share);
+    return pick(lt_int(octaves, splat_int(HD_DARK_OCTAVES)), share, splat(R(0.0)));
+}
+
+/* What the meshes let through of the light of number `light` on its way to points of a surface, in
+   the lanes of `lit`; `to_light` leads from each point to the light. */
+FN_APART Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint object,
+                                      vint face, vmask inside, int light, vmask lit) {
+    WorldRays world;
+    Reference reference = reference_of(SCENE_ARGUMENTS object, 0);
+    world.origin = move_to_object(SCENE_ARGUMENTS reference, point, header->floor_end);
+    world.direction = to_light;
+    world.touched = object;
+    world.face = face;
+    world.inside = inside;
+    world.light_face[0] = lights[light].own_face[0];
+    world.light_face[1] = lights[light].own_face[1];
+    Findings found;
+    found.alive = lit;
+    found.limit = splat(R(1.0));
+    found.object = found.triangle = splat_int(-1);
+    found.entering = mask_none();
+    for (int channel = 0; channel < 3; channel++)
+        found.octaves[channel] = found.rest[channel] = splat_int(0);
+    search_meshes(SCENE_ARGUMENTS & found, &world, 1);
+    vreal open = pick(found.alive, splat(R(1.0)), splat(R(0.0)));
+    vint most = greatest_int(found.octaves[0], greatest_int(found.octaves[1], found.octaves[2]));
+    if (!any_lane(found.alive & lt_int(splat_int(0), most)))
+        return vec3(open, open, open);
+    return vec3(open * passing_share(found.octaves[0], found.rest[0]),
+                open * passing_share(found.octaves[1], found.rest[1]),
+                open * passing_share(found.octaves[2], found.rest[2]));
+}
+
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: MIT */
+/* Where rays cross a triangle, each exactly once: of the triangles that share an edge or a corner a
+   ray through it crosses one, or one on its way in and one on its way out. Lanes are rays that try
+   one triangle, or triangles that one ray tries.
+
+   The corners are sheared so that the ray runs along an axis through the origin (Woop, Benthin and
+   Wald 2013, Watertight Ray/Triangle Intersection), each corner by the same arithmetic in all of
+   its triangles. The signs of the edge functions are those of the exact numbers (the error of a
+   product is known by a fused multiplication), and where one is zero the ray is moved by an
+   infinitely small step (Edelsbrunner and Muecke 1990, Simulation of Simplicity). */
+#ifndef HD_TRIANGLE_H
+#define HD_TRIANGLE_H
+
+#include "scene_arguments.h"
+#include "vectors.h"
+
+/* A ray's own coordinates of a point p: across . (p - origin), upward . (p - origin) and, in units
+   of the ray's direction, forward . (p - origin). The first two axes are right-handed with the axis
+   that the ray is nearest to. */
+typedef struct {
+    Vec3 origin;
+    Vec3 across, upward, forward;
+    vmask backward; /* runs against that axis */
+} RayFrame;
+
+FN RayFrame ray_frame(Vec3 origin, Vec3 direction) {
+    vreal one = splat(R(1.0)), zero = splat(R(0.0));
+    vreal x = absolute(direction.x), y = absolute(direction.y), z = absolute(direction.z);
+    vmask is_x = le(y, x) & le(z, x), is_y = ~is_x & le(z, y);
+    vreal longest = pick(is_x, direction.x, pick(is_y, direction.y, direction.z));
+    vreal inverse = times_sign_of(reciprocal(absolute(longest)), longest);
+    Vec3 shear = vec3_scale(direction, -inverse);
+    RayFrame frame;
+    frame.origin = origin;
+    frame.backward = lt(longest, zero);
+    frame.across = vec3_pick(is_x, vec3(shear.y, one, zero),
+                             vec3_pick(is_y, vec3(zero, shear.z, one), vec3(one, zero, shear.x)));
+    frame.upward = vec3_pick(is_x, vec3(shear.z, zero, one),
+                             vec3_pick(is_y, vec3(one, shear.x, zero), vec3(zero, one, shear.y)));
+    frame.forward =
+        vec3_pick(is_x, vec3(inverse, zero, zero),
+                  vec3_pick(is_y, vec3(zero, inverse, zero), vec3(zero, zero, inverse)));
+    return frame;
+}
+
+/* Where the rays meet axis-parallel boxes: a bound b of an axis at t = b * inverse + near (or far),
+   `near` too early and `far` too late by what rounding here and in the test of a triangle may come
+   to (after Ize 2013, Robust BVH Ray Traversal). */
+typedef struct {
+    Vec3 inverse, near, far;
+    vmask negative[3]; /* runs towards the lower bound of an axis */
+} Slabs;
+
+#if HD_DOUBLE
+#define SLAB_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
+#else
+#define SLAB_MARGIN R(1.9073486328125e-6) /* 2^-19 */
+#endif
+
+FN vreal slab_inverse(vreal direction, vreal least) {
+    return times_sign_of(reciprocal(greater(absolute(direction), least)), direction);
+}
+
+/* No coordinate of a box is larger than `reach`. */
+FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
+    vreal far_out = greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z)));
+    vreal longest =
+        greater(absolute(direction.x), greater(absolute(direction.y), absolute(direction.z)));
+    vreal least = longest * R(1e-12), zero = splat(R(0.0));
+    vreal margin = (far_out + reach) * SLAB_MARGIN;
+    Slabs slabs;
+    slabs.inverse = vec3(slab_inverse(direction.x, least), slab_inverse(direction.y, least),
+                         slab_inverse(direction.z, least));
+    Vec3 start = vec3_mul(origin, slabs.inverse);
+    Vec3 slack = vec3_scale(
+        vec3(absolute(slabs.inverse.x), absolute(slabs.inverse.y), absolute(slabs.inverse.z)),
+        margin);
+    slabs.near = vec3_scale(vec3_add(start, slack), splat(R(-1.0)));
+    slabs.far = vec3_sub(slack, start);
+    slabs.negative[0] = lt(slabs.inverse.x, zero);
+    slabs.negative[1] = lt(slabs.inverse.y, zero);
+    slabs.negative[2] = lt(slabs.inverse.z, zero);
+    return slabs;
+}
+
+FN Vec3 vec3_lesser(Vec3 a, Vec3 b) {
+    return vec3(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z));
+}
+FN Vec3 vec3_greater(Vec3 a, Vec3 b) {
+    return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z));
+}
+
+/* A corner in the first two of the ray's coordinates. */
+typedef struct {
+    vreal across, upward;
+} Corner;
+
+FN Corner project_corner(const RayFrame *frame, Vec3 p) {
+    Corner corner;
+    corner.across = vec3_dot(frame->across, p);
+    corner.upward = vec3_dot(frame->upward, p);
+    return corner;
+}
+
+/* On which side of the line from a to b the ray passes; `left` and `right` are both empty where a
+   and b coincide. Returns twice the area of a, b and the ray, positive on the left up to rounding.
+   Only lanes of `m` need be right. */
+FN vreal edge_function(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
+    vreal p = a.across * b.upward, q = a.upward * b.across;
+    *left = lt(q, p);
+    *right = lt(p, q);
+    vmask tied = m & ~(*left | *right);
+    if (any_lane(tied)) {
+        vreal p_rest = multiply_add(a.across, b.upward, -p);
+        vreal q_rest = multiply_add(a.upward, b.across, -q);
+        vmask exact_left = lt(q_rest, p_rest), exact_right = lt(p_rest, q_rest);
+        vmask moved_left = lt(b.upward, a.upward), moved_right = lt(a.upward, b.upward);
+        vmask level = ~(moved_left | moved_right);
+        moved_left = moved_left | (level & lt(a.across, b.across));
+        moved_right = moved_right | (level & lt(b.across, a.across));
+        vmask through = ~(exact_left | exact_right);
+        *left = *left | (tied & (exact_left | (through & moved_left)));
+        *right = *right | (tied & (exact_right | (through & moved_right)));
+    }
+    return p - q;
+}
+
+/* Where a ray crosses a triangle. */
+typedef struct {
+    vreal t;
+    vreal a, b, c; /* shares of the corners in the point, in all 1 */
+    vmask entering;
+} TriangleCrossing;
+
+/* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
+   hierarchy, which hold that one, this makes every order of search find the same. */
+FN vmask keep_in_box(const Slabs *slabs, Vec3 a, Vec3 b, Vec3 c, vreal *t) {
+    Vec3 lower = vec3_lesser(a, vec3_lesser(b, c)), upper = vec3_greater(a, vec3_greater(b, c));
+    const vmask *negative = slabs->negative;
+    Vec3 first = vec3(pick(negative[0], upper.x, lower.x), pick(negative[1], upper.y, lower.y),
+                      pick(negative[2], upper.z, lower.z));
+    Vec3 last = vec3(pick(negative[0], lower.x, upper.x), pick(negative[1], lower.y, upper.y),
+                     pick(negative[2], lower.z, upper.z));
+    first = vec3_mul_add(first, slabs->inverse, slabs->near);
+    last = vec3_mul_add(last, slabs->inverse, slabs->far);
+    vreal near = greater(first.x, greater(first.y, first.z));
+    vreal far = lesser(last.x, lesser(last.y, last.z));
+    *t = lesser(greater(*t, near), far);
+    return le(near, far);
+}
+
+/* The lanes of `m` that cross the triangle a, b, c anywhere on their line. */
+FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3 a, Vec3 b, Vec3 c,
+                        TriangleCrossing *crossing) {
+    Vec3 from_a = vec3_sub(a, frame->origin), from_b = vec3_sub(b, frame->origin);
+    Vec3 from_c = vec3_sub(c, frame->origin);
+    Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
+    Corner at_c = project_corner(frame, from_c);
+    vmask left_a, right_a, left_b, right_b, left_c, right_c;
+    vreal area_a = edge_function(at_b, at_c, m, &left_a, &right_a);
+    vreal area_b = edge_function(at_c, at_a, m, &left_b, &right_b);
+    vmask left = m & left_a & left_b, right = m & right_a & right_b;
+    if (!any_lane(left | right))
+        return mask_none();
+    vreal area_c = edge_function(at_a, at_b, left | right, &left_c, &right_c);
+    left = left & left_c;
+    right = right & right_c;
+    vmask crosses = left | right;
+    if (!any_lane(crosses))
+        return crosses;
+    vreal area = area_a + area_b + area_c;
+    vmask too_small =
+        ~(lt(area, splat(R(0.0))) | lt(splat(R(0.0)), area)); /* one corner stands for all */
+    area_a = pick(too_small, splat(R(1.0)), area_a);
+    area = pick(too_small, splat(R(1.0)), area);
+    vreal inverse = times_sign_of(reciprocal(absolute(area)), area);
+    crossing->a = area_a * inverse;
+    crossing->b = area_b * inverse;
+    crossing->c = area_c * inverse;
+    vreal depth = multiply_add(crossing->a, vec3_dot(frame->forward, from_a),
+                               multiply_add(crossing->b, vec3_dot(frame->forward, from_b),
+                                            crossing->c * vec3_dot(frame->forward, from_c)));
+    /* Counterclockwise about the axis is met from outside by rays that run against it. */
+    crossing->entering = (left & frame->backward) | (right & ~frame->backward);
+    crossing->t = depth;
+    return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
+}
+
+#endif
