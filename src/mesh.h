@@ -61,6 +61,15 @@ HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
    one. */
 HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error);
 
+/* Of a built mesh's box: its middle, and half its longest side. */
+static inline HdVec3 hd_mesh_middle(const HdMesh *mesh) {
+    return hd_scale(hd_add(mesh->lower, mesh->upper), 0.5);
+}
+static inline double hd_mesh_half_side(const HdMesh *mesh) {
+    HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
+    return 0.5 * fmax(sides.x, fmax(sides.y, sides.z));
+}
+
 /* Frees what the mesh owns and clears it. */
 void hd_mesh_free(HdMesh *mesh);
 

@@ -38,5 +38,12 @@ void hd_scene_free(HdScene *scene) {
     free(scene->solids);
     free(scene->lights);
     hd_texture_clear(&scene->floor.texture);
+    for (int i = 0; i < scene->mesh_count; i++)
+        hd_mesh_free(&scene->meshes[i]);
+    for (int i = 0; i < scene->picture_count; i++)
+        hd_texture_clear(&scene->pictures[i]);
+    free(scene->meshes);
+    free(scene->instances);
+    free(scene->pictures);
     *scene = (HdScene){0};
 }

@@ -3,7 +3,7 @@
 #ifndef HD_MESHES_H
 #define HD_MESHES_H
 
-#include "hierarchy.h"
+#include "mesh_search.h"
 #include "intersection.h"
 
 /* Rays relative to the meshes' centre. */
@@ -151,6 +151,7 @@ FN vreal passing_share(vint octaves, vint rest) {
     share = share * splat(R(0.70710678118654752440));
     for (vint left = whole; any_lane(lt_int(splat_int(0), left)); left = left - 1)
         share = pick(lt_int(splat_int(0), left), share * splat(R(0.5)), share);
+    share = pick(lt_int(splat_int(0), octaves), share, one); /* exactly, as where nothing filters */
     return pick(lt_int(octaves, splat_int(HD_DARK_OCTAVES)), share, splat(R(0.0)));
 }
 

@@ -4,8 +4,8 @@
    Rays that run the same way share a walk through the hierarchy's nodes. Where few do, each lane's
    ray walks by itself through the wide nodes, and the lanes are a node's children and a leaf's
    triangles. What is found does not depend on the way. */
-#ifndef HD_HIERARCHY_H
-#define HD_HIERARCHY_H
+#ifndef HD_MESH_SEARCH_H
+#define HD_MESH_SEARCH_H
 
 #include "triangle.h"
 
