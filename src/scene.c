@@ -41,7 +41,7 @@ void hd_scene_free(HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         hd_mesh_free(&scene->meshes[i]);
     for (int i = 0; i < scene->picture_count; i++)
-        hd_texture_clear(&scene->pictures[i]);
+        hd_texture_clear(&scene->pictures[i].texture);
     free(scene->meshes);
     free(scene->instances);
     free(scene->pictures);

@@ -64,6 +64,11 @@ typedef struct HdFloor {
     HdTexture texture; /* width 0: none */
 } HdFloor;
 
+typedef struct HdPicture {
+    HdTexture texture;
+    bool is_clamped; /* its border goes on outwards; otherwise it repeats without end */
+} HdPicture;
+
 /* A mesh in its place: its points are scaled, then turned as solids are, then moved. */
 typedef struct HdInstance {
     int mesh; /* number in HdScene.meshes */
@@ -120,7 +125,7 @@ typedef struct HdScene {
     int instance_count;
     HdInstance *instances; /* owned */
     int picture_count;
-    HdTexture *pictures; /* owned; textures of meshes */
+    HdPicture *pictures; /* owned; textures of meshes */
 } HdScene;
 
 /* The lights on the edges of a solid whose values are valid. */

@@ -3,8 +3,8 @@
 #ifndef HD_MESHES_H
 #define HD_MESHES_H
 
-#include "mesh_search.h"
 #include "intersection.h"
+#include "mesh_search.h"
 
 /* Rays relative to the meshes' centre. */
 typedef struct {
@@ -58,10 +58,24 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     return rays;
 }
 
+FN_APART void find_closest(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
+                           int number) {
+    MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
+    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, 0);
+}
+
+FN_APART void find_filters(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
+                           int number) {
+    MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
+    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, 1);
+}
+
 FN void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
                         int number, int is_shadow) {
-    MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
-    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, is_shadow);
+    if (is_shadow)
+        find_filters(SCENE_ARGUMENTS found, world, m, number);
+    else
+        find_closest(SCENE_ARGUMENTS found, world, m, number);
 }
 
 /* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the

@@ -157,9 +157,9 @@ typedef struct ALIGNED_16 {
 
 enum { HD_OCTAVE = 1 << 24, HD_OPAQUE_OCTAVES = 41 << 24, HD_DARK_OCTAVES = 40 << 24 };
 
-/* A texture of meshes, repeated without end. */
+/* A texture of meshes: repeated without end, or its border's texels continued outwards. */
 typedef struct ALIGNED_16 {
-    int first_texel, width, height, unused;
+    int first_texel, width, height, is_clamped;
 } Picture;
 
 typedef struct ALIGNED_16 {

@@ -94,9 +94,23 @@ FN vreal repeat(vreal u, int texels) {
     return lesser(at, whole - splat(R(0.5)));
 }
 
-/* A picture that repeats. Its first column and row are stored once more after its last ones. */
+/* The same of a texture that ends. */
+FN vreal stay_within(vreal u, int texels) {
+    vreal at = multiply_add(clamp_unit(u), splat((real)texels), splat(R(-0.5)));
+    return lesser(greater(at, splat(R(0.0))), splat((real)(texels - 1)));
+}
+
+/* Behind the last column and row of a picture there is room for another: its first ones where it
+   repeats, anything where it does not. */
 FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
-    vreal x = repeat(u, picture->width), y = repeat(v, picture->height);
+    vreal x, y;
+    if (picture->is_clamped) {
+        x = stay_within(u, picture->width);
+        y = stay_within(v, picture->height);
+    } else {
+        x = repeat(u, picture->width);
+        y = repeat(v, picture->height);
+    }
     vint column = to_int(x), row = to_int(y);
     int stride = picture->width + 1;
     vint place = row * stride + column + picture->first_texel;
