@@ -36,14 +36,10 @@ static HdStatus fail_memory(const Reading *reading) {
     return hd_obj_fail_memory(&reading->memory, reading->path, reading->error);
 }
 
-/* The folder of the path with its last slash; "./" where the path has none, so that no name after
-   it is taken for more than a name. */
+/* The folder of the path with its last slash, or nothing. */
 static HdSpan folder_of(const char *path) {
-    static const char here[] = HD_MTL_HERE;
     const char *slash = strrchr(path, '/');
-    if (slash == NULL)
-        return (HdSpan){here, here + strlen(here)};
-    return (HdSpan){path, slash + 1};
+    return (HdSpan){path, slash != NULL ? slash + 1 : path};
 }
 
 static size_t span_size(HdSpan span) {
@@ -117,10 +113,9 @@ static void read_library_file(Reading *reading, const char *path, const char *na
         return;
     }
     if (hd_file_read(path, "material library", most, &bytes, &size, problem) == HD_OK) {
-        const char *text = (const char *)bytes, *slash = strrchr(name, '/');
-        const HdSpan folder = {name, slash != NULL ? slash + 1 : name};
+        const char *text = (const char *)bytes;
         reading->memory.used += size;
-        clean_library(reading, path, folder, (HdSpan){text, text + size});
+        clean_library(reading, path, folder_of(name), (HdSpan){text, text + size});
         reading->memory.used -= size;
         free(bytes);
     } else {
@@ -327,7 +322,7 @@ static HdStatus take_faces(Reading *reading, const fastObjMesh *from) {
 }
 
 static HdMtlParameters parameters_of(const fastObjMaterial *from) {
-    HdMtlParameters to = {.Ns = from->Ns, .Ni = from->Ni, .d = from->d, .illum = from->illum};
+    HdMtlParameters to = {.Ns = from->Ns, .Ni = from->Ni, .d = from->d, .illum = (int)from->Kt[0]};
     memcpy(to.Ka, from->Ka, sizeof to.Ka);
     memcpy(to.Kd, from->Kd, sizeof to.Kd);
     memcpy(to.Ks, from->Ks, sizeof to.Ks);
@@ -336,9 +331,10 @@ static HdMtlParameters parameters_of(const fastObjMaterial *from) {
     return to;
 }
 
+/* Without a folder HD_MTL_HERE stays, so that the name is taken for nothing but a file's. */
 static bool take_texture(Reading *reading, const char *path, HdMeshMaterial *to) {
     const HdSpan folder = folder_of(reading->path);
-    const char *name = path + strlen(HD_MTL_HERE);
+    const char *name = span_size(folder) > 0 ? path + strlen(HD_MTL_HERE) : path;
     to->texture = hd_obj_allocate_result(&reading->memory, span_size(folder) + strlen(name) + 1, 1);
     if (to->texture != NULL)
         join(to->texture, folder, name);

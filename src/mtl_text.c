@@ -66,7 +66,7 @@ static void start_material(Cleaner *cleaner, HdSpan line) {
     }
     add_text(cleaner, "newmtl ");
     add(cleaner, name);
-    add_text(cleaner, "\nillum -1\nNs 64\n");
+    add_text(cleaner, "\nKt -1 0 0\nNs 64\n");
 }
 
 /* Reads up to `most` numbers; 0, after a note: they are not all right. */
@@ -140,7 +140,7 @@ static void keep_illum(Cleaner *cleaner, HdSpan line) {
              hd_span_shown(word), word.begin, (int)MOST_ILLUM);
         return;
     }
-    snprintf(text, sizeof text, "illum %d\n", (int)value);
+    snprintf(text, sizeof text, "Kt %d 0 0\n", (int)value);
     add_text(cleaner, text);
 }
 

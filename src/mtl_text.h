@@ -20,8 +20,9 @@ typedef struct HdMtlSource {
     HdSpan text;
 } HdMtlSource;
 
-/* Makes the text for fast_obj, of which `*size` bytes are the memory's. Materials start with
-   HD_MTL_NO_ILLUM and a shininess of 64; Tr becomes d; names of textures count from the OBJ file's
+/* Makes the text for fast_obj, of which `*size` bytes are the memory's. `illum` stands as the first
+   number of Kt, since fast_obj reads every illum as 0. Materials start with HD_MTL_NO_ILLUM and a
+   shininess of 64; Tr becomes d; names of textures count from the OBJ file's
    folder and begin with HD_MTL_HERE. What is left out is told in `notes`, each kind of statement
    once. NULL: the memory does not suffice. */
 char *hd_mtl_clean(const HdMtlSource *source, HdObjMemory *memory, HdProblems *notes, size_t *size);
