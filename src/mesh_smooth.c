@@ -83,8 +83,8 @@ static bool find_places(Smoother *smoother) {
         const HdVec3 point = without_negative_zero(mesh->vertices[i]);
         size_t slot = hd_hash_bytes(HD_HASH_START, &point, sizeof point) & (slots - 1);
         while (table[slot] >= 0) {
-            const HdVec3 other = without_negative_zero(mesh->vertices[table[slot]]);
-            if (memcmp(&point, &other, sizeof point) == 0)
+            const HdVec3 other = mesh->vertices[table[slot]];
+            if (point.x == other.x && point.y == other.y && point.z == other.z)
                 break;
             slot = (slot + 1) & (slots - 1);
         }

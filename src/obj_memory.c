@@ -66,8 +66,9 @@ size_t hd_obj_block_size(const void *block) {
 void hd_obj_release(HdObjMemory *memory, void *block) {
     if (block == NULL)
         return;
-    unlink_block(memory, block_of(block));
-    free(block_of(block));
+    HdObjBlock *own = block_of(block);
+    unlink_block(memory, own);
+    free(own);
 }
 
 void *hd_obj_allocate_result(HdObjMemory *memory, size_t count, size_t size) {
@@ -88,6 +89,11 @@ HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError
 }
 
 void hd_obj_release_all(HdObjMemory *memory) {
-    while (memory->blocks != NULL)
-        hd_obj_release(memory, memory->blocks->contents);
+    HdObjBlock *next;
+    for (HdObjBlock *block = memory->blocks; block != NULL; block = next) {
+        next = block->next;
+        memory->used -= block->bytes;
+        free(block);
+    }
+    memory->blocks = NULL;
 }

@@ -15,9 +15,6 @@ typedef struct Ring {
     bool is_ear[HD_MAX_CONCAVE_CORNERS];
 } Ring;
 
-/* How often all corners are looked at anew when no ear is known. */
-enum { MOST_LOOKS = 8 };
-
 /* Newell's: twice the area, as a normal; right for corners in one plane, a mean for others. */
 static HdVec3 normal_of(const HdVec3 *corners, int count) {
     HdVec3 sum = {0.0, 0.0, 0.0};
@@ -49,22 +46,20 @@ static double turn(Point a, Point b, Point c) {
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal, int first) {
-    const Point tip = project(corners[first], normal);
-    for (int i = 1; i + 1 < count; i++) {
-        const Point b = project(corners[(first + i) % count], normal);
-        const Point c = project(corners[(first + i + 1) % count], normal);
-        if (!(turn(tip, b, c) > 0.0))
+/* Whether the triangles from the first corner cover the polygon. */
+static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal) {
+    const Point tip = project(corners[0], normal);
+    for (int i = 1; i + 1 < count; i++)
+        if (!(turn(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
             return false;
-    }
     return true;
 }
 
-static void cut_fan(int count, int first, int32_t (*triangles)[3]) {
+static void cut_fan(int count, int32_t (*triangles)[3]) {
     for (int i = 1; i + 1 < count; i++) {
-        triangles[i - 1][0] = first;
-        triangles[i - 1][1] = (first + i) % count;
-        triangles[i - 1][2] = (first + i + 1) % count;
+        triangles[i - 1][0] = 0;
+        triangles[i - 1][1] = i;
+        triangles[i - 1][2] = i + 1;
     }
 }
 
@@ -95,25 +90,14 @@ static void look_for_ear(Ring *ring, int corner) {
                            !has_inside(ring, ring->last[corner], corner, ring->next[corner]);
 }
 
-static void look_at_all(Ring *ring, int from) {
+/* A corner to cut off: an ear, or, where there is none, as of what crosses itself, `from`. */
+static int find_ear(const Ring *ring, int from) {
     int i = from;
     do {
-        look_for_ear(ring, i);
-        i = ring->next[i];
-    } while (i != from);
-}
-
-/* A corner to cut off: an ear, or, where there is none, `from` itself. */
-static int find_ear(const Ring *ring, int from, bool *is_found) {
-    int i = from;
-    do {
-        if (ring->is_ear[i]) {
-            *is_found = true;
+        if (ring->is_ear[i])
             return i;
-        }
         i = ring->next[i];
     } while (i != from);
-    *is_found = false;
     return from;
 }
 
@@ -140,32 +124,26 @@ static void fill_ring(Ring *ring, const HdVec3 *corners, int count, HdVec3 norma
     }
     for (int i = 0; i < count; i++)
         look_at_bend(ring, i);
-    look_at_all(ring, 0);
+    for (int i = 0; i < count; i++)
+        look_for_ear(ring, i);
 }
 
 static void cut_ears(const HdVec3 *corners, int count, HdVec3 normal, int32_t (*triangles)[3]) {
     Ring ring;
-    int at = 0, looks = 0;
+    int at = 0;
     fill_ring(&ring, corners, count, normal);
     for (int i = 0; i < count - 2; i++) {
-        bool is_found;
-        at = find_ear(&ring, at, &is_found);
-        if (!is_found && looks++ < MOST_LOOKS) {
-            look_at_all(&ring, at);
-            at = find_ear(&ring, at, &is_found);
-        }
+        at = find_ear(&ring, at);
         cut_off(&ring, at, triangles[i]);
-        at = ring.next[at]; /* the ring's: the corner that was cut off still knows its neighbour */
+        at = ring.next[at]; /* the ring's: what was cut off still knows its neighbours */
     }
 }
 
 bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]) {
     const HdVec3 normal = normal_of(corners, count);
-    for (int first = 0; first < 2; first++) {
-        if (count == 3 || is_fan(corners, count, normal, first)) {
-            cut_fan(count, first, triangles);
-            return true;
-        }
+    if (count == 3 || is_fan(corners, count, normal)) {
+        cut_fan(count, triangles);
+        return true;
     }
     if (count > HD_MAX_CONCAVE_CORNERS)
         return false;

@@ -333,10 +333,10 @@ static void polygons_become_triangles(void **state) {
     const int32_t materials[5] = {0, 0, 1, 1, 1};
     assert_memory_equal(mesh.material_of, materials, sizeof materials);
     hd_mesh_free(&mesh);
-    /* The quadrilateral begins at its inner corner's neighbour: the other diagonal. */
+    /* The quadrilateral begins beside its inner corner: the other diagonal. */
     mesh = read_text("v 4 -2 0\nv 1 0 0\nv 4 2 0\nv 0 0 0\nf 1 2 3 4\n");
-    expect_corners(&mesh, 0, 1, 2, 3);
-    expect_corners(&mesh, 1, 1, 3, 0);
+    expect_corners(&mesh, 0, 3, 0, 1);
+    expect_corners(&mesh, 1, 3, 1, 2);
     hd_mesh_free(&mesh);
 
     static char text[100000];
@@ -527,6 +527,8 @@ static void what_is_not_used_is_noted(void **state) {
                 "a.mtl: line 3: d has '-halo', expected a decimal number; the line is left out");
     expect_note("illum 99999999999",
                 "a.mtl: line 3: illum is '99999999999', expected 0 to 10; the line is left out");
+    expect_note("illum 11", "a.mtl: line 3: illum is '11', expected 0 to 10; the line is left out");
+    expect_note("illum -1", "a.mtl: line 3: illum is '-1', expected 0 to 10; the line is left out");
     expect_note("illum x", "a.mtl: line 3: illum is 'x', expected 0 to 10; the line is left out");
     expect_note("illum 1.5",
                 "a.mtl: line 3: illum is '1.5', expected 0 to 10; the line is left out");
@@ -648,6 +650,10 @@ static void libraries_stay_in_the_folder(void **state) {
     assert_int_equal(notes.count, 1);
     hd_mesh_free(&mesh);
 
+    mesh = read_text("mtllib none.mtl\nmtllib none.mtl\n" TRIANGLE "f 1 2 3\n");
+    assert_int_equal(notes.count, 2); /* the other is that the default look is taken */
+    hd_mesh_free(&mesh);
+
     static char many[8192];
     size_t used = 0;
     for (int i = 0; i < 65; i++)
@@ -681,6 +687,7 @@ static void textures_stay_in_the_folder(void **state) {
     expect_texture_note("a/..", "a name in this file's folder or below it");
     expect_texture_note("", "a name");
     expect_texture_note("a\x1b.png", "a name without control characters");
+    expect_texture_note("a\x7f.png", "a name without control characters");
     expect_texture_note("-s 1 1 1 a.png", "a name without options before it");
     /* Neither the home folder nor a texture of the program. */
     static const char *const names[] = {"~/a.png", "builtin:floor", "..a/b..png", "a..b"};
@@ -699,6 +706,19 @@ static void textures_stay_in_the_folder(void **state) {
     HdMesh mesh = read_text("mtllib -dash/a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
     assert_string_equal(mesh.materials[0].texture, "./-dash/b.png");
     hd_mesh_free(&mesh);
+}
+
+static void files_are_closed(void **state) {
+    (void)state;
+    const int before = dup(0);
+    close(before);
+    write_text("a.mtl", "newmtl m\n");
+    HdMesh mesh = read_text("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n");
+    hd_mesh_free(&mesh);
+    expect_refused("f", "a.obj: line 1: a face has 0 corners, expected at least 3");
+    const int after = dup(0);
+    close(after);
+    assert_int_equal(after, before);
 }
 
 /* Every limit ends in the error or in a mesh, and there is one from which on there is a mesh. */
@@ -853,6 +873,7 @@ int main(void) {
         cmocka_unit_test(too_many_materials_are_refused),
         cmocka_unit_test(libraries_stay_in_the_folder),
         cmocka_unit_test(textures_stay_in_the_folder),
+        cmocka_unit_test(files_are_closed),
         cmocka_unit_test(memory_is_limited),
         cmocka_unit_test(hostile_files_do_no_harm),
     };

@@ -32,11 +32,20 @@ static void set_outline(const double (*outline)[2], int count, int turn, bool is
     }
 }
 
+/* Begins the outline at another corner. */
+static void rotate(int count, int first) {
+    static HdVec3 old[MOST];
+    memcpy(old, corners, (size_t)count * sizeof *corners);
+    for (int i = 0; i < count; i++)
+        corners[i] = old[(i + first) % count];
+}
+
 /* Every triangle has the polygon's sense, and all together its area: so they do not overlap. */
-static void expect_cut(const double (*outline)[2], int count, double area) {
+static void expect_cut_from(const double (*outline)[2], int count, int first, double area) {
     for (int turn = 0; turn < 3; turn++) {
         for (int way = 0; way < 2; way++) {
             set_outline(outline, count, turn, way == 1);
+            rotate(count, first);
             assert_true(hd_polygon_cut(corners, count, triangles));
             expect_near(area_of(count - 2), area * sqrt(1.01), 1e-12 * area);
             for (int i = 0; i < count - 2; i++) {
@@ -48,6 +57,11 @@ static void expect_cut(const double (*outline)[2], int count, double area) {
             }
         }
     }
+}
+
+static void expect_cut(const double (*outline)[2], int count, double area) {
+    for (int first = 0; first < count && first < 20; first++)
+        expect_cut_from(outline, count, first, area);
 }
 
 #define expect_cut_of(outline, area)                                                               \
@@ -70,13 +84,8 @@ static void convex_polygons_become_fans(void **state) {
 
 static void concave_quadrilaterals_are_cut_within(void **state) {
     (void)state;
-    for (int first = 0; first < 4; first++) {
-        const double arrow[4][2] = {{0, 0}, {4, -2}, {1, 0}, {4, 2}};
-        double turned[4][2];
-        for (int i = 0; i < 4; i++)
-            memcpy(turned[i], arrow[(first + i) % 4], sizeof *arrow);
-        expect_cut_of(turned, 2.0);
-    }
+    const double arrow[4][2] = {{0, 0}, {4, -2}, {1, 0}, {4, 2}};
+    expect_cut_of(arrow, 2.0);
 }
 
 static void concave_polygons_lose_their_ears(void **state) {
@@ -87,11 +96,15 @@ static void concave_polygons_lose_their_ears(void **state) {
     /* A square with a square hole, to which a bridge leads: two places come up twice. */
     const double with_hole[10][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
                                      {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
+    /* A bridge that meets its hole at a sharp angle: one of the two at its end bends inwards. */
+    const double askew[10][2] = {{0, 8}, {0, 0}, {8, 0}, {8, 8}, {0, 8},
+                                 {3, 1}, {3, 3}, {5, 3}, {5, 1}, {3, 1}};
     /* A corner in the middle of a side: no triangle may be flat. */
     const double with_middle[5][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
     expect_cut_of(letter_u, 7.0);
     expect_cut_of(spiral, 31.0);
     expect_cut_of(with_hole, 12.0);
+    expect_cut_of(askew, 60.0);
     expect_cut_of(with_middle, 4.0);
 }
 
@@ -109,6 +122,25 @@ static double make_star(int count, double (*outline)[2]) {
         area += (a[0] * b[1] - a[1] * b[0]) / 2.0;
     }
     return area;
+}
+
+/* A band that winds outwards: hardly any corner is an ear at a time. */
+static void long_spirals_are_cut(void **state) {
+    (void)state;
+    enum { STEPS = 120, COUNT = 2 * STEPS };
+    double outline[COUNT][2], area = 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        const double angle = i * 0.4, radius = 2.0 + 0.3 * angle;
+        outline[i][0] = radius * cos(angle);
+        outline[i][1] = radius * sin(angle);
+        outline[COUNT - 1 - i][0] = (radius - 0.8) * cos(angle);
+        outline[COUNT - 1 - i][1] = (radius - 0.8) * sin(angle);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const double *a = outline[i], *b = outline[(i + 1) % COUNT];
+        area += (a[0] * b[1] - a[1] * b[0]) / 2.0;
+    }
+    expect_cut((const double(*)[2])outline, COUNT, area);
 }
 
 static void large_polygons_have_a_limit(void **state) {
@@ -161,6 +193,7 @@ int main(void) {
         cmocka_unit_test(convex_polygons_become_fans),
         cmocka_unit_test(concave_quadrilaterals_are_cut_within),
         cmocka_unit_test(concave_polygons_lose_their_ears),
+        cmocka_unit_test(long_spirals_are_cut),
         cmocka_unit_test(large_polygons_have_a_limit),
         cmocka_unit_test(rubbish_is_cut_somehow),
     };
