@@ -96,15 +96,19 @@ static void concave_polygons_lose_their_ears(void **state) {
     /* A square with a square hole, to which a bridge leads: two places come up twice. */
     const double with_hole[10][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
                                      {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
-    /* A bridge that meets its hole at a sharp angle: one of the two at its end bends inwards. */
-    const double askew[10][2] = {{0, 8}, {0, 0}, {8, 0}, {8, 8}, {0, 8},
-                                 {3, 1}, {3, 3}, {5, 3}, {5, 1}, {3, 1}};
+    /* A bridge whose ends bend inwards. */
+    const double bridged[13][2] = {{0, 0},   {2, 24}, {19, 5}, {20, 1},  {18, 11},
+                                   {10, 17}, {3, 25}, {6, 22}, {10, 17}, {18, 11},
+                                   {30, 0},  {0, 30}, {1, 14}};
     /* A corner in the middle of a side: no triangle may be flat. */
     const double with_middle[5][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
+    const double u_with_middle[9][2] = {{0, 0}, {1.5, 0}, {3, 0}, {3, 3}, {2, 3},
+                                        {2, 1}, {1, 1},   {1, 3}, {0, 3}};
     expect_cut_of(letter_u, 7.0);
+    expect_cut_of(u_with_middle, 7.0);
     expect_cut_of(spiral, 31.0);
     expect_cut_of(with_hole, 12.0);
-    expect_cut_of(askew, 60.0);
+    expect_cut_of(bridged, 106.0);
     expect_cut_of(with_middle, 4.0);
 }
 
