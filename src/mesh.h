@@ -34,7 +34,7 @@ typedef struct HdMeshMaterial {
 typedef struct HdMesh {
     int vertex_count, normal_count, uv_count, triangle_count, material_count;
     HdVec3 *vertices;
-    HdVec3 *normals;       /* need not be unit; NULL: there are none */
+    HdVec3 *normals;       /* need not be unit, but those of corners are not 0; NULL: none */
     double (*uvs)[2];      /* (0, 0) is the texture's lower left corner; NULL: there are none */
     int32_t (*corners)[3]; /* of each triangle, into vertices */
     int32_t (*corner_normals)[3]; /* into normals, -1: flat; NULL with `normals` */
@@ -49,12 +49,15 @@ typedef struct HdMesh {
 } HdMesh;
 
 /* Leaves out triangles that have no area: two corners at one place, or all three on a line up to
-   rounding, and counts them. */
+   the rounding of their coordinates, and counts them. Vertices that no triangle names stay. */
 void hd_mesh_drop_degenerate(HdMesh *mesh);
 
 /* The average of the normals of the triangles about each vertex, weighted by their angle there
-   (Thuermer and Wuethrich 1998), as the mesh's normals. Vertices at one place count as one. Where
-   the triangles meet at more than `crease_degrees` the surface keeps its edge. */
+   (Thuermer and Wuethrich 1998), as the mesh's normals in place of those that it had. Vertices at
+   one place count as one. Where two triangles with a common edge meet at more than `crease_degrees`
+   (0..180) the surface keeps that edge; triangles that share a place alone do not count for each
+   other. Triangles without an area stay flat. The bytes depend on the mesh alone. HD_FAILED where
+   there is too little memory; the mesh is then as it was. */
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
 
 /* Finds the box and builds the hierarchy over the triangles of a finished mesh, which has at least
