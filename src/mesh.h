@@ -17,12 +17,14 @@ enum {
 };
 
 /* What the triangles of one material look like. `texture` is the path of a picture, owned; NULL:
-   none. Its colour is multiplied by the texture's. */
+   none. Its colour is multiplied by the texture's. `passes_as` is the number of the material in the
+   same mesh by whose transmission and colour shadow rays are let through; -1: its own. */
 typedef struct HdMeshMaterial {
     char *name; /* owned; for messages and to be replaced by name */
     HdMaterial material;
     HdVec3 emission; /* radiance of the surface's own */
     char *texture;
+    int passes_as;
 } HdMeshMaterial;
 
 /* Corners run counterclockwise as seen from the outer side. All arrays are owned. */
