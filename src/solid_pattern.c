@@ -5,6 +5,10 @@
 
 #include "trigonometry.h"
 
+/* The least rim and the least side of a disc or of what a rim leaves of a face: smaller ones could
+   hardly be told from points that are one. */
+#define LEAST_LENGTH (10.0 * HD_SAME_PLACE)
+
 enum { MOST_CORNERS = HD_MAX_DISC_SIDES + 2 }; /* each of two cuts adds at most one */
 
 typedef struct Polygon {
@@ -99,11 +103,14 @@ static void prepare_discs(HdPattern *pattern, int sides) {
 void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides) {
     /* Discs of two circumradii cover everything, and so do their polygons of twice that. */
     static const double largest = 4.0;
-    *pattern = (HdPattern){.rim_width = solid->rim_width / solid->circumradius,
-                           .per_edge = solid->lights.per_edge,
-                           .colour_count = solid->lights.colour_count};
-    if (solid->lights.per_edge > 0)
-        pattern->disc_radius = fmin(solid->lights.disc_radius / solid->circumradius, largest);
+    double rim = solid->rim_width / solid->circumradius;
+    double disc = fmin(solid->lights.disc_radius / solid->circumradius, largest);
+    *pattern =
+        (HdPattern){.per_edge = solid->lights.per_edge, .colour_count = solid->lights.colour_count};
+    if (rim > LEAST_LENGTH)
+        pattern->rim_width = rim;
+    if (solid->lights.per_edge > 0 && disc * 2.0 * HD_PI / disc_sides > LEAST_LENGTH)
+        pattern->disc_radius = disc;
     hd_platonic(solid->kind, &pattern->shape);
     hd_platonic_rotate(&pattern->shape, solid->rotation_degrees);
     for (int f = 0; f < pattern->shape.face_count; f++)
@@ -232,7 +239,7 @@ static HdStatus add_polygon(const HdFace *face, const Polygon *polygon, HdNetwor
 static HdStatus add_inset(const HdFace *face, double width, HdNetwork *network, HdError *error) {
     Polygon inset = {.count = face->side_count};
     double left = 1.0 - width / hd_face_depth(face, 0, (HdVec2){0.0, 0.0});
-    if (!(width > 0.0 && left > 0.0))
+    if (!(width > 0.0 && left > LEAST_LENGTH))
         return HD_OK;
     for (int i = 0; i < face->side_count; i++)
         inset.corner[i] = (HdVec2){left * face->corner[i].x, left * face->corner[i].y};

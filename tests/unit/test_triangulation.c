@@ -9,6 +9,9 @@
 static const char *const kind_names[] = {"tetrahedron", "hexahedron", "octahedron", "dodecahedron",
                                          "icosahedron"};
 
+/* Of what is drawn on a face, in circumradii. */
+static const double least_length = 1e-8;
+
 /* In units of the circumradius. */
 typedef struct Pattern {
     double rim_width, disc_radius;
@@ -30,7 +33,7 @@ static const Pattern patterns[] = {
     {0.05, 0.6, 3, 30},   /* and overlap */
     {0.05, 5.0, 3, 30},   /* discs that cover the whole solid */
     {0.04, 0.009, 50, 3}, /* many */
-    {1e-7, 1e-7, 2, 2},   /* hardly to be seen */
+    {1e-6, 1e-6, 2, 2},   /* hardly to be seen */
     {1e-10, 1e-10, 2, 2}, /* not to be told from nothing */
 };
 enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
@@ -209,11 +212,12 @@ static void expect_areas(const HdMesh *mesh, const HdSolid *solid, const Pattern
         rim += is_disc && mesh->materials[m].passes_as == HD_SOLID_MATERIAL_RIM ? areas[m] : 0.0;
     }
     expect_near(all, surface, 1e-12 * surface);
-    expect_near(rim, surface * rim_share(&shape, pattern->rim_width), 3e-9 * surface);
+    double width = pattern->rim_width > least_length ? pattern->rim_width : 0.0;
+    expect_near(rim, surface * rim_share(&shape, width), 1e-12 * surface);
     if (discs_are_apart(&shape, pattern)) {
         double radius = pattern->disc_radius;
-        int count = radius > 1e-9 ? shape.edge_count * pattern->per_edge : 0;
-        expect_near(discs, unit * count * acos(-1.0) * radius * radius, 1e-9 * surface);
+        int count = radius > least_length ? shape.edge_count * pattern->per_edge : 0;
+        expect_near(discs, unit * count * acos(-1.0) * radius * radius, 1e-12 * surface);
     }
 }
 
@@ -238,69 +242,104 @@ static void expect_materials(const HdMesh *mesh, const HdSolid *solid, bool has_
     }
 }
 
-/* The kernels' rule (surface.h), for a point relative to the centre, with other widths than the
-   solid's. */
-static int material_by_rule(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
-                            double rim_width, double disc_radius) {
+/* What the kernels' rule (surface.h) says of a point relative to the centre. */
+typedef struct Shown {
+    int edge; /* whose disc is seen; -1: none */
+    int on_rim;
+} Shown;
+
+/* With other widths than the solid's. */
+static Shown by_rule(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
+                     double rim_width, double disc_radius) {
     double nearest = -HUGE_VAL;
     for (int f = 0; f < shape->face_count; f++)
         if (f != face)
             nearest = fmax(nearest, hd_dot(shape->face_normal[f], point) -
                                         shape->inradius * solid->circumradius);
-    int on_rim = rim_width > 0.0 && -rim_width * shape->sine_of_dihedral < nearest;
-    int material = on_rim ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE;
+    Shown shown = {-1, rim_width > 0.0 && -rim_width * shape->sine_of_dihedral < nearest};
     int count = solid->lights.per_edge;
     if (count == 0 || !(-disc_radius * shape->sine_of_dihedral < nearest))
-        return material;
-    double half = 0.5 * shape->edge_length * solid->circumradius;
+        return shown;
+    double length = shape->edge_length * solid->circumradius;
     for (int e = 0; e < shape->edge_count; e++) {
         HdVec3 a = hd_scale(shape->vertex[shape->edge[e].vertex[0]], solid->circumradius);
         HdVec3 b = hd_scale(shape->vertex[shape->edge[e].vertex[1]], solid->circumradius);
         HdVec3 direction = hd_normalize(hd_sub(b, a));
         double along = hd_dot(hd_sub(point, a), direction);
-        double cell = fmin(fmax(floor(along / (2.0 * half) * count), 0.0), count - 1.0);
-        HdVec3 light = hd_add(a, hd_scale(direction, (cell + 0.5) / count * 2.0 * half));
+        double cell = fmin(fmax(floor(along / length * count), 0.0), count - 1.0);
+        HdVec3 light = hd_add(a, hd_scale(direction, (cell + 0.5) / count * length));
         if (hd_length(hd_sub(point, light)) < disc_radius)
-            material = HD_SOLID_MATERIAL_DISCS + 2 * (e % solid->lights.colour_count) + on_rim;
+            shown.edge = e;
     }
-    return material;
+    return shown;
 }
 
-/* Random points of the triangles, but those so near to a border that a polygon of this many sides
-   may be on the other side of it than the disc; that is few points. */
-static void expect_rule(const HdMesh *mesh, const HdSolid *solid, double vagueness) {
+/* Whether somewhat larger or smaller discs and rims would show another edge's disc or rim there;
+   a polygon lies between two such discs. */
+static bool is_near_a_border(const HdSolid *solid, const HdPlatonic *shape, int face, HdVec3 point,
+                             double vagueness) {
+    double rim = solid->rim_width, disc = solid->lights.disc_radius;
+    Shown shown = by_rule(solid, shape, face, point, rim, disc);
+    for (int k = 0; k < 4; k++) {
+        double change = k & 1 ? vagueness : -vagueness, shift = k & 2 ? 3e-9 : -3e-9;
+        Shown other = by_rule(solid, shape, face, point, rim > 0.0 ? rim + shift : 0.0,
+                              disc * (1.0 + change) + shift);
+        if (other.edge != shown.edge || other.on_rim != shown.on_rim)
+            return true;
+    }
+    return false;
+}
+
+static HdVec3 random_point(const HdMesh *mesh, int triangle) {
+    double s = random_share(), u = random_share();
+    HdVec3 a = corner_of(mesh, triangle, 0);
+    HdVec3 to_b = hd_sub(corner_of(mesh, triangle, 1), a);
+    HdVec3 to_c = hd_sub(corner_of(mesh, triangle, 2), a);
+    if (s + u > 1.0) {
+        s = 1.0 - s;
+        u = 1.0 - u;
+    }
+    return hd_add(a, hd_add(hd_scale(to_b, s), hd_scale(to_c, u)));
+}
+
+/* How far the border of a regular polygon is from that of a disc of radius 1 with its area. */
+static double off_disc(int sides) {
+    double part = acos(-1.0) / sides, corner = sqrt(2.0 * part / sin(2.0 * part));
+    return fmax(corner - 1.0, 1.0 - corner * cos(part));
+}
+
+/* Random points of the triangles, but those so near to a border that a polygon may be on the other
+   side of it than the disc; that is few points. */
+static void expect_rule(const HdMesh *mesh, const HdSolid *solid, int disc_sides) {
+    enum { POINTS = 2000 };
     HdPlatonic shape;
+    double vagueness = 1.1 * off_disc(disc_sides);
     hd_platonic(solid->kind, &shape);
     hd_platonic_rotate(&shape, solid->rotation_degrees);
-    double rim = solid->rim_width, disc = solid->lights.disc_radius, all = 0.0, vague = 0.0;
-    for (int i = 0; i < 3 * mesh->triangle_count; i++) {
-        int t = i % mesh->triangle_count, face = mesh->group_of[t] - 1;
-        double s = random_share(), u = random_share();
-        HdVec3 a = corner_of(mesh, t, 0);
-        HdVec3 to_b = hd_sub(corner_of(mesh, t, 1), a), to_c = hd_sub(corner_of(mesh, t, 2), a);
-        if (s + u > 1.0) {
-            s = 1.0 - s;
-            u = 1.0 - u;
-        }
-        HdVec3 point = hd_add(a, hd_add(hd_scale(to_b, s), hd_scale(to_c, u)));
-        int expected = material_by_rule(solid, &shape, face, point, rim, disc);
-        bool is_vague = false;
-        for (int k = 0; k < 4; k++) {
-            double change = k & 1 ? vagueness : -vagueness, shift = k & 2 ? 3e-9 : -3e-9;
-            is_vague = is_vague ||
-                       material_by_rule(solid, &shape, face, point, rim > 0.0 ? rim + shift : 0.0,
-                                        disc * (1.0 + change) + shift) != expected;
-        }
+    double all = 0.0, vague = 0.0;
+    for (int i = 0; i < POINTS; i++) {
+        int t = (int)(random_share() * mesh->triangle_count), face = mesh->group_of[t] - 1;
         double area = hd_length(area_vector(mesh, t));
+        HdVec3 point = random_point(mesh, t);
         all += area;
-        vague += is_vague ? area : 0.0;
-        if (!is_vague && mesh->material_of[t] != expected)
+        if (is_near_a_border(solid, &shape, face, point, vagueness)) {
+            vague += area;
+            continue;
+        }
+        Shown shown =
+            by_rule(solid, &shape, face, point, solid->rim_width, solid->lights.disc_radius);
+        int disc = HD_SOLID_MATERIAL_DISCS + 2 * (shown.edge % solid->lights.colour_count);
+        int expected = shown.edge >= 0 ? disc + shown.on_rim
+                       : shown.on_rim  ? HD_SOLID_MATERIAL_RIM
+                                       : HD_SOLID_MATERIAL_FACE;
+        if (mesh->material_of[t] != expected)
             fail_msg("%s, rim %g, discs %g, %d an edge: triangle %d of face %d has material %d, "
                      "expected %d",
-                     kind_names[solid->kind], rim, disc, solid->lights.per_edge, t, face,
-                     mesh->material_of[t], expected);
+                     kind_names[solid->kind], solid->rim_width, solid->lights.disc_radius,
+                     solid->lights.per_edge, t, face, mesh->material_of[t], expected);
     }
-    assert_true(vague < 0.1 * all);
+    if (!(vague < 0.25 * all))
+        fail_msg("%g of %g is too near to borders", vague, all);
 }
 
 static void for_every_solid(void (*expect)(const HdSolid *solid, const Pattern *pattern)) {
@@ -316,8 +355,8 @@ static void expect_sound(const HdSolid *solid, const Pattern *pattern) {
     expect_closed(&mesh);
     expect_on_faces(&mesh, solid);
     expect_areas(&mesh, solid, pattern);
-    expect_materials(&mesh, solid, pattern->per_edge > 0 && pattern->disc_radius > 0.0);
-    if (mesh.triangle_count < 5000)
+    expect_materials(&mesh, solid, pattern->per_edge > 0 && pattern->disc_radius > least_length);
+    if (mesh.triangle_count < 2000)
         expect_no_corner_within_an_edge(&mesh);
     hd_mesh_free(&mesh);
 }
@@ -330,10 +369,10 @@ static void test_closed_and_as_large_as_the_solid(void **state) {
 static void expect_material_of_points(const HdSolid *solid, const Pattern *pattern) {
     (void)pattern;
     HdMesh mesh = triangulate(solid, 16, 1);
-    expect_rule(&mesh, solid, 0.02);
+    expect_rule(&mesh, solid, 16);
     hd_mesh_free(&mesh);
     mesh = triangulate(solid, 64, 1);
-    expect_rule(&mesh, solid, 0.002);
+    expect_rule(&mesh, solid, 64);
     hd_mesh_free(&mesh);
 }
 
@@ -346,14 +385,16 @@ static void test_materials_follow_the_rule_of_the_kernels(void **state) {
 static void test_any_lengths(void **state) {
     (void)state;
     for (int i = 0; i < 300; i++) {
-        Pattern pattern = {0.3 * random_share() * random_share(), 0.5 * pow(random_share(), 3.0),
-                           (int)(1.0 + 7.0 * random_share()), (int)(1.0 + 29.0 * random_share())};
+        Pattern pattern = {0.3 * random_share() * random_share(),
+                           1e-7 + 0.5 * pow(random_share(), 3.0), (int)(1.0 + 7.0 * random_share()),
+                           (int)(1.0 + 29.0 * random_share())};
         HdSolid solid = solid_with((HdSolidKind)(i % HD_SOLID_KIND_COUNT), &pattern);
-        HdMesh mesh = triangulate(&solid, 8 + 2 * (i % 7), 1);
+        int sides = 8 + 2 * (i % 7);
+        HdMesh mesh = triangulate(&solid, sides, 1);
         expect_closed(&mesh);
         expect_on_faces(&mesh, &solid);
         expect_areas(&mesh, &solid, &pattern);
-        expect_rule(&mesh, &solid, 0.06);
+        expect_rule(&mesh, &solid, sides);
         hd_mesh_free(&mesh);
     }
 }
@@ -398,7 +439,7 @@ static void test_divisions(void **state) {
             expect_on_faces(&fine, &solid);
             measure(&fine, fine_areas);
             for (int m = 0; m < coarse.material_count; m++)
-                expect_near(fine_areas[m], areas[m], 1e-12);
+                expect_near(fine_areas[m], areas[m], 1e-11);
             for (int t = 0; t < fine.triangle_count; t++) {
                 int parent = t / (n * n);
                 expect_near(hd_length(area_vector(&fine, t)) * n * n,
@@ -444,7 +485,7 @@ static void test_bad_numbers(void **state) {
     expect_refused(258, 1, "discs have 258 sides, expected an even number from 8 to 256");
     expect_refused(16, 0, "divisions are 0, expected at least 1");
     expect_refused(16, 3000,
-                   "2580 triangles divided into 3000 x 3000 each are too many, expected at most "
+                   "2364 triangles divided into 3000 x 3000 each are too many, expected at most "
                    "100000000 together");
     expect_refused(16, INT32_MAX,
                    "1 triangles divided into 2147483647 x 2147483647 each are too many, expected "
