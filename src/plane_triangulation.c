@@ -176,15 +176,17 @@ static Side nearest_edge(const Work *work, int t, int point, double *distance) {
 }
 
 /* Finds the triangle that a point lies in, and its edge that is the nearest to it. A walk towards
-   the point comes to an end, as the triangles are Delaunay's. */
+   the point comes to an end, as the triangles are Delaunay's; it would only go back over an edge
+   that the point is on up to rounding. */
 static bool find_point(const Work *work, int point, Side *nearest, double *distance) {
-    static const double rounding = 1e-14;
-    int t = work->last;
-    for (int moves = 0; moves < 4 * work->count && t >= 0; moves++) {
+    int t = work->last, from = -1;
+    for (int moves = 0; moves < 4 * work->count; moves++) {
         *nearest = nearest_edge(work, t, point, distance);
-        if (*distance >= -rounding)
+        int beyond = work->triangles[t].beyond[nearest->edge];
+        if (*distance >= 0.0 || beyond < 0 || beyond == from)
             return true;
-        t = work->triangles[t].beyond[nearest->edge];
+        from = t;
+        t = beyond;
     }
     return false;
 }
@@ -205,9 +207,8 @@ static void split_triangle(Work *work, int t, int point) {
     settle(work, point, 3);
 }
 
-/* Splits one of the triangles beside an edge a-b: a, b, c becomes a, p, c, which keeps its number,
-   and p, b, c. */
-static int split_beside(Work *work, Side side, int point) {
+/* Of a, b, c, whose edge a-b is a part of the polygon's side, become a, p, c and p, b, c. */
+static void split_side(Work *work, Side side, int point) {
     Triangle old = work->triangles[side.triangle];
     int i = side.edge, t = side.triangle, u = work->count++;
     int a = old.corner[i], b = old.corner[next(i)], c = old.corner[before(i)];
@@ -217,37 +218,22 @@ static int split_beside(Work *work, Side side, int point) {
     inherit(work, t, 2, &old, before(i), t);
     inherit(work, u, 1, &old, next(i), t);
     join(work, u, 2, t, false);
-    return u;
+    work->stack[0] = t;
+    work->stack[1] = u;
+    settle(work, point, 2);
 }
 
-static void split_edge(Work *work, Side side, int point) {
-    bool is_hull = work->triangles[side.triangle].beyond[side.edge] < 0;
-    Side back = is_hull ? side : opposite(work, side);
-    int t = side.triangle, u = split_beside(work, side, point), waiting = 0;
-    work->stack[waiting++] = t;
-    work->stack[waiting++] = u;
-    if (!is_hull) {
-        int v = back.triangle, w = split_beside(work, back, point);
-        join(work, t, 0, w, false);
-        join(work, w, 0, t, false);
-        join(work, u, 0, v, false);
-        join(work, v, 0, u, false);
-        work->stack[waiting++] = v;
-        work->stack[waiting++] = w;
-    }
-    settle(work, point, waiting);
-}
-
+/* A point on an inner edge makes a flat triangle, which is flipped at once. */
 static HdStatus insert_point(Work *work, int point, HdError *error) {
-    static const double on_edge = 1e-12;
+    static const double on_side = 1e-12;
     Side nearest = {0, 0};
     double distance = 0.0;
     if (!find_point(work, point, &nearest, &distance))
         return is_broken(error);
-    if (distance > on_edge)
-        split_triangle(work, nearest.triangle, point);
+    if (distance < on_side && work->triangles[nearest.triangle].beyond[nearest.edge] < 0)
+        split_side(work, nearest, point);
     else
-        split_edge(work, nearest, point);
+        split_triangle(work, nearest.triangle, point);
     work->last = work->one_at[point];
     return HD_OK;
 }
