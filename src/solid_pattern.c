@@ -100,8 +100,17 @@ static void prepare_discs(HdPattern *pattern, int sides) {
         hd_sine_cosine(HD_PI * i / sides, &pattern->spoke[i].y, &pattern->spoke[i].x);
 }
 
+double hd_face_depth(const HdFace *face, int side, HdVec2 point) {
+    return hd_cross2(face->direction[side], hd_sub2(point, face->corner[side]));
+}
+
+/* The size, as a share of the face's, of what is no nearer to a side than `width`. */
+static double inset_share(const HdFace *face, double width) {
+    return 1.0 - width / hd_face_depth(face, 0, (HdVec2){0.0, 0.0});
+}
+
 void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides) {
-    /* Discs of two circumradii cover everything, and so do their polygons of twice that. */
+    /* Discs of two circumradii cover everything, and so do polygons of twice that, and rims. */
     static const double largest = 4.0;
     double rim = solid->rim_width / solid->circumradius;
     double disc = fmin(solid->lights.disc_radius / solid->circumradius, largest);
@@ -115,11 +124,9 @@ void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides
     hd_platonic_rotate(&pattern->shape, solid->rotation_degrees);
     for (int f = 0; f < pattern->shape.face_count; f++)
         prepare_face(&pattern->face[f], &pattern->shape, f);
+    if (inset_share(&pattern->face[0], rim) <= LEAST_LENGTH)
+        pattern->rim_width = largest;
     prepare_discs(pattern, disc_sides);
-}
-
-double hd_face_depth(const HdFace *face, int side, HdVec2 point) {
-    return hd_cross2(face->direction[side], hd_sub2(point, face->corner[side]));
 }
 
 /* The distance to the nearest side. */
@@ -238,7 +245,7 @@ static HdStatus add_polygon(const HdFace *face, const Polygon *polygon, HdNetwor
 /* The border of what is nearer to a side than `width`; none where that is the whole face. */
 static HdStatus add_inset(const HdFace *face, double width, HdNetwork *network, HdError *error) {
     Polygon inset = {.count = face->side_count};
-    double left = 1.0 - width / hd_face_depth(face, 0, (HdVec2){0.0, 0.0});
+    double left = inset_share(face, width);
     if (!(width > 0.0 && left > LEAST_LENGTH))
         return HD_OK;
     for (int i = 0; i < face->side_count; i++)
