@@ -425,9 +425,9 @@ HdStatus hd_triangulate_plane(const HdVec2 *points, int point_count, int corner_
                               int32_t (*triangles)[3], int *triangle_count, HdError *error) {
     size_t room = 2 * (size_t)point_count;
     Work work = {.points = points,
-                 .triangles = malloc(room * sizeof *work.triangles),
-                 .one_at = malloc(room * sizeof *work.one_at),
-                 .stack = malloc(2 * room * sizeof *work.stack)};
+                 .triangles = calloc(room, sizeof *work.triangles),
+                 .one_at = calloc(room, sizeof *work.one_at),
+                 .stack = calloc(2 * room, sizeof *work.stack)};
     HdStatus status = work.triangles == NULL || work.one_at == NULL || work.stack == NULL
                           ? no_memory(error)
                           : build(&work, point_count, corner_count, segments, segment_count, error);

@@ -185,7 +185,7 @@ static HdStatus mark_pairs(HdNetwork *network, const Key *order, Marks *marks, H
 }
 
 static HdStatus mark_segments(HdNetwork *network, Marks *marks, HdError *error) {
-    Key *order = malloc((size_t)network->segment_count * sizeof *order + 1);
+    Key *order = calloc((size_t)network->segment_count + 1, sizeof *order);
     if (order == NULL)
         return no_memory(error);
     HdStatus status = HD_OK;
@@ -208,9 +208,9 @@ static HdStatus mark_segments(HdNetwork *network, Marks *marks, HdError *error) 
    along a line that outlines are hardly parallel or at right angles to. */
 static HdStatus join_points(HdNetwork *network, int *now, HdError *error) {
     int count = network->point_count, kept = 0;
-    Key *order = malloc((size_t)count * sizeof *order + 1);
-    Key *keys = malloc((size_t)count * sizeof *keys + 1);
-    HdVec2 *points = malloc((size_t)count * sizeof *points + 1);
+    Key *order = calloc((size_t)count + 1, sizeof *order);
+    Key *keys = calloc((size_t)count + 1, sizeof *keys);
+    HdVec2 *points = calloc((size_t)count + 1, sizeof *points);
     if (order == NULL || keys == NULL || points == NULL) {
         free(order);
         free(keys);
@@ -277,18 +277,23 @@ static HdStatus cut_at_marks(HdNetwork *network, Marks *marks, const int *now, b
     return HD_OK;
 }
 
+static HdStatus join_and_cut(HdNetwork *network, Marks *marks, bool *was_cut, HdError *error) {
+    int *now = calloc((size_t)network->point_count + 1, sizeof *now);
+    if (now == NULL)
+        return no_memory(error);
+    HdStatus status = join_points(network, now, error);
+    if (status == HD_OK && marks->list != NULL)
+        status = cut_at_marks(network, marks, now, was_cut, error);
+    free(now);
+    return status;
+}
+
 static HdStatus cut_once(HdNetwork *network, bool *was_cut, HdError *error) {
     Marks marks = {0};
-    int *now = NULL;
     *was_cut = false;
     HdStatus status = mark_segments(network, &marks, error);
-    if (status == HD_OK) {
-        now = malloc((size_t)network->point_count * sizeof *now + 1);
-        status = now == NULL ? no_memory(error) : join_points(network, now, error);
-    }
-    if (status == HD_OK && marks.count > 0)
-        status = cut_at_marks(network, &marks, now, was_cut, error);
-    free(now);
+    if (status == HD_OK)
+        status = join_and_cut(network, &marks, was_cut, error);
     free(marks.list);
     return status;
 }

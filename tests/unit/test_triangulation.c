@@ -399,6 +399,24 @@ static void test_any_lengths(void **state) {
     }
 }
 
+/* As wide as the circle in a face, up to rounding and by a little more or less. */
+static void test_rims_that_leave_next_to_nothing(void **state) {
+    (void)state;
+    for (int i = 0; i < 5 * HD_SOLID_KIND_COUNT; i++) {
+        static const double differences[] = {0.0, 1e-16, -1e-16, 1e-10, -1e-10};
+        HdPlatonic shape;
+        hd_platonic((HdSolidKind)(i / 5), &shape);
+        double half = 0.5 * shape.edge_length;
+        Pattern pattern = {sqrt(1.0 - shape.inradius * shape.inradius - half * half), 0.02, 2, 1};
+        pattern.rim_width += differences[i % 5];
+        HdSolid solid = solid_with((HdSolidKind)(i / 5), &pattern);
+        HdMesh mesh = triangulate(&solid, 16, 1);
+        expect_closed(&mesh);
+        expect_areas(&mesh, &solid, &pattern);
+        hd_mesh_free(&mesh);
+    }
+}
+
 static void test_bare_faces_have_no_needless_triangles(void **state) {
     (void)state;
     static const int expected[] = {4, 12, 8, 36, 20};
@@ -565,6 +583,7 @@ int main(void) {
         cmocka_unit_test(test_closed_and_as_large_as_the_solid),
         cmocka_unit_test(test_materials_follow_the_rule_of_the_kernels),
         cmocka_unit_test(test_any_lengths),
+        cmocka_unit_test(test_rims_that_leave_next_to_nothing),
         cmocka_unit_test(test_bare_faces_have_no_needless_triangles),
         cmocka_unit_test(test_no_more_vertices_than_borders_have),
         cmocka_unit_test(test_divisions),
