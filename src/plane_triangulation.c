@@ -379,7 +379,7 @@ static HdStatus turn_crossed(Work *work, int a, int b, CrossedEdges *edges, HdEr
 }
 
 static HdStatus insert_segment(Work *work, int a, int b, HdError *error) {
-    Side side;
+    Side side = {0, 0};
     CrossedEdges edges = {0};
     HdStatus status = HD_OK;
     if (!find_edge(work, a, b, &side)) {

@@ -189,7 +189,7 @@ static HdStatus list_inner_points(Work *work, const HdFace *face, const HdNetwor
     return HD_OK;
 }
 
-/* One of the sides that a point lies on, as a bit for each. */
+/* The sides that a point lies on, a bit for each. */
 static unsigned sides_of(const HdFace *face, const FacePoints *list, int number) {
     unsigned sides = 0;
     for (int i = 0; i < face->side_count; i++)
