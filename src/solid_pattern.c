@@ -242,20 +242,21 @@ static HdStatus add_polygon(const HdFace *face, const Polygon *polygon, HdNetwor
     return status;
 }
 
-/* The border of what is nearer to a side than `width`; none where that is the whole face. */
-static HdStatus add_inset(const HdFace *face, double width, HdNetwork *network, HdError *error) {
-    Polygon inset = {.count = face->side_count};
+/* The inner border of the rim; none where that is the whole face. */
+static HdStatus add_rim(const HdFace *face, double width, HdNetwork *network, HdError *error) {
+    Polygon inner = {.count = face->side_count};
     double left = inset_share(face, width);
-    if (!(width > 0.0 && left > LEAST_LENGTH))
+    if (left <= LEAST_LENGTH)
         return HD_OK;
     for (int i = 0; i < face->side_count; i++)
-        inset.corner[i] = (HdVec2){left * face->corner[i].x, left * face->corner[i].y};
-    return add_polygon(face, &inset, network, error);
+        inner.corner[i] = (HdVec2){left * face->corner[i].x, left * face->corner[i].y};
+    return add_polygon(face, &inner, network, error);
 }
 
-/* Discs of other faces' edges show only as far as discs of the face's own could reach. */
-static HdStatus add_discs(const HdPattern *pattern, int face, int edge, bool *reaches_far,
-                          HdNetwork *network, HdError *error) {
+/* The kernels ask of a disc's points that they be near a side, too. All are: no edge is nearer to a
+   point of a face than the face's nearest side. */
+static HdStatus add_discs(const HdPattern *pattern, int face, int edge, HdNetwork *network,
+                          HdError *error) {
     EdgeView view = view_edge(pattern, face, edge);
     HdStatus status = HD_OK;
     for (int k = 0; k < pattern->per_edge && status == HD_OK; k++) {
@@ -264,9 +265,6 @@ static HdStatus add_discs(const HdPattern *pattern, int face, int edge, bool *re
             continue;
         Polygon polygon = disc_polygon(pattern, &disc);
         cut_to_cell(&polygon, pattern, &view, k);
-        for (int i = 0; i < polygon.count && !view.is_own; i++)
-            *reaches_far = *reaches_far ||
-                           depth_in(&pattern->face[face], polygon.corner[i]) > pattern->disc_radius;
         status = add_polygon(&pattern->face[face], &polygon, network, error);
     }
     return status;
@@ -274,14 +272,12 @@ static HdStatus add_discs(const HdPattern *pattern, int face, int edge, bool *re
 
 HdStatus hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network,
                                 HdError *error) {
-    bool reaches_far = false;
-    HdStatus status = add_inset(&pattern->face[face], pattern->rim_width, network, error);
-    if (!(pattern->disc_radius > 0.0))
-        return status;
-    for (int e = 0; e < pattern->shape.edge_count && status == HD_OK; e++)
-        status = add_discs(pattern, face, e, &reaches_far, network, error);
-    if (reaches_far && status == HD_OK)
-        status = add_inset(&pattern->face[face], pattern->disc_radius, network, error);
+    HdStatus status = HD_OK;
+    if (pattern->rim_width > 0.0)
+        status = add_rim(&pattern->face[face], pattern->rim_width, network, error);
+    if (pattern->disc_radius > 0.0)
+        for (int e = 0; e < pattern->shape.edge_count && status == HD_OK; e++)
+            status = add_discs(pattern, face, e, network, error);
     return status;
 }
 
@@ -296,10 +292,8 @@ static bool polygon_has(const HdPattern *pattern, const Disc *disc, HdVec2 point
 }
 
 /* Whether the disc of the nearest of an edge's lights covers the point. */
-static bool is_covered(const HdPattern *pattern, int face, int edge, HdVec2 point, double depth) {
+static bool is_covered(const HdPattern *pattern, int face, int edge, HdVec2 point) {
     EdgeView view = view_edge(pattern, face, edge);
-    if (!view.is_own && depth >= pattern->disc_radius)
-        return false;
     double place = hd_dot2(view.coordinate, point) + view.start;
     double cell = (place / pattern->shape.edge_length + 0.5) * pattern->per_edge;
     int light = (int)fmin(fmax(cell, 0.0), pattern->per_edge - 1);
@@ -309,11 +303,10 @@ static bool is_covered(const HdPattern *pattern, int face, int edge, HdVec2 poin
 }
 
 int hd_pattern_material(const HdPattern *pattern, int face, HdVec2 point) {
-    double depth = depth_in(&pattern->face[face], point);
-    int on_rim = depth < pattern->rim_width ? 1 : 0;
+    int on_rim = depth_in(&pattern->face[face], point) < pattern->rim_width ? 1 : 0;
     if (pattern->disc_radius > 0.0)
         for (int e = pattern->shape.edge_count - 1; e >= 0; e--)
-            if (is_covered(pattern, face, e, point, depth))
+            if (is_covered(pattern, face, e, point))
                 return HD_SOLID_MATERIAL_DISCS + 2 * (e % pattern->colour_count) + on_rim;
     return on_rim ? HD_SOLID_MATERIAL_RIM : HD_SOLID_MATERIAL_FACE;
 }

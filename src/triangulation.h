@@ -18,10 +18,10 @@ enum { HD_MIN_DISC_SIDES = 8, HD_MAX_DISC_SIDES = 256 };
    of another. Faces are cut along the borders of the rim and of the edge lights' discs, which
    become polygons of `disc_sides` sides (of the whole disc, even, HD_MIN_DISC_SIDES to
    HD_MAX_DISC_SIDES) of the same area as the disc, two of their corners on its edge, and each
-   triangle is then divided into `divisions` x `divisions` equal ones (at least 1). Rims
-   and discs' sides that are no longer than a hundred-millionth of the circumradius are left out. Triangles of face f have group
-   f + 1. HD_BAD_INPUT: a number is out of its range, or there would be more than
-   HD_MAX_MESH_TRIANGLES. On failure the mesh is empty. */
+   triangle is then divided into `divisions` x `divisions` equal ones (at least 1). Rims and discs
+   whose width or sides are no longer than a hundred-millionth of the circumradius are left out.
+   Triangles of face f have group f + 1. HD_BAD_INPUT: a number is out of its range, or there would
+   be more than HD_MAX_MESH_TRIANGLES. On failure the mesh is empty. */
 HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides, int divisions,
                               HdError *error);
 

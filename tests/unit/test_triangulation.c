@@ -443,6 +443,19 @@ static void test_no_more_vertices_than_borders_have(void **state) {
     }
 }
 
+/* Discs of lights so near to each other are cut off half way to the next light. */
+static void test_discs_that_overlap_cost_no_more(void **state) {
+    (void)state;
+    const Pattern apart = {0.04, 0.009, 50, 3}, overlapping = {0.04, 0.05, 50, 3};
+    for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
+        HdSolid first = solid_with(kind, &apart), second = solid_with(kind, &overlapping);
+        HdMesh more = triangulate(&first, 16, 1), less = triangulate(&second, 16, 1);
+        assert_true(less.triangle_count < more.triangle_count);
+        hd_mesh_free(&more);
+        hd_mesh_free(&less);
+    }
+}
+
 static void test_divisions(void **state) {
     (void)state;
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
@@ -586,6 +599,7 @@ int main(void) {
         cmocka_unit_test(test_rims_that_leave_next_to_nothing),
         cmocka_unit_test(test_bare_faces_have_no_needless_triangles),
         cmocka_unit_test(test_no_more_vertices_than_borders_have),
+        cmocka_unit_test(test_discs_that_overlap_cost_no_more),
         cmocka_unit_test(test_divisions),
         cmocka_unit_test(test_the_same_every_time),
         cmocka_unit_test(test_bad_numbers),
