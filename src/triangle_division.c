@@ -17,6 +17,11 @@ typedef struct Division {
     HdMesh fine; /* what comes out; only what is listed in `allocate` */
 } Division;
 
+static HdStatus no_memory(const HdMesh *mesh, HdError *error) {
+    return hd_fail(error, HD_FAILED, "out of memory: %d triangles cannot be divided so finely",
+                   mesh->triangle_count);
+}
+
 HdStatus hd_check_divisions(int64_t triangle_count, int divisions, HdError *error) {
     if (divisions < 1)
         return hd_fail(error, HD_BAD_INPUT, "divisions are %d, expected at least 1", divisions);
@@ -137,7 +142,7 @@ static void free_arrays(HdMesh *mesh) {
 }
 
 /* For each triangle parts^2, and (parts - 1) (parts - 2) / 2 vertices inside. */
-static HdStatus allocate(Division *division, HdError *error) {
+static bool allocate(Division *division) {
     size_t old = (size_t)division->mesh->triangle_count, parts = (size_t)division->parts;
     size_t triangles = old * parts * parts;
     size_t vertices = (size_t)division->mesh->vertex_count +
@@ -148,11 +153,8 @@ static HdStatus allocate(Division *division, HdError *error) {
     fine->corners = malloc(triangles * sizeof *fine->corners);
     fine->material_of = malloc(triangles * sizeof *fine->material_of);
     fine->group_of = malloc(triangles * sizeof *fine->group_of);
-    if (fine->vertices != NULL && fine->corners != NULL && fine->material_of != NULL &&
-        fine->group_of != NULL)
-        return HD_OK;
-    free_arrays(fine);
-    return hd_fail(error, HD_FAILED, "out of memory for %zu triangles", triangles);
+    return fine->vertices != NULL && fine->corners != NULL && fine->material_of != NULL &&
+           fine->group_of != NULL;
 }
 
 static void take_arrays(HdMesh *mesh, const HdMesh *fine) {
@@ -167,9 +169,8 @@ static void take_arrays(HdMesh *mesh, const HdMesh *fine) {
 
 static HdStatus divide(Division *division, int32_t *rows, HdError *error) {
     list_edges(division);
-    HdStatus status = allocate(division, error);
-    if (status != HD_OK)
-        return status;
+    if (!allocate(division))
+        return no_memory(division->mesh, error);
     place_edge_vertices(division);
     for (int t = 0; t < division->mesh->triangle_count; t++)
         divide_triangle(division, t, rows, rows + division->parts + 1);
@@ -184,11 +185,13 @@ HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error) {
     division.edges = malloc(3 * (size_t)mesh->triangle_count * sizeof *division.edges + 1);
     int32_t *rows = malloc(2 * ((size_t)divisions + 1) * sizeof *rows);
     if (division.edges == NULL || rows == NULL)
-        status = hd_fail(error, HD_FAILED, "out of memory for %d triangles", mesh->triangle_count);
+        status = no_memory(mesh, error);
     else
         status = divide(&division, rows, error);
     if (status == HD_OK)
         take_arrays(mesh, &division.fine);
+    else
+        free_arrays(&division.fine);
     free(division.edges);
     free(rows);
     return status;

@@ -258,10 +258,10 @@ static HdStatus add_face(Work *work, int f, HdError *error) {
     size_t room = (size_t)face->side_count + (size_t)work->network[f].point_count;
     for (int i = 0; i < face->side_count; i++)
         room += (size_t)work->edge[face->edge[i]].count;
-    FacePoints list = {.points = malloc(room * sizeof *list.points),
-                       .vertex = malloc(room * sizeof *list.vertex),
-                       .number = malloc(room * sizeof *list.number)};
-    int32_t(*triangles)[3] = malloc(2 * room * sizeof *triangles);
+    FacePoints list = {.points = calloc(room, sizeof *list.points),
+                       .vertex = calloc(room, sizeof *list.vertex),
+                       .number = calloc(room, sizeof *list.number)};
+    int32_t(*triangles)[3] = calloc(2 * room, sizeof *triangles);
     HdStatus status =
         list.points == NULL || list.vertex == NULL || list.number == NULL || triangles == NULL
             ? no_memory(error)
