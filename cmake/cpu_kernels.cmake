@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # The builds of the plain C kernels, as listed in cpu/kernel.h: instruction set, lanes, precision,
-# arithmetic. Bundles wider than a register are there to compare bytes, not for speed, and are built at
-# -O1, which keeps gcc's compile time bounded.
+# arithmetic. Bundles wider than a register are there to compare bytes, not for speed: they are built at
+# -O1, which keeps gcc's compile time bounded, and strict kernels stand in for their fast ones. So they do
+# with sanitizers, which look at memory and not at rounding.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
 set(builds generic:1 generic:4 generic:8 generic:16)
 if(processor MATCHES "^(x86_64|amd64)$")
@@ -24,20 +25,17 @@ set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
 set(wider_than_a_register generic:8:float generic:16:float generic:8:double generic:16:double
     avx2:8:double avx512:16:double)
 
-set(arithmetics strict fast)
-if(HEDRON_SANITIZE)
-    set(arithmetics strict)
-    target_compile_definitions(hedron_core PRIVATE HD_CPU_STRICT_ONLY)
-endif()
-
 foreach(build IN LISTS builds)
     string(REPLACE ":" ";" parts ${build})
     list(GET parts 0 set)
     list(GET parts 1 lanes)
     foreach(precision float double)
         set(level -O3)
-        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE OR
-           CMAKE_BUILD_TYPE STREQUAL "Debug")
+        set(arithmetics strict fast)
+        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE)
+            set(level -O1)
+            set(arithmetics strict)
+        elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")
             set(level -O1)
         endif()
         foreach(math IN LISTS arithmetics)
@@ -46,6 +44,10 @@ foreach(build IN LISTS builds)
             target_compile_definitions(hedron_kernel_${name} PRIVATE
                 HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes}
                 HD_DOUBLE=$<STREQUAL:${precision},double>)
+            if("${arithmetics}" STREQUAL strict)
+                target_compile_definitions(hedron_kernel_${name} PRIVATE
+                    HD_KERNEL_STANDS_FOR=hd_kernel_${set}_${lanes}_${precision}_fast)
+            endif()
             target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
                 ${level} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}})
             target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)

@@ -6,25 +6,19 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Sanitizers look at memory, not at rounding: where HD_CPU_STRICT_ONLY is set, strict arithmetic
-   stands in for the fast one, which halves what they have to compile. */
-#ifdef HD_CPU_STRICT_ONLY
-#define FAST(set, lanes, precision) hd_kernel_##set##_##lanes##_##precision##_strict
-#else
-#define FAST(set, lanes, precision) hd_kernel_##set##_##lanes##_##precision##_fast
-#endif
-
 #define DECLARE_BUILD(set, lanes)                                                                  \
-    HdCpuKernel hd_kernel_##set##_##lanes##_float_strict, FAST(set, lanes, float);                 \
-    HdCpuKernel hd_kernel_##set##_##lanes##_double_strict, FAST(set, lanes, double);
+    HdCpuKernel hd_kernel_##set##_##lanes##_float_strict;                                          \
+    HdCpuKernel hd_kernel_##set##_##lanes##_float_fast;                                            \
+    HdCpuKernel hd_kernel_##set##_##lanes##_double_strict;                                         \
+    HdCpuKernel hd_kernel_##set##_##lanes##_double_fast;
 HD_CPU_BUILDS(DECLARE_BUILD)
 
 #define LIST_BUILD(set, lanes)                                                                     \
     {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_STRICT, hd_kernel_##set##_##lanes##_float_strict},   \
-        {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_FAST, FAST(set, lanes, float)},                  \
+        {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_FAST, hd_kernel_##set##_##lanes##_float_fast},   \
         {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_STRICT,                                         \
          hd_kernel_##set##_##lanes##_double_strict},                                               \
-        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_FAST, FAST(set, lanes, double)},
+        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_FAST, hd_kernel_##set##_##lanes##_double_fast},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 
 static bool is_supported(const char *set) {

@@ -73,14 +73,15 @@ void hd_mesh_drop_degenerate(HdMesh *mesh) {
 }
 
 void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper) {
-    *lower = *upper = mesh->vertex_count > 0 ? mesh->vertices[0] : hd_vec3(0.0, 0.0, 0.0);
-    for (int i = 1; i < mesh->vertex_count; i++) {
-        const HdVec3 vertex = mesh->vertices[i];
-        *lower =
-            hd_vec3(fmin(lower->x, vertex.x), fmin(lower->y, vertex.y), fmin(lower->z, vertex.z));
-        *upper =
-            hd_vec3(fmax(upper->x, vertex.x), fmax(upper->y, vertex.y), fmax(upper->z, vertex.z));
-    }
+    *lower = *upper = hd_vec3(0.0, 0.0, 0.0);
+    if (mesh->triangle_count > 0)
+        *lower = *upper = mesh->vertices[mesh->corners[0][0]];
+    for (int i = 0; i < mesh->triangle_count; i++)
+        for (int k = 0; k < 3; k++) {
+            const HdVec3 at = mesh->vertices[mesh->corners[i][k]];
+            *lower = hd_vec3(fmin(lower->x, at.x), fmin(lower->y, at.y), fmin(lower->z, at.z));
+            *upper = hd_vec3(fmax(upper->x, at.x), fmax(upper->y, at.y), fmax(upper->z, at.z));
+        }
 }
 
 void hd_mesh_free(HdMesh *mesh) {
@@ -97,5 +98,6 @@ void hd_mesh_free(HdMesh *mesh) {
     free(mesh->corner_uvs);
     free(mesh->material_of);
     free(mesh->group_of);
+    hd_hierarchy_free(&mesh->tree);
     *mesh = (HdMesh){0};
 }

@@ -18,15 +18,16 @@ enum {
 };
 
 /* What the triangles of one material look like. `texture` is the path of a picture, owned; NULL:
-   none. Its colour is multiplied by the texture's. */
+   none. Its colour is multiplied by the texture's. `passes_as` is the number of the material in the
+   same mesh by whose transmission and colour shadow rays are let through; -1: its own. What is
+   opaque to shadows lets none through, whatever its material lets pass to the eye. */
 typedef struct HdMeshMaterial {
     char *name; /* owned; for messages and to be replaced by name */
     HdMaterial material;
     HdVec3 emission; /* radiance of the surface's own */
     char *texture;
     int picture;   /* number among the pictures of the scene; -1: none */
-    int passes_as; /* number of the material of the same mesh by which shadow rays are let through;
-                      -1: its own */
+    int passes_as;
     bool is_opaque_to_shadows;
 } HdMeshMaterial;
 
@@ -59,6 +60,9 @@ void hd_mesh_drop_degenerate(HdMesh *mesh);
    other. Triangles without an area stay flat. The bytes depend on the mesh alone. HD_FAILED where
    there is too little memory; the mesh is then as it was. */
 HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error);
+
+/* Corners of the box about all triangles; of a mesh without any, both are 0. */
+void hd_mesh_box(const HdMesh *mesh, HdVec3 *lower, HdVec3 *upper);
 
 /* Finds the box and builds the hierarchy over the triangles of a finished mesh, which has at least
    one. */

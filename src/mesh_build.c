@@ -8,18 +8,6 @@
 /* Relative costs of a node and a triangle, measured with bundles of 16 rays. */
 static const HdHierarchyOptions options = {.node_cost = 1.0f, .most_in_leaf = 8};
 
-static void find_box(HdMesh *mesh) {
-    HdVec3 lower = mesh->vertices[mesh->corners[0][0]], upper = lower;
-    for (int i = 0; i < mesh->triangle_count; i++)
-        for (int k = 0; k < 3; k++) {
-            HdVec3 v = mesh->vertices[mesh->corners[i][k]];
-            lower = hd_vec3(fmin(lower.x, v.x), fmin(lower.y, v.y), fmin(lower.z, v.z));
-            upper = hd_vec3(fmax(upper.x, v.x), fmax(upper.y, v.y), fmax(upper.z, v.z));
-        }
-    mesh->lower = lower;
-    mesh->upper = upper;
-}
-
 /* Kernels store a corner in float or in double: the box holds it either way. */
 static void add_corner(HdBox *box, const double corner[3]) {
     for (int axis = 0; axis < 3; axis++) {
@@ -44,7 +32,7 @@ HdStatus hd_mesh_build(HdMesh *mesh, HdThreadPool *pool, HdError *error) {
     if (boxes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: a mesh has %d triangles",
                        mesh->triangle_count);
-    find_box(mesh);
+    hd_mesh_box(mesh, &mesh->lower, &mesh->upper);
     HdVec3 middle = hd_mesh_middle(mesh);
     double scale = 1.0 / hd_mesh_half_side(mesh);
     for (int i = 0; i < mesh->triangle_count; i++)

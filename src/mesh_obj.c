@@ -361,6 +361,7 @@ static bool define_default(Reading *reading, int number) {
     HdMeshMaterial *material = &reading->mesh->materials[number];
     const char *name = reading->text.names.names[number];
     hd_mtl_material(&hd_mtl_defaults, material, reading->path, reading->notes);
+    material->picture = material->passes_as = -1;
     material->name = hd_obj_allocate_result(&reading->memory, strlen(name) + 1, 1);
     if (material->name != NULL)
         memcpy(material->name, name, strlen(name) + 1);

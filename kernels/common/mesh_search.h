@@ -234,7 +234,7 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
 
 /* ---- a ray by itself ---- */
 
-#if HD_LANES > 1
+#if HD_LANES_ARE_ONE_REGISTER
 
 FN vreal spread_real(vreal a, int lane) {
     return splat(lane_real(&a, lane));
@@ -426,7 +426,7 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         int negative[3];
         vmask same = same_signs(&rays->slabs, left, negative);
         left = left & ~same;
-#if HD_LANES > 1
+#if HD_LANES_ARE_ONE_REGISTER
         uint bits = lane_bits(same);
         if (count_bits(bits) < FEW_RAYS) {
             for (; bits; bits &= bits - 1)

@@ -94,16 +94,16 @@ static void what_belongs_to_a_triangle_moves_with_it(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void the_box_holds_all_vertices(void **state) {
+static void the_box_holds_all_triangles(void **state) {
     (void)state;
-    const HdVec3 vertices[3] = {{1, -5, 3}, {4, 2, -6}, {-2, 0, 1}};
-    const int32_t corners[1][3] = {{0, 1, 1}};
+    const HdVec3 vertices[4] = {{100, 0, 0}, {1, -5, 3}, {4, 2, -6}, {-2, 0, 1}};
+    const int32_t corners[1][3] = {{1, 2, 3}};
     HdVec3 lower = {9, 9, 9}, upper = {9, 9, 9};
     HdMesh mesh = {0};
     hd_mesh_box(&mesh, &lower, &upper);
     assert_true(lower.x == 0.0 && lower.y == 0.0 && lower.z == 0.0);
     assert_true(upper.x == 0.0 && upper.y == 0.0 && upper.z == 0.0);
-    mesh = make_mesh(vertices, 3, corners, 1);
+    mesh = make_mesh(vertices, 4, corners, 1);
     hd_mesh_box(&mesh, &lower, &upper);
     assert_true(lower.x == -2.0 && lower.y == -5.0 && lower.z == -6.0);
     assert_true(upper.x == 4.0 && upper.y == 2.0 && upper.z == 3.0);
@@ -266,7 +266,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_without_an_area_are_told),
         cmocka_unit_test(what_belongs_to_a_triangle_moves_with_it),
-        cmocka_unit_test(the_box_holds_all_vertices),
+        cmocka_unit_test(the_box_holds_all_triangles),
         cmocka_unit_test(angles_are_right),
         cmocka_unit_test(smoothing_weights_by_angle),
         cmocka_unit_test(creases_stay),
