@@ -58,6 +58,7 @@ typedef struct Build {
     int count, piece;
     const HdHierarchyOptions *options;
     HdLanes unit;
+    void *memory;           /* two items for each box, later the nodes of the hierarchy */
     HdItem *items, *others; /* `others` takes what is moved */
     HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
     int32_t *order;
@@ -176,9 +177,8 @@ static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
         return status;
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.centres, &build->chunks[i].centres[0]);
-    HdItem *loaded = build->items;
-    build->items = build->others;
-    build->others = loaded;
+    /* As if they had been moved. */
+    swap(build);
     hand_on(build, &root, &build->root);
     swap(build);
     return HD_OK;
@@ -334,8 +334,8 @@ static void copy_task(void *context, int thread, int number) {
     }
 }
 
-/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the top
-   if there is where to. Returns the height. */
+/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the top.
+   Returns the height. */
 static int place(Build *build, int top, int *next, int32_t *child) {
     if (top < 0) {
         Task *task = &build->tasks[~top];
@@ -349,11 +349,10 @@ static int place(Build *build, int top, int *next, int32_t *child) {
     int32_t children[2];
     const int left = place(build, node->child[0], next, &children[0]);
     const int right = place(build, node->child[1], next, &children[1]);
-    if (build->result != NULL)
-        build->result[number] =
-            (HdBuildNode){{hd_bounds_box(&node->box[0]), hd_bounds_box(&node->box[1])},
-                          {children[0], children[1]},
-                          node->axis};
+    build->result[number] =
+        (HdBuildNode){{hd_bounds_box(&node->box[0]), hd_bounds_box(&node->box[1])},
+                      {children[0], children[1]},
+                      node->axis};
     *child = number;
     return 1 + (left > right ? left : right);
 }
@@ -362,63 +361,59 @@ static int place(Build *build, int top, int *next, int32_t *child) {
 static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_t leaf) {
     const HdBounds none = hd_bounds_empty();
     const int32_t empty_leaf = ~0;
+    hierarchy->node_count = hierarchy->depth = 1;
     hierarchy->nodes[0] =
         (HdBuildNode){{hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)},
                       {leaf, empty_leaf},
                       0};
 }
 
-static HdStatus out_of_memory(HdError *error, int count) {
-    return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes", count);
-}
-
-static void free_items(Build *build) {
-    free(build->items);
-    free(build->others);
-    build->items = build->others = NULL;
-}
-
+/* The nodes take the place of the items, which need more room and are no longer needed: memory that
+   is new to the program takes longer to get than to fill. */
 static HdStatus assemble(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool, HdError *error) {
-    free_items(build);
     int32_t root;
     int count = 0;
+    hierarchy->nodes = build->result = build->memory;
+    build->memory = NULL;
     hierarchy->depth = place(build, build->root, &count, &root);
-    hierarchy->node_count = count > 0 ? count : 1;
-    hierarchy->nodes = hd_large_allocate((size_t)hierarchy->node_count * sizeof *hierarchy->nodes);
-    if (hierarchy->nodes == NULL)
-        return out_of_memory(error, build->count);
+    hierarchy->node_count = count;
     if (root < 0) {
         make_root_of_leaf(build, hierarchy, root);
-        hierarchy->depth = 1;
         return HD_OK;
     }
-    build->result = hierarchy->nodes;
-    count = 0;
-    (void)place(build, build->root, &count, &root);
-    return run(build, pool, build->task_count, copy_task, error);
+    const HdStatus status = run(build, pool, build->task_count, copy_task, error);
+    HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
+    if (less != NULL)
+        hierarchy->nodes = less;
+    return status;
 }
 
 static bool allocate(Build *build, HdHierarchy *hierarchy) {
+    _Static_assert(sizeof(HdBuildNode) <= 2 * sizeof(HdItem), "nodes take the place of items");
     const size_t count = (size_t)build->count;
-    build->items = hd_large_allocate(count * sizeof *build->items);
-    build->others = hd_large_allocate(count * sizeof *build->others);
+    build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
     build->tops = hd_large_allocate(MOST_TASKS * sizeof *build->tops);
     build->tasks = hd_large_allocate(MOST_TASKS * sizeof *build->tasks);
-    build->sorted_tasks = malloc(MOST_TASKS * sizeof(Task *));
+    build->sorted_tasks = hd_large_allocate(MOST_TASKS * sizeof(Task *));
     build->opens = hd_large_allocate(MOST_PIECES * sizeof *build->opens);
     build->next_opens = hd_large_allocate(MOST_PIECES * sizeof *build->next_opens);
     build->chunks = hd_large_allocate(MOST_CHUNKS * sizeof *build->chunks);
     build->bins = hd_large_allocate(MOST_CHUNKS * sizeof *build->bins);
-    build->order = hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
-    return build->items != NULL && build->others != NULL && build->nodes != NULL &&
-           build->tops != NULL && build->tasks != NULL && build->sorted_tasks != NULL &&
-           build->opens != NULL && build->next_opens != NULL && build->chunks != NULL &&
-           build->bins != NULL && build->order != NULL;
+    hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
+    if (build->memory == NULL || build->nodes == NULL || build->tops == NULL ||
+        build->tasks == NULL || build->sorted_tasks == NULL || build->opens == NULL ||
+        build->next_opens == NULL || build->chunks == NULL || build->bins == NULL ||
+        hierarchy->order == NULL)
+        return false;
+    build->items = build->memory;
+    build->others = build->items + count;
+    build->order = hierarchy->order;
+    return true;
 }
 
 static void free_build(Build *build) {
-    free_items(build);
+    free(build->memory);
     free(build->nodes);
     free(build->tops);
     free(build->tasks);
@@ -432,7 +427,8 @@ static void free_build(Build *build) {
 static HdStatus build_all(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool,
                           HdError *error) {
     if (!allocate(build, hierarchy))
-        return out_of_memory(error, build->count);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes",
+                       build->count);
     HdStatus status = load(build, pool, error);
     while (status == HD_OK && build->open_count > 0)
         status = divide_level(build, pool, error);
