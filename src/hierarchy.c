@@ -245,9 +245,13 @@ static void move_chunk(void *context, int thread, int number) {
 static void divide(Build *build, const Open *open) {
     const HdSplit *split = &open->split;
     const HdGroup *group = &open->group;
-    HdGroup sides[2] = {{group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
-                        {group->first + split->left_count, group->count - split->left_count,
-                         group->depth + 1, split->right, {{0}, {0}}}};
+    HdGroup sides[2] = {
+        {group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
+        {group->first + split->left_count,
+         group->count - split->left_count,
+         group->depth + 1,
+         split->right,
+         {{0}, {0}}}};
     TopNode *top = &build->tops[build->top_count];
     *open->link = build->top_count++;
     top->axis = split->axis;
@@ -299,8 +303,8 @@ static void build_task(void *context, int thread, int number) {
     const Build *build = context;
     Task *task = build->sorted_tasks[number];
     const int first = task->group.first, end = first + task->group.count;
-    HdSubtree subtree = {build->options, build->unit, task->items,
-                         task->spare, build->nodes + first, 0};
+    HdSubtree subtree = {build->options, build->unit,          task->items,
+                         task->spare,    build->nodes + first, 0};
     task->branch = hd_subtree_build(&subtree, &task->group);
     task->node_count = subtree.node_count;
     for (int i = first; i < end; i++)
@@ -334,8 +338,8 @@ static void copy_task(void *context, int thread, int number) {
     }
 }
 
-/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the top.
-   Returns the height. */
+/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the
+   top. Returns the height. */
 static int place(Build *build, int top, int *next, int32_t *child) {
     if (top < 0) {
         Task *task = &build->tasks[~top];
@@ -362,10 +366,8 @@ static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_
     const HdBounds none = hd_bounds_empty();
     const int32_t empty_leaf = ~0;
     hierarchy->node_count = hierarchy->depth = 1;
-    hierarchy->nodes[0] =
-        (HdBuildNode){{hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)},
-                      {leaf, empty_leaf},
-                      0};
+    hierarchy->nodes[0] = (HdBuildNode){
+        {hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)}, {leaf, empty_leaf}, 0};
 }
 
 /* The nodes take the place of the items, which need more room and are no longer needed: memory that

@@ -15,8 +15,8 @@ typedef struct HdBox {
 
 /* A node with two children. A child that is not negative is the number of a node; otherwise ~child
    is first * 16 + count of a leaf: its items are order[first .. first + count - 1]. The centres of
-   the first child's items lie lower on `axis`, or at the same place, unless it was halved because of
-   its depth. */
+   the first child's items lie lower on `axis`, or at the same place, unless it was halved because
+   of its depth. */
 typedef struct HdBuildNode {
     HdBox box[2]; /* of the children: no larger than what is in them */
     int32_t child[2];
@@ -41,13 +41,13 @@ typedef struct HdHierarchyOptions {
     int most_in_leaf; /* 1 .. HD_MAX_LEAF */
 } HdHierarchyOptions;
 
-/* Builds a hierarchy over `count` boxes, 1 to HD_MAX_HIERARCHY_ITEMS, finite and with lower <= upper,
-   by binned splits (Wald 2007, On fast Construction of SAH-based Bounding Volume Hierarchies) on the
-   pool's threads; of few boxes every split is tried. Items share a leaf where that costs no more
-   than the nodes that would divide them. The result depends on the boxes and the options alone.
-   Where all centres are at one place, or the depth is near its bound of HD_MAX_HIERARCHY_DEPTH, items
-   are halved in the middle of their order. One item, or few, still make a root: its second child is
-   then a leaf of no items, whose box is empty (lower > upper).
+/* Builds a hierarchy over `count` boxes, 1 to HD_MAX_HIERARCHY_ITEMS, finite and with lower <=
+   upper, by binned splits (Wald 2007, On fast Construction of SAH-based Bounding Volume
+   Hierarchies) on the pool's threads; of few boxes every split is tried. Items share a leaf where
+   that costs no more than the nodes that would divide them. The result depends on the boxes and the
+   options alone. Where all centres are at one place, or the depth is near its bound of
+   HD_MAX_HIERARCHY_DEPTH, items are halved in the middle of their order. One item, or few, still
+   make a root: its second child is then a leaf of no items, whose box is empty (lower > upper).
 
    On the way it takes at most 128 bytes for each box, and at most 8 MB more; what it returns takes
    60 for each node, which is at most one less than the boxes, and 4 for each box. HD_FAILED: out of

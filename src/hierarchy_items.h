@@ -76,9 +76,9 @@ static inline float hd_item_centre_on(const HdItem *item, float unit, int axis) 
     return item->lower.parts.xyz[axis] * unit + item->upper.parts.xyz[axis] * unit;
 }
 
-/* Half the areas of three boxes in `unit`, one in each lane. The lengths of the edges count a little,
-   so that boxes without an area, in a line, or with one too small for a float, are still told apart
-   by their size. */
+/* Half the areas of three boxes in `unit`, one in each lane. The lengths of the edges count a
+   little, so that boxes without an area, in a line, or with one too small for a float, are still
+   told apart by their size. */
 static inline HdLanes hd_bounds_areas(const HdBounds boxes[3], HdLanes unit) {
     const HdLanes a = boxes[0].upper * unit - boxes[0].lower * unit;
     const HdLanes b = boxes[1].upper * unit - boxes[1].lower * unit;

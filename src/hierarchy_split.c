@@ -30,8 +30,8 @@ void hd_bins_add(HdBins *bins, const HdBinning *binning, const HdItem *items, in
     const HdLanes unit = binning->unit, origin = binning->origin, scale = binning->scale;
     for (int i = 0; i < count; i++) {
         const HdLanes lower = items[i].lower.lanes, upper = items[i].upper.lanes;
-        const HdIntLanes bin = __builtin_convertvector(
-            (hd_item_centre(&items[i], unit) - origin) * scale, HdIntLanes);
+        const HdIntLanes bin =
+            __builtin_convertvector((hd_item_centre(&items[i], unit) - origin) * scale, HdIntLanes);
         hd_bounds_add(&bins->box[bin[0]][0], lower, upper);
         bins->count[bin[0]][0]++;
         hd_bounds_add(&bins->box[bin[1]][1], lower, upper);

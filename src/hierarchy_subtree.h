@@ -27,8 +27,8 @@ typedef struct HdBranch {
 /* The cheapest of a leaf and the nodes below `group`. */
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group);
 
-/* The same for at most HD_MAX_SWEEP items, which are divided at the best of all places between them.
-   It does not look at the depth. */
+/* The same for at most HD_MAX_SWEEP items, which are divided at the best of all places between
+   them. It does not look at the depth. */
 HdBranch hd_subtree_sweep(HdSubtree *subtree, const HdGroup *group);
 
 enum { HD_MAX_SWEEP = 12 };

@@ -79,8 +79,14 @@ static int farthest_axis(const Sweep *sweep, int begin) {
     return farthest;
 }
 
+/* Whether the centres of all items are at one place on the axis. */
+static bool is_flat(const Sweep *sweep, int begin, int count, int axis) {
+    const uint8_t *sorted = sweep->sorted[axis] + begin;
+    return !(sweep->centre[sorted[0]][axis] < sweep->centre[sorted[count - 1]][axis]);
+}
+
 static int choose(const Sweep *sweep, int begin, int count, int *left_count) {
-    *left_count = 1;
+    *left_count = count / 2;
     if (count == 2)
         return farthest_axis(sweep, begin);
     HdLanes below[HD_MAX_SWEEP], above[HD_MAX_SWEEP];
@@ -89,7 +95,12 @@ static int choose(const Sweep *sweep, int begin, int count, int *left_count) {
     HdBest best = hd_best_none();
     for (int i = 1; i < count; i++)
         hd_best_offer(&best, below[i - 1] + above[i], i);
+    for (int axis = 0; axis < 3; axis++)
+        if (is_flat(sweep, begin, count, axis))
+            best.cost[axis] = INFINITY;
     const int axis = hd_best_axis(&best);
+    if (axis < 0)
+        return 0;
     *left_count = best.place[axis];
     return axis;
 }
