@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "hierarchy.h"
 
-#include <fenv.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +12,8 @@
 
 /* The top of the hierarchy is built level by level, all threads at work on all items of a level.
    What has become small enough is built as a subtree by one thread. Neither the sizes nor the order
-   of items depend on the number of threads: every partition is stable. */
+   of items depend on the number of threads: every partition is stable. Nor does anything depend on
+   the caller's floating-point environment: what is rounded is computed by the threads. */
 enum {
     MOST_PIECES = 256, /* of a level, about */
     LEAST_PIECE = 4096,
@@ -188,9 +188,9 @@ static void bin_chunk(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
     const Chunk *chunk = &build->chunks[number];
-    HdBins *bins = &build->bins[number];
-    hd_bins_clear(bins, &chunk->open->binning);
-    hd_bins_add(bins, &chunk->open->binning, build->items + chunk->begin,
+    const HdBinning binning = hd_binning_of(&chunk->open->group, build->unit);
+    hd_bins_clear(&build->bins[number], &binning);
+    hd_bins_add(&build->bins[number], &binning, build->items + chunk->begin,
                 chunk->end - chunk->begin);
 }
 
@@ -213,6 +213,7 @@ static void choose_split(void *context, int thread, int number) {
     open->split.axis = -1;
     if (hd_group_is_deep(&open->group, build->options))
         return;
+    open->binning = hd_binning_of(&open->group, build->unit);
     HdBins all;
     hd_bins_clear(&all, &open->binning);
     for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
@@ -275,7 +276,6 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
     build->chunk_count = 0;
     for (int i = 0; i < build->open_count; i++) {
         Open *open = &build->opens[i];
-        open->binning = hd_binning_of(&open->group, build->unit);
         open->first_chunk = build->chunk_count;
         cut(build, open->group.first, open->group.count, open);
         open->chunk_count = build->chunk_count - open->first_chunk;
@@ -448,12 +448,7 @@ HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int coun
     if (build.piece < LEAST_PIECE)
         build.piece = LEAST_PIECE;
     *hierarchy = (HdHierarchy){0};
-    /* As the threads have it: the caller may flush denormals. */
-    fenv_t environment;
-    feholdexcept(&environment);
-    fesetenv(FE_DFL_ENV);
     const HdStatus status = build_all(&build, hierarchy, pool, error);
-    fesetenv(&environment);
     free_build(&build);
     if (status != HD_OK)
         hd_hierarchy_free(hierarchy);

@@ -29,10 +29,6 @@ static int32_t child_at(const HdHierarchy *hierarchy, int place) {
     return hierarchy->nodes[place / 2].child[place % 2];
 }
 
-static bool is_missing(int32_t child) {
-    return child < 0 && (~child & HD_MAX_LEAF) == 0;
-}
-
 static double half_area(const HdBox *box) {
     const double x = (double)box->upper[0] - (double)box->lower[0];
     const double y = (double)box->upper[1] - (double)box->lower[1];
@@ -48,15 +44,13 @@ typedef struct Children {
 } Children;
 
 static void insert(Children *children, int at, const HdHierarchy *hierarchy, int place) {
-    const int32_t child = child_at(hierarchy, place);
-    if (is_missing(child))
-        return;
     for (int i = children->count++; i > at; i--) {
         children->places[i] = children->places[i - 1];
         children->areas[i] = children->areas[i - 1];
     }
     children->places[at] = place;
-    children->areas[at] = child < 0 ? -1.0 : half_area(box_at(hierarchy, place));
+    children->areas[at] =
+        child_at(hierarchy, place) < 0 ? -1.0 : half_area(box_at(hierarchy, place));
 }
 
 static void remove_at(Children *children, int at) {

@@ -84,7 +84,7 @@ static inline TestRay random_ray(double scale, uint64_t *seed) {
 
 /* Rounding keeps the order of numbers, so what is in a box is never met where the box is not. */
 static inline bool ray_meets(const TestRay *ray, const float lower[3], const float upper[3]) {
-    double from = -INFINITY, to = INFINITY;
+    double from = -HUGE_VAL, to = HUGE_VAL;
     for (int axis = 0; axis < 3; axis++) {
         const double origin = ray->origin[axis], direction = ray->direction[axis];
         if (direction == 0.0) {

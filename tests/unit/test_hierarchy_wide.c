@@ -25,7 +25,7 @@ void *hd_large_allocate(size_t bytes) {
 
 static int start_pool(void **state) {
     (void)state;
-    return hd_thread_pool_create(&pool, 2, &error);
+    return hd_thread_pool_create(&pool, 2, &error) != HD_OK;
 }
 
 static int end_pool(void **state) {
@@ -111,7 +111,7 @@ static int check_node(Check *check, int node) {
     check->matched++;
     check->number = number;
     check->next_child = 0;
-    check->least_opened = INFINITY;
+    check->least_opened = HUGE_VAL;
     check->largest_left = -1.0;
     check_merged(check, node);
     /* The largest were opened, as long as there was room. */
