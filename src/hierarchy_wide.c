@@ -43,22 +43,18 @@ typedef struct Children {
     double areas[MOST_WIDTH]; /* negative: it cannot be opened */
 } Children;
 
+static void set(Children *children, int at, const HdHierarchy *hierarchy, int place) {
+    const bool is_leaf = child_at(hierarchy, place) < 0;
+    children->places[at] = place;
+    children->areas[at] = is_leaf ? -1.0 : half_area(box_at(hierarchy, place));
+}
+
 static void insert(Children *children, int at, const HdHierarchy *hierarchy, int place) {
     for (int i = children->count++; i > at; i--) {
         children->places[i] = children->places[i - 1];
         children->areas[i] = children->areas[i - 1];
     }
-    children->places[at] = place;
-    children->areas[at] =
-        child_at(hierarchy, place) < 0 ? -1.0 : half_area(box_at(hierarchy, place));
-}
-
-static void remove_at(Children *children, int at) {
-    children->count--;
-    for (int i = at; i < children->count; i++) {
-        children->places[i] = children->places[i + 1];
-        children->areas[i] = children->areas[i + 1];
-    }
+    set(children, at, hierarchy, place);
 }
 
 static int find_largest(const Children *children) {
@@ -71,17 +67,16 @@ static int find_largest(const Children *children) {
 
 static Children gather(const HdHierarchy *hierarchy, int node, int width) {
     Children children;
-    children.count = 0;
-    insert(&children, 0, hierarchy, 2 * node + 1);
-    insert(&children, 0, hierarchy, 2 * node);
+    children.count = 2;
+    set(&children, 0, hierarchy, 2 * node);
+    set(&children, 1, hierarchy, 2 * node + 1);
     while (children.count < width) {
         const int largest = find_largest(&children);
         if (children.areas[largest] < 0.0)
             break;
         const int opened = child_at(hierarchy, children.places[largest]);
-        remove_at(&children, largest);
-        insert(&children, largest, hierarchy, 2 * opened + 1);
-        insert(&children, largest, hierarchy, 2 * opened);
+        set(&children, largest, hierarchy, 2 * opened);
+        insert(&children, largest + 1, hierarchy, 2 * opened + 1);
     }
     return children;
 }
