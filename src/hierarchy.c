@@ -35,6 +35,11 @@ typedef struct Task {
     int node_count, first_node;
 } Task;
 
+/* A task in the order in which they are begun. */
+typedef struct Turn {
+    int items, task;
+} Turn;
+
 /* A node of the level that is being divided. */
 typedef struct Open {
     HdGroup group;
@@ -63,7 +68,8 @@ typedef struct Build {
     HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
     int32_t *order;
     TopNode *tops;
-    Task *tasks, **sorted_tasks;
+    Task *tasks;
+    Turn *turns;
     Open *opens, *next_opens;
     Chunk *chunks;
     HdBins *bins; /* of each chunk */
@@ -301,7 +307,7 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = build->sorted_tasks[number];
+    Task *task = &build->tasks[build->turns[number].task];
     const int first = task->group.first, end = first + task->group.count;
     HdSubtree subtree = {build->options, build->unit,          task->items,
                          task->spare,    build->nodes + first, 0};
@@ -312,22 +318,21 @@ static void build_task(void *context, int thread, int number) {
 }
 
 static int larger_first(const void *a, const void *b) {
-    const Task *x = *(Task *const *)a, *y = *(Task *const *)b;
-    return (x->group.count < y->group.count) - (x->group.count > y->group.count);
+    const Turn *x = a, *y = b;
+    return (x->items < y->items) - (x->items > y->items);
 }
 
 static HdStatus build_subtrees(Build *build, HdThreadPool *pool, HdError *error) {
     for (int i = 0; i < build->task_count; i++)
-        build->sorted_tasks[i] = &build->tasks[i];
-    qsort(build->sorted_tasks, (size_t)build->task_count, sizeof *build->sorted_tasks,
-          larger_first);
+        build->turns[i] = (Turn){build->tasks[i].group.count, i};
+    qsort(build->turns, (size_t)build->task_count, sizeof *build->turns, larger_first);
     return run(build, pool, build->task_count, build_task, error);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = build->sorted_tasks[number];
+    const Task *task = &build->tasks[build->turns[number].task];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -397,14 +402,14 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
     build->tops = hd_large_allocate(MOST_TASKS * sizeof *build->tops);
     build->tasks = hd_large_allocate(MOST_TASKS * sizeof *build->tasks);
-    build->sorted_tasks = hd_large_allocate(MOST_TASKS * sizeof(Task *));
+    build->turns = hd_large_allocate(MOST_TASKS * sizeof *build->turns);
     build->opens = hd_large_allocate(MOST_PIECES * sizeof *build->opens);
     build->next_opens = hd_large_allocate(MOST_PIECES * sizeof *build->next_opens);
     build->chunks = hd_large_allocate(MOST_CHUNKS * sizeof *build->chunks);
     build->bins = hd_large_allocate(MOST_CHUNKS * sizeof *build->bins);
     hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
     if (build->memory == NULL || build->nodes == NULL || build->tops == NULL ||
-        build->tasks == NULL || build->sorted_tasks == NULL || build->opens == NULL ||
+        build->tasks == NULL || build->turns == NULL || build->opens == NULL ||
         build->next_opens == NULL || build->chunks == NULL || build->bins == NULL ||
         hierarchy->order == NULL)
         return false;
@@ -419,7 +424,7 @@ static void free_build(Build *build) {
     free(build->nodes);
     free(build->tops);
     free(build->tasks);
-    free(build->sorted_tasks);
+    free(build->turns);
     free(build->opens);
     free(build->next_opens);
     free(build->chunks);

@@ -123,6 +123,8 @@ static HdBranch build(Sweep *sweep, const HdGroup *group, int begin) {
 }
 
 HdBranch hd_subtree_sweep(HdSubtree *subtree, const HdGroup *group) {
+    if (group->count <= 1)
+        return hd_subtree_leaf(group, hd_bounds_area(&group->box, subtree->unit));
     HdItem *items = subtree->items + group->first;
     Sweep sweep;
     sweep.subtree = subtree;
