@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "hierarchy.h"
 
-#include <fenv.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +12,8 @@
 
 /* The top of the hierarchy is built level by level, all threads at work on all items of a level.
    What has become small enough is built as a subtree by one thread. Neither the sizes nor the order
-   of items depend on the number of threads: every partition is stable. */
+   of items depend on the number of threads: every partition is stable. Nor does anything depend on
+   the caller's floating-point environment: what is rounded is computed by the threads. */
 enum {
     MOST_PIECES = 256, /* of a level, about */
     LEAST_PIECE = 4096,
@@ -34,6 +34,11 @@ typedef struct Task {
     HdBranch branch;
     int node_count, first_node;
 } Task;
+
+/* A task in the order in which they are begun. */
+typedef struct Turn {
+    int items, task;
+} Turn;
 
 /* A node of the level that is being divided. */
 typedef struct Open {
@@ -58,11 +63,13 @@ typedef struct Build {
     int count, piece;
     const HdHierarchyOptions *options;
     HdLanes unit;
+    void *memory;           /* two items for each box, later the nodes of the hierarchy */
     HdItem *items, *others; /* `others` takes what is moved */
     HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
     int32_t *order;
     TopNode *tops;
-    Task *tasks, **sorted_tasks;
+    Task *tasks;
+    Turn *turns;
     Open *opens, *next_opens;
     Chunk *chunks;
     HdBins *bins; /* of each chunk */
@@ -176,9 +183,8 @@ static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
         return status;
     for (int i = 0; i < build->chunk_count; i++)
         hd_bounds_merge(&root.centres, &build->chunks[i].centres[0]);
-    HdItem *loaded = build->items;
-    build->items = build->others;
-    build->others = loaded;
+    /* As if they had been moved. */
+    swap(build);
     hand_on(build, &root, &build->root);
     swap(build);
     return HD_OK;
@@ -188,9 +194,9 @@ static void bin_chunk(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
     const Chunk *chunk = &build->chunks[number];
-    HdBins *bins = &build->bins[number];
-    hd_bins_clear(bins, &chunk->open->binning);
-    hd_bins_add(bins, &chunk->open->binning, build->items + chunk->begin,
+    const HdBinning binning = hd_binning_of(&chunk->open->group, build->unit);
+    hd_bins_clear(&build->bins[number], &binning);
+    hd_bins_add(&build->bins[number], &binning, build->items + chunk->begin,
                 chunk->end - chunk->begin);
 }
 
@@ -213,6 +219,7 @@ static void choose_split(void *context, int thread, int number) {
     open->split.axis = -1;
     if (hd_group_is_deep(&open->group, build->options))
         return;
+    open->binning = hd_binning_of(&open->group, build->unit);
     HdBins all;
     hd_bins_clear(&all, &open->binning);
     for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
@@ -245,9 +252,13 @@ static void move_chunk(void *context, int thread, int number) {
 static void divide(Build *build, const Open *open) {
     const HdSplit *split = &open->split;
     const HdGroup *group = &open->group;
-    HdGroup sides[2] = {{group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
-                        {group->first + split->left_count, group->count - split->left_count,
-                         group->depth + 1, split->right, {{0}, {0}}}};
+    HdGroup sides[2] = {
+        {group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
+        {group->first + split->left_count,
+         group->count - split->left_count,
+         group->depth + 1,
+         split->right,
+         {{0}, {0}}}};
     TopNode *top = &build->tops[build->top_count];
     *open->link = build->top_count++;
     top->axis = split->axis;
@@ -271,7 +282,6 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
     build->chunk_count = 0;
     for (int i = 0; i < build->open_count; i++) {
         Open *open = &build->opens[i];
-        open->binning = hd_binning_of(&open->group, build->unit);
         open->first_chunk = build->chunk_count;
         cut(build, open->group.first, open->group.count, open);
         open->chunk_count = build->chunk_count - open->first_chunk;
@@ -297,10 +307,10 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = build->sorted_tasks[number];
+    Task *task = &build->tasks[build->turns[number].task];
     const int first = task->group.first, end = first + task->group.count;
-    HdSubtree subtree = {build->options, build->unit, task->items,
-                         task->spare, build->nodes + first, 0};
+    HdSubtree subtree = {build->options, build->unit,          task->items,
+                         task->spare,    build->nodes + first, 0};
     task->branch = hd_subtree_build(&subtree, &task->group);
     task->node_count = subtree.node_count;
     for (int i = first; i < end; i++)
@@ -308,22 +318,21 @@ static void build_task(void *context, int thread, int number) {
 }
 
 static int larger_first(const void *a, const void *b) {
-    const Task *x = *(Task *const *)a, *y = *(Task *const *)b;
-    return (x->group.count < y->group.count) - (x->group.count > y->group.count);
+    const Turn *x = a, *y = b;
+    return (x->items < y->items) - (x->items > y->items);
 }
 
 static HdStatus build_subtrees(Build *build, HdThreadPool *pool, HdError *error) {
     for (int i = 0; i < build->task_count; i++)
-        build->sorted_tasks[i] = &build->tasks[i];
-    qsort(build->sorted_tasks, (size_t)build->task_count, sizeof *build->sorted_tasks,
-          larger_first);
+        build->turns[i] = (Turn){build->tasks[i].group.count, i};
+    qsort(build->turns, (size_t)build->task_count, sizeof *build->turns, larger_first);
     return run(build, pool, build->task_count, build_task, error);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = build->sorted_tasks[number];
+    const Task *task = &build->tasks[build->turns[number].task];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -334,8 +343,8 @@ static void copy_task(void *context, int thread, int number) {
     }
 }
 
-/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the top
-   if there is where to. Returns the height. */
+/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the
+   top. Returns the height. */
 static int place(Build *build, int top, int *next, int32_t *child) {
     if (top < 0) {
         Task *task = &build->tasks[~top];
@@ -349,11 +358,10 @@ static int place(Build *build, int top, int *next, int32_t *child) {
     int32_t children[2];
     const int left = place(build, node->child[0], next, &children[0]);
     const int right = place(build, node->child[1], next, &children[1]);
-    if (build->result != NULL)
-        build->result[number] =
-            (HdBuildNode){{hd_bounds_box(&node->box[0]), hd_bounds_box(&node->box[1])},
-                          {children[0], children[1]},
-                          node->axis};
+    build->result[number] =
+        (HdBuildNode){{hd_bounds_box(&node->box[0]), hd_bounds_box(&node->box[1])},
+                      {children[0], children[1]},
+                      node->axis};
     *child = number;
     return 1 + (left > right ? left : right);
 }
@@ -362,67 +370,61 @@ static int place(Build *build, int top, int *next, int32_t *child) {
 static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_t leaf) {
     const HdBounds none = hd_bounds_empty();
     const int32_t empty_leaf = ~0;
-    hierarchy->nodes[0] =
-        (HdBuildNode){{hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)},
-                      {leaf, empty_leaf},
-                      0};
+    hierarchy->node_count = hierarchy->depth = 1;
+    hierarchy->nodes[0] = (HdBuildNode){
+        {hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)}, {leaf, empty_leaf}, 0};
 }
 
-static HdStatus out_of_memory(HdError *error, int count) {
-    return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes", count);
-}
-
-static void free_items(Build *build) {
-    free(build->items);
-    free(build->others);
-    build->items = build->others = NULL;
-}
-
+/* The nodes take the place of the items, which need more room and are no longer needed: memory that
+   is new to the program takes longer to get than to fill. */
 static HdStatus assemble(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool, HdError *error) {
-    free_items(build);
     int32_t root;
     int count = 0;
+    hierarchy->nodes = build->result = build->memory;
+    build->memory = NULL;
     hierarchy->depth = place(build, build->root, &count, &root);
-    hierarchy->node_count = count > 0 ? count : 1;
-    hierarchy->nodes = hd_large_allocate((size_t)hierarchy->node_count * sizeof *hierarchy->nodes);
-    if (hierarchy->nodes == NULL)
-        return out_of_memory(error, build->count);
+    hierarchy->node_count = count;
     if (root < 0) {
         make_root_of_leaf(build, hierarchy, root);
-        hierarchy->depth = 1;
         return HD_OK;
     }
-    build->result = hierarchy->nodes;
-    count = 0;
-    (void)place(build, build->root, &count, &root);
-    return run(build, pool, build->task_count, copy_task, error);
+    const HdStatus status = run(build, pool, build->task_count, copy_task, error);
+    HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
+    if (less != NULL)
+        hierarchy->nodes = less;
+    return status;
 }
 
 static bool allocate(Build *build, HdHierarchy *hierarchy) {
+    _Static_assert(sizeof(HdBuildNode) <= 2 * sizeof(HdItem), "nodes take the place of items");
     const size_t count = (size_t)build->count;
-    build->items = hd_large_allocate(count * sizeof *build->items);
-    build->others = hd_large_allocate(count * sizeof *build->others);
+    build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
     build->tops = hd_large_allocate(MOST_TASKS * sizeof *build->tops);
     build->tasks = hd_large_allocate(MOST_TASKS * sizeof *build->tasks);
-    build->sorted_tasks = malloc(MOST_TASKS * sizeof(Task *));
+    build->turns = hd_large_allocate(MOST_TASKS * sizeof *build->turns);
     build->opens = hd_large_allocate(MOST_PIECES * sizeof *build->opens);
     build->next_opens = hd_large_allocate(MOST_PIECES * sizeof *build->next_opens);
     build->chunks = hd_large_allocate(MOST_CHUNKS * sizeof *build->chunks);
     build->bins = hd_large_allocate(MOST_CHUNKS * sizeof *build->bins);
-    build->order = hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
-    return build->items != NULL && build->others != NULL && build->nodes != NULL &&
-           build->tops != NULL && build->tasks != NULL && build->sorted_tasks != NULL &&
-           build->opens != NULL && build->next_opens != NULL && build->chunks != NULL &&
-           build->bins != NULL && build->order != NULL;
+    hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
+    if (build->memory == NULL || build->nodes == NULL || build->tops == NULL ||
+        build->tasks == NULL || build->turns == NULL || build->opens == NULL ||
+        build->next_opens == NULL || build->chunks == NULL || build->bins == NULL ||
+        hierarchy->order == NULL)
+        return false;
+    build->items = build->memory;
+    build->others = build->items + count;
+    build->order = hierarchy->order;
+    return true;
 }
 
 static void free_build(Build *build) {
-    free_items(build);
+    free(build->memory);
     free(build->nodes);
     free(build->tops);
     free(build->tasks);
-    free(build->sorted_tasks);
+    free(build->turns);
     free(build->opens);
     free(build->next_opens);
     free(build->chunks);
@@ -432,7 +434,8 @@ static void free_build(Build *build) {
 static HdStatus build_all(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool,
                           HdError *error) {
     if (!allocate(build, hierarchy))
-        return out_of_memory(error, build->count);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes",
+                       build->count);
     HdStatus status = load(build, pool, error);
     while (status == HD_OK && build->open_count > 0)
         status = divide_level(build, pool, error);
@@ -450,12 +453,7 @@ HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int coun
     if (build.piece < LEAST_PIECE)
         build.piece = LEAST_PIECE;
     *hierarchy = (HdHierarchy){0};
-    /* As the threads have it: the caller may flush denormals. */
-    fenv_t environment;
-    feholdexcept(&environment);
-    fesetenv(FE_DFL_ENV);
     const HdStatus status = build_all(&build, hierarchy, pool, error);
-    fesetenv(&environment);
     free_build(&build);
     if (status != HD_OK)
         hd_hierarchy_free(hierarchy);

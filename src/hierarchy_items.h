@@ -42,17 +42,13 @@ typedef struct HdGroup {
 
 /* Where either is NaN the result is b. Written so that it becomes one instruction. */
 static inline HdLanes hd_lesser(HdLanes a, HdLanes b) {
-    HdLanes result = b;
-    for (int i = 0; i < 4; i++)
-        result[i] = a[i] < b[i] ? a[i] : b[i];
-    return result;
+    return (HdLanes){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1],
+                     a[2] < b[2] ? a[2] : b[2], a[3] < b[3] ? a[3] : b[3]};
 }
 
 static inline HdLanes hd_greater(HdLanes a, HdLanes b) {
-    HdLanes result = b;
-    for (int i = 0; i < 4; i++)
-        result[i] = a[i] > b[i] ? a[i] : b[i];
-    return result;
+    return (HdLanes){a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1],
+                     a[2] > b[2] ? a[2] : b[2], a[3] > b[3] ? a[3] : b[3]};
 }
 
 static inline HdBounds hd_bounds_empty(void) {
@@ -80,13 +76,49 @@ static inline float hd_item_centre_on(const HdItem *item, float unit, int axis) 
     return item->lower.parts.xyz[axis] * unit + item->upper.parts.xyz[axis] * unit;
 }
 
-/* Half the area in `unit`. The lengths of the edges count a little, so that boxes without an area,
-   in a line, or with one too small for a float, are still told apart by their size. */
+/* Half the areas of three boxes in `unit`, one in each lane. The lengths of the edges count a
+   little, so that boxes without an area, in a line, or with one too small for a float, are still
+   told apart by their size. */
+static inline HdLanes hd_bounds_areas(const HdBounds boxes[3], HdLanes unit) {
+    const HdLanes a = boxes[0].upper * unit - boxes[0].lower * unit;
+    const HdLanes b = boxes[1].upper * unit - boxes[1].lower * unit;
+    const HdLanes c = boxes[2].upper * unit - boxes[2].lower * unit;
+    const HdLanes x = {a[0], b[0], c[0], c[3]};
+    const HdLanes y = {a[1], b[1], c[1], c[3]};
+    const HdLanes z = {a[2], b[2], c[2], c[3]};
+    return x * (y + z) + y * z + 0x1p-40F * (x + y + z);
+}
+
 static inline float hd_bounds_area(const HdBounds *bounds, HdLanes unit) {
-    const float tiny = 0x1p-40F;
     const HdLanes edges = bounds->upper * unit - bounds->lower * unit;
     const float x = edges[0], y = edges[1], z = edges[2];
-    return x * (y + z) + y * z + tiny * (x + y + z);
+    return x * (y + z) + y * z + 0x1p-40F * (x + y + z);
+}
+
+/* Of candidates on three axes the cheapest so far, and its place. */
+typedef struct HdBest {
+    HdLanes cost;
+    HdIntLanes place;
+} HdBest;
+
+static inline HdBest hd_best_none(void) {
+    return (HdBest){{INFINITY, INFINITY, INFINITY, INFINITY}, {0, 0, 0, 0}};
+}
+
+/* NaN is never cheaper. */
+static inline void hd_best_offer(HdBest *best, HdLanes cost, int place) {
+    const HdIntLanes cheaper = cost < best->cost;
+    best->cost = hd_lesser(cost, best->cost);
+    best->place = (cheaper & place) | (~cheaper & best->place);
+}
+
+/* The cheapest axis; -1: none. */
+static inline int hd_best_axis(const HdBest *best) {
+    int least = best->cost[0] < INFINITY ? 0 : -1;
+    for (int axis = 1; axis < 3; axis++)
+        if (best->cost[axis] < (least < 0 ? INFINITY : best->cost[least]))
+            least = axis;
+    return least;
 }
 
 static inline HdBox hd_bounds_box(const HdBounds *bounds) {

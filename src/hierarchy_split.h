@@ -17,7 +17,7 @@ typedef struct HdBinning {
 /* What falls into each slice, on each axis. */
 typedef struct HdBins {
     HdBounds box[HD_MAX_BINS][3];
-    int32_t count[HD_MAX_BINS][3];
+    HdIntLanes count[HD_MAX_BINS]; /* lane for axis */
 } HdBins;
 
 /* Items whose bin on `axis` is less than `bin` go left. */

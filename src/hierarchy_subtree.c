@@ -13,16 +13,16 @@ int hd_subtree_add_node(HdSubtree *subtree, int axis, const HdBounds *left, cons
     return subtree->node_count++;
 }
 
-HdBranch hd_subtree_leaf(const HdSubtree *subtree, int first, int count, float area) {
-    (void)subtree;
-    return (HdBranch){~(first << HD_LEAF_SHIFT | count), 0, area * (float)count};
+HdBranch hd_subtree_leaf(const HdGroup *group, float area) {
+    return (HdBranch){~(group->first << HD_LEAF_SHIFT | group->count), 0,
+                      area * (float)group->count};
 }
 
 HdBranch hd_subtree_join(HdSubtree *subtree, const HdGroup *group, int number, HdBranch left,
                          HdBranch right) {
     const HdHierarchyOptions *options = subtree->options;
     const float area = hd_bounds_area(&group->box, subtree->unit);
-    const HdBranch leaf = hd_subtree_leaf(subtree, group->first, group->count, area);
+    const HdBranch leaf = hd_subtree_leaf(group, area);
     const float cost = options->node_cost * area + left.cost + right.cost;
     if (group->count <= options->most_in_leaf && !(cost < leaf.cost)) {
         subtree->node_count = number;
@@ -104,9 +104,16 @@ static int divide(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[
     return 0;
 }
 
+/* A sweep of n items makes at most n - 1 nodes below each other. */
+static bool can_sweep(const HdGroup *group) {
+    return group->count <= HD_MAX_SWEEP && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH;
+}
+
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group) {
-    if (group->count == 1)
-        return hd_subtree_leaf(subtree, group->first, 1, hd_bounds_area(&group->box, subtree->unit));
+    if (can_sweep(group))
+        return hd_subtree_sweep(subtree, group);
+    if (group->count == 1 || group->depth > HD_MAX_HIERARCHY_DEPTH)
+        return hd_subtree_leaf(group, hd_bounds_area(&group->box, subtree->unit));
     HdGroup sides[2];
     const int axis = divide(subtree, group, sides);
     const int number = hd_subtree_add_node(subtree, axis, &sides[0].box, &sides[1].box);
