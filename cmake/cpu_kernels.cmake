@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 # The builds of the plain C kernels, as listed in cpu/kernel.h: instruction set, lanes, precision,
-# arithmetic. Bundles wider than a register are there to compare bytes, not for speed: they are built at
-# -O1, which keeps gcc's compile time bounded, and strict kernels stand in for their fast ones. So they do
-# with sanitizers, which look at memory and not at rounding.
+# arithmetic. Bundles that do not fill a register are there to compare bytes, not for speed: strict kernels
+# stand in for their fast ones, those wider than a register are built at -O1, which keeps gcc's compile
+# time bounded, and no sanitizer looks at them. With sanitizers, which look at memory and not at rounding,
+# strict kernels stand in everywhere.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
 set(builds generic:1 generic:4 generic:8 generic:16)
 if(processor MATCHES "^(x86_64|amd64)$")
@@ -25,6 +26,8 @@ set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
 set(wider_than_a_register generic:8:float generic:16:float generic:8:double generic:16:double
     avx2:8:double avx512:16:double)
 
+set(to_compare ${wider_than_a_register} generic:4:double avx2:4:float avx512:8:float)
+
 foreach(build IN LISTS builds)
     string(REPLACE ":" ";" parts ${build})
     list(GET parts 0 set)
@@ -32,11 +35,16 @@ foreach(build IN LISTS builds)
     foreach(precision float double)
         set(level -O3)
         set(arithmetics strict fast)
-        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE)
+        set(sanitizers "")
+        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE OR
+           CMAKE_BUILD_TYPE STREQUAL "Debug")
             set(level -O1)
+        endif()
+        if("${build}:${precision}" IN_LIST to_compare)
             set(arithmetics strict)
-        elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")
-            set(level -O1)
+            set(sanitizers -fno-sanitize=all)
+        elseif(HEDRON_SANITIZE)
+            set(arithmetics strict)
         endif()
         foreach(math IN LISTS arithmetics)
             set(name ${set}_${lanes}_${precision}_${math})
@@ -49,7 +57,8 @@ foreach(build IN LISTS builds)
                     HD_KERNEL_STANDS_FOR=hd_kernel_${set}_${lanes}_${precision}_fast)
             endif()
             target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
-                ${level} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}})
+                ${level} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}}
+                ${sanitizers})
             target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
         endforeach()
     endforeach()

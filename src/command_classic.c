@@ -67,6 +67,8 @@ static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
     if (status == HD_OK)
         status = hd_scene_file_load_texture(&file, error);
     if (status == HD_OK)
+        status = hd_apply_geometry(&file.scene, options, error);
+    if (status == HD_OK)
         status = render_file(options, &file, error);
     hd_scene_file_free(&file);
     return status;

@@ -8,9 +8,13 @@
 
 #include "default_scene.h"
 #include "interrupt.h"
+#include "scene_triangles.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
+
+/* Of the discs of edge lights, where they become polygons. */
+enum { DISC_SIDES = 16 };
 
 static const char standard_input[] = "standard input";
 
@@ -117,6 +121,16 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
     return status;
 }
 
+HdStatus hd_apply_geometry(HdScene *scene, const HdOptions *options, HdError *error) {
+    int divisions = options->divisions > 0 ? options->divisions : 1;
+    scene->accel = options->accel;
+    if (options->geometry == HD_GEOMETRY_SOLIDS && options->divisions > 0)
+        return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
+    if (options->geometry == HD_GEOMETRY_SOLIDS)
+        return HD_OK;
+    return hd_scene_triangulate(scene, DISC_SIDES, divisions, error);
+}
+
 static HdStatus read_default(HdSceneFile *file, const HdSceneSource *source, HdError *error) {
     size_t size;
     const char *text = hd_default_scene_text(&size);
@@ -135,6 +149,8 @@ HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *err
     if (status != HD_OK)
         return status;
     status = hd_apply_scene_options(&file->scene, options, error);
+    if (status == HD_OK)
+        status = hd_apply_geometry(&file->scene, options, error);
     if (status != HD_OK)
         hd_scene_file_free(file);
     return status;

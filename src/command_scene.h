@@ -26,6 +26,10 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSo
    suit it, the message begins with them, as "--size 60000x60000: ". */
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error);
 
+/* Makes the scene, whose textures are loaded, out of what the options say: solids or triangles, and
+   how these are searched. */
+HdStatus hd_apply_geometry(HdScene *scene, const HdOptions *options, HdError *error);
+
 /* Reads the scene that is named on the command line, or the built-in one, with its texture; lays
    the options over it. */
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error);

@@ -21,7 +21,8 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_PLANE_BOUND", shape->needs.plane_bound},
         {"HD_DEPTH_BOUND", shape->needs.depth_bound},
         {"HD_NODE_STACK", shape->needs.node_stack_bound},
-        {"HD_WIDE_STACK", shape->needs.wide_stack_bound},
+        /* A wide node has at most as many children as lanes, and is no deeper than others. */
+        {"HD_WIDE_STACK", shape->needs.node_stack_bound * shape->lanes},
         {"HD_REFRACTS", shape->needs.refracts},
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
@@ -58,12 +59,17 @@ int hd_kernel_bound(int count) {
     return bound;
 }
 
+/* Deep enough for nearly all meshes, so that few builds differ in it. */
+static int stack_bound(int count) {
+    enum { USUAL = 32 };
+    return hd_kernel_bound(count < USUAL ? USUAL : count);
+}
+
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
     return (HdKernelNeeds){
         .plane_bound = hd_kernel_bound(tables->plane_count),
         .depth_bound = hd_kernel_bound(tables->depth),
-        .node_stack_bound = tables->node_stack > 0 ? hd_kernel_bound(tables->node_stack) : 0,
-        .wide_stack_bound = tables->wide_stack > 0 ? hd_kernel_bound(tables->wide_stack) : 0,
+        .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
     };
@@ -72,8 +78,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
            a->node_stack_bound == b->node_stack_bound &&
-           a->wide_stack_bound == b->wide_stack_bound && a->refracts == b->refracts &&
-           a->lit_from_behind == b->lit_from_behind;
+           a->refracts == b->refracts && a->lit_from_behind == b->lit_from_behind;
 }
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {

@@ -16,8 +16,8 @@ extern const size_t hd_cuda_source_size;
 
 /* What a build for one scene can do; what it cannot is not compiled in. */
 typedef struct HdKernelNeeds {
-    int plane_bound, depth_bound;           /* private arrays are this large */
-    int node_stack_bound, wide_stack_bound; /* likewise; 0: there are no meshes */
+    int plane_bound, depth_bound; /* private arrays are this large */
+    int node_stack_bound;         /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
 } HdKernelNeeds;

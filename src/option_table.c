@@ -60,6 +60,15 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "threads of a GPU's work group, a multiple of 32 (default: what suits it)"},
     {HD_OPTION_GRID, "--grid", NULL, "N", NULL, false, 1, HD_MAX_GRID, MEASURING,
      "work groups of one launch on a GPU, at most (default: what suits it)"},
+    {HD_OPTION_GEOMETRY, "--geometry", NULL, "NAME", "solids triangles", false, 0, 0, MEASURING,
+     "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
+     "gives nearly the same picture (default solids)"},
+    {HD_OPTION_DIVISIONS, "--divisions", NULL, "N", NULL, false, 1, HD_MAX_DIVISIONS, MEASURING,
+     "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
+     "(default 1)"},
+    {HD_OPTION_ACCEL, "--accel", NULL, "NAME", "auto brute bvh", false, 0, 0, MEASURING,
+     "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
+     "(default auto: brute for a handful)"},
     {HD_OPTION_PRECISION, "--precision", NULL, "P", "float double", false, 0, 0, MEASURING,
      "float or double (default float)"},
     {HD_OPTION_MATH, "--math", NULL, "M", "strict fast", false, 0, 0, MEASURING,

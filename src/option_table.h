@@ -25,6 +25,9 @@ typedef enum HdOptionId {
     HD_OPTION_PIPELINE,
     HD_OPTION_BLOCK,
     HD_OPTION_GRID,
+    HD_OPTION_GEOMETRY,
+    HD_OPTION_DIVISIONS,
+    HD_OPTION_ACCEL,
     HD_OPTION_PRECISION,
     HD_OPTION_MATH,
     HD_OPTION_STATS,
@@ -49,7 +52,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 28 };
+enum { HD_OPTION_SPEC_COUNT = 31 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

@@ -160,6 +160,10 @@ static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const
         options->render.lanes = lanes[number];
     else if (spec->id == HD_OPTION_PIPELINE)
         options->render.pipeline = (HdPipeline)number;
+    else if (spec->id == HD_OPTION_GEOMETRY)
+        options->geometry = number == 0 ? HD_GEOMETRY_SOLIDS : HD_GEOMETRY_TRIANGLES;
+    else if (spec->id == HD_OPTION_ACCEL)
+        options->accel = (HdAccel)number;
     else if (spec->id == HD_OPTION_PRECISION)
         options->render.precision = number == 0 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE;
     else
@@ -199,6 +203,8 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         return parse_integer(spec, value, &options->depth, error);
     case HD_OPTION_CUTOFF:
         return parse_fraction(spec, value, &options->cutoff, error);
+    case HD_OPTION_DIVISIONS:
+        return parse_integer(spec, value, &options->divisions, error);
     case HD_OPTION_DEVICE:
         return parse_text(spec, value, "a number, BACKEND:NUMBER or part of a name",
                           &options->device, error);
@@ -211,6 +217,8 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_BACKEND:
     case HD_OPTION_PIPELINE:
     case HD_OPTION_LANES:
+    case HD_OPTION_GEOMETRY:
+    case HD_OPTION_ACCEL:
     case HD_OPTION_PRECISION:
     case HD_OPTION_MATH:
         return apply_choice(options, spec, value, error);

@@ -10,6 +10,7 @@
 #include "command_table.h"
 #include "error.h"
 #include "outputs.h"
+#include "scene.h"
 
 typedef enum HdClassicMode {
     HD_CLASSIC_UNSAID, /* as HD_CLASSIC_GPU */
@@ -41,6 +42,9 @@ typedef struct HdOptions {
     bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
                                float, strict */
+    HdGeometry geometry;
+    int divisions; /* 0: not given */
+    HdAccel accel;
     int depth, samples, width, height; /* each -1: not given */
     double cutoff;                     /* -1: not given */
 } HdOptions;

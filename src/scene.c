@@ -11,6 +11,13 @@ int hd_edge_light_count(const HdSolid *solid) {
     return platonic.edge_count * solid->lights.per_edge;
 }
 
+HdVec3 hd_floor_centre(const HdFloor *floor) {
+    HdVec3 sum = floor->corners[0];
+    for (int i = 1; i < 4; i++)
+        sum = hd_add(sum, floor->corners[i]);
+    return hd_scale(sum, 0.25);
+}
+
 int hd_scene_light_count(const HdScene *scene) {
     int count = scene->light_count;
     for (int i = 0; i < scene->solid_count; i++)

@@ -131,6 +131,9 @@ typedef struct HdScene {
 /* The lights on the edges of a solid whose values are valid. */
 int hd_edge_light_count(const HdSolid *solid);
 
+/* The mean of the corners. */
+HdVec3 hd_floor_centre(const HdFloor *floor);
+
 /* Point lights and lights of edges of a valid scene, those that light nothing included. */
 int hd_scene_light_count(const HdScene *scene);
 

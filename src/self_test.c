@@ -57,7 +57,6 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
     tables->plane_count = greater(tables->plane_count, like->plane_count);
     tables->depth = greater(tables->depth, like->depth);
     tables->node_stack = like->node_stack;
-    tables->wide_stack = like->wide_stack;
     tables->refracts = like->refracts;
     tables->lit_from_behind = like->lit_from_behind;
     status = hd_compile_frame(view, scene, &camera, like->precision, error);

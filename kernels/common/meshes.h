@@ -58,24 +58,10 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     return rays;
 }
 
-FN_APART void find_closest(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
-                           int number) {
+FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
+                              int number, int is_shadow) {
     MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
-    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, 0);
-}
-
-FN_APART void find_filters(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
-                           int number) {
-    MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
-    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, 1);
-}
-
-FN void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
-                        int number, int is_shadow) {
-    if (is_shadow)
-        find_filters(SCENE_ARGUMENTS found, world, m, number);
-    else
-        find_closest(SCENE_ARGUMENTS found, world, m, number);
+    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, is_shadow);
 }
 
 /* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the

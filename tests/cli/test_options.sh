@@ -91,6 +91,25 @@ for value in Mega wave '' 1; do
     wrong --pipeline "$value"
 done
 
+for value in solids triangles; do
+    right --geometry "$value"
+done
+right --geometry=triangles --divisions=2
+for value in solid Triangles '' 1; do
+    wrong --geometry "$value"
+done
+for value in 0 -1 1.5 abc '' 1001; do
+    wrong --divisions "$value"
+done
+expect_refusal 2 "$hedron" render --divisions 2
+expect_stderr_contains '--divisions needs --geometry triangles'
+for value in auto brute bvh; do
+    right --accel "$value"
+done
+for value in tree '' 1; do
+    wrong --accel "$value"
+done
+
 # Plain C has no work groups: as --threads on a GPU, they are for another device.
 for value in 32 96 1024; do
     right --block "$value"
@@ -197,12 +216,12 @@ for option in --help --version; do
     expect_refusal 2 "$hedron" render "$option=1"
     expect_stderr_contains "$option"
 done
-for option in --variant --backend --device --lanes --threads --pipeline --block --grid --precision --math --frames --size \
+for option in --variant --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size \
     --samples --depth --cutoff; do
     expect_refusal 2 "$hedron" --cpu "$option" <"$input"
     expect_stderr_contains "$option needs a value"
 done
-for option in --output --backend --device --lanes --threads --pipeline --block --grid --precision --math --frames --size \
+for option in --output --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size \
     --samples --depth --cutoff --set --stats; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "$option needs a value"
@@ -232,7 +251,7 @@ for option in --output=x.png '-o x.png'; do
     expect_stderr_contains --output
 done
 for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --pipeline=mega \
-    --block=32 --grid=1 --precision=float --math=fast \
+    --geometry=solids --divisions=1 --accel=auto --block=32 --grid=1 --precision=float --math=fast \
     --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0 --set=a=1 --stats=x --verbose --quiet; do
     expect_refusal 2 "$hedron" devices "$option"
     expect_stderr_contains "${option%%=*}"

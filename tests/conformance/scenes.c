@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scenes.h"
 
+#include "mesh_scenes.h"
 #include "scene_builder.h"
 
 static void two_lights(HdScene *scene) {
@@ -349,5 +350,10 @@ const ConformanceFrame conformance_frames[] = {
     {"glass-dodecahedron", glass_dodecahedron},
     {"lanterns", lanterns},
     {"everything", everything},
+    {"bumpy-sphere", bumpy_sphere},
+    {"many-instances", many_instances},
+    {"triangulated-solids", triangulated_solids},
+    {"mesh-edges-and-corners", mesh_edges_and_corners},
+    {"mesh-far-from-origin", mesh_far_from_origin},
 };
 const int conformance_frame_count = (int)(sizeof conformance_frames / sizeof conformance_frames[0]);

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* Frames of the conformance suite with meshes. */
+#ifndef HD_CONFORMANCE_MESH_SCENES_H
+#define HD_CONFORMANCE_MESH_SCENES_H
+
+#include "camera.h"
+#include "scene.h"
+
+void bumpy_sphere(HdScene *scene, HdCamera *camera);
+void many_instances(HdScene *scene, HdCamera *camera);
+void triangulated_solids(HdScene *scene, HdCamera *camera);
+void mesh_edges_and_corners(HdScene *scene, HdCamera *camera);
+void mesh_far_from_origin(HdScene *scene, HdCamera *camera);
+
+#endif
