@@ -28,6 +28,7 @@ typedef struct {
     vmask inside;  /* and on its inner side */
     int object;    /* number of the mesh among the objects */
     int first_face;
+    int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
 } MeshRays;
@@ -151,14 +152,14 @@ FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *r
 /* ---- leaves ---- */
 
 FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
-                 int count, int is_shadow) {
+                 int count) {
     for (int i = first; i < first + count; i++) {
         TriangleCrossing crossing;
         TriangleLanes triangle = same_triangle(triangles, i, rays->first_face);
         vmask met = meet_triangles(rays, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;
-        if (is_shadow)
+        if (rays->is_shadow)
             keep_filter(skins, found, rays, &triangle, met, &crossing);
         else
             keep_closest(found, rays, &triangle, met, &crossing);
@@ -188,7 +189,7 @@ FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const in
 
 /* The rays of `m`, whose directions have the signs `negative`. */
 FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                      const int negative[3], int root, int is_shadow) {
+                      const int negative[3], int root) {
     int stack[NODE_STACK];
     vreal stack_near[NODE_STACK];
     int waiting = 0, current = root;
@@ -200,7 +201,7 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
             vreal near1 = entry_of_child(node, &rays->slabs, negative, 1);
             vreal far0 = lesser(exit_of_child(node, &rays->slabs, negative, 0), found->limit);
             vreal far1 = lesser(exit_of_child(node, &rays->slabs, negative, 1), found->limit);
-            vmask alive = is_shadow ? m & found->alive : m;
+            vmask alive = m & found->alive;
             int meets0 = any_lane(alive & le(near0, far0));
             int meets1 = any_lane(alive & le(near1, far1));
             int last = negative[node->axis] ? 0 : 1; /* the child further along the rays */
@@ -216,14 +217,14 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
             }
         } else {
             int items = ~current;
-            vmask alive = is_shadow ? m & found->alive : m;
+            vmask alive = m & found->alive;
             try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
-                     items & HD_LEAF_ITEM_MASK, is_shadow);
+                     items & HD_LEAF_ITEM_MASK);
         }
         while (!has_next && waiting > 0) {
             waiting--;
             next = stack[waiting];
-            vmask alive = is_shadow ? m & found->alive : m;
+            vmask alive = m & found->alive;
             has_next = any_lane(alive & le(stack_near[waiting], found->limit));
         }
         if (!has_next)
@@ -282,7 +283,7 @@ FN Findings spread_findings(const Findings *found, int lane) {
 /* Tries the triangles of a leaf side by side. What is found in the lanes is brought together, so
    that all of them hold it. */
 FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int first,
-                         int count, int is_shadow) {
+                         int count) {
     for (int done = 0; done < count; done += HD_LANES) {
         vmask m = lanes_below(count - done);
         vint number = lane_numbers() + (first + done);
@@ -292,7 +293,7 @@ FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, 
         vmask met = meet_triangles(ray, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;
-        if (is_shadow) {
+        if (ray->is_shadow) {
             keep_filter(skins, found, ray, &triangle, met, &crossing);
             if (any_lane(~found->alive))
                 found->alive = mask_none();
@@ -316,7 +317,7 @@ FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, 
 }
 
 /* The ray that all lanes of `ray` hold. */
-FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int root, int is_shadow) {
+FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int root) {
     int stack[WIDE_STACK];
     real stack_near[WIDE_STACK];
     int lower[3], upper[3];
@@ -336,8 +337,8 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int ro
         if (current < 0) {
             int items = ~current;
             try_leaf_at_once(SCENE_ARGUMENTS found, ray, items >> HD_LEAF_ITEM_BITS,
-                             items & HD_LEAF_ITEM_MASK, is_shadow);
-            if (is_shadow && !any_lane(found->alive))
+                             items & HD_LEAF_ITEM_MASK);
+            if (ray->is_shadow && !any_lane(found->alive))
                 return;
             continue;
         }
@@ -372,13 +373,12 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int ro
     }
 }
 
-FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, int lane, int root,
-                     int is_shadow) {
+FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, int lane, int root) {
     MeshRays ray = spread_rays(rays, lane);
     Findings one = spread_findings(found, lane);
-    walk_alone(SCENE_ARGUMENTS & one, &ray, root, is_shadow);
+    walk_alone(SCENE_ARGUMENTS & one, &ray, root);
     vmask m = eq_int(lane_numbers(), splat_int(lane));
-    if (is_shadow) {
+    if (rays->is_shadow) {
         for (int channel = 0; channel < 3; channel++) {
             int sum = 0, rest = 0;
             for (int i = 0; i < HD_LANES; i++) {
@@ -420,7 +420,7 @@ FN vmask same_signs(const Slabs *slabs, vmask m, int negative[3]) {
 }
 
 FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                         GLOBAL const Instance *instance, int is_shadow) {
+                         GLOBAL const Instance *instance) {
     vmask left = m;
     while (any_lane(left)) {
         int negative[3];
@@ -430,23 +430,22 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         uint bits = lane_bits(same);
         if (count_bits(bits) < FEW_RAYS) {
             for (; bits; bits &= bits - 1)
-                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), instance->wide_root,
-                             is_shadow);
+                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), instance->wide_root);
             continue;
         }
 #endif
-        walk_together(SCENE_ARGUMENTS found, rays, same, negative, instance->root, is_shadow);
+        walk_together(SCENE_ARGUMENTS found, rays, same, negative, instance->root);
     }
 }
 
 /* Searches one mesh with the rays of `m`, whichever way it is laid out. */
 FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                    GLOBAL const Instance *instance, int is_shadow) {
+                    GLOBAL const Instance *instance) {
     if (instance->root >= 0)
-        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance, is_shadow);
+        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance);
     else
-        try_leaf(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count,
-                 is_shadow);
+        try_leaf(SCENE_ARGUMENTS found, rays, m, instance->first_triangle,
+                 instance->triangle_count);
 }
 
 #endif

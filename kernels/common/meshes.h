@@ -11,6 +11,7 @@ typedef struct {
     Vec3 origin, direction;
     vint touched, face; /* the object touched last, -1: none, and which face of it */
     vmask inside;
+    int is_shadow;     /* for what filters light, not for what is hit first */
     int light_face[2]; /* a light's own faces, -1: none */
 } WorldRays;
 
@@ -52,6 +53,7 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     rays.own_face = pick_int(rays.own, world->face, splat_int(-1));
     rays.inside = world->inside;
     rays.first_face = instance->first_face;
+    rays.is_shadow = world->is_shadow;
     rays.light_face[0] = world->light_face[0];
     rays.light_face[1] = world->light_face[1];
     rays.contact_squared = instance->contact_squared;
@@ -59,15 +61,15 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
 }
 
 FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
-                              int number, int is_shadow) {
+                              int number) {
     MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
-    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number, is_shadow);
+    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number);
 }
 
 /* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the
    instances. */
 FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
-                       vmask m, const int negative[3], int is_shadow) {
+                       vmask m, const int negative[3]) {
     int stack[NODE_STACK];
     int waiting = 1;
     stack[0] = header->top_root;
@@ -78,8 +80,7 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
         if (current < 0) {
             int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
             for (int i = first; i < first + count; i++)
-                search_instance(SCENE_ARGUMENTS found, world, alive & found->alive, top_items[i],
-                                is_shadow);
+                search_instance(SCENE_ARGUMENTS found, world, alive & found->alive, top_items[i]);
             continue;
         }
         GLOBAL const MeshNode *node = mesh_nodes + current;
@@ -96,10 +97,10 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
     }
 }
 
-FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world, int is_shadow) {
+FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) {
     if (header->top_root < 0) {
         for (int i = 0; i < header->instance_count; i++)
-            search_instance(SCENE_ARGUMENTS found, world, found->alive, i, is_shadow);
+            search_instance(SCENE_ARGUMENTS found, world, found->alive, i);
         return;
     }
     Slabs slabs = ray_slabs(world->origin, world->direction, splat(header->mesh_reach));
@@ -108,7 +109,7 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world, 
         int negative[3];
         vmask same = same_signs(&slabs, left, negative);
         left = left & ~same;
-        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, negative, is_shadow);
+        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, negative);
     }
 }
 
@@ -122,6 +123,7 @@ FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, Reference refere
     world.touched = reference.is_eye ? splat_int(-1) : ray->touched;
     world.face = ray->face;
     world.inside = ray->inside;
+    world.is_shadow = 0;
     world.light_face[0] = world.light_face[1] = -1;
     Findings found;
     found.alive = ray->alive;
@@ -129,7 +131,7 @@ FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, Reference refere
     found.object = hit->object;
     found.triangle = hit->face;
     found.entering = hit->entering;
-    search_meshes(SCENE_ARGUMENTS & found, &world, 0);
+    search_meshes(SCENE_ARGUMENTS & found, &world);
     hit->t = found.limit;
     hit->object = found.object;
     hit->face = found.triangle;
@@ -166,6 +168,7 @@ FN_APART Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light
     world.touched = object;
     world.face = face;
     world.inside = inside;
+    world.is_shadow = 1;
     world.light_face[0] = lights[light].own_face[0];
     world.light_face[1] = lights[light].own_face[1];
     Findings found;
@@ -175,7 +178,7 @@ FN_APART Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light
     found.entering = mask_none();
     for (int channel = 0; channel < 3; channel++)
         found.octaves[channel] = found.rest[channel] = splat_int(0);
-    search_meshes(SCENE_ARGUMENTS & found, &world, 1);
+    search_meshes(SCENE_ARGUMENTS & found, &world);
     vreal open = pick(found.alive, splat(R(1.0)), splat(R(0.0)));
     vint most = greatest_int(found.octaves[0], greatest_int(found.octaves[1], found.octaves[2]));
     if (!any_lane(found.alive & lt_int(splat_int(0), most)))
