@@ -75,8 +75,9 @@ static void bundle_of(const HdTable *scene, const HdTable *frame, const Sight *s
     bundle->is_eye = kind != HD_RAYS_MIRRORED && kind != HD_RAYS_INSIDE;
     if (bundle->is_eye)
         return;
+    Hit hit = sight->hit;
     Surface surface =
-        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &sight->hit, sight->struck);
+        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &hit, sight->struck);
     Ray *ray = &bundle->ray;
     if (kind == HD_RAYS_MIRRORED)
         ray->direction = vec3_scale_add(
@@ -153,8 +154,9 @@ static void visit_points(const HdTable *scene, const HdTable *frame, const Sight
     Points points;
     if (!any_lane(sight->struck))
         return;
+    Hit hit = sight->hit;
     points.surface =
-        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &sight->hit, sight->struck);
+        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &hit, sight->struck);
     const LaneMaterial *material = &points.surface.material;
     Vec3 direction = sight->ray.direction;
     vreal zero = splat(R(0.0));

@@ -121,16 +121,21 @@ static void record(Waves *waves, const Ray *ray, vint numbers, const Sample *sam
         }
 }
 
+static int has_faces(const Waves *waves) {
+    const Header *header = waves->scene[HD_TABLE_header].data;
+    return header->instance_count > 0;
+}
+
 /* The rays that go on from a bundle join the next queue. */
 FN void append(Waves *waves, const Ray *mirror, const Ray *through, vint numbers) {
     Queue *to = &waves->next;
     int *mirrored = to->count + (waves->order == HD_ORDER_SEGMENTS);
     int compact = waves->order != HD_ORDER_UNCOMPACTED;
-    *mirrored +=
-        append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
-                    to->first[waves->order == HD_ORDER_SEGMENTS] + *mirrored, mirror, numbers);
+    *mirrored += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
+                             to->first[waves->order == HD_ORDER_SEGMENTS] + *mirrored, mirror,
+                             has_faces(waves), numbers);
     to->count[0] += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
-                                to->first[0] + to->count[0], through, numbers);
+                                to->first[0] + to->count[0], through, has_faces(waves), numbers);
 }
 
 static void trace_first(Waves *waves, int first_item, int items) {
@@ -154,8 +159,9 @@ static void trace_first(Waves *waves, int first_item, int items) {
     }
 }
 
-static Ray load(const Queue *queue, int place, int count, vint *numbers) {
-    return load_rays(queue->reals, queue->ints, NULL, queue->stride, 0, 1, place, count, numbers);
+static Ray load(const Waves *waves, const Queue *queue, int place, int count, vint *numbers) {
+    return load_rays(queue->reals, queue->ints, NULL, queue->stride, 0, 1, place, count,
+                     has_faces(waves), numbers);
 }
 
 static void trace_run(Waves *waves, int level, int first, int count) {
@@ -165,7 +171,7 @@ static void trace_run(Waves *waves, int level, int first, int count) {
         Sample sample = empty_sample();
         Ray mirror, through;
         vint numbers;
-        Ray ray = load(&waves->now, first + i, count - i, &numbers);
+        Ray ray = load(waves, &waves->now, first + i, count - i, &numbers);
         follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
         add_to_sums(NULL, NULL, waves->sums, 0, waves->sum_stride, 1, ray.alive, numbers, &sample);
         if (waves->recorder != NULL)
@@ -204,7 +210,7 @@ static vint faces_met(const Waves *waves, const Ray *ray) {
 static void count_differences(Waves *waves, int first, int count) {
     for (int i = 0; i < count; i += HD_LANES) {
         vint numbers;
-        Ray ray = load(&waves->now, first + i, count - i, &numbers);
+        Ray ray = load(waves, &waves->now, first + i, count - i, &numbers);
         waves->result->touched += (uint64_t)different(ray_state(&ray), ray.alive);
         waves->result->met += (uint64_t)different(faces_met(waves, &ray), ray.alive);
     }
@@ -241,7 +247,7 @@ static void find_keys(Waves *waves) {
     if (waves->order == HD_ORDER_MET) {
         for (int i = 0; i < count; i += HD_LANES) {
             vint numbers;
-            Ray ray = load(queue, i, count - i, &numbers);
+            Ray ray = load(waves, queue, i, count - i, &numbers);
             vint met = faces_met(waves, &ray);
             for (int lane = 0; lane < HD_LANES; lane++)
                 waves->keys[i + lane] = lane_int(&met, lane);

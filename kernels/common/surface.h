@@ -254,7 +254,6 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, Reference reference
         fetch_triangles(triangles, pick_int(m, hit->face, splat_int(instance->first_triangle)),
                         instance->first_face);
     TriangleCrossing crossing;
-    crossing.a = crossing.b = crossing.c = splat(R(0.0));
     cross_triangle(&frame, &slabs, m, triangle.a, triangle.b, triangle.c, &crossing);
     Vec3 point =
         vec3_scale_add(triangle.a, crossing.a,

@@ -51,10 +51,14 @@ typedef struct {
     vmask negative[3]; /* runs towards the lower bound of an axis */
 } Slabs;
 
+/* What rounding may come to, relative to the coordinates; and the least share of a direction along
+   an axis, far below that, so that no direction is divided by zero. */
 #if HD_DOUBLE
 #define SLAB_MARGIN R(3.5527136788005009e-15) /* 2^-48 */
+#define LEAST_SHARE R(1e-30)
 #else
 #define SLAB_MARGIN R(1.9073486328125e-6) /* 2^-19 */
+#define LEAST_SHARE R(1e-12)
 #endif
 
 FN vreal slab_inverse(vreal direction, vreal least) {
@@ -66,7 +70,7 @@ FN Slabs ray_slabs(Vec3 origin, Vec3 direction, vreal reach) {
     vreal far_out = greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z)));
     vreal longest =
         greater(absolute(direction.x), greater(absolute(direction.y), absolute(direction.z)));
-    vreal least = longest * R(1e-12), zero = splat(R(0.0));
+    vreal least = longest * LEAST_SHARE, zero = splat(R(0.0));
     vreal margin = (far_out + reach) * SLAB_MARGIN;
     Slabs slabs;
     slabs.inverse = vec3(slab_inverse(direction.x, least), slab_inverse(direction.y, least),
@@ -154,6 +158,8 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
                         TriangleCrossing *crossing) {
     Vec3 from_a = vec3_sub(a, frame->origin), from_b = vec3_sub(b, frame->origin);
     Vec3 from_c = vec3_sub(c, frame->origin);
+    crossing->t = crossing->a = crossing->b = crossing->c = splat(R(0.0));
+    crossing->entering = mask_none();
     Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
     Corner at_c = project_corner(frame, from_c);
     vmask left_a, right_a, left_b, right_b, left_c, right_c;

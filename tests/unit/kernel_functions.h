@@ -3,6 +3,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -342,17 +343,17 @@ static void faces_turn_over(void **state) {
     surface.material.lit_from_behind = lt_int(numbers, splat_int(6));
     points.active = lt_int(numbers, splat_int(5));
     points.inside = lt_int(numbers, splat_int(2));
-    turn_over(&surface, &points, lt_int(numbers, splat_int(4)));
+    turn_over(&surface, &points);
     for (int lane = 0; lane < HD_LANES; lane++) {
         assert_true(lane_real(&surface.normal.y, lane) == R(-0.6));
         assert_true(lane_real(&surface.normal.z, lane) == R(0.8));
         assert_true(lane_real(&surface.material.diffuse, lane) == (lane < 7 ? R(0.125) : R(0.0)));
         assert_true(lane_real(&surface.material.specular, lane) == R(0.0));
         assert_int_equal(lane_int(&points.active, lane), lane < 5 ? -1 : 0);
-        assert_int_equal(lane_int(&points.inside, lane), lane >= 2 && lane < 4 ? -1 : 0);
+        assert_int_equal(lane_int(&points.inside, lane), lane >= 2 ? -1 : 0);
     }
     surface.material.lit_from_behind = mask_none();
-    turn_over(&surface, &points, mask_all());
+    turn_over(&surface, &points);
     assert_false(any_lane(points.active));
 }
 
@@ -449,6 +450,187 @@ static void numbers_are_loaded_from_anywhere(void **state) {
     }
 }
 
+/* ---- triangles: the surface of an octahedron cut as finely as wanted, about the origin ---- */
+
+enum { SPLITS = 3, MESH_TRIANGLES = 8 * SPLITS * SPLITS };
+
+typedef struct MeshPoint {
+    real x, y, z;
+} MeshPoint;
+
+/* The point i, j of a side's triangle, the same numbers from whichever side it is asked for. */
+static MeshPoint point_of_side(int side, int i, int j) {
+    int k = SPLITS - i - j;
+    real length = (real)sqrt((double)(i * i + j * j + k * k));
+    MeshPoint p = {(real)i / length, (real)j / length, (real)k / length};
+    p.x = side & 1 ? -p.x : p.x;
+    p.y = side & 2 ? -p.y : p.y;
+    p.z = side & 4 ? -p.z : p.z;
+    return p;
+}
+
+static int add_triangle(MeshPoint (*mesh)[3], int count, int side, MeshPoint a, MeshPoint b,
+                        MeshPoint c) {
+    bool is_mirrored = ((side & 1) + (side >> 1 & 1) + (side >> 2 & 1)) % 2 == 1;
+    mesh[count][0] = a;
+    mesh[count][1] = is_mirrored ? c : b;
+    mesh[count][2] = is_mirrored ? b : c;
+    return count + 1;
+}
+
+static void build_mesh(MeshPoint (*mesh)[3]) {
+    int count = 0;
+    for (int side = 0; side < 8; side++)
+        for (int i = 0; i < SPLITS; i++)
+            for (int j = 0; j < SPLITS - i; j++) {
+                count = add_triangle(mesh, count, side, point_of_side(side, i, j),
+                                     point_of_side(side, i + 1, j), point_of_side(side, i, j + 1));
+                if (i + j < SPLITS - 1)
+                    count = add_triangle(mesh, count, side, point_of_side(side, i + 1, j),
+                                         point_of_side(side, i + 1, j + 1),
+                                         point_of_side(side, i, j + 1));
+            }
+    assert_int_equal(count, MESH_TRIANGLES);
+}
+
+static Vec3 splat_point(MeshPoint p) {
+    return vec3_splat(p.x, p.y, p.z);
+}
+
+/* How often each lane's ray enters and leaves in front of its origin. */
+static void count_crossings(MeshPoint (*mesh)[3], Vec3 origin, Vec3 direction, vint *entered,
+                            vint *left) {
+    RayFrame frame = ray_frame(origin, direction);
+    Slabs slabs = ray_slabs(origin, direction, splat(R(1.0)));
+    *entered = *left = splat_int(0);
+    for (int i = 0; i < MESH_TRIANGLES; i++) {
+        TriangleCrossing crossing;
+        vmask met = cross_triangle(&frame, &slabs, mask_all(), splat_point(mesh[i][0]),
+                                   splat_point(mesh[i][1]), splat_point(mesh[i][2]), &crossing);
+        if (!any_lane(met))
+            continue;
+        met = met & le(splat(R(0.0)), crossing.t);
+        *entered = count_lanes(*entered, met & crossing.entering);
+        *left = count_lanes(*left, met & ~crossing.entering);
+    }
+}
+
+static double next_random(uint64_t *state) {
+    *state = *state * 6364136223846793005U + 1442695040888963407U;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* A point of an edge of the mesh: a corner, the middle, anywhere. */
+static MeshPoint aim(MeshPoint (*mesh)[3], uint64_t *state) {
+    const MeshPoint *triangle = mesh[(int)(next_random(state) * MESH_TRIANGLES)];
+    int corner = (int)(next_random(state) * 3.0), kind = (int)(next_random(state) * 3.0);
+    real share = kind == 0 ? R(0.0) : kind == 1 ? R(0.5) : (real)next_random(state);
+    MeshPoint a = triangle[corner], b = triangle[(corner + 1) % 3];
+    return (MeshPoint){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+                       a.z + share * (b.z - a.z)};
+}
+
+/* Whether a ray along the x axis through that point certainly meets the mesh. */
+static bool is_far_from_rim(MeshPoint p) {
+    return p.y * p.y + p.z * p.z < R(0.4);
+}
+
+/* From within, a ray through an edge or a corner leaves exactly once. */
+static void rays_leave_a_closed_mesh_once(void **state) {
+    (void)state;
+    static MeshPoint mesh[MESH_TRIANGLES][3];
+    uint64_t random = 1;
+    build_mesh(mesh);
+    for (int i = 0; i < 3000; i++) {
+        vint entered, left;
+        MeshPoint at = aim(mesh, &random);
+        real inside = i % 4 == 0 ? R(0.0) : R(0.3);
+        Vec3 origin = vec3(ramp(inside * (real)(next_random(&random) - 0.5), inside / 64),
+                           splat(inside * (real)(next_random(&random) - 0.5)),
+                           splat(inside * (real)(next_random(&random) - 0.5)));
+        Vec3 direction = vec3_sub(splat_point(at), origin);
+        if (is_far_from_rim(at)) { /* along an axis, where it meets a corner to the last bit */
+            direction = vec3_splat(i % 2 ? R(1.0) : R(-1.0), R(0.0), R(0.0));
+            origin = vec3_splat(R(0.0), at.y, at.z);
+        }
+        count_crossings(mesh, origin, direction, &entered, &left);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            assert_int_equal(lane_int(&entered, lane), 0);
+            assert_int_equal(lane_int(&left, lane), 1);
+        }
+    }
+}
+
+/* From outside it enters as often as it leaves, at most once: the mesh is nearly convex, so that
+   only a ray along its rim may do neither. */
+static void rays_enter_a_closed_mesh_as_often_as_they_leave(void **state) {
+    (void)state;
+    static MeshPoint mesh[MESH_TRIANGLES][3];
+    uint64_t random = 2;
+    int entered_in_all = 0;
+    build_mesh(mesh);
+    for (int i = 0; i < 3000; i++) {
+        vint entered, left;
+        MeshPoint at = aim(mesh, &random);
+        static const double distances[] = {2.0, 100.0, 1e5, 1e9};
+        double far = distances[i % 4];
+        Vec3 origin = vec3(splat((real)(far * (next_random(&random) + 1.0))),
+                           splat((real)(far * (next_random(&random) - 0.5))),
+                           ramp((real)(far * (next_random(&random) - 0.5)), (real)(far / 64)));
+        bool is_level = i % 5 == 0; /* along an axis */
+        if (is_level)
+            origin = vec3_splat((real)far, at.y, at.z);
+        count_crossings(mesh, origin, vec3_sub(splat_point(at), origin), &entered, &left);
+        if (is_level && is_far_from_rim(at))
+            assert_int_equal(lane_int(&entered, 0), 1);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            assert_int_equal(lane_int(&entered, lane), lane_int(&left, lane));
+            assert_in_range(lane_int(&entered, lane), 0, 1);
+            entered_in_all += lane_int(&entered, lane);
+        }
+    }
+    assert_in_range(entered_in_all, 1000 * HD_LANES, 3000 * HD_LANES);
+}
+
+static void what_filters_light_adds_up(void **state) {
+    (void)state;
+    vreal share = passing_share(splat_int(0), splat_int(0));
+    assert_true(lane_real(&share, 0) == R(1.0));
+    share = passing_share(splat_int(3 * HD_OCTAVE), splat_int(0));
+    CLOSE(lane_real(&share, 0), 0.125);
+    share = passing_share(splat_int(HD_OCTAVE / 2), splat_int(0));
+    CLOSE(lane_real(&share, 0), sqrt(0.5));
+    share = passing_share(splat_int(HD_DARK_OCTAVES), splat_int(0));
+    assert_true(lane_real(&share, 0) == R(0.0));
+    for (int i = 1; i < 1000; i++) {
+        share = passing_share(splat_int(i * 20011), splat_int(i * 1009));
+        double octaves = i * 20011 * 0x1p-24 + i * 1009 * 0x1p-48;
+        double error = (double)lane_real(&share, 0) / pow(2.0, -octaves) - 1.0;
+        assert_true(fabs(error) < (HD_DOUBLE ? 1e-15 : 2.5e-7));
+    }
+}
+
+static void pictures_repeat_or_end(void **state) {
+    (void)state;
+    Picture repeats = {0, 4, 2, 0}, ends = {0, 4, 2, 1};
+    uint texels[2 * 5 * 3 + 2] = {0};
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 5; column++)
+            texels[2 * (5 * row + column)] = (uint)(10000 * (column % 4) + 1000 * (row % 2));
+    Vec3 c = sample_picture(&repeats, texels, splat(R(0.125)), splat(R(0.25)));
+    CLOSE(lane_real(&c.x, 0), 0.0);
+    c = sample_picture(&repeats, texels, splat(R(5.375)), splat(R(-1.25)));
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(11000.0), 1.0);
+    c = sample_picture(&repeats, texels, splat(R(1.0)), splat(R(0.25))); /* between 3 and 0 */
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(15000.0), 1.0);
+    c = sample_picture(&repeats, texels, splat(R(0.125)), splat(R(0.0)));
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(500.0), 1.0);
+    c = sample_picture(&ends, texels, splat(R(1.0)), splat(R(1.0)));
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(31000.0), 1.0);
+    c = sample_picture(&ends, texels, splat(R(-3.0)), splat(R(0.5)));
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(500.0), 1.0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masks_tell_lanes_apart),
@@ -468,6 +650,10 @@ int main(void) {
         cmocka_unit_test(materials_have_two_sides),
         cmocka_unit_test(faces_turn_over),
         cmocka_unit_test(falloff_ends),
+        cmocka_unit_test(rays_leave_a_closed_mesh_once),
+        cmocka_unit_test(rays_enter_a_closed_mesh_as_often_as_they_leave),
+        cmocka_unit_test(what_filters_light_adds_up),
+        cmocka_unit_test(pictures_repeat_or_end),
         cmocka_unit_test(every_pixel_has_one_place),
         cmocka_unit_test(samples_fill_the_lanes),
         cmocka_unit_test(live_lanes_are_stored_side_by_side),
