@@ -27,7 +27,7 @@ typedef struct {
     vint own_face; /* this face of it, or -1, */
     vmask inside;  /* and on its inner side */
     int object;    /* number of the mesh among the objects */
-    int first_face;
+    int first_face, first_skin;
     int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
@@ -45,24 +45,28 @@ FN vint face_of_triangle(vint number, vint group, int first_face) {
     return pick_int(grouped, group + (first_face - 1), splat_int(-2) - number);
 }
 
-FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_face) {
+FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_face,
+                       int first_skin) {
     vint group = tag & (HD_TRIANGLE_GROUPS - 1);
     lanes->number = number;
-    lanes->skin = tag >> 5;
+    lanes->skin = (tag >> HD_TRIANGLE_GROUP_BITS) + first_skin;
     lanes->face = face_of_triangle(number, group, first_face);
 }
 
-FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, int first_face) {
+FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, int first_face,
+                               int first_skin) {
     GLOBAL const Triangle *triangle = triangles + number;
     TriangleLanes lanes;
     lanes.a = vec3_splat(triangle->a[0], triangle->a[1], triangle->a[2]);
     lanes.b = vec3_splat(triangle->b[0], triangle->b[1], triangle->b[2]);
     lanes.c = vec3_splat(triangle->c[0], triangle->c[1], triangle->c[2]);
-    name_triangles(&lanes, splat_int(number), splat_int((int)triangle->tag), first_face);
+    name_triangles(&lanes, splat_int(number), splat_int((int)triangle->tag), first_face,
+                   first_skin);
     return lanes;
 }
 
-FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, int first_face) {
+FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, int first_face,
+                                 int first_skin) {
     GLOBAL const real *table = (GLOBAL const real *)triangles;
     vint place = number * 12;
     FourReals a = fetch_four_reals(table, place);
@@ -72,7 +76,7 @@ FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, 
     lanes.a = vec3(a.number[0], a.number[1], a.number[2]);
     lanes.b = vec3(b.number[0], b.number[1], b.number[2]);
     lanes.c = vec3(c.number[0], c.number[1], c.number[2]);
-    name_triangles(&lanes, number, to_int(a.number[3]), first_face);
+    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_skin);
     return lanes;
 }
 
@@ -155,7 +159,7 @@ FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m
                  int count) {
     for (int i = first; i < first + count; i++) {
         TriangleCrossing crossing;
-        TriangleLanes triangle = same_triangle(triangles, i, rays->first_face);
+        TriangleLanes triangle = same_triangle(triangles, i, rays->first_face, rays->first_skin);
         vmask met = meet_triangles(rays, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;
@@ -289,7 +293,8 @@ FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, 
         vint number = lane_numbers() + (first + done);
         number = pick_int(m, number, splat_int(first));
         TriangleCrossing crossing;
-        TriangleLanes triangle = fetch_triangles(triangles, number, ray->first_face);
+        TriangleLanes triangle =
+            fetch_triangles(triangles, number, ray->first_face, ray->first_skin);
         vmask met = meet_triangles(ray, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;

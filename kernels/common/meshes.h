@@ -53,6 +53,7 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     rays.own_face = pick_int(rays.own, world->face, splat_int(-1));
     rays.inside = world->inside;
     rays.first_face = instance->first_face;
+    rays.first_skin = instance->first_skin;
     rays.is_shadow = world->is_shadow;
     rays.light_face[0] = world->light_face[0];
     rays.light_face[1] = world->light_face[1];

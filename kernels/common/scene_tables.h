@@ -131,7 +131,12 @@ typedef struct ALIGNED_16 {
     real c[3], unused1;
 } Triangle;
 
-enum { HD_TRIANGLE_GROUPS = 32, HD_LEAF_ITEM_BITS = 4, HD_LEAF_ITEM_MASK = 15 };
+enum {
+    HD_TRIANGLE_GROUPS = 32,
+    HD_TRIANGLE_GROUP_BITS = 5,
+    HD_LEAF_ITEM_BITS = 4,
+    HD_LEAF_ITEM_MASK = 15
+};
 
 /* The boxes of two children: bounds[axis][0] their lower bounds, bounds[axis][1] the upper ones. A
    child that is negative is a leaf: ~child is first << HD_LEAF_ITEM_BITS | count, and its items are

@@ -252,7 +252,7 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, Reference reference
     Slabs slabs = ray_slabs(in_mesh, along, splat(R(1.0)));
     TriangleLanes triangle =
         fetch_triangles(triangles, pick_int(m, hit->face, splat_int(instance->first_triangle)),
-                        instance->first_face);
+                        instance->first_face, instance->first_skin);
     TriangleCrossing crossing;
     cross_triangle(&frame, &slabs, m, triangle.a, triangle.b, triangle.c, &crossing);
     Vec3 point =
