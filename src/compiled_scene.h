@@ -25,9 +25,9 @@ typedef struct HdSceneTables {
     int lanes; /* of the kernels' bundles: nodes for single rays have as many children */
     int plane_count;
     int depth;
-    int node_stack; /* of the hierarchies of meshes; 0: there are no meshes */
-    bool refracts;              /* some solid has an index of refraction that is not 1 */
-    bool lit_from_behind;       /* some material is */
+    int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
+    bool refracts;        /* some solid has an index of refraction that is not 1 */
+    bool lit_from_behind; /* some material is */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */

@@ -77,8 +77,8 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
 
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
-           a->node_stack_bound == b->node_stack_bound &&
-           a->refracts == b->refracts && a->lit_from_behind == b->lit_from_behind;
+           a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
+           a->lit_from_behind == b->lit_from_behind;
 }
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {

@@ -26,7 +26,7 @@ typedef struct HdMeshMaterial {
     HdMaterial material;
     HdVec3 emission; /* radiance of the surface's own */
     char *texture;
-    int picture;   /* number among the pictures of the scene; -1: none */
+    int picture; /* number among the pictures of the scene; -1: none */
     int passes_as;
     bool is_opaque_to_shadows;
 } HdMeshMaterial;

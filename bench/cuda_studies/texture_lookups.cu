@@ -226,20 +226,20 @@ static std::vector<ushort4> as_shorts(const std::vector<uchar4> &picture) {
 }
 
 /* One picture in every form. */
-struct Picture {
+struct TestImage {
     std::vector<uchar4> colours;
     Forms own;
     Texture<uchar4> bytes;
     Texture<ushort4> shorts;
     Texture<float4> floats;
 
-    explicit Picture(bool smooth)
+    explicit TestImage(bool smooth)
         : colours(make_picture(smooth)), own(make_own_forms(colours)),
           bytes(colours, cudaReadModeNormalizedFloat),
           shorts(as_shorts(colours), cudaReadModeNormalizedFloat),
           floats(as_floats(colours), cudaReadModeElementType) {}
-    Picture(const Picture &) = delete;
-    ~Picture() {
+    TestImage(const TestImage &) = delete;
+    ~TestImage() {
         CHECK(cudaFree(own.picture));
         CHECK(cudaFree(own.texels));
         CHECK(cudaFree(own.map));
@@ -248,8 +248,8 @@ struct Picture {
 
 /* Times are of noise: they do not depend on the colours. */
 template <typename Lookup>
-static void study(const char *name, Lookup in_noise, const Picture &noise, Lookup in_smooth,
-                  const Picture &smooth) {
+static void study(const char *name, Lookup in_noise, const TestImage &noise, Lookup in_smooth,
+                  const TestImage &smooth) {
     time_lookup(name, in_noise);
     print_error("noise", in_noise, noise.own.picture);
     print_error("smooth", in_smooth, smooth.own.picture);
@@ -257,7 +257,7 @@ static void study(const char *name, Lookup in_noise, const Picture &noise, Looku
 }
 
 static void study_all() {
-    Picture noise(false), smooth(true);
+    TestImage noise(false), smooth(true);
     study("own", OwnLookup{noise.own.map, noise.own.texels}, noise,
           OwnLookup{smooth.own.map, smooth.own.texels}, smooth);
     study("hardware_8_bits", HardwareLookup{noise.bytes.object}, noise,

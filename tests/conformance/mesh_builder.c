@@ -86,8 +86,7 @@ void build_sphere_mesh(HdMesh *mesh, int rows, double bump, bool smooth, bool ma
     if (smooth) {
         mesh->normal_count = mesh->vertex_count;
         mesh->normals = allocate((size_t)mesh->normal_count, sizeof *mesh->normals);
-        memcpy(mesh->normals, mesh->vertices,
-               (size_t)mesh->normal_count * sizeof *mesh->normals);
+        memcpy(mesh->normals, mesh->vertices, (size_t)mesh->normal_count * sizeof *mesh->normals);
         mesh->corner_normals = allocate(triangles, sizeof *mesh->corner_normals);
     }
     if (mapped) {
@@ -114,8 +113,7 @@ void build_cube_mesh(HdMesh *mesh, const HdMaterial *first, const HdMaterial *se
     mesh->vertex_count = 8;
     mesh->vertices = allocate(8, sizeof *mesh->vertices);
     for (int i = 0; i < 8; i++)
-        mesh->vertices[i] =
-            hd_vec3(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+        mesh->vertices[i] = hd_vec3(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
     mesh->triangle_count = 12;
     mesh->corners = allocate(12, sizeof *mesh->corners);
     mesh->material_of = allocate(12, sizeof *mesh->material_of);
