@@ -171,11 +171,8 @@ static void test_textures(void **state) {
     (void)state;
     static HdError error;
     static const HdSceneChange changes[] = {"floor.texture.file=no such.png", "image.width=0"};
-    const HdSceneSource source = {.name = "a.json",
-                                  .folder = "",
-                                  .changes = changes,
-                                  .change_count = 2,
-                                  .loads_texture = true};
+    const HdSceneSource source = {
+        .name = "a.json", .folder = "", .changes = changes, .change_count = 2, .loads_files = true};
     assert_int_equal(hd_scene_file_parse(&file, rich_text, strlen(rich_text), &source, &error),
                      HD_BAD_INPUT);
     expect_contains(error.message, "a.json: 2 problems\n");
