@@ -68,7 +68,7 @@ static void number_meshes(Loader *loader, const HdMeshEntry **sorted) {
     const int count = loader->file->mesh_entry_count;
     for (int i = 0; i < count; i++)
         sorted[i] = &entries[i];
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_entries);
+    qsort(sorted, (size_t)count, sizeof(const HdMeshEntry *), compare_entries);
     for (int i = 0, first = 0; i < count; i++) {
         if (compare_meshes(sorted[first], sorted[i]) != 0)
             first = i;
@@ -85,8 +85,8 @@ static void number_meshes(Loader *loader, const HdMeshEntry **sorted) {
 static HdStatus place_instances(Loader *loader) {
     HdScene *scene = loader->scene;
     const size_t count = (size_t)loader->file->mesh_entry_count;
-    const HdMeshEntry **sorted = malloc(count * sizeof *sorted);
-    loader->first_entry = malloc(count * sizeof *loader->first_entry);
+    const HdMeshEntry **sorted = malloc(count * sizeof(const HdMeshEntry *));
+    loader->first_entry = calloc(count, sizeof *loader->first_entry);
     scene->instances = calloc(count, sizeof *scene->instances);
     const bool has_room = sorted != NULL && loader->first_entry != NULL && scene->instances != NULL;
     if (has_room) {

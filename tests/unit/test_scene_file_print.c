@@ -188,6 +188,8 @@ static void test_values_that_are_hard_to_write(void **state) {
         "floor.texture.curve=srgb",
         "meshes[0].scale=[2, 2, 2]",
         "meshes[0].scale=1",
+        "meshes[0].scale=[2, 2, 3]",
+        "meshes[0].scale=[3, 2, 2]",
         "meshes[0].crease=40",
         "meshes[0].normals=file",
         "meshes[0].position=[0, -0.0, 0]",
