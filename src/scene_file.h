@@ -85,7 +85,8 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
 
 /* Reads the files that the scene's meshes name, with their materials and textures, builds the
    hierarchies, and fills in the scene's meshes, instances and pictures; without any mesh it does
-   nothing. Every file that cannot be used is told in `problems`, and the scene then has no meshes.
+   nothing. Every file that cannot be used is told in `problems`. Where that has any in the end,
+   those from before included, the scene has no meshes.
    Notes of the reader, and textures that cannot be read, whose materials keep their colour, are
    told in `notes`; NULL: they are not. Other than HD_OK: there is too little memory (HD_FAILED), or
    a signal came (HD_INTERRUPTED). */
