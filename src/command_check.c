@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,9 +12,16 @@ static void print_notes(const char *name, const HdProblems *notes) {
         printf("%s: note: %.*s\n", name, (int)strcspn(line, "\n"), line);
 }
 
+static void print_meshes(const HdScene *scene) {
+    if (scene->mesh_count > 0)
+        printf("%d mesh%s of %" PRId64 " triangles in %d place%s, ", scene->mesh_count,
+               scene->mesh_count == 1 ? "" : "es", hd_scene_triangle_count(scene),
+               scene->instance_count, hd_plural(scene->instance_count));
+}
+
 static HdStatus check_scene(const char *operand, HdError *error) {
     HdProblems notes = {.count = 0};
-    const HdSceneSource source = {.loads_texture = true, .notes = &notes};
+    const HdSceneSource source = {.loads_files = true, .notes = &notes, .file_notes = &notes};
     const char *name = hd_operand_name(operand);
     HdSceneFile file;
     HdStatus status = hd_read_scene_file(&file, operand, &source, error);
@@ -21,8 +29,9 @@ static HdStatus check_scene(const char *operand, HdError *error) {
         return status;
     int solids = file.scene.solid_count, lights = hd_scene_light_count(&file.scene);
     int frames = file.scene.frame_count;
-    printf("%s: fine, %d solid%s, %d light%s, %d frame%s\n", name, solids, hd_plural(solids),
-           lights, hd_plural(lights), frames, hd_plural(frames));
+    printf("%s: fine, %d solid%s, ", name, solids, hd_plural(solids));
+    print_meshes(&file.scene);
+    printf("%d light%s, %d frame%s\n", lights, hd_plural(lights), frames, hd_plural(frames));
     print_notes(name, &notes);
     hd_scene_file_free(&file);
     return HD_OK;

@@ -137,17 +137,26 @@ static HdStatus read_default(HdSceneFile *file, const HdSceneSource *source, HdE
     return hd_scene_file_parse(file, text, size, source, error);
 }
 
+static void tell_notes(const HdProblems *notes) {
+    for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        fprintf(stderr, "hedron: %.*s\n", (int)strcspn(line, "\n"), line);
+}
+
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    HdProblems notes = {.count = 0};
     const HdSceneSource source = {.name = hd_scene_name(options),
                                   .folder = "",
                                   .changes = options->changes,
                                   .change_count = options->change_count,
-                                  .loads_texture = true};
+                                  .loads_files = true,
+                                  .file_notes = &notes};
     HdStatus status = options->operand_count > 0
                           ? hd_read_scene_file(file, options->operands[0], &source, error)
                           : read_default(file, &source, error);
     if (status != HD_OK)
         return status;
+    if (!options->quiet)
+        tell_notes(&notes);
     status = hd_apply_scene_options(&file->scene, options, error);
     if (status == HD_OK)
         status = hd_apply_geometry(&file->scene, options, error);

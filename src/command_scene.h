@@ -30,8 +30,9 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
    how these are searched. */
 HdStatus hd_apply_geometry(HdScene *scene, const HdOptions *options, HdError *error);
 
-/* Reads the scene that is named on the command line, or the built-in one, with its texture; lays
-   the options over it. */
+/* Reads the scene that is named on the command line, or the built-in one, with its texture and
+   its meshes, and lays the options over it. What of the meshes' files is not used is told on
+   standard error, unless the options are quiet. */
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error);
 
 /* The name of that scene, for people. */

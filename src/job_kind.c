@@ -26,13 +26,16 @@ void hd_job_kind(const HdScene *scene, const HdRenderOptions *options, char *tex
     double samples =
         (double)scene->samples_per_side * scene->samples_per_side * scene->width * scene->height;
     snprintf(text, (size_t)capacity,
-             "hedron %s, kernels %016" PRIx64 "\n2^%d samples, 2^%d planes, %s floor, 2^%d lights, "
-             "2^%d endless ones, depth 2^%d\nprecision %d, math %d, pipeline %d, %d lanes, %d "
+             "hedron %s, kernels %016" PRIx64 "\n2^%d samples, 2^%d planes, 2^%d triangles in "
+             "2^%d places, %s floor, 2^%d lights, 2^%d endless ones, depth 2^%d\nprecision %d, "
+             "math %d, pipeline %d, %d lanes, %d "
              "threads, block %d, grid "
              "%d\n",
              HD_VERSION, hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size),
              power_of_two(samples), power_of_two(count_planes(scene)),
-             scene->floor.present ? "a" : "no", power_of_two(hd_scene_light_count(scene)),
+             power_of_two((double)hd_scene_triangle_count(scene)),
+             power_of_two(scene->instance_count), scene->floor.present ? "a" : "no",
+             power_of_two(hd_scene_light_count(scene)),
              power_of_two(hd_scene_endless_light_count(scene)), power_of_two(scene->depth),
              (int)options->precision, (int)options->math, (int)options->pipeline, options->lanes,
              options->threads, options->block, options->grid);

@@ -378,6 +378,8 @@ static void note_undefined(Reading *reading, const bool *is_defined) {
     if (count == 0)
         return;
     const char *name = reading->mesh->materials[first].name;
+    if (reading->mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
+        return; /* the file wants none */
     hd_problem(reading->notes,
                "%s: no material library has '%.80s'%s, so the default look is taken: white, opaque",
                reading->path, name, count > 1 ? " and others that faces name" : "");

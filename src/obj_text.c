@@ -21,8 +21,7 @@ enum {
 
 _Static_assert(RAW_SIZE > HD_OBJ_MOST_LINE + 2, "a line and its end fit into the buffer");
 
-/* Faces before the first usemtl. */
-static const char no_name[] = "default";
+static const char no_material[] = HD_OBJ_NO_MATERIAL;
 
 static const char byte_order_mark[] = "\xef\xbb\xbf";
 
@@ -342,7 +341,8 @@ static bool set_material(HdObjText *text, HdSpan name) {
 
 /* Before a face is counted. */
 static bool note_material(HdObjText *text) {
-    if (text->material < 0 && !set_material(text, (HdSpan){no_name, no_name + sizeof no_name - 1}))
+    if (text->material < 0 &&
+        !set_material(text, (HdSpan){no_material, no_material + strlen(no_material)}))
         return false;
     return (text->run_count > 0 && text->runs[text->run_count - 1].material == text->material) ||
            add_run(text);

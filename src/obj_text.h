@@ -24,6 +24,9 @@ typedef struct HdObjElements {
     size_t line_of_highest;
 } HdObjElements;
 
+/* The material of faces before the first `usemtl`. */
+#define HD_OBJ_NO_MATERIAL "default"
+
 /* Faces from `first_face` on have this material, a number of `names`. */
 typedef struct HdObjRun {
     uint32_t first_face;

@@ -1,10 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "rendering_notes.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 
 #include "kernel_source.h"
 #include "number_text.h"
+
+static void note_meshes(const HdScene *scene) {
+    int64_t dropped = 0;
+    for (int i = 0; i < scene->mesh_count; i++)
+        dropped += scene->meshes[i].degenerate_count;
+    fprintf(stderr,
+            "meshes    %d with %" PRId64 " triangles, and %" PRId64
+            " without an area left out; in %d place%s, %d texture%s\n",
+            scene->mesh_count, hd_scene_triangle_count(scene), dropped, scene->instance_count,
+            hd_plural(scene->instance_count), scene->picture_count,
+            hd_plural(scene->picture_count));
+}
 
 void hd_note_scene(const char *name, const HdScene *scene) {
     const int lights = hd_scene_light_count(scene);
@@ -15,6 +28,8 @@ void hd_note_scene(const char *name, const HdScene *scene) {
             scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
             hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
             scene->samples_per_side, scene->depth);
+    if (scene->mesh_count > 0)
+        note_meshes(scene);
 }
 
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {

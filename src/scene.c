@@ -41,10 +41,14 @@ int hd_scene_endless_light_count(const HdScene *scene) {
     return count;
 }
 
-void hd_scene_free(HdScene *scene) {
-    free(scene->solids);
-    free(scene->lights);
-    hd_texture_clear(&scene->floor.texture);
+int64_t hd_scene_triangle_count(const HdScene *scene) {
+    int64_t count = 0;
+    for (int i = 0; i < scene->mesh_count; i++)
+        count += scene->meshes[i].triangle_count;
+    return count;
+}
+
+void hd_scene_drop_meshes(HdScene *scene) {
     for (int i = 0; i < scene->mesh_count; i++)
         hd_mesh_free(&scene->meshes[i]);
     for (int i = 0; i < scene->picture_count; i++)
@@ -52,5 +56,16 @@ void hd_scene_free(HdScene *scene) {
     free(scene->meshes);
     free(scene->instances);
     free(scene->pictures);
+    scene->meshes = NULL;
+    scene->instances = NULL;
+    scene->pictures = NULL;
+    scene->mesh_count = scene->instance_count = scene->picture_count = 0;
+}
+
+void hd_scene_free(HdScene *scene) {
+    free(scene->solids);
+    free(scene->lights);
+    hd_texture_clear(&scene->floor.texture);
+    hd_scene_drop_meshes(scene);
     *scene = (HdScene){0};
 }

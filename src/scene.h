@@ -140,6 +140,9 @@ int hd_scene_light_count(const HdScene *scene);
 /* Of these the ones that light something and whose light no distance ends. */
 int hd_scene_endless_light_count(const HdScene *scene);
 
+/* Triangles of all meshes, each counted once however often it is placed. */
+int64_t hd_scene_triangle_count(const HdScene *scene);
+
 /* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
 typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
 
@@ -148,12 +151,18 @@ typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
    all that is wrong to `problems`. Library code may rely on a scene in which nothing was found. */
 void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems);
 
+/* Checks the instances alone, whose meshes are built, as a part of hd_scene_check. */
+void hd_scene_check_instances(const HdScene *scene, HdNaming naming, HdProblems *problems);
+
 /* Checks the shares of both sides of a material alone; `place` begins the messages. */
 void hd_material_check_shares(const HdMaterial *material, const char *place, HdProblems *problems);
 
 /* The same as hd_scene_check, in prose; on failure the error names the first value that is wrong.
  */
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error);
+
+/* Frees the meshes, their instances and pictures; the scene then has none. */
+void hd_scene_drop_meshes(HdScene *scene);
 
 /* Frees what the scene owns and clears it. */
 void hd_scene_free(HdScene *scene);

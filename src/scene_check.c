@@ -355,6 +355,51 @@ static void check_floor(HdSceneChecker *checker, const HdFloor *floor) {
     hd_checker_leave(checker);
 }
 
+/* As large or small as the triangles of any valid solid or floor may be: from corner to corner of a
+   box that fits all coordinates, and from a side that the least length is the diagonal of. */
+static void check_size(HdSceneChecker *checker, const HdMesh *mesh, HdVec3 scale) {
+    const HdVec3 sides = hd_sub(mesh->upper, mesh->lower);
+    const HdVec3 far = hd_vec3(fmax(fabs(mesh->lower.x), fabs(mesh->upper.x)) * scale.x,
+                               fmax(fabs(mesh->lower.y), fabs(mesh->upper.y)) * scale.y,
+                               fmax(fabs(mesh->lower.z), fabs(mesh->upper.z)) * scale.z);
+    check_range(checker, "longest side of its mesh, scaled,",
+                fmax(sides.x * scale.x, fmax(sides.y * scale.y, sides.z * scale.z)),
+                HD_MIN_LENGTH / 2.0, 2.0 * HD_MAX_NUMBER);
+    check_range(checker, "farthest coordinate of its mesh, scaled,",
+                fmax(far.x, fmax(far.y, far.z)), 0.0, 2.0 * HD_MAX_NUMBER);
+}
+
+static void check_instance(HdSceneChecker *checker, const HdScene *scene, int index) {
+    const HdInstance *instance = &scene->instances[index];
+    hd_checker_enter_item(checker, "mesh", "meshes", index);
+    const int before = checker->problems->count;
+    check_int(checker, "number of its mesh", instance->mesh, 0, scene->mesh_count - 1);
+    check_position(checker, "position", instance->position);
+    check_vector(checker, "rotation", instance->rotation_degrees, axes, -HD_MAX_ROTATION,
+                 HD_MAX_ROTATION);
+    check_vector(checker, "scale", instance->scale, axes, HD_MIN_LENGTH, HD_MAX_NUMBER);
+    if (checker->problems->count == before)
+        check_size(checker, &scene->meshes[instance->mesh], instance->scale);
+    if (instance->has_material) {
+        check_material(checker, &instance->material);
+        check_range(checker, "index of refraction", instance->material.index_of_refraction,
+                    HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION);
+    }
+    hd_checker_leave(checker);
+}
+
+static void check_instances(HdSceneChecker *checker, const HdScene *scene) {
+    check_int(checker, "number of meshes in their places", scene->instance_count, 0,
+              HD_MAX_INSTANCES);
+    for (int i = 0; i < scene->instance_count && i < HD_MAX_INSTANCES; i++)
+        check_instance(checker, scene, i);
+}
+
+void hd_scene_check_instances(const HdScene *scene, HdNaming naming, HdProblems *problems) {
+    HdSceneChecker checker = {.problems = problems, .naming = naming};
+    check_instances(&checker, scene);
+}
+
 /* What is not there (no rim, no edge lights, no floor, no texture) is not checked. */
 void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems) {
     HdSceneChecker checker = {.problems = problems, .naming = naming};
@@ -364,6 +409,7 @@ void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems)
     check_solids(&checker, scene);
     check_all_lights(&checker, scene);
     check_floor(&checker, &scene->floor);
+    check_instances(&checker, scene);
     hd_check_flight(&checker, scene);
     hd_check_overlaps(&checker, scene);
 }

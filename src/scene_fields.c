@@ -31,11 +31,16 @@
 /* Enums are stored as int. */
 _Static_assert(sizeof(HdSolidKind) == sizeof(int), "an HdSolidKind is as large as an int");
 _Static_assert(sizeof(HdCurve) == sizeof(int), "an HdCurve is as large as an int");
+_Static_assert(sizeof(HdMeshNormals) == sizeof(int), "an HdMeshNormals is as large as an int");
 
 static const HdChoice versions[] = {{"1", 1}, {NULL, 0}};
 static const HdChoice curves[] = {
     {"\"srgb\"", HD_CURVE_SRGB}, {"\"linear\"", HD_CURVE_LINEAR}, {NULL, 0}};
 static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {NULL, 0}};
+static const HdChoice normals[] = {{"\"file\"", HD_NORMALS_FILE},
+                                   {"\"flat\"", HD_NORMALS_FLAT},
+                                   {"\"smooth\"", HD_NORMALS_SMOOTH},
+                                   {NULL, 0}};
 static const HdChoice kinds[] = {
     {"\"tetrahedron\"", HD_TETRAHEDRON}, {"\"cube\"", HD_HEXAHEDRON},
     {"\"octahedron\"", HD_OCTAHEDRON},   {"\"dodecahedron\"", HD_DODECAHEDRON},
@@ -228,6 +233,29 @@ static const HdField solid_fields[] = {
 };
 static const HdObjectType solid = TYPE(HdSolid, solid_fields);
 
+static const HdField mesh_fields[] = {
+    {AT(HdMeshEntry, file, "file", "Wavefront OBJ; counts from the scene's folder"),
+     .type = HD_FIELD_FILE, REQUIRED},
+    {AT(HdMeshEntry, instance.position, "position", "Where the mesh's origin comes to lie"),
+     POSITION, DEFAULT(0.0)},
+    {AT(HdMeshEntry, instance.rotation_degrees, "rotation",
+        "Degrees about the x axis, then the y axis, then the z axis"),
+     VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
+    {AT(HdMeshEntry, instance.scale, "scale",
+        "What coordinates are multiplied by before the rotation: one number, or one for each axis"),
+     .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, WHITE},
+    {AT(HdMeshEntry, normals, "normals",
+        "Those of the file, which is flat where it has none; flat; or smooth but for sharp edges"),
+     .type = HD_FIELD_CHOICE, .choices = normals, DEFAULT(HD_NORMALS_FILE)},
+    {AT(HdMeshEntry, crease_degrees, "crease",
+        "Smooth normals keep edges where faces meet at more degrees"),
+     NUMBER(0.0, 180.0), DEFAULT(40.0)},
+    {AT(HdMeshEntry, instance.material, "material",
+        "Name of a material in place of all that the file has"),
+     .type = HD_FIELD_MATERIAL, .flag_offset = offsetof(HdMeshEntry, instance.has_material)},
+};
+static const HdObjectType mesh = TYPE(HdMeshEntry, mesh_fields);
+
 static const HdField light_fields[] = {
     {AT(HdLight, position, "position", "Its place"), POSITION, REQUIRED},
     {AT(HdLight, intensity, "colour", "Linear"), .type = HD_FIELD_UNSCALED, .low = 0.0, .high = 1.0,
@@ -301,6 +329,9 @@ static const HdField scene_fields[] = {
     {AT(HdSceneFile, scene.solids, "solids", "Platonic solids"), .type = HD_FIELD_LIST,
      .object = &solid, .most = HD_MAX_SOLIDS,
      .count_offset = offsetof(HdSceneFile, scene.solid_count)},
+    {AT(HdSceneFile, mesh_entries, "meshes", "Meshes of triangles, each in its place"),
+     .type = HD_FIELD_LIST, .object = &mesh, .most = HD_MAX_INSTANCES,
+     .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
     {AT(HdSceneFile, scene.lights, "lights", "Point lights"), .type = HD_FIELD_LIST,
      .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
@@ -320,12 +351,14 @@ const HdField *hd_field(const HdObjectType *type, const char *key) {
 }
 
 bool hd_field_may_be_absent(const HdField *field) {
-    return field->zero_is_absent || field->is_given != NULL;
+    return field->zero_is_absent || field->flag_offset != 0 || field->is_given != NULL;
 }
 
 bool hd_field_is_given(const HdField *field, const void *owner) {
     if (field->zero_is_absent)
         return *(const double *)(const void *)((const char *)owner + field->offset) != 0.0;
+    if (field->flag_offset != 0)
+        return *(const bool *)(const void *)((const char *)owner + field->flag_offset);
     return field->is_given == NULL || field->is_given(owner);
 }
 
@@ -355,6 +388,7 @@ void hd_field_reset(const HdField *field, void *owner) {
         break;
     case HD_FIELD_VECTOR:
     case HD_FIELD_UNSCALED:
+    case HD_FIELD_SCALE:
         *(HdVec3 *)place = vector;
         break;
     case HD_FIELD_VECTORS:
@@ -411,6 +445,7 @@ void hd_field_expected(const HdField *field, bool is_part, char out[HD_EXPECTED_
     static const char *const plain[] = {
         [HD_FIELD_BOOLEAN] = "true or false",
         [HD_FIELD_TEXT] = "a string that is not empty",
+        [HD_FIELD_FILE] = "a string that is not empty",
         [HD_FIELD_MATERIAL] = "the name of one of the materials",
         [HD_FIELD_PATH] = "three numbers, [x, y, z], or an object with the path on a cylinder",
         [HD_FIELD_OBJECT] = "an object",
@@ -423,6 +458,8 @@ void hd_field_expected(const HdField *field, bool is_part, char out[HD_EXPECTED_
         expected_range(field, "an integer", out);
     else if (field->type == HD_FIELD_VECTOR || field->type == HD_FIELD_UNSCALED)
         expected_range(field, "three numbers, each a number", out);
+    else if (field->type == HD_FIELD_SCALE)
+        expected_range(field, "one number or three, each a number", out);
     else if (field->type == HD_FIELD_CHOICE)
         expected_choice(field, out);
     else

@@ -21,7 +21,9 @@ typedef enum HdFieldType {
     HD_FIELD_FACTOR,   /* number */
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if that may vary */
     HD_FIELD_CHOICE,   /* one of `choices`; int or an enum, or nothing if there is only one */
+    HD_FIELD_SCALE,    /* number, or a vector; HdVec3 */
     HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH] */
+    HD_FIELD_FILE,     /* string, a path that counts from the scene's folder; char *, owned */
     HD_FIELD_MATERIAL, /* name of a material; HdMaterial */
     HD_FIELD_PATH,     /* [x, y, z] or `object`; HdPath */
     HD_FIELD_OBJECT,   /* `object`; that struct */
@@ -49,6 +51,7 @@ typedef struct HdField {
     int least, most;            /* elements */
     const HdChoice *choices;
     const HdObjectType *object;
+    size_t flag_offset;     /* of a bool that tells whether it is given; 0: there is none */
     const char *instead_of; /* key that must not be given beside this one */
     bool zero_is_absent;    /* the scene has 0 where this number is not given */
     /* Whether the scene has what may be missing; NULL: it always does, and a missing object reads

@@ -82,13 +82,15 @@ static HdStatus parse_json(json_t **root, const char *text, size_t size, const c
     return *root != NULL ? HD_OK : fail_syntax(&found, text, size, name, error);
 }
 
-/* Only memory is a failure of its own here. */
-static HdStatus load_texture(HdSceneFile *file, HdProblems *problems, HdError *error) {
+/* Only memory and a signal are failures of their own here. */
+static HdStatus load_files(HdSceneFile *file, const HdSceneSource *source, HdProblems *problems,
+                           HdError *error) {
     HdStatus status = hd_scene_file_load_texture(file, error);
-    if (status != HD_BAD_INPUT)
+    if (status == HD_BAD_INPUT)
+        hd_problem(problems, "floor.texture.file: %s", error->message);
+    else if (status != HD_OK)
         return status;
-    hd_problem(problems, "floor.texture.file: %s", error->message);
-    return HD_OK;
+    return hd_scene_file_load_meshes(file, problems, source->file_notes, error);
 }
 
 static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *source,
@@ -97,8 +99,8 @@ static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *sour
     for (int i = 0; i < source->change_count; i++)
         hd_scene_change_apply(root, source->changes[i], &problems);
     HdStatus status = hd_scene_from_json(file, root, source, &problems, error);
-    if (status == HD_OK && source->loads_texture)
-        status = load_texture(file, &problems, error);
+    if (status == HD_OK && source->loads_files)
+        status = load_files(file, source, &problems, error);
     if (status == HD_OK && source->notes != NULL)
         hd_scene_check_sequence(file, &problems);
     if (status == HD_OK)
@@ -147,6 +149,9 @@ HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
 }
 
 void hd_scene_file_free(HdSceneFile *file) {
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        free(file->mesh_entries[i].file);
+    free(file->mesh_entries);
     hd_scene_free(&file->scene);
     *file = (HdSceneFile){.schema = ""};
 }

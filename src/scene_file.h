@@ -25,9 +25,28 @@ typedef struct HdOutputSettings {
     HdOutputStyle style;
 } HdOutputSettings;
 
+/* Which normals a mesh has. */
+typedef enum HdMeshNormals {
+    HD_NORMALS_FILE, /* those of its file, else it is flat */
+    HD_NORMALS_FLAT,
+    HD_NORMALS_SMOOTH /* hd_mesh_smooth makes them */
+} HdMeshNormals;
+
+/* A mesh in its place, as the scene file tells it. Entries that agree in file, normals and crease
+   share a mesh. */
+typedef struct HdMeshEntry {
+    char *file; /* owned; ready to open, "~" aside */
+    HdMeshNormals normals;
+    double crease_degrees; /* of smooth normals */
+    HdInstance instance;   /* but for the number of its mesh */
+} HdMeshEntry;
+
 typedef struct HdSceneFile {
     char schema[HD_MAX_PATH]; /* where the JSON Schema is, for editors; empty: not said */
-    HdScene scene;            /* the floor's texture is loaded by hd_scene_file_load_texture */
+    HdScene scene;            /* hd_scene_file_load_texture loads the floor's texture, and
+                                 hd_scene_file_load_meshes the meshes, their instances and pictures */
+    int mesh_entry_count;
+    HdMeshEntry *mesh_entries; /* owned */
     HdOutputSettings output;
     char texture_path[HD_MAX_PATH]; /* empty: none; ready to open, "~" aside */
     HdCurve texture_curve;
@@ -39,12 +58,15 @@ typedef const char *HdSceneChange;
 
 typedef struct HdSceneSource {
     const char *name;   /* for messages */
-    const char *folder; /* where a relative path of a texture counts from; "": the current one */
+    const char *folder; /* where relative paths of files count from; "": the current one */
     const HdSceneChange *changes; /* applied before anything is checked; messages name them */
     int change_count;
-    bool loads_texture; /* and tells what is wrong with it along with the rest */
-    HdProblems *notes;  /* gets what is seldom meant (scene_notes.h), and the whole sequence is
-                           checked; NULL: neither */
+    bool loads_files; /* the texture and the meshes; tells what is wrong with them along with the
+                         rest */
+    HdProblems *file_notes; /* gets what of the files of meshes is not used, where they are loaded;
+                               NULL: nothing does */
+    HdProblems *notes;      /* gets what is seldom meant (scene_notes.h), and the whole sequence is
+                               checked; NULL: neither */
 } HdSceneSource;
 
 /* Reads a scene from `size` bytes of JSON, fills in every default, and checks all of it. Messages
@@ -61,9 +83,19 @@ HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneSo
 /* Reads the texture that the scene names, if any: the embedded "builtin:floor", or a file. */
 HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
 
+/* Reads the files that the scene's meshes name, with their materials and textures, builds the
+   hierarchies, and fills in the scene's meshes, instances and pictures; without any mesh it does
+   nothing. Every file that cannot be used is told in `problems`. Where that has any in the end,
+   those from before included, the scene has no meshes.
+   Notes of the reader, and textures that cannot be read, whose materials keep their colour, are
+   told in `notes`; NULL: they are not. Other than HD_OK: there is too little memory (HD_FAILED), or
+   a signal came (HD_INTERRUPTED). */
+HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,
+                                   HdError *error);
+
 /* Writes a scene, which must be valid, as JSON that reads back as the same scene, number for number
    (only a point light beyond 2^39 may come back a rounding off). Materials get names: "solid_1",
-   "rim_1", "floor". Fails with HD_BAD_INPUT where a path is not UTF-8. */
+   "rim_1", "mesh_1", "floor". Fails with HD_BAD_INPUT where a path is not UTF-8. */
 HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error);
 
 /* Writes the JSON Schema (draft 2020-12) of the format. */

@@ -15,9 +15,16 @@ enum {
     HD_MAX_TEXTURE_SIDE = 65535,
     HD_MAX_SHININESS = 65536,
     HD_MAX_FRAMES = 10000000,
-    HD_MAX_DIVISIONS = 1000, /* of the side of a triangle */
-    HD_MAX_EDGE_COLOURS = 30 /* the edges of a dodecahedron */
+    HD_MAX_DIVISIONS = 1000,   /* of the side of a triangle */
+    HD_MAX_INSTANCES = 100000, /* meshes in their places */
+    HD_MAX_EDGE_COLOURS = 30   /* the edges of a dodecahedron */
 };
+
+/* Files of meshes and their textures take at most one of so many parts of the machine's memory
+   while they are read, so that the scene's tables, which are about as large, find room as well; and
+   never more than this, lest a wrong file keep a large machine busy. */
+#define HD_MESH_MEMORY_PART 2
+#define HD_MAX_MESH_MEMORY  68719476736.0 /* bytes */
 
 #define HD_MIN_LENGTH              1e-12
 #define HD_MAX_NUMBER              1e12 /* coordinates, lengths, light */

@@ -29,6 +29,18 @@ static bool edges_show(const HdEdgeLights *lights) {
     return lights->per_edge > 0 && lights->disc_radius > 0.0 && lights->disc_radiance > 0.0;
 }
 
+static bool meshes_give_light(const HdScene *scene) {
+    bool is_lit = false;
+    for (int i = 0; i < scene->mesh_count; i++)
+        for (int k = 0; k < scene->meshes[i].material_count; k++) {
+            const HdMeshMaterial *material = &scene->meshes[i].materials[k];
+            is_lit |= glows(&material->material) || !is_black(material->emission);
+        }
+    for (int i = 0; i < scene->instance_count; i++)
+        is_lit |= scene->instances[i].has_material && glows(&scene->instances[i].material);
+    return is_lit;
+}
+
 static bool gives_light(const HdScene *scene) {
     bool is_lit = !is_black(scene->background);
     for (int i = 0; i < scene->light_count; i++)
@@ -38,6 +50,7 @@ static bool gives_light(const HdScene *scene) {
         is_lit |= edges_light(&solid->lights) || edges_show(&solid->lights) || glows(&solid->face);
         is_lit |= solid->rim_width > 0.0 && glows(&solid->rim);
     }
+    is_lit |= meshes_give_light(scene);
     return is_lit || (scene->floor.present && glows(&scene->floor.material));
 }
 

@@ -140,7 +140,7 @@ static void read_text(Reader *reader, const HdField *field, const json_t *value,
 }
 
 /* A relative path counts from the folder of the scene. False where there is no room for it. */
-static bool place_texture(Reader *reader, char path[HD_MAX_PATH]) {
+static bool place_file(Reader *reader, char path[HD_MAX_PATH]) {
     const char *folder = reader->report.source->folder;
     if (folder[0] == '\0' || !hd_texture_path_is_relative(path))
         return true;
@@ -155,6 +155,34 @@ static bool place_texture(Reader *reader, char path[HD_MAX_PATH]) {
     memcpy(path, folder, strlen(folder));
     path[before - 1] = '/';
     return true;
+}
+
+static void *allocate(Reader *reader, size_t count, size_t size) {
+    void *memory = calloc(count, size);
+    if (memory == NULL)
+        reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+    return memory;
+}
+
+static void read_file(Reader *reader, const HdField *field, const json_t *value, char **out) {
+    char path[HD_MAX_PATH] = "";
+    read_text(reader, field, value, path);
+    if (path[0] == '\0' || !place_file(reader, path))
+        return;
+    *out = allocate(reader, strlen(path) + 1, 1);
+    if (*out != NULL)
+        memcpy(*out, path, strlen(path) + 1);
+}
+
+/* One number is the same for every axis. */
+static void read_scale(Reader *reader, const HdField *field, const json_t *value, HdVec3 *out) {
+    double number = 1.0;
+    if (json_is_array(value) && json_array_size(value) == 3)
+        read_vector(reader, field, value, out);
+    else if (!json_is_number(value))
+        hd_report_field(&reader->report, field, value, false);
+    else if (read_number(reader, field, value, true, &number))
+        *out = hd_vec3(number, number, number);
 }
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value,
@@ -193,13 +221,6 @@ static void read_path(Reader *reader, const HdField *field, const json_t *value,
     } else {
         hd_report_field(&reader->report, field, value, false);
     }
-}
-
-static void *allocate(Reader *reader, size_t count, size_t size) {
-    void *memory = calloc(count, size);
-    if (memory == NULL)
-        reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
-    return memory;
 }
 
 static void read_list(Reader *reader, const HdField *field, const json_t *value, void *owner) {
@@ -297,8 +318,14 @@ static void read_field(Reader *reader, const HdField *field, const json_t *value
     case HD_FIELD_CHOICE:
         read_choice(reader, field, value, place);
         break;
+    case HD_FIELD_SCALE:
+        read_scale(reader, field, value, place);
+        break;
     case HD_FIELD_TEXT:
         read_text(reader, field, value, place);
+        break;
+    case HD_FIELD_FILE:
+        read_file(reader, field, value, place);
         break;
     case HD_FIELD_MATERIAL:
         read_material(reader, field, value, place);
@@ -356,6 +383,8 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
         const HdField *field = &type->fields[i];
         const size_t length = hd_json_path_key(reader->report.path, field->key);
         const json_t *value = find_value(reader, field, json);
+        if (value != NULL && field->flag_offset != 0)
+            *(bool *)(void *)((char *)owner + field->flag_offset) = true;
         if (value != NULL)
             read_field(reader, field, value, owner);
         leave_to(reader, length);
@@ -405,7 +434,7 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
     snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
     if (!hd_check_texture_path(&reader.report, file->texture_path) ||
-        !place_texture(&reader, file->texture_path))
+        !place_file(&reader, file->texture_path))
         file->texture_path[0] = '\0';
     snprintf(reader.report.path, sizeof reader.report.path, "output.path");
     hd_check_output_path(&reader.report, file->output.path);

@@ -58,6 +58,18 @@ static void print_path(HdJsonPrinter *printer, const HdField *field) {
     hd_json_close(printer, ']');
 }
 
+static void print_scale(HdJsonPrinter *printer, const HdField *field) {
+    hd_json_key(printer, "oneOf");
+    hd_json_open(printer, '[');
+    hd_json_open(printer, '{');
+    print_range(printer, field, "number");
+    hd_json_close(printer, '}');
+    hd_json_open(printer, '{');
+    print_vector(printer, field);
+    hd_json_close(printer, '}');
+    hd_json_close(printer, ']');
+}
+
 static void print_text(HdJsonPrinter *printer, int most) {
     print_pair(printer, "type", "string");
     print_count(printer, "minLength", 1);
@@ -98,7 +110,11 @@ static void print_type(HdJsonPrinter *printer, const HdField *field) {
     case HD_FIELD_CHOICE:
         print_choices(printer, field);
         break;
+    case HD_FIELD_SCALE:
+        print_scale(printer, field);
+        break;
     case HD_FIELD_TEXT:
+    case HD_FIELD_FILE:
         print_text(printer, HD_MAX_PATH - 1);
         break;
     case HD_FIELD_MATERIAL:

@@ -72,12 +72,16 @@ static void add_material(Writer *writer, const HdMaterial *material, const char 
         snprintf(named->name, sizeof named->name, "%s", name);
 }
 
-static void collect_materials(Writer *writer, const HdScene *scene) {
+static void collect_materials(Writer *writer, const HdSceneFile *file) {
+    const HdScene *scene = &file->scene;
     for (int i = 0; i < scene->solid_count; i++) {
         add_material(writer, &scene->solids[i].face, "solid", i + 1);
         if (scene->solids[i].rim_width > 0.0)
             add_material(writer, &scene->solids[i].rim, "rim", i + 1);
     }
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        if (file->mesh_entries[i].instance.has_material)
+            add_material(writer, &file->mesh_entries[i].instance.material, "mesh", i + 1);
     if (scene->floor.present)
         add_material(writer, &scene->floor.material, "floor", 0);
 }
@@ -157,6 +161,20 @@ static void write_list(Writer *writer, const HdField *field, const void *owner) 
     hd_json_close(&writer->printer, ']');
 }
 
+/* One number where every axis has the same. */
+static void write_scale(Writer *writer, HdVec3 scale) {
+    if (scale.x == scale.y && scale.y == scale.z)
+        hd_json_number(&writer->printer, scale.x);
+    else
+        hd_json_vector(&writer->printer, scale);
+}
+
+static void write_file(Writer *writer, const void *place) {
+    const char *path;
+    memcpy(&path, place, sizeof path);
+    hd_json_string(&writer->printer, path);
+}
+
 static void write_value(Writer *writer, const HdField *field, const void *owner) {
     HdJsonPrinter *printer = &writer->printer;
     const void *place = place_of(field, owner);
@@ -185,8 +203,14 @@ static void write_value(Writer *writer, const HdField *field, const void *owner)
     case HD_FIELD_CHOICE:
         write_choice(writer, field, owner);
         break;
+    case HD_FIELD_SCALE:
+        write_scale(writer, *(const HdVec3 *)place);
+        break;
     case HD_FIELD_TEXT:
         hd_json_string(printer, place);
+        break;
+    case HD_FIELD_FILE:
+        write_file(writer, place);
         break;
     case HD_FIELD_MATERIAL:
         hd_json_string(printer, material_name(writer, place));
@@ -229,6 +253,7 @@ static bool is_default(const HdField *field, const void *owner) {
     case HD_FIELD_FACTOR:
         return light_factor(*(const HdVec3 *)place) == field->standard[0];
     case HD_FIELD_VECTOR:
+    case HD_FIELD_SCALE:
         return is_standard_vector(field, *(const HdVec3 *)place);
     case HD_FIELD_UNSCALED:
         return is_standard_vector(field, light_colour(*(const HdVec3 *)place));
@@ -270,13 +295,15 @@ HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error)
     HdStatus status = check_text("path of the output", file->output.path, error);
     if (status == HD_OK)
         status = check_text("path of the texture", file->texture_path, error);
+    for (int i = 0; i < file->mesh_entry_count && status == HD_OK; i++)
+        status = check_text("path of a mesh", file->mesh_entries[i].file, error);
     if (status != HD_OK)
         return status;
-    const size_t most = 2 * (size_t)file->scene.solid_count + 1;
+    const size_t most = 2 * (size_t)file->scene.solid_count + (size_t)file->mesh_entry_count + 1;
     writer.materials = calloc(most, sizeof *writer.materials);
     if (writer.materials == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the names of materials");
-    collect_materials(&writer, &file->scene);
+    collect_materials(&writer, file);
     write_object(&writer, &hd_scene_fields, file);
     putc('\n', out);
     free(writer.materials);

@@ -13,7 +13,10 @@ enum { PEAK_ROUNDS = 1 << 16 };
 
 static bool compile(HdLoopScene *scene, HdSceneFile *file, HdError *error) {
     HdCamera camera;
+    HdProblems problems = {0};
     return hd_scene_file_load_texture(file, error) == HD_OK &&
+           hd_scene_file_load_meshes(file, &problems, NULL, error) == HD_OK &&
+           hd_problems_status(&problems, scene->name, error) == HD_OK &&
            hd_scene_validate(&file->scene, error) == HD_OK &&
            hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
            hd_compile_scene(&scene->tables, &file->scene, HD_PRECISION_FLOAT, 1, error) == HD_OK &&

@@ -113,9 +113,10 @@ expect_stdout_lines 2
 # Those in the manual, which give no cause for a note either.
 awk -v folder="$PWD" '/^```json/ { name = folder "/manual" ++count ".json"; next } /^```/ { name = "" }
     name != "" { print >name }' "$cli_folder/../../docs/formats.md"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >teapot.obj # stands for one
 expect_exit 0 "$hedron" check manual*.json
-expect_stdout_lines 3 'manual.\.json: fine, .*'
-rm manual*.json
+expect_stdout_lines 4 'manual.\.json: fine, .*'
+rm manual*.json teapot.obj
 # Those that come with the program.
 ours=("$cli_folder"/../../scenes/*.json)
 if ((${#ours[@]} < 2)); then

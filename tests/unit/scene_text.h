@@ -47,6 +47,11 @@ static const char rich_text[] =
     "    {\"kind\": \"tetrahedron\", \"centre\": [200, 0, 0], \"material\": \"plain\",\n"
     "     \"edge_lights\": {\"per_edge\": 1, \"falloff_end\": 7}}\n"
     "  ],\n"
+    "  \"meshes\": [\n"
+    "    {\"file\": \"model.obj\", \"position\": [11, 12, 13], \"rotation\": [40, 50, 60],\n"
+    "     \"scale\": [1, 2, 3], \"normals\": \"smooth\", \"crease\": 25, \"material\": \"dark\"},\n"
+    "    {\"file\": \"other.obj\", \"scale\": 0.5, \"normals\": \"flat\"}\n"
+    "  ],\n"
     "  \"lights\": [\n"
     "    {\"position\": [4, 5, 6], \"colour\": [1, 0.5, 0.25], \"intensity\": 3,\n"
     "     \"falloff_distance\": 8},\n"
@@ -87,6 +92,7 @@ static inline const char *expect_refused(const char *text, HdSceneChange change,
     assert_int_equal(status, HD_BAD_INPUT);
     assert_null(file.scene.solids);
     assert_null(file.scene.lights);
+    assert_null(file.mesh_entries);
     return error.message;
 }
 

@@ -232,6 +232,20 @@ static void another_job_or_device_is_not_meant(void **state) {
     scene.width *= 4;
     assert_false(is_recalled());
     scene.width /= 4;
+    HdMesh mesh = {.triangle_count = 1000};
+    scene.meshes = &mesh;
+    scene.mesh_count = 1;
+    assert_false(is_recalled());
+    remember();
+    mesh.triangle_count = 600; /* as many, to a power of two */
+    assert_true(is_recalled());
+    mesh.triangle_count = 3000;
+    assert_false(is_recalled());
+    scene.meshes = NULL;
+    scene.mesh_count = 0;
+    scene.instance_count = 9;
+    assert_false(is_recalled());
+    scene.instance_count = 0;
     options.precision = HD_PRECISION_DOUBLE;
     assert_false(is_recalled());
     options.precision = HD_PRECISION_FLOAT;

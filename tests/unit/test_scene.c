@@ -125,6 +125,41 @@ static void expect_problems(const Fixture *f, HdNaming naming, const char *lines
 static const double not_a_number = (double)NAN;
 static const double infinite = (double)INFINITY;
 
+static void place_mesh(Fixture *f) {
+    static HdMesh mesh = {.lower = {-1.0, -2.0, 0.0}, .upper = {1.0, 3.0, 0.0}};
+    static HdInstance instance;
+    instance = (HdInstance){.scale = {1.0, 1.0, 1.0}};
+    f->scene.meshes = &mesh;
+    f->scene.instances = &instance;
+    f->scene.mesh_count = f->scene.instance_count = 1;
+}
+
+#define PLACED_WRONG(change, message) REJECTED((place_mesh(&f), change), "mesh 1: " message)
+
+static void test_instances(void **state) {
+    (void)state;
+    ACCEPTED(place_mesh(&f));
+    PLACED_WRONG(f.scene.instances->mesh = 1, "number of its mesh is 1, expected 0 to 0");
+    PLACED_WRONG(f.scene.instances->mesh = -1, "number of its mesh is -1, expected 0 to 0");
+    PLACED_WRONG(f.scene.instances->position.y = 2e12, "position y is 2000000000000, expected");
+    PLACED_WRONG(f.scene.instances->position.x = not_a_number, "position x is nan, expected");
+    PLACED_WRONG(f.scene.instances->rotation_degrees.z = -2e6, "rotation z is -2000000, expected");
+    PLACED_WRONG(f.scene.instances->scale.x = 0.0, "scale x is 0, expected a number from 1e-12");
+    PLACED_WRONG(f.scene.instances->scale.z = infinite, "scale z is inf, expected a number from");
+    PLACED_WRONG(f.scene.instances->scale.y = 1e12, "longest side of its mesh, scaled, is "
+                                                    "5000000000000, expected");
+    ACCEPTED((place_mesh(&f), f.scene.instances->material.reflection = 2.0));
+    PLACED_WRONG((f.scene.instances->has_material = true,
+                  f.scene.instances->material = good_material(),
+                  f.scene.instances->material.reflection = 0.9),
+                 "reflection + transmission is 1.2, expected at most 1");
+    PLACED_WRONG((f.scene.instances->has_material = true,
+                  f.scene.instances->material = good_material(),
+                  f.scene.instances->material.index_of_refraction = 11.0),
+                 "index of refraction is 11, expected a number from 0.1 to 10");
+    REJECTED(f.scene.instance_count = -1, "number of meshes in their places is -1, expected 0 to");
+}
+
 static void test_a_good_scene(void **state) {
     (void)state;
     ACCEPTED((void)0);
@@ -640,6 +675,7 @@ int main(void) {
         cmocka_unit_test(test_rims_are_opaque_on_both_sides),
         cmocka_unit_test(test_falloff),
         cmocka_unit_test(test_edge_colours),
+        cmocka_unit_test(test_instances),
         cmocka_unit_test(test_rotation),
         cmocka_unit_test(test_every_problem_is_told),
         cmocka_unit_test(test_names_as_in_json),

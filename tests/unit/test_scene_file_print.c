@@ -95,6 +95,18 @@ static void expect_same_scene(const HdScene *a, const HdScene *b) {
     expect_same_material(&a->floor.material, &b->floor.material);
 }
 
+static void expect_same_mesh(const HdMeshEntry *a, const HdMeshEntry *b) {
+    assert_string_equal(a->file, b->file);
+    assert_int_equal(a->normals, b->normals);
+    expect_same_bits(a->crease_degrees, b->crease_degrees);
+    expect_same_bits(a->instance.position, b->instance.position);
+    expect_same_bits(a->instance.rotation_degrees, b->instance.rotation_degrees);
+    expect_same_bits(a->instance.scale, b->instance.scale);
+    assert_int_equal(a->instance.has_material, b->instance.has_material);
+    if (a->instance.has_material)
+        expect_same_material(&a->instance.material, &b->instance.material);
+}
+
 static void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     expect_same_scene(&a->scene, &b->scene);
     assert_string_equal(a->output.path, b->output.path);
@@ -104,6 +116,9 @@ static void expect_same_file(const HdSceneFile *a, const HdSceneFile *b) {
     assert_string_equal(a->texture_path, b->texture_path);
     if (a->texture_path[0] != '\0')
         assert_int_equal(a->texture_curve, b->texture_curve);
+    assert_int_equal(a->mesh_entry_count, b->mesh_entry_count);
+    for (int i = 0; i < a->mesh_entry_count; i++)
+        expect_same_mesh(&a->mesh_entries[i], &b->mesh_entries[i]);
 }
 
 typedef HdStatus Print(FILE *out, HdError *error);
@@ -171,6 +186,16 @@ static void test_values_that_are_hard_to_write(void **state) {
         "solids[1].edge_lights.colours=[[1,1,1]]",
         "solids[1].edge_lights.colours=[[1,1,1],[1,1,1]]",
         "floor.texture.curve=srgb",
+        "meshes[0].scale=[2, 2, 2]",
+        "meshes[0].scale=1",
+        "meshes[0].scale=[2, 2, 3]",
+        "meshes[0].scale=[3, 2, 2]",
+        "meshes[0].crease=40",
+        "meshes[0].normals=file",
+        "meshes[0].position=[0, -0.0, 0]",
+        "meshes[1].material=glass",
+        "meshes[1].material=plain",
+        "meshes[1].file=\"a\\\"b \\u00e9.obj\"",
     };
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         expect_scene(&first, rich_text, changes[i]);
@@ -241,6 +266,10 @@ static void test_layout(void **state) {
                    "\"per_edge\": 1,\n        \"falloff_end\": 7\n      }\n");
     expect_printed("\n    \"material\": \"solid_2\",\n    \"texture\": {\n");
     expect_printed("\n      \"colour\": [1, 0.5, 0],\n      \"intensity\": 1.5,\n");
+    expect_printed(
+        "\n      \"scale\": [1, 2, 3],\n      \"normals\": \"smooth\",\n      \"crease\": 25,"
+        "\n      \"material\": \"solid_2\"\n    },\n    {\n      \"file\": "
+        "\"other.obj\",\n      \"scale\": 0.5,\n      \"normals\": \"flat\"\n    }\n  ],");
     expect_printed("\n      \"position\": [7, 8, 9],\n      \"falloff_end\": 10\n    }\n  ],");
     hd_scene_file_free(&first);
 }
@@ -252,6 +281,11 @@ static void test_paths_that_are_not_utf8(void **state) {
     strcpy(first.output.path, "\xff.png");
     assert_int_equal(hd_scene_file_print(stdout, &first, &error), HD_BAD_INPUT);
     expect_contains(error.message, "the path of the output is \"\xff.png\", expected UTF-8");
+    hd_scene_file_free(&first);
+    expect_scene(&first, rich_text, NULL);
+    first.mesh_entries[1].file[0] = '\xff';
+    assert_int_equal(hd_scene_file_print(stdout, &first, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "the path of a mesh is \"\xffther.obj\", expected UTF-8");
     hd_scene_file_free(&first);
 }
 

@@ -171,14 +171,11 @@ static void test_textures(void **state) {
     (void)state;
     static HdError error;
     static const HdSceneChange changes[] = {"floor.texture.file=no such.png", "image.width=0"};
-    const HdSceneSource source = {.name = "a.json",
-                                  .folder = "",
-                                  .changes = changes,
-                                  .change_count = 2,
-                                  .loads_texture = true};
+    const HdSceneSource source = {
+        .name = "a.json", .folder = "", .changes = changes, .change_count = 2, .loads_files = true};
     assert_int_equal(hd_scene_file_parse(&file, rich_text, strlen(rich_text), &source, &error),
                      HD_BAD_INPUT);
-    expect_contains(error.message, "a.json: 2 problems\n");
+    expect_contains(error.message, "a.json: 4 problems\n");
     expect_contains(error.message, "\n  --set image.width=0: image.width is 0, expected");
     expect_contains(error.message,
                     "\n  floor.texture.file: cannot read the texture no such.png: No such file");

@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: MIT */
+/* Meshes of scene files: what an entry says, which entries share a mesh, and what is wrong. */
+#define _XOPEN_SOURCE 700
+
+#include "scene_text.h"
+#include "test_folder.h"
+
+#define SCENE(meshes)                                                                              \
+    "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 0]},\n"                                         \
+    " \"materials\": {\"m\": {\"ambient\": 0.5}}, \"meshes\": [" meshes "]}"
+
+static HdSceneFile file;
+static HdProblems problems, notes;
+static HdError error;
+
+static void expect_vector(HdVec3 actual, double x, double y, double z) {
+    expect_near(actual.x, x, 0.0);
+    expect_near(actual.y, y, 0.0);
+    expect_near(actual.z, z, 0.0);
+}
+
+static void write_text(const char *path, const char *text) {
+    write_bytes(path, text, strlen(text));
+}
+
+static HdStatus load(const char *text) {
+    problems = notes = (HdProblems){.count = 0};
+    expect_scene(&file, text, NULL);
+    return hd_scene_file_load_meshes(&file, &problems, &notes, &error);
+}
+
+static void expect_loaded(const char *text) {
+    if (load(text) != HD_OK)
+        fail_msg("%s", error.message);
+    assert_string_equal(problems.text, "");
+}
+
+static void expect_problems(const char *text, const char *expected) {
+    assert_int_equal(load(text), HD_OK);
+    assert_string_equal(problems.text, expected);
+    assert_null(file.scene.meshes);
+    assert_null(file.scene.instances);
+    assert_null(file.scene.pictures);
+    assert_int_equal(file.scene.mesh_count, 0);
+    assert_int_equal(file.scene.instance_count, 0);
+    hd_scene_file_free(&file);
+}
+
+/* ---- what entries say ---- */
+
+static void test_defaults(void **state) {
+    (void)state;
+    expect_scene(&file, SCENE("{\"file\": \"a.obj\"}"), NULL);
+    const HdMeshEntry *entry = file.mesh_entries;
+    assert_int_equal(file.mesh_entry_count, 1);
+    assert_string_equal(entry->file, "a.obj");
+    assert_int_equal(entry->normals, HD_NORMALS_FILE);
+    expect_near(entry->crease_degrees, 40.0, 0.0);
+    expect_vector(entry->instance.position, 0.0, 0.0, 0.0);
+    expect_vector(entry->instance.rotation_degrees, 0.0, 0.0, 0.0);
+    expect_vector(entry->instance.scale, 1.0, 1.0, 1.0);
+    assert_false(entry->instance.has_material);
+    assert_int_equal(file.scene.instance_count, 0); /* nothing is read yet */
+    hd_scene_file_free(&file);
+    expect_scene(&file, least_text, NULL);
+    assert_int_equal(file.mesh_entry_count, 0);
+    assert_int_equal(hd_scene_file_load_meshes(&file, &problems, NULL, &error), HD_OK);
+    hd_scene_file_free(&file);
+}
+
+static void test_every_key(void **state) {
+    (void)state;
+    expect_scene(&file, rich_text, NULL);
+    const HdMeshEntry *entry = file.mesh_entries;
+    assert_int_equal(file.mesh_entry_count, 2);
+    assert_string_equal(entry->file, "model.obj");
+    assert_int_equal(entry->normals, HD_NORMALS_SMOOTH);
+    expect_near(entry->crease_degrees, 25.0, 0.0);
+    expect_vector(entry->instance.position, 11.0, 12.0, 13.0);
+    expect_vector(entry->instance.rotation_degrees, 40.0, 50.0, 60.0);
+    expect_vector(entry->instance.scale, 1.0, 2.0, 3.0);
+    assert_true(entry->instance.has_material);
+    expect_near(entry->instance.material.diffuse, 0.125, 0.0);
+    expect_vector(entry[1].instance.scale, 0.5, 0.5, 0.5);
+    assert_int_equal(entry[1].normals, HD_NORMALS_FLAT);
+    assert_false(entry[1].instance.has_material);
+    hd_scene_file_free(&file);
+}
+
+static void test_wrong_values(void **state) {
+    (void)state;
+    static const char *const wrong[][2] = {
+        {"meshes[0].scale=0", "meshes[0].scale is 0, expected a number from 1e-12 to 1e12"},
+        {"meshes[0].scale=-1", "meshes[0].scale is -1, expected a number from 1e-12 to 1e12"},
+        {"meshes[0].scale=2e12", "meshes[0].scale is 2e12, expected a number from 1e-12"},
+        {"meshes[0].scale=[1,0,1]", "meshes[0].scale[1] is 0, expected a number from 1e-12"},
+        {"meshes[0].scale=[1,1]", "meshes[0].scale is an array of 2 elements, expected one number "
+                                  "or three, each a number from 1e-12 to 1e12"},
+        {"meshes[0].scale=\"1\"", "meshes[0].scale is a string, \"1\", expected one number or "},
+        {"meshes[0].position=[1e13,0,0]", "meshes[0].position[0] is 1e13, expected a number from"},
+        {"meshes[0].rotation=5", "meshes[0].rotation is 5, expected three numbers, each a number "},
+        {"meshes[0].rotation=[0,0,2e6]", "meshes[0].rotation[2] is 2e6, expected a number from"},
+        {"meshes[0].crease=181", "meshes[0].crease is 181, expected a number from 0 to 180"},
+        {"meshes[0].normals=round", "meshes[0].normals is a string, \"round\", expected \"file\", "
+                                    "\"flat\" or \"smooth\""},
+        {"meshes[0].normals=smoth", "did you mean \"smooth\"?"},
+        {"meshes[0].material=darc", "meshes[0].material is a string, \"darc\"; did you mean "
+                                    "\"dark\"?"},
+        {"meshes[0].material={}", "meshes[0].material is an object, expected the name of one of"},
+        {"meshes[0].file=", "meshes[0].file is a string, \"\", expected a string that is not"},
+        {"meshes[0].file=5", "meshes[0].file is 5, expected a string that is not empty"},
+        {"meshes[0].file=\"a\\u001b.obj\"", "expected a name without control characters"},
+        {"meshes[0].centre=[0,0,0]", "is an unknown key; did you mean \"position\"?"},
+        {"meshes[0].size=2", "is an unknown key; did you mean \"scale\"?"},
+        {"meshes[0].path=a", "is an unknown key; did you mean \"file\"?"},
+        {"meshes[0].smooth=true", "is an unknown key; did you mean \"normals\"?"},
+        {"meshs=[]", "meshs is an unknown key; did you mean \"meshes\"?"},
+        {"objects=[]", "objects is an unknown key; did you mean \"meshes\"?"},
+        {"meshes=[{}]", "meshes[0].file is missing, expected a string that is not empty"},
+        {"meshes={}", "meshes is an object, expected an array of objects"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        expect_refused(rich_text, wrong[i][0], wrong[i][1]);
+}
+
+static void test_too_many_entries(void **state) {
+    (void)state;
+    const size_t count = HD_MAX_INSTANCES + 1;
+    char *text = malloc(64 + count * 3);
+    assert_non_null(text);
+    strcpy(text, "{\"hedron\": 1, \"camera\": {\"eye\": [3, 0, 0]}, \"meshes\": [");
+    char *end = text + strlen(text);
+    for (size_t i = 0; i < count; i++, end += 2)
+        memcpy(end, i == 0 ? " 1" : ",1", 2);
+    strcpy(end, "]}");
+    expect_refused(text, NULL, "meshes has 100001 elements, expected at most 100000 elements");
+    free(text);
+}
+
+static void expect_file(const char *path, HdSceneChange change, const char *expected) {
+    const HdSceneSource source = {.changes = &change, .change_count = change != NULL};
+    if (hd_scene_file_read(&file, path, &source, &error) != HD_OK)
+        fail_msg("%s", error.message);
+    assert_string_equal(file.mesh_entries[0].file, expected);
+    hd_scene_file_free(&file);
+}
+
+static void test_files_count_from_the_folder(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("folder", 0700), 0);
+    write_text("a.json", rich_text);
+    write_text("folder/a.json", rich_text);
+    expect_file("a.json", NULL, "model.obj");
+    expect_file("folder/a.json", NULL, "folder/model.obj");
+    expect_file("folder/a.json", "meshes[0].file=/b.obj", "/b.obj");
+    expect_file("folder/a.json", "meshes[0].file=~/b.obj", "~/b.obj");
+    static char change[HD_MAX_PATH + 64] = "meshes[0].file=";
+    memset(change + strlen(change), 'x', HD_MAX_PATH - 1);
+    const char *changed = change;
+    const HdSceneSource source = {.changes = &changed, .change_count = 1};
+    assert_int_equal(hd_scene_file_read(&file, "folder/a.json", &source, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "meshes[0].file has 4102 bytes with the scene's folder");
+}
+
+/* ---- files ---- */
+
+/* Two triangles that meet at a right angle, and one without an area. */
+static const char corner_text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nvn 0 0 1\n"
+                                  "f 1//1 2//1 3//1\nf 1 4 2\nf 1 1 2\n";
+
+static void test_entries_share_meshes(void **state) {
+    (void)state;
+    write_text("a.obj", corner_text);
+    write_text("b.obj", corner_text);
+    expect_loaded(SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
+                        "{\"file\": \"b.obj\", \"scale\": 3, \"material\": \"m\"},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 91},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 40},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"flat\", \"crease\": 3}"));
+    static const int meshes[] = {0, 1, 0, 2, 3, 2, 4, 4};
+    const HdScene *scene = &file.scene;
+    assert_int_equal(scene->mesh_count, 5);
+    assert_int_equal(scene->instance_count, 8);
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(scene->instances[i].mesh, meshes[i]);
+    expect_vector(scene->instances[1].position, 1.0, 2.0, 3.0);
+    expect_vector(scene->instances[2].scale, 3.0, 3.0, 3.0);
+    assert_true(scene->instances[2].has_material);
+    expect_near(scene->instances[2].material.ambient, 0.5, 0.0);
+    assert_int_equal(hd_scene_triangle_count(scene), 10);
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(scene->meshes[i].degenerate_count, 1);
+        assert_true(scene->meshes[i].tree.node_count > 0);
+        expect_vector(scene->meshes[i].upper, 2.0, 2.0, 2.0);
+    }
+    hd_scene_file_free(&file);
+    assert_null(file.mesh_entries);
+}
+
+/* At the first corner, which both triangles have. */
+static HdVec3 first_normal(const HdMesh *mesh) {
+    return hd_normalize(mesh->normals[mesh->corner_normals[0][0]]);
+}
+
+static void test_normals(void **state) {
+    (void)state;
+    write_text("a.obj", corner_text);
+    expect_loaded(SCENE("{\"file\": \"a.obj\"}, {\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
+                        "{\"file\": \"a.obj\", \"normals\": \"smooth\", \"crease\": 120}"));
+    const HdMesh *meshes = file.scene.meshes;
+    expect_vector(first_normal(&meshes[0]), 0.0, 0.0, 1.0);
+    assert_int_equal(meshes[0].corner_normals[1][0], -1);
+    assert_null(meshes[1].normals);
+    assert_null(meshes[1].corner_normals);
+    assert_int_equal(meshes[1].normal_count, 0);
+    expect_near(first_normal(&meshes[2]).z, 1.0, 1e-12);
+    expect_near(first_normal(&meshes[3]).z, sqrt(0.5), 1e-12);
+    expect_near(first_normal(&meshes[3]).y, sqrt(0.5), 1e-12);
+    hd_scene_file_free(&file);
+}
+
+static void test_every_wrong_file_is_told(void **state) {
+    (void)state;
+    write_text("a.obj", corner_text);
+    write_text("bad.obj", "v 0 0 0\nv 1 0 x\n");
+    write_text("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    expect_problems(
+        SCENE("{\"file\": \"a.obj\"}, {\"file\": \"no.obj\"}, {\"file\": \"bad.obj\"},\n"
+              "{\"file\": \"no.obj\"}, {\"file\": \"line.obj\"}"),
+        "meshes[1].file: cannot read the mesh no.obj: No such file or directory\n"
+        "meshes[2].file: bad.obj: line 2: number 3 of a vertex is 'x', expected a decimal number\n"
+        "meshes[4].file: line.obj: none of its 1 triangles has an area\n");
+    /* Along with what is wrong in the scene itself. */
+    static const HdSceneChange changes[] = {"image.width=0", "meshes[0].file="};
+    static const char text[] = SCENE("{\"file\": \"a.obj\"}, {\"file\": \"no.obj\"}");
+    const HdSceneSource source = {
+        .name = "a.json", .folder = "", .changes = changes, .change_count = 2, .loads_files = true};
+    assert_int_equal(hd_scene_file_parse(&file, text, strlen(text), &source, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a.json: 3 problems\n");
+    expect_contains(error.message, "meshes[0].file is a string, \"\"");
+    expect_contains(error.message, "\n  meshes[1].file: cannot read the mesh no.obj: No such file");
+}
+
+static void test_sizes(void **state) {
+    (void)state;
+    write_text("small.obj", "v 0 0 0\nv 1e-3 0 0\nv 0 1e-3 0\nf 1 2 3\n");
+    write_text("large.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nf 1 2 3\n");
+    write_text("far.obj", "v 1e6 0 0\nv 1000100 0 0\nv 1e6 100 0\nf 1 2 3\n");
+    expect_loaded(SCENE("{\"file\": \"small.obj\", \"scale\": [1, 1e-8, 1]},\n"
+                        "{\"file\": \"large.obj\", \"scale\": 1e6}"));
+    hd_scene_file_free(&file);
+    expect_problems(SCENE("{\"file\": \"large.obj\"}, {\"file\": \"small.obj\", \"scale\": 1e-12},"
+                          "{\"file\": \"far.obj\", \"scale\": 3e6}"),
+                    "meshes[1]: longest side of its mesh, scaled, is 1.00000004749745e-15, "
+                    "expected a number from 5e-13 to 2000000000000\n"
+                    "meshes[2]: farthest coordinate of its mesh, scaled, is 3000300000000, "
+                    "expected a number from 0 to 2000000000000\n");
+}
+
+/* ---- textures ---- */
+
+static const char textured_text[] = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                    "usemtl grey\nf 1 2 3\nusemtl too\nf 1 2 4\n"
+                                    "usemtl none\nf 1 3 4\nusemtl plain\nf 2 3 4\n";
+static const char library_text[] = "newmtl grey\nmap_Kd grey.data\nnewmtl too\nmap_Kd grey.data\n"
+                                   "newmtl none\nKd 0.5 0.25 1\nmap_Kd none.png\nnewmtl plain\n";
+
+static void test_textures(void **state) {
+    (void)state;
+    static const unsigned char grey[12] = {1, 0, 0, 0, 1, 0, 0, 0, 128, 128, 128, 255};
+    assert_int_equal(mkdir("t", 0700), 0);
+    write_text("t/t.obj", textured_text);
+    write_text("t/t.mtl", library_text);
+    write_bytes("t/grey.data", grey, sizeof grey);
+    expect_loaded(
+        SCENE("{\"file\": \"t/t.obj\"}, {\"file\": \"t/t.obj\", \"normals\": \"smooth\"}"));
+    assert_string_equal(notes.text, "cannot read the texture t/none.png: No such file or "
+                                    "directory; materials with this texture keep their colour "
+                                    "alone\n");
+    assert_int_equal(file.scene.picture_count, 1);
+    assert_false(file.scene.pictures[0].is_clamped);
+    assert_in_range(file.scene.pictures[0].texture.texels[0], 14100, 14200); /* on sRGB's curve */
+    static const char *const names[] = {"grey", "too", "none", "plain"};
+    for (int i = 0; i < 2; i++) {
+        const HdMesh *mesh = &file.scene.meshes[i];
+        for (int k = 0; k < 4; k++) {
+            const int material = mesh->material_of[k];
+            assert_string_equal(mesh->materials[material].name, names[k]);
+            assert_int_equal(mesh->materials[material].picture, k < 2 ? 0 : -1);
+        }
+        expect_vector(mesh->materials[mesh->material_of[2]].material.colour, 0.5, 0.25, 1.0);
+    }
+    hd_scene_file_free(&file);
+    write_text("t/none.png", "this is no picture");
+    expect_loaded(SCENE("{\"file\": \"t/t.obj\"}"));
+    expect_contains(notes.text, "t/none.png is neither PNG nor the data format");
+    assert_int_equal(file.scene.picture_count, 1);
+    hd_scene_file_free(&file);
+}
+
+/* A material that glows is light enough. */
+static void test_light_of_meshes(void **state) {
+    (void)state;
+    static const struct {
+        const char *library, *entry;
+        bool is_lit;
+    } cases[] = {
+        {"newmtl m\n", "{\"file\": \"g.obj\"}", false},
+        {"newmtl m\nKa 1 1 1\n", "{\"file\": \"g.obj\"}", true},
+        {"newmtl m\nKe 0 0 1\n", "{\"file\": \"g.obj\"}", true},
+        {"newmtl m\n", "{\"file\": \"g.obj\", \"material\": \"m\"}", true},
+    };
+    write_text("g.obj", "mtllib g.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[512];
+        notes = (HdProblems){.count = 0};
+        const HdSceneSource source = {
+            .name = "a.json", .folder = "", .loads_files = true, .notes = &notes};
+        snprintf(text, sizeof text, SCENE("%s"), cases[i].entry);
+        write_text("g.mtl", cases[i].library);
+        if (hd_scene_file_parse(&file, text, strlen(text), &source, &error) != HD_OK)
+            fail_msg("%s", error.message);
+        assert_int_equal(strstr(notes.text, "every picture is black") == NULL, cases[i].is_lit);
+        hd_scene_file_free(&file);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_every_key),
+        cmocka_unit_test(test_wrong_values),
+        cmocka_unit_test(test_too_many_entries),
+        cmocka_unit_test(test_files_count_from_the_folder),
+        cmocka_unit_test(test_entries_share_meshes),
+        cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_every_wrong_file_is_told),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_light_of_meshes),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}
