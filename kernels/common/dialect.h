@@ -682,7 +682,7 @@ FN vint count_lanes(vint counts, vmask m) {
 FN uint lane_bits(vmask m) {
     return HD_MASK(m);
 }
-#elif HD_LANES == 8 && !HD_DOUBLE && defined(__AVX2__)
+#elif HD_LANES == 8 && !HD_DOUBLE && !defined(__OPENCL_C_VERSION__) && defined(__AVX2__)
 FN uint lane_bits(vmask m) {
     return (uint)_mm256_movemask_ps((__m256)m);
 }
