@@ -40,7 +40,7 @@ expect_completions "$commands" ''
 expect_completions 'render' r
 expect_completions 'check convert' c
 expect_completions '' x
-expect_completions '--gpu --grid' --g
+expect_completions '--geometry --gpu --grid' --g
 expect_completions '--variant --verbose --version' --v
 expect_completions '' --cpu ''
 # ---- a command's own options, which are those of its help

@@ -31,8 +31,7 @@ to_full() {
     expect_sentence
 }
 to_full "$hedron" --cpu
-# The frame was there before its line.
-expect_files out img_0.data
+# The frame was there before its line; those after it may be as well.
 expect_data out/img_0.data 32 24
 rm -r out
 to_full "$hedron" --default
