@@ -7,6 +7,9 @@
 #include "scene_builder.h"
 #include "scene_triangles.h"
 
+/* All of these need the same of the kernels (few planes, a depth of at most 8, refraction), so that
+   devices that compile them do so once. */
+
 static void two_lights(HdScene *scene) {
     build_light(scene, 0, hd_vec3(3.0, -2.0, 5.0), hd_vec3(1.0, 0.9, 0.8));
     build_light(scene, 1, hd_vec3(-4.0, -1.0, 3.0), hd_vec3(0.3, 0.4, 0.7));
@@ -23,8 +26,6 @@ void bumpy_sphere(HdScene *scene, HdCamera *camera) {
     build_scene(scene, 80, 60, 2, 6, 1, 2);
     two_lights(scene);
     build_solid(scene, 0, HD_OCTAHEDRON, hd_vec3(0.2, 1.6, 0.3), 1.1, hd_vec3(0.3, 0.6, 1.0), 2);
-    build_square_floor(scene, 5.0, -1.3);
-    build_texture(&scene->floor.texture, 16, 12);
     build_meshes(scene, 2, 2, 0);
     build_sphere_mesh(&scene->meshes[0], 24, 0.2, true, false, &red);
     build_sphere_mesh(&scene->meshes[1], 9, 0.1, false, false, &green);
@@ -38,6 +39,7 @@ void bumpy_sphere(HdScene *scene, HdCamera *camera) {
    stretched, three that overlap. */
 void many_instances(HdScene *scene, HdCamera *camera) {
     HdMaterial blue = build_material(hd_vec3(0.4, 0.6, 1.0), 0.4, 0.5);
+    blue.index_of_refraction = 1.25;
     HdMaterial gold = build_material(hd_vec3(1.0, 0.8, 0.3), 0.5, 0.0);
     HdMaterial white = build_material(hd_vec3(1.0, 1.0, 1.0), 0.2, 0.3);
     build_scene(scene, 80, 60, 2, 5, 0, 2);
@@ -67,6 +69,7 @@ void triangulated_solids(HdScene *scene, HdCamera *camera) {
     build_solid(scene, 0, HD_TETRAHEDRON, hd_vec3(-1.2, 0.1, 0.0), 1.1, hd_vec3(1.0, 0.3, 0.2), 2);
     build_solid(scene, 1, HD_HEXAHEDRON, hd_vec3(1.3, 0.4, 0.2), 1.2, hd_vec3(0.3, 0.9, 0.4), 1);
     scene->solids[1].lights.intensity = 0.3;
+    scene->solids[0].face.index_of_refraction = 1.2;
     build_square_floor(scene, 6.0, -1.5);
     build_texture(&scene->floor.texture, 16, 12);
     if (hd_scene_triangulate(scene, 8, 1, &error) != HD_OK)
@@ -77,11 +80,13 @@ void triangulated_solids(HdScene *scene, HdCamera *camera) {
 /* Rays that run exactly through edges and corners, from outside and from inside. */
 void mesh_edges_and_corners(HdScene *scene, HdCamera *camera) {
     HdMaterial clear = build_material(hd_vec3(0.9, 0.8, 1.0), 0.3, 0.6);
+    HdMaterial glass = clear;
+    glass.index_of_refraction = 1.1;
     build_scene(scene, 65, 65, 1, 6, 0, 2);
     two_lights(scene);
     build_meshes(scene, 2, 2, 0);
     build_cube_mesh(&scene->meshes[0], &clear, &clear);
-    build_sphere_mesh(&scene->meshes[1], 8, 0.0, false, false, &clear);
+    build_sphere_mesh(&scene->meshes[1], 8, 0.0, false, false, &glass);
     build_instance(scene, 0, 0, hd_vec3(0.0, 0.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 4.0);
     build_instance(scene, 1, 1, hd_vec3(0.0, 0.0, 0.0), hd_vec3(0.0, 0.0, 0.0), 1.0);
     scene->accel = HD_ACCEL_BVH;
@@ -97,7 +102,5 @@ void mesh_far_from_origin(HdScene *scene, HdCamera *camera) {
         scene->instances[i].position = hd_add(scene->instances[i].position, shift);
         scene->lights[i].position = hd_add(scene->lights[i].position, shift);
     }
-    for (int i = 0; i < 4; i++)
-        scene->floor.corners[i] = hd_add(scene->floor.corners[i], shift);
     camera->eye = hd_add(camera->eye, shift);
 }
