@@ -21,7 +21,7 @@
 #define DEPTH_BOUND     HD_DEPTH_BOUND
 #define REFRACTS        HD_REFRACTS
 #define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
-#define MESHES          (HD_NODE_STACK > 0)
+#define MESHES          (HD_NODE_STACK > 0 && header->instance_count > 0)
 #define NODE_STACK      (HD_NODE_STACK + 1)
 #define WIDE_STACK      (HD_WIDE_STACK + 1)
 #else
