@@ -64,7 +64,7 @@ typedef long long fixed64;
 #include <immintrin.h>
 #endif
 #define FN       static inline __attribute__((always_inline, unused))
-#define FN_APART static __attribute__((noinline, unused)) /* spares its callers' registers */
+#define FN_APART static __attribute__((noinline, unused))
 #define GLOBAL
 #define LOCAL
 #define BARRIER()  ((void)0) /* there is one work item in a group */

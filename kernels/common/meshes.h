@@ -61,10 +61,10 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     return rays;
 }
 
-FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world, vmask m,
-                              int number) {
+FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays *world,
+                              const vmask *m, int number) {
     MeshRays rays = rays_in_mesh(SCENE_ARGUMENTS world, number);
-    search_mesh(SCENE_ARGUMENTS found, &rays, m, instances + number);
+    search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
 
 /* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the
@@ -80,8 +80,10 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
         vmask alive = m & found->alive;
         if (current < 0) {
             int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
-            for (int i = first; i < first + count; i++)
-                search_instance(SCENE_ARGUMENTS found, world, alive & found->alive, top_items[i]);
+            for (int i = first; i < first + count; i++) {
+                alive = alive & found->alive;
+                search_instance(SCENE_ARGUMENTS found, world, &alive, top_items[i]);
+            }
             continue;
         }
         GLOBAL const MeshNode *node = mesh_nodes + current;
@@ -100,8 +102,10 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
 
 FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) {
     if (header->top_root < 0) {
-        for (int i = 0; i < header->instance_count; i++)
-            search_instance(SCENE_ARGUMENTS found, world, found->alive, i);
+        for (int i = 0; i < header->instance_count; i++) {
+            vmask alive = found->alive;
+            search_instance(SCENE_ARGUMENTS found, world, &alive, i);
+        }
         return;
     }
     Slabs slabs = ray_slabs(world->origin, world->direction, splat(header->mesh_reach));
@@ -117,11 +121,12 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) 
 /* ---- what rays meet ---- */
 
 /* Adds the meshes to a search; a hit's face is then the number of the triangle. */
-FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit) {
+FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const Reference *reference,
+                               Hit *hit) {
     WorldRays world;
-    world.origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, header->floor_end);
+    world.origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
     world.direction = ray->direction;
-    world.touched = reference.is_eye ? splat_int(-1) : ray->touched;
+    world.touched = reference->is_eye ? splat_int(-1) : ray->touched;
     world.face = ray->face;
     world.inside = ray->inside;
     world.is_shadow = 0;
@@ -158,11 +163,33 @@ FN vreal passing_share(vint octaves, vint rest) {
     return pick(lt_int(octaves, splat_int(HD_DARK_OCTAVES)), share, splat(R(0.0)));
 }
 
-/* What the meshes let through of the light of number `light` on its way to points of a surface, in
-   the lanes of `lit`; `to_light` leads from each point to the light. */
-FN_APART Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint object,
-                                      vint face, vmask inside, int light, vmask lit) {
+/* What the meshes let through of the light that `world` looks for, in the lanes of `lit`. */
+FN_APART void filter_by_meshes(SCENE_PARAMETERS const WorldRays *world, const vmask *lit,
+                               Vec3 *transmittance) {
+    Findings found;
+    found.alive = *lit;
+    found.limit = splat(R(1.0));
+    found.object = found.triangle = splat_int(-1);
+    found.entering = mask_none();
+    for (int channel = 0; channel < 3; channel++)
+        found.octaves[channel] = found.rest[channel] = splat_int(0);
+    search_meshes(SCENE_ARGUMENTS & found, world);
+    vreal open = pick(found.alive, splat(R(1.0)), splat(R(0.0)));
+    vint most = greatest_int(found.octaves[0], greatest_int(found.octaves[1], found.octaves[2]));
+    *transmittance = vec3(open, open, open);
+    if (!any_lane(found.alive & lt_int(splat_int(0), most)))
+        return;
+    transmittance->x = open * passing_share(found.octaves[0], found.rest[0]);
+    transmittance->y = open * passing_share(found.octaves[1], found.rest[1]);
+    transmittance->z = open * passing_share(found.octaves[2], found.rest[2]);
+}
+
+/* The same of the light of number `light` on its way to points of a surface; `to_light` leads from
+   each point to the light. */
+FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint object, vint face,
+                                vmask inside, int light, vmask lit) {
     WorldRays world;
+    Vec3 transmittance;
     Reference reference = reference_of(SCENE_ARGUMENTS object, 0);
     world.origin = move_to_object(SCENE_ARGUMENTS reference, point, header->floor_end);
     world.direction = to_light;
@@ -172,21 +199,8 @@ FN_APART Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light
     world.is_shadow = 1;
     world.light_face[0] = lights[light].own_face[0];
     world.light_face[1] = lights[light].own_face[1];
-    Findings found;
-    found.alive = lit;
-    found.limit = splat(R(1.0));
-    found.object = found.triangle = splat_int(-1);
-    found.entering = mask_none();
-    for (int channel = 0; channel < 3; channel++)
-        found.octaves[channel] = found.rest[channel] = splat_int(0);
-    search_meshes(SCENE_ARGUMENTS & found, &world);
-    vreal open = pick(found.alive, splat(R(1.0)), splat(R(0.0)));
-    vint most = greatest_int(found.octaves[0], greatest_int(found.octaves[1], found.octaves[2]));
-    if (!any_lane(found.alive & lt_int(splat_int(0), most)))
-        return vec3(open, open, open);
-    return vec3(open * passing_share(found.octaves[0], found.rest[0]),
-                open * passing_share(found.octaves[1], found.rest[1]),
-                open * passing_share(found.octaves[2], found.rest[2]));
+    filter_by_meshes(SCENE_ARGUMENTS & world, &lit, &transmittance);
+    return transmittance;
 }
 
 #endif

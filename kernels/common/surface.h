@@ -242,10 +242,11 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
 }
 
 /* The lanes of `m` have met triangles of the instance; hit->face becomes the number of the face. */
-FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, Reference reference, int number,
-                            vmask m, Hit *hit, Surface *surface) {
+FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *reference, int number,
+                            const vmask *met, Hit *hit, Surface *surface) {
+    vmask m = *met;
     GLOBAL const Instance *instance = instances + number;
-    Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, header->floor_end);
+    Vec3 origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
     Vec3 in_mesh = transform_point(instance->to_mesh, origin);
     Vec3 along = transform_direction(instance->to_mesh, ray->direction);
     RayFrame frame = ray_frame(in_mesh, along);
@@ -284,7 +285,7 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
         vmask m = left & eq_int(hit->object, splat_int(object));
         left = left & ~m;
         if (MESHES && object >= header->floor_end) {
-            describe_mesh(SCENE_ARGUMENTS ray, reference, object - header->floor_end, m, hit,
+            describe_mesh(SCENE_ARGUMENTS ray, &reference, object - header->floor_end, &m, hit,
                           &surface);
             continue;
         }

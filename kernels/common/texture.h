@@ -91,7 +91,8 @@ FN vreal repeat(vreal u, int texels) {
     part = pick(lt(part, zero), part + splat(R(1.0)), part);
     vreal at = multiply_add(part, whole, splat(R(-0.5)));
     at = pick(lt(at, zero), at + whole, at);
-    return lesser(at, whole - splat(R(0.5)));
+    /* Lanes that are off may hold anything. */
+    return lesser(greater(at, zero), whole - splat(R(0.5)));
 }
 
 /* The same of a texture that ends. */

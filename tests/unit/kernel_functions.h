@@ -561,8 +561,8 @@ static void rays_leave_a_closed_mesh_once(void **state) {
     }
 }
 
-/* From outside it enters as often as it leaves, at most once: the mesh is nearly convex, so that
-   only a ray along its rim may do neither. */
+/* From outside it enters as often as it leaves. The mesh is not quite convex: along its rim a ray
+   may do so twice. */
 static void rays_enter_a_closed_mesh_as_often_as_they_leave(void **state) {
     (void)state;
     static MeshPoint mesh[MESH_TRIANGLES][3];
@@ -585,7 +585,7 @@ static void rays_enter_a_closed_mesh_as_often_as_they_leave(void **state) {
             assert_int_equal(lane_int(&entered, 0), 1);
         for (int lane = 0; lane < HD_LANES; lane++) {
             assert_int_equal(lane_int(&entered, lane), lane_int(&left, lane));
-            assert_in_range(lane_int(&entered, lane), 0, 1);
+            assert_in_range(lane_int(&entered, lane), 0, 2);
             entered_in_all += lane_int(&entered, lane);
         }
     }
