@@ -5,33 +5,10 @@
 
 #include "box_scenes.h"
 #include "expect.h"
-#include "hierarchy.h"
+#include "hierarchy_setup.h"
 #include "interrupt.h"
-#include "large_memory.h"
 
-static HdError error;
-static HdThreadPool *pool;
 static const HdHierarchyOptions usual = {1.0F, 4};
-
-/* Takes the place of the library's: the allocation with this number fails. -1: none. */
-static int failing_allocation = -1, allocations;
-
-void *hd_large_allocate(size_t bytes) {
-    if (allocations++ == failing_allocation)
-        return NULL;
-    return aligned_alloc(64, (bytes + 63) / 64 * 64);
-}
-
-static int start_pool(void **state) {
-    (void)state;
-    return hd_thread_pool_create(&pool, 2, &error) != HD_OK;
-}
-
-static int end_pool(void **state) {
-    (void)state;
-    hd_thread_pool_destroy(pool);
-    return 0;
-}
 
 static HdHierarchy build(const HdBox *boxes, int count, const HdHierarchyOptions *options) {
     HdHierarchy hierarchy;

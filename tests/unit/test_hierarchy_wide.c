@@ -3,36 +3,13 @@
 
 #include "box_scenes.h"
 #include "expect.h"
-#include "hierarchy.h"
-#include "large_memory.h"
+#include "hierarchy_setup.h"
 
 enum { MOST_WIDTH = 16, MOST_WAITING = (MOST_WIDTH - 1) * HD_MAX_HIERARCHY_DEPTH };
 
-static HdError error;
-static HdThreadPool *pool;
 static const HdHierarchyOptions usual = {1.0F, 4};
 static const int widths[] = {2, 4, 8, 16};
 enum { WIDTH_COUNT = sizeof widths / sizeof *widths };
-
-/* Takes the place of the library's: the allocation with this number fails. -1: none. */
-static int failing_allocation = -1, allocations;
-
-void *hd_large_allocate(size_t bytes) {
-    if (allocations++ == failing_allocation)
-        return NULL;
-    return aligned_alloc(64, (bytes + 63) / 64 * 64);
-}
-
-static int start_pool(void **state) {
-    (void)state;
-    return hd_thread_pool_create(&pool, 2, &error) != HD_OK;
-}
-
-static int end_pool(void **state) {
-    (void)state;
-    hd_thread_pool_destroy(pool);
-    return 0;
-}
 
 static HdHierarchy build(const HdBox *boxes, int count) {
     HdHierarchy hierarchy;
