@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "image.h"
-#include "render_scene.h"
 #include "scenes.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };
@@ -30,14 +29,15 @@ static void build(HdScene *scene, HdCamera *camera) {
             conformance_frames[i].build(scene, camera);
 }
 
-static void open_views(Views *views, HdRenderer *renderer, HdPrecision precision) {
+static void open_views(Views *views, const Target *target) {
     HdScene scene;
     HdCamera camera;
     HdError error;
     build(&scene, &camera);
     for (int i = 0; i < VIEWS; i++) {
-        views->alone[i] = render_scene(renderer, &scene, &camera, precision, frame_name);
-        if (hd_compile_frame(&views->tables[i], &scene, &camera, precision, &error) != HD_OK)
+        views->alone[i] = render_scene(target, &scene, &camera, frame_name);
+        if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, &error) !=
+            HD_OK)
             fail(frame_name, &error);
         camera.right = hd_scale(camera.right, -1.0);
         camera.up = hd_scale(camera.up, -1.0);
@@ -85,23 +85,22 @@ static bool collect(Views *views, HdRenderer *renderer, int round) {
 }
 
 /* Each frame is submitted before its predecessor is collected. The last one is dropped. */
-void check_flights(HdRenderer *renderer, HdPrecision precision, const char *label, int *pictures,
-                   int *different) {
+void check_flights(const Target *target, int *pictures, int *different) {
     Views views;
     HdError error;
-    open_views(&views, renderer, precision);
+    open_views(&views, target);
     for (int round = 0; round < ROUNDS; round++) {
-        if (hd_renderer_submit(renderer, &views.tables[round % VIEWS], &wishes[round], &error) !=
-            HD_OK)
+        if (hd_renderer_submit(target->renderer, &views.tables[round % VIEWS], &wishes[round],
+                               &error) != HD_OK)
             fail(frame_name, &error);
         if (round == 0)
             continue;
         ++*pictures;
-        if (collect(&views, renderer, round - 1))
+        if (collect(&views, target->renderer, round - 1))
             continue;
         ++*different;
-        printf("DIFFERENT frame %d of those under way together, on %s\n", round - 1, label);
+        printf("DIFFERENT frame %d of those under way together, on %s\n", round - 1, target->label);
     }
-    hd_renderer_drop(renderer);
+    hd_renderer_drop(target->renderer);
     close_views(&views);
 }

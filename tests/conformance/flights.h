@@ -3,12 +3,11 @@
 #ifndef HD_CONFORMANCE_FLIGHTS_H
 #define HD_CONFORMANCE_FLIGHTS_H
 
-#include "backend.h"
+#include "render_scene.h"
 
 /* Renders a picture as radiance and in 8 bits on each curve, several frames under way, and compares
    all of them with the frame rendered alone. Prints what differs on `label`; adds to the numbers of
    pictures compared and of those that differ. */
-void check_flights(HdRenderer *renderer, HdPrecision precision, const char *label, int *pictures,
-                   int *different);
+void check_flights(const Target *target, int *pictures, int *different);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one. The options --backend, --lanes and --precision leave out the others. Then it renders with
-   the other pipeline and with other launches (variants.h). Each renderer also has frames under way
-   together (flights.h).
+   one. The options --backend, --lanes, --precision and --threads leave out the others. Then it
+   renders with the other pipeline and with other launches (variants.h). Each renderer also has
+   frames under way together (flights.h).
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -23,15 +23,18 @@
 #include "variants.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
+enum { OWN_BUILDS = 8 }; /* with this many lanes each scene has the kernels that it needs */
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 static const char usage[] =
     "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
     "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
-    "                          [--precision float|double] [--pictures FOLDER]\n";
+    "                          [--precision float|double] [--threads 1|2]\n"
+    "                          [--pictures FOLDER]\n";
 static const char *const precision_names[2] = {"float", "double"};
 static const char *const math_names[2] = {"strict", "fast"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
+static const char *const thread_names[] = {"1", "2"};
 static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 
 typedef struct Golden {
@@ -44,6 +47,7 @@ typedef struct Options {
     const char *golden, *pictures;
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
+    int threads;              /* an index into thread_names; or ALL */
     bool write_golden;
     int math;
 } Options;
@@ -129,13 +133,12 @@ static void save_picture(const Options *options, const char *name, const HdFrame
         fail(path, &error);
 }
 
-static uint64_t render_hash(HdRenderer *renderer, int number, HdPrecision precision,
-                            const Options *options) {
+static uint64_t render_hash(const Target *target, int number, const Options *options) {
     HdScene scene;
     HdCamera camera;
     const char *name = conformance_frames[number].name;
     conformance_frames[number].build(&scene, &camera);
-    HdFrame frame = render_scene(renderer, &scene, &camera, precision, name);
+    HdFrame frame = render_scene(target, &scene, &camera, name);
     uint64_t hash = hd_frame_hash(&frame);
     save_picture(options, name, &frame);
     hd_frame_free(&frame);
@@ -143,10 +146,10 @@ static uint64_t render_hash(HdRenderer *renderer, int number, HdPrecision precis
     return hash;
 }
 
-static void compare_frame(HdRenderer *renderer, int number, const char *label,
-                          HdPrecision precision, const Options *options, Golden *golden,
+static void compare_frame(const Target *target, int number, const Options *options, Golden *golden,
                           Tally *tally) {
-    uint64_t hash = render_hash(renderer, number, precision, options);
+    HdPrecision precision = target->precision;
+    uint64_t hash = render_hash(target, number, options);
     uint64_t *expected = &golden->hash[number][precision];
     if (!golden->known[number][precision] && !golden->fixed) {
         *expected = hash;
@@ -157,29 +160,34 @@ static void compare_frame(HdRenderer *renderer, int number, const char *label,
         return;
     tally->different++;
     printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n",
-           conformance_frames[number].name, hash, *expected, label);
+           conformance_frames[number].name, hash, *expected, target->label);
 }
 
-static void compare_frames(HdRenderer *renderer, bool only_few, const char *label,
-                           HdPrecision precision, const Options *options, Golden *golden,
-                           Tally *tally) {
+static void compare_frames(const Target *target, bool only_few, const Options *options,
+                           Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
     for (int i = 0; i < conformance_frame_count; i++)
         if (!only_few || is_variant_frame(conformance_frames[i].name))
-            compare_frame(renderer, i, label, precision, options, golden, tally);
+            compare_frame(target, i, options, golden, tally);
     printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
-           tally->frames - compared, label);
+           tally->frames - compared, target->label);
     fflush(stdout);
+}
+
+static bool is_left_out(const Options *options, const HdRenderOptions *wanted) {
+    return options->threads != ALL && wanted->threads != options->threads + 1;
 }
 
 /* Renders all frames and checks the truths, or only some of the frames. */
 static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, bool only_few,
-                           const Options *options, Golden *golden, Tally *tally) {
+                           bool one_build, const Options *options, Golden *golden, Tally *tally) {
     HdError error;
-    HdRenderer *renderer;
-    char text[256], label[1024];
+    Target target = {.precision = wanted->precision, .one_build = one_build};
+    char text[256];
     const char *precision = precision_names[wanted->precision];
-    HdStatus status = hd_renderer_open(&renderer, device, wanted, &error);
+    if (is_left_out(options, wanted))
+        return;
+    HdStatus status = hd_renderer_open(&target.renderer, device, wanted, &error);
     if (status == HD_UNAVAILABLE) {
         printf("skip            %s %s, %d lanes, %s: %s\n", device->backend->name, device->name,
                wanted->lanes, precision, error.message);
@@ -187,15 +195,15 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     }
     if (status != HD_OK)
         fail(device->name, &error);
-    hd_renderer_describe(renderer, text, (int)sizeof text);
-    snprintf(label, sizeof label, "%-6s %-6s %s (%s)", device->backend->name, precision,
-             device->name, text);
-    compare_frames(renderer, only_few, label, wanted->precision, options, golden, tally);
+    hd_renderer_describe(target.renderer, text, (int)sizeof text);
+    snprintf(target.label, sizeof target.label, "%-6s %-6s %s (%s)%s", device->backend->name,
+             precision, device->name, text, one_build ? ", one build" : "");
+    compare_frames(&target, only_few, options, golden, tally);
     if (!only_few)
-        check_truths(renderer, wanted->precision, label, &tally->truths, &tally->untrue);
-    check_flights(renderer, wanted->precision, label, &tally->frames, &tally->different);
+        check_truths(&target, &tally->truths, &tally->untrue);
+    check_flights(&target, &tally->frames, &tally->different);
     tally->renderers++;
-    hd_renderer_close(renderer);
+    hd_renderer_close(target.renderer);
 }
 
 static void check_lanes(const HdDevice *device, HdPrecision precision, const Options *options,
@@ -210,7 +218,8 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .math = (HdMath)options->math,
             .pipeline = HD_PIPELINE_MEGA,
         };
-        check_renderer(device, &wanted, false, options, golden, tally);
+        bool one_build = device->is_cpu && lane_counts[i] != OWN_BUILDS;
+        check_renderer(device, &wanted, false, one_build, options, golden, tally);
     }
 }
 
@@ -223,7 +232,7 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
         HdRenderOptions wanted = variant->options;
         wanted.precision = precision;
         wanted.math = (HdMath)options->math;
-        check_renderer(device, &wanted, !variant->all_frames, options, golden, tally);
+        check_renderer(device, &wanted, !variant->all_frames, true, options, golden, tally);
     }
 }
 
@@ -269,6 +278,8 @@ static bool parse_option(Options *options, const char *name, const char *value) 
         return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
     if (strcmp(name, "--precision") == 0)
         return (options->precision = choose(value, precision_names, 2)) >= 0;
+    if (strcmp(name, "--threads") == 0)
+        return (options->threads = choose(value, thread_names, 2)) >= 0;
     return false;
 }
 
@@ -301,7 +312,7 @@ static void print_hashes(const Golden *golden) {
 }
 
 int main(int count, char **arguments) {
-    Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL};
+    Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL, .threads = ALL};
     Golden golden = {.fixed = false};
     Tally tally = {0};
     if (!parse_options(&options, count, arguments)) {

@@ -10,17 +10,35 @@ _Noreturn void fail(const char *what, const HdError *error) {
     exit(1);
 }
 
-HdFrame render_scene(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                     HdPrecision precision, const char *name) {
+static int greater(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* What the scenes of the suite need, taken together. */
+static void need_most(HdSceneTables *tables) {
+    enum { PLANES = 32, DEPTH = 32, NODE_STACK = 32 };
+    tables->plane_count = greater(tables->plane_count, PLANES);
+    tables->depth = greater(tables->depth, DEPTH);
+    tables->node_stack = greater(tables->node_stack, NODE_STACK);
+    tables->refracts = tables->lit_from_behind = true;
+}
+
+HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
+                     const char *name) {
+    HdRenderer *renderer = target->renderer;
     HdError error;
     HdFrame frame;
     HdSceneTables tables;
     HdFrameTables view;
     if (hd_scene_validate(scene, &error) != HD_OK ||
-        hd_compile_scene(&tables, scene, precision, hd_renderer_lanes(renderer), &error) != HD_OK ||
-        hd_compile_frame(&view, scene, camera, precision, &error) != HD_OK ||
-        hd_frame_create(&frame, scene->width, scene->height, &error) != HD_OK ||
-        hd_renderer_upload(renderer, &tables, &error) != HD_OK ||
+        hd_compile_scene(&tables, scene, target->precision, hd_renderer_lanes(renderer), &error) !=
+            HD_OK ||
+        hd_compile_frame(&view, scene, camera, target->precision, &error) != HD_OK ||
+        hd_frame_create(&frame, scene->width, scene->height, &error) != HD_OK)
+        fail(name, &error);
+    if (target->one_build)
+        need_most(&tables);
+    if (hd_renderer_upload(renderer, &tables, &error) != HD_OK ||
         hd_renderer_render(renderer, &view, &frame, &error) != HD_OK)
         fail(name, &error);
     hd_frame_tables_free(&view);

@@ -3,15 +3,26 @@
 #ifndef HD_CONFORMANCE_RENDER_SCENE_H
 #define HD_CONFORMANCE_RENDER_SCENE_H
 
+#include <stdbool.h>
+
 #include "backend.h"
 #include "camera.h"
 #include "scene.h"
+
+/* What renders the frames. */
+typedef struct Target {
+    HdRenderer *renderer;
+    HdPrecision precision;
+    bool one_build;   /* the kernels are built for all scenes of the suite at once, which saves time
+                         where building takes most of it; otherwise for what each scene needs */
+    char label[1024]; /* for messages */
+} Target;
 
 /* Prints the message and ends the program with 1. */
 _Noreturn void fail(const char *what, const HdError *error);
 
 /* Validates, compiles, uploads and renders. The caller frees the frame. `name` is for messages. */
-HdFrame render_scene(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                     HdPrecision precision, const char *name);
+HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
+                     const char *name);
 
 #endif

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "render_scene.h"
 #include "scene_builder.h"
 
 void begin(Check *check) {
@@ -12,7 +11,7 @@ void begin(Check *check) {
 }
 
 HdFrame render(const Check *check, const HdScene *scene, const HdCamera *camera) {
-    return render_scene(check->renderer, scene, camera, check->precision, "truths");
+    return render_scene(check->target, scene, camera, "truths");
 }
 
 HdFrame render_last(const Check *check, HdScene *scene, const HdCamera *camera) {
@@ -28,7 +27,7 @@ void expect(Check *check, const char *truth, int x, int y, double found, double 
     check->failed++;
     if (!check->quiet)
         printf("UNTRUE %s at (%d, %d): %.9g, expected %.9g on %s\n", truth, x, y, found, expected,
-               check->label);
+               check->target->label);
     check->quiet = true;
 }
 
@@ -38,7 +37,7 @@ void expect_compared(Check *check, const char *truth, int compared, int at_least
         return;
     check->failed++;
     printf("UNTRUE %s: %d pixels say something, expected at least %d on %s\n", truth, compared,
-           at_least, check->label);
+           at_least, check->target->label);
 }
 
 double channel_of(const HdFrame *frame, int x, int y, int channel) {

@@ -5,14 +5,12 @@
 
 #include <stdbool.h>
 
-#include "backend.h"
 #include "camera.h"
+#include "render_scene.h"
 #include "scene.h"
 
 typedef struct Check {
-    HdRenderer *renderer;
-    HdPrecision precision;
-    const char *label;
+    const Target *target;
     int checked, failed;
     double tolerance; /* relative */
     bool quiet;       /* only the first wrong pixel of a truth is printed */

@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "truths.h"
 
-void check_truths(HdRenderer *renderer, HdPrecision precision, const char *label, int *checked,
-                  int *failed) {
-    Check check = {.renderer = renderer,
-                   .precision = precision,
-                   .label = label,
-                   .tolerance = precision == HD_PRECISION_FLOAT ? 3e-5 : 3e-7};
+void check_truths(const Target *target, int *checked, int *failed) {
+    Check check = {.target = target,
+                   .tolerance = target->precision == HD_PRECISION_FLOAT ? 3e-5 : 3e-7};
     check_geometry(&check);
     check_shading(&check);
     check_lights(&check);

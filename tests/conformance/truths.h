@@ -6,8 +6,7 @@
 #include "truth_check.h"
 
 /* Renders every truth with an open renderer and prints those that fail. */
-void check_truths(HdRenderer *renderer, HdPrecision precision, const char *label, int *checked,
-                  int *failed);
+void check_truths(const Target *target, int *checked, int *failed);
 
 /* Those of one theme. */
 void check_geometry(Check *check);

@@ -253,7 +253,7 @@ static void check_critical_angle(Check *check, HdVec3 rotation, int face, double
 
 static void check_critical_angles(Check *check, HdVec3 rotation) {
     static const double indices[] = {1.2, 1.5, 2.4, 0.9, 0.5};
-    const double excess = check->precision == HD_PRECISION_FLOAT ? 1e-5 : 1e-11;
+    const double excess = check->target->precision == HD_PRECISION_FLOAT ? 1e-5 : 1e-11;
     for (int i = 0; i < 5; i++)
         for (int face = 0; face < 6; face++) {
             check_critical_angle(check, rotation, face, indices[i], excess);

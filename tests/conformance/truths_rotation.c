@@ -42,7 +42,7 @@ static void build_turned(HdScene *scene, HdCamera *camera, HdVec3 degrees) {
 
 /* Rounding may push a sample over an edge: a few pixels may differ, and the counts a little. */
 static void check_turned(Check *check, HdVec3 degrees) {
-    const double small = check->precision == HD_PRECISION_FLOAT ? 1e-3 : 1e-6;
+    const double small = check->target->precision == HD_PRECISION_FLOAT ? 1e-3 : 1e-6;
     HdScene scene;
     HdCamera camera;
     int different = 0;

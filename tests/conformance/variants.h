@@ -17,8 +17,8 @@ extern const int variant_count;
 
 bool variant_suits(const Variant *variant, const HdDevice *device);
 
-/* True for a few frames: overlapping solids, a single pixel, clamps, and one with everything that a
-   scene can have. Few, since OpenCL builds kernels anew for most of them. */
+/* True for a few frames: overlapping solids, a single pixel, clamps, two with meshes, and one
+   with everything else that a scene can have. */
 bool is_variant_frame(const char *name);
 
 #endif
