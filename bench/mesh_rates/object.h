@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* What is searched: a bumpy, filtering sphere within a shell, one mesh of about as many triangles
+   as asked, half of them each. All rays end on it. */
+#ifndef HD_BENCH_OBJECT_H
+#define HD_BENCH_OBJECT_H
+
+#include <stdbool.h>
+
+#include "../../src/compiled_scene.h"
+#include "../../src/scene.h"
+
+typedef struct HdObject {
+    HdScene scene;
+    HdSceneTables tables;
+    HdFrameTables frame;
+    HdVec3 centre;     /* that the kernels use for meshes */
+    HdVec3 eye, light; /* relative to it */
+    int triangle_count;
+    HdVec3 *normals; /* unit, of the triangles by the kernels' numbers; owned */
+} HdObject;
+
+/* `lanes` are those of the kernels' bundles. Prints what is wrong and returns false on failure. */
+bool hd_object_create(HdObject *object, int triangles, int lanes);
+void hd_object_free(HdObject *object);
+
+/* What the sphere lets pass at each crossing. */
+extern const double hd_object_filter[3];
+
+#endif
