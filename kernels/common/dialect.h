@@ -475,27 +475,23 @@ FN vint pick_int(vmask m, vint a, vint b) {
 /* Neither compiler has these three for vectors: instructions where the width is the machine's, lane
    by lane elsewhere. */
 #if HD_LANES * (HD_DOUBLE + 1) == 8 && defined(__AVX2__) && defined(__FMA__)
+#define HD_REGISTER_256 1
 #if HD_DOUBLE
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
-}
-FN vreal square_root(vreal a) {
-    return (vreal)_mm256_sqrt_pd((__m256d)a);
-}
-FN int any_lane(vmask m) {
-    return _mm256_movemask_pd((__m256d)m) != 0;
-}
+typedef __m256d Reals256;
+#define HD_REALS_256(name) _mm256_##name##_pd
 #else
+typedef __m256 Reals256;
+#define HD_REALS_256(name) _mm256_##name##_ps
+#endif
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+    return (vreal)HD_REALS_256(fmadd)((Reals256)a, (Reals256)b, (Reals256)c);
 }
 FN vreal square_root(vreal a) {
-    return (vreal)_mm256_sqrt_ps((__m256)a);
+    return (vreal)HD_REALS_256(sqrt)((Reals256)a);
 }
 FN int any_lane(vmask m) {
-    return _mm256_movemask_ps((__m256)m) != 0;
+    return HD_REALS_256(movemask)((Reals256)m) != 0;
 }
-#endif
 #elif HD_LANES * (HD_DOUBLE + 1) == 4 && defined(__AVX2__) && defined(__FMA__)
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
@@ -550,13 +546,29 @@ FN int first_lane(vmask m) {
 /* ---- built from the above, the same for every backend ---- */
 
 /* The lesser and the greater as selects: vendors differ in what their min and max make of NaN and
-   -0. Where a is NaN, the result is b. */
+   -0. Where a is NaN or both are 0, the result is b, as x86's instructions have it. */
+#if HD_REGISTER_512
+FN vreal lesser(vreal a, vreal b) {
+    return (vreal)HD_REALS_512(min, )((Reals512)a, (Reals512)b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return (vreal)HD_REALS_512(max, )((Reals512)a, (Reals512)b);
+}
+#elif HD_REGISTER_256
+FN vreal lesser(vreal a, vreal b) {
+    return (vreal)HD_REALS_256(min)((Reals256)a, (Reals256)b);
+}
+FN vreal greater(vreal a, vreal b) {
+    return (vreal)HD_REALS_256(max)((Reals256)a, (Reals256)b);
+}
+#else
 FN vreal lesser(vreal a, vreal b) {
     return pick(lt(a, b), a, b);
 }
 FN vreal greater(vreal a, vreal b) {
     return pick(lt(b, a), a, b);
 }
+#endif
 
 FN vint least_int(vint a, vint b) {
     return pick_int(lt_int(a, b), a, b);
