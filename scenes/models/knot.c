@@ -84,7 +84,7 @@ static void write(HdObjWriter *writer, int wanted) {
         int here = i * grid.around, next = (i + 1) % grid.along * grid.around;
         for (int j = 0; j < grid.around; j++) {
             int right = (j + 1) % grid.around;
-            hd_obj_quad(writer, here + j, next + j, next + right, here + right);
+            hd_obj_quad(writer, here + j, here + right, next + right, next + j);
         }
     }
 }
