@@ -7,8 +7,8 @@
 
 #include "trigonometry.h"
 
-/* The curve goes TURNS times about the axis and WINDINGS times about the ring while t goes once from
-   0 to 2 pi. */
+/* The curve goes TURNS times about the axis and WINDINGS times about the ring while t goes once
+   from 0 to 2 pi. */
 enum { TURNS = 2, WINDINGS = 3, FLUTES = 5, TWISTS = 4 };
 static const double ring = 0.62, winding_radius = 0.26; /* of the curve */
 static const double tube = 0.17, flute_depth = 0.22;    /* of the section */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writes a model of as many triangles as wanted; "hedron_model --help" tells how. */
 #define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,15 +20,20 @@ typedef struct Order {
     const char *path; /* NULL: standard output */
 } Order;
 
-static void print_help(void) {
-    printf("Usage: hedron_model KIND TRIANGLES [-o FILE.obj]\n\n"
-           "Writes a model as Wavefront OBJ, to standard output unless a file is named. KIND is:\n\n");
+static HdStatus print_help(HdError *error) {
+    printf(
+        "Usage: hedron_model KIND TRIANGLES [-o FILE.obj]\n\n"
+        "Writes a model as Wavefront OBJ, to standard output unless a file is named. KIND is:\n\n");
     for (int i = 0; i < MODEL_COUNT; i++)
         printf("  %-8s%s\n", models[i]->name, models[i]->summary);
-    printf("\nTRIANGLES, from %d to %d, is reached as closely as the model's grid allows; the shape\n"
-           "does not depend on it. The first line of the output says how many there are.\n\n"
-           "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 and 143 interrupted.\n",
-           HD_MODEL_LEAST, HD_MODEL_MOST);
+    printf(
+        "\nTRIANGLES, from %d to %d, is reached as closely as the model's grid allows; the shape\n"
+        "does not depend on it. The first line of the output says how many there are.\n\n"
+        "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 and 143 interrupted.\n",
+        HD_MODEL_LEAST, HD_MODEL_MOST);
+    if (fflush(stdout) == 0)
+        return HD_OK;
+    return hd_fail(error, HD_FAILED, "cannot write to standard output: %s", strerror(errno));
 }
 
 static HdStatus find_model(const char *name, const HdModel **model, HdError *error) {
@@ -47,8 +53,9 @@ static HdStatus read_triangles(const char *text, int *triangles, HdError *error)
     *triangles = is_number ? (int)strtol(text, NULL, 10) : 0;
     if (*triangles >= HD_MODEL_LEAST && *triangles <= HD_MODEL_MOST)
         return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT, "TRIANGLES is \"%s\", expected a whole number from %d to %d",
-                   text, HD_MODEL_LEAST, HD_MODEL_MOST);
+    return hd_fail(error, HD_BAD_INPUT,
+                   "TRIANGLES is \"%s\", expected a whole number from %d to %d", text,
+                   HD_MODEL_LEAST, HD_MODEL_MOST);
 }
 
 /* Arguments after the program's name. */
@@ -94,14 +101,17 @@ static HdStatus write_model(const Order *order, FILE *stream, HdError *error) {
                    strerror(writer.reason));
 }
 
-static HdStatus run(const Order *order, HdError *error) {
+static HdStatus run(char **arguments, HdError *error) {
+    Order order;
     HdAtomicFile file;
-    if (order->path == NULL)
-        return write_model(order, stdout, error);
-    HdStatus status = hd_atomic_file_open(&file, order->path, error);
+    HdStatus status = parse(arguments, &order, error);
+    if (status == HD_OK && order.path == NULL)
+        return write_model(&order, stdout, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_open(&file, order.path, error);
     if (status != HD_OK)
         return status;
-    status = write_model(order, file.stream, error);
+    status = write_model(&order, file.stream, error);
     if (status == HD_OK)
         return hd_atomic_file_commit(&file, error);
     hd_atomic_file_discard(&file);
@@ -110,15 +120,9 @@ static HdStatus run(const Order *order, HdError *error) {
 
 int main(int count, char **arguments) {
     static HdError error;
-    Order order;
     hd_interrupt_install();
-    if (count == 2 && strcmp(arguments[1], "--help") == 0) {
-        print_help();
-        return fflush(stdout) == 0 ? 0 : HD_FAILED;
-    }
-    HdStatus status = parse(arguments + 1, &order, &error);
-    if (status == HD_OK)
-        status = run(&order, &error);
+    bool asks_for_help = count == 2 && strcmp(arguments[1], "--help") == 0;
+    HdStatus status = asks_for_help ? print_help(&error) : run(arguments + 1, &error);
     if (status == HD_OK)
         return 0;
     fprintf(stderr, "hedron_model: %s\n", error.message);

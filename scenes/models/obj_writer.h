@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes a Wavefront OBJ of any size in little memory: the text depends on nothing but the calls. */
+/* Writes a Wavefront OBJ of any size in little memory: the text depends on nothing but the calls.
+ */
 #ifndef HD_OBJ_WRITER_H
 #define HD_OBJ_WRITER_H
 
