@@ -102,7 +102,7 @@ rm ./*.obj
 expect_model_refusal 2 'expected KIND and TRIANGLES'
 expect_model_refusal 2 'expected KIND and TRIANGLES' knot
 expect_model_refusal 2 '"teapot" is an unknown kind' teapot 100
-for triangles in 11 10000001 1e3 -5 '' 99999999999999999999 100x; do
+for triangles in 11 10000001 1e3 -5 '' 4294967396 99999999999999999999 100x; do
     [[ $triangles == -* ]] || expect_model_refusal 2 "TRIANGLES is \"$triangles\"" knot "$triangles"
 done
 expect_model_refusal 2 '-5 is an unknown option' knot -5
