@@ -157,4 +157,16 @@ expect_exit 0 "$hedron" render --quiet --backend c "$project/scenes/knot.json" "
     --set "meshes[0].file=$PWD/many.obj"
 expect_different knot.data many.data
 
+# ---- of clear air, nothing of the model is seen; all its images together take a depth beyond 60
+render_far() {
+    expect_exit 0 "$hedron" render --quiet --backend c "$project/scenes/knot.json" --frames 20 --size 160x90 \
+        --samples 1 --depth 600 "$@"
+    expect_silent_stderr
+}
+render_far -o none.data --set 'meshes=[]'
+render_far -o clear.data --set 'materials."amber glass"={"transmission": 1}'
+expect_same clear.data none.data
+render_far -o tinted.data --set 'materials."amber glass"={"transmission": 0.99}'
+expect_different tinted.data none.data
+
 finish
