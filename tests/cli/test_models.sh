@@ -164,9 +164,9 @@ render_far() {
     expect_silent_stderr
 }
 render_far -o none.data --set 'meshes=[]'
-render_far -o clear.data --set 'materials."amber glass"={"transmission": 1}'
+render_far -o clear.data --set 'materials."apricot glass"={"transmission": 1}'
 expect_same clear.data none.data
-render_far -o tinted.data --set 'materials."amber glass"={"transmission": 0.99}'
+render_far -o tinted.data --set 'materials."apricot glass"={"transmission": 0.99}'
 expect_different tinted.data none.data
 
 finish
