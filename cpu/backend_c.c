@@ -8,6 +8,7 @@
 #include "../kernels/common/scene_tables.h"
 #include "../src/backend.h"
 #include "../src/clock.h"
+#include "../src/device_room.h"
 #include "../src/interrupt.h"
 #include "../src/kernel_source.h"
 #include "../src/large_memory.h"
@@ -94,11 +95,13 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     return status;
 }
 
-static HdStatus copy_table(HdTable *to, const HdTable *from, HdError *error) {
+static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)from->bytes, need);
     to->data = hd_large_allocate(from->bytes);
     if (to->data == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: the scene needs a table of %zu bytes",
-                       from->bytes);
+        return hd_fail(error, HD_FAILED, "out of memory: the scene's %s need %s once more", content,
+                       need);
     memcpy(to->data, from->data, from->bytes);
     to->bytes = from->bytes;
     return HD_OK;
@@ -110,7 +113,8 @@ static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *e
     c->scene = *tables;
     c->scene.table_count = 0;
     for (int i = 0; i < tables->table_count; i++) {
-        HdStatus status = copy_table(&c->scene.table[i], &tables->table[i], error);
+        HdStatus status =
+            copy_table(&c->scene.table[i], &tables->table[i], hd_scene_table_content(i), error);
         if (status != HD_OK)
             return status;
         c->scene.table_count++;

@@ -10,6 +10,7 @@
 #include "cuda_flight.h"
 #include "cuda_memory.h"
 #include "device_launch.h"
+#include "device_room.h"
 #include "interrupt.h"
 #include "kernel_cache.h"
 #include "nvrtc_check.h"
@@ -413,6 +414,13 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
     return load_cached(renderer, error) ? HD_OK : compile(renderer, error);
 }
 
+static HdStatus check_room(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
+    size_t available = 0, total = 0;
+    HdStatus status = CALL(renderer, memory_info, cuMemGetInfo, (&available, &total), error);
+    const HdRoom room = {.name = renderer->name, .advice = hd_room_advice, .memory = (double)total};
+    return status == HD_OK ? hd_check_room(tables, &room, error) : status;
+}
+
 static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
@@ -420,10 +428,15 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = build(renderer, &needs, error);
-    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++)
+    status = check_room(renderer, tables, error);
+    if (status == HD_OK)
+        status = build(renderer, &needs, error);
+    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+        char what[64];
+        snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
         status = copy_table(renderer, &renderer->scene[i], tables->table[i].data,
-                            tables->table[i].bytes, "tables of the scene", error);
+                            tables->table[i].bytes, what, error);
+    }
     /* After a failure too: copies that are under way read the tables, which are the caller's. */
     HdError later;
     HdStatus finished = wait_for_stream(renderer, status == HD_OK ? error : &later);

@@ -6,6 +6,7 @@
 
 #include "../kernels/common/scene_tables.h"
 #include "device_launch.h"
+#include "device_room.h"
 #include "interrupt.h"
 #include "opencl_flight.h"
 #include "opencl_memory.h"
@@ -179,7 +180,8 @@ static HdStatus copy_table(Renderer *renderer, HdOpenclBuffer *buffer, const HdT
         return status;
     cl_int code = clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_FALSE, 0, table->bytes,
                                        table->data, 0, NULL, NULL);
-    return check(code, "clEnqueueWriteBuffer", error);
+    return hd_opencl_check_room(&renderer->flights.owner, bytes, what, "clEnqueueWriteBuffer", code,
+                                error);
 }
 
 static HdStatus set_argument(cl_kernel kernel, int index, size_t size, const void *value,
@@ -234,11 +236,19 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
 static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
+    const HdRoom room = {.name = renderer->name,
+                         .advice = hd_room_advice,
+                         .memory = (double)renderer->device.memory,
+                         .at_once = (double)renderer->device.max_allocation};
     renderer->depth = tables->depth;
-    HdStatus status = build(renderer, &needs, error);
+    HdStatus status = hd_check_room(tables, &room, error);
+    if (status == HD_OK)
+        status = build(renderer, &needs, error);
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
         HdOpenclBuffer *buffer = &renderer->scene[i];
-        status = copy_table(renderer, buffer, &tables->table[i], "tables of the scene", error);
+        char what[64];
+        snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
+        status = copy_table(renderer, buffer, &tables->table[i], what, error);
         if (status == HD_OK)
             status = set_buffer(renderer->program.render, i, buffer, error);
     }

@@ -40,10 +40,14 @@ typedef struct HdFrameTables {
 
 /* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences
    of centres are formed before they are rounded to the kernels' precision. `lanes` is what
-   hd_renderer_lanes tells; a scene without meshes may be compiled for any number. */
+   hd_renderer_lanes tells; a scene without meshes may be compiled for any number. HD_UNAVAILABLE
+   where this machine has less memory than the tables need, HD_FAILED where it is taken. */
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           int lanes, HdError *error);
 void hd_scene_tables_free(HdSceneTables *tables);
+
+/* What the table with that number has, in the plural, for messages: "triangles". */
+const char *hd_scene_table_content(int table);
 
 /* The tables of one frame of the same scene. */
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,

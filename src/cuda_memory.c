@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "cuda_memory.h"
 
+#include "device_room.h"
+
 HdStatus hd_cuda_check(const HdCudaDriver *driver, HdCuResult code, const char *function,
                        HdError *error) {
     return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
@@ -19,9 +21,13 @@ HdStatus hd_cuda_resize(const HdCudaOwner *owner, HdCudaMemory *memory, size_t b
     }
     size_t available = 0, total = 0;
     owner->driver->memory_info(&available, &total);
-    return hd_fail(error, HD_FAILED,
-                   "the %s need %zu bytes; %s has %zu free of %zu (cuMemAlloc: %s)", what, bytes,
-                   owner->name, available, total, hd_cuda_error_name(owner->driver, code));
+    char need[HD_BYTE_TEXT_SIZE], is_free[HD_BYTE_TEXT_SIZE], all[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)bytes, need);
+    hd_byte_text((double)available, is_free);
+    hd_byte_text((double)total, all);
+    return hd_fail(
+        error, HD_FAILED, "the %s need %s; %s has %s free of its %s (cuMemAlloc: %s); %s", what,
+        need, owner->name, is_free, all, hd_cuda_error_name(owner->driver, code), hd_room_advice);
 }
 
 void hd_cuda_release(const HdCudaOwner *owner, HdCudaMemory *memory) {
@@ -39,11 +45,14 @@ HdStatus hd_cuda_resize_host(const HdCudaOwner *owner, HdCudaHostMemory *memory,
     hd_cuda_release_host(owner, memory);
     void *data = NULL;
     HdCuResult code = owner->driver->host_alloc(&data, bytes, 0);
-    if (code != HD_CU_SUCCESS)
+    if (code != HD_CU_SUCCESS) {
+        char need[HD_BYTE_TEXT_SIZE];
+        hd_byte_text((double)bytes, need);
         return hd_fail(error, HD_FAILED,
-                       "the system has no room for the %s, %zu bytes that stay in memory "
+                       "the system has no room for the %s, %s that stay in memory "
                        "(cuMemHostAlloc: %s)",
-                       what, bytes, hd_cuda_error_name(owner->driver, code));
+                       what, need, hd_cuda_error_name(owner->driver, code));
+    }
     *memory = (HdCudaHostMemory){data, bytes};
     return HD_OK;
 }

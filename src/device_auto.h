@@ -22,11 +22,11 @@ typedef struct HdAutoChoice {
 
 /* Opens one of the candidates; kernels that are compiled at run time are compiled for the scene.
    Which one: where the job is worth it, the fastest of those compared, which is measured once for a
-   machine, a version of the program and scenes alike (as many planes, lights, pixels, rounded to
-   powers of two) and then remembered in the cache folder. Otherwise plain C, if it is among those
-   compared, else the first. A device that turns out to be unavailable, such as one that computes
-   wrongly, is passed over; `note` then has a sentence about it, and else is empty. `why` says why
-   this device. */
+   machine, a version of the program and scenes alike (as many planes, triangles, lights, pixels,
+   rounded to powers of two) and then remembered in the cache folder. Otherwise plain C, if it is
+   among those compared, else the first. A device that turns out to be unavailable, such as one that
+   computes wrongly, is passed over; `note` then has a sentence about it, and else is empty. `why`
+   says why this device. */
 HdStatus hd_auto_open(HdRenderer **renderer, HdDevice *device, const HdAutoChoice *choice,
                       char why[1024], char note[2048], HdError *error);
 

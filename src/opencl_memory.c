@@ -1,24 +1,45 @@
 /* SPDX-License-Identifier: MIT */
 #include "opencl_memory.h"
 
+#include "device_room.h"
+
+static bool is_lack_of_memory(cl_int code) {
+    return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
+           code == CL_OUT_OF_HOST_MEMORY;
+}
+
+HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const char *what,
+                              const char *function, cl_int code, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
+    if (code == CL_SUCCESS)
+        return HD_OK;
+    if (!is_lack_of_memory(code))
+        return hd_opencl_fail(error, function, code);
+    hd_byte_text((double)bytes, need);
+    hd_byte_text((double)owner->device->memory, memory);
+    return hd_fail(error, HD_FAILED,
+                   "the %s need %s; %s has too little free of its %s (%s: %s); %s", what, need,
+                   owner->name, memory, function, hd_opencl_error_name(code), hd_room_advice);
+}
+
 HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
                           cl_mem_flags flags, const char *what, HdError *error) {
     if (buffer->memory && buffer->bytes == bytes)
         return HD_OK;
     hd_opencl_release(buffer);
-    if (bytes > owner->device->max_allocation)
+    if (bytes > owner->device->max_allocation) {
+        char need[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
+        hd_byte_text((double)bytes, need);
+        hd_byte_text((double)owner->device->max_allocation, at_once);
+        hd_byte_text((double)owner->device->memory, memory);
         return hd_fail(error, HD_UNAVAILABLE,
-                       "the %s need %zu bytes in one buffer; %s allows %llu of its %llu", what,
-                       bytes, owner->name, (unsigned long long)owner->device->max_allocation,
-                       (unsigned long long)owner->device->memory);
-    cl_int code;
+                       "the %s need %s in one buffer; %s allows %s of its %s", what, need,
+                       owner->name, at_once, memory);
+    }
+    cl_int code = CL_SUCCESS;
     buffer->memory = clCreateBuffer(owner->context, flags, bytes, NULL, &code);
-    if (!buffer->memory)
-        return hd_fail(error, HD_FAILED,
-                       "%s has no room for the %s, %zu bytes (clCreateBuffer: %s)", owner->name,
-                       what, bytes, hd_opencl_error_name(code));
     buffer->bytes = bytes;
-    return HD_OK;
+    return hd_opencl_check_room(owner, bytes, what, "clCreateBuffer", code, error);
 }
 
 void hd_opencl_release(HdOpenclBuffer *buffer) {

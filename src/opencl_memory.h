@@ -23,6 +23,11 @@ HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, si
                           cl_mem_flags flags, const char *what, HdError *error);
 void hd_opencl_release(HdOpenclBuffer *buffer);
 
+/* Turns the result of a function that makes a buffer, or first touches it, into a status; where
+   memory is lacking the message tells how much `what` needs. */
+HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const char *what,
+                              const char *function, cl_int code, HdError *error);
+
 /* Memory of the host that stays where it is, so that the device copies to it by itself. */
 typedef struct HdOpenclHostMemory {
     HdOpenclBuffer buffer;

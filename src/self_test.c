@@ -7,7 +7,7 @@
 #include "camera.h"
 #include "self_test_scenes.h"
 
-static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor"};
+static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor", "mesh"};
 
 /* By precision, refraction and light from behind. They change with the kernels, on purpose only:
    the unit test of this file tells the new ones. */
@@ -22,10 +22,23 @@ static const uint64_t floor_hashes[2] = {
     [HD_PRECISION_DOUBLE] = 0x7fec99e0bbfce896,
 };
 
+static const uint64_t mesh_hashes[2][2][2] = {
+    [HD_PRECISION_FLOAT] = {{0x2bbba8bc280969ed, 0x3c75d3c0426bac2e},
+                            {0x3d36943f6a9a2123, 0x66e41b5e770e5399}},
+    [HD_PRECISION_DOUBLE] = {{0x2ea394852fba7df0, 0x40940231115d73ba},
+                             {0xdeaba96c4276c3ad, 0x5dc4df7957b098ea}},
+};
+
 static uint64_t expected_hash(HdSelfTestFrame frame, HdPrecision precision, bool refracts,
                               bool lit_from_behind) {
-    return frame == HD_SELF_TEST_FLOOR ? floor_hashes[precision]
-                                       : solid_hashes[precision][refracts][lit_from_behind];
+    if (frame == HD_SELF_TEST_FLOOR)
+        return floor_hashes[precision];
+    return frame == HD_SELF_TEST_MESH ? mesh_hashes[precision][refracts][lit_from_behind]
+                                      : solid_hashes[precision][refracts][lit_from_behind];
+}
+
+static int count_frames(bool has_meshes) {
+    return has_meshes ? HD_SELF_TEST_FRAMES : HD_SELF_TEST_FRAMES_WITHOUT_MESHES;
 }
 
 void hd_self_test_stamp(const HdKernelShape *shape, char *text, size_t capacity) {
@@ -34,11 +47,14 @@ void hd_self_test_stamp(const HdKernelShape *shape, char *text, size_t capacity)
         snprintf(text, capacity, "not tested, for the arithmetic is fast");
         return;
     }
-    snprintf(text, capacity, "passed the self-test (%016" PRIx64 ", %016" PRIx64 ")",
-             expected_hash(HD_SELF_TEST_SOLID, shape->precision, needs->refracts,
-                           needs->lit_from_behind),
-             expected_hash(HD_SELF_TEST_FLOOR, shape->precision, needs->refracts,
-                           needs->lit_from_behind));
+    size_t length = 0;
+    int count = count_frames(needs->node_stack_bound > 0);
+    for (int frame = 0; frame < count && length < capacity; frame++)
+        length += (size_t)snprintf(text + length, capacity - length, "%s%016" PRIx64 "%s",
+                                   frame == 0 ? "passed the self-test (" : ", ",
+                                   expected_hash((HdSelfTestFrame)frame, shape->precision,
+                                                 needs->refracts, needs->lit_from_behind),
+                                   frame + 1 < count ? "" : ")");
 }
 
 static int greater(int a, int b) {
@@ -56,7 +72,7 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
         return status;
     tables->plane_count = greater(tables->plane_count, like->plane_count);
     tables->depth = greater(tables->depth, like->depth);
-    tables->node_stack = like->node_stack;
+    tables->node_stack = greater(tables->node_stack, like->node_stack);
     tables->refracts = like->refracts;
     tables->lit_from_behind = like->lit_from_behind;
     status = hd_compile_frame(view, scene, &camera, like->precision, error);
@@ -109,7 +125,8 @@ static HdStatus test_frame(const HdBackend *backend, void *renderer, const HdDev
 HdStatus hd_self_test(const HdBackend *backend, void *renderer, const HdDevice *device,
                       const HdSceneTables *scene, HdError *error) {
     HdStatus status = HD_OK;
-    for (int frame = 0; status == HD_OK && frame < HD_SELF_TEST_FRAMES; frame++)
+    int count = count_frames(scene->node_stack > 0);
+    for (int frame = 0; status == HD_OK && frame < count; frame++)
         status = test_frame(backend, renderer, device, (HdSelfTestFrame)frame, scene, error);
     return status;
 }

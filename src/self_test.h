@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether kernels that were compiled just now render rightly: two tiny frames whose hashes are
-   known. A driver or compiler that computes something else is an error, not a wrong picture. */
+/* Whether kernels that were compiled just now render rightly: tiny frames whose hashes are known,
+   two, and a third one where the kernels can search meshes. A driver or compiler that computes
+   something else is an error, not a wrong picture. */
 #ifndef HD_SELF_TEST_H
 #define HD_SELF_TEST_H
 

@@ -10,11 +10,13 @@
 typedef enum HdSelfTestFrame {
     HD_SELF_TEST_SOLID, /* a cube with rims and edge lights, a mirror and glass at once */
     HD_SELF_TEST_FLOOR, /* a textured floor */
-    HD_SELF_TEST_FRAMES
+    HD_SELF_TEST_MESH,  /* two meshes in two places each over that floor, one of glass */
+    HD_SELF_TEST_FRAMES,
+    HD_SELF_TEST_FRAMES_WITHOUT_MESHES = HD_SELF_TEST_MESH
 } HdSelfTestFrame;
 
-/* Builds a frame's scene, which has at most as many planes and as great a depth as the smallest
-   bounds of kernels (hd_kernel_bound). The caller frees it. */
+/* Builds a frame's scene, which has at most as many planes, as great a depth and as deep
+   hierarchies as the smallest bounds of kernels (hd_kernel_needs). The caller frees it. */
 HdStatus hd_self_test_scene(HdScene *scene, HdSelfTestFrame frame, bool refracts,
                             bool lit_from_behind, HdError *error);
 

@@ -115,7 +115,7 @@ expect_exit 0 "$hedron" devices
 if section opencl | grep -q 'Portable Computing Language'; then
     expect_refusal 3 env POCL_MEMORY_LIMIT=1 "$hedron" render --backend opencl --frames 0 --samples 1 \
         --depth 0 --size 8192x4096 -o large.pfm
-    once 'the pixels need 402653184 bytes in one buffer'
+    once 'the pixels need 403 MB in one buffer; '
     expect_files .
 else
     echo "not tested: too little device memory, for there is no PoCL"

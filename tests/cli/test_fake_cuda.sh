@@ -109,6 +109,27 @@ for function in cuMemAlloc cuMemHostAlloc cuMemcpyHtoDAsync cuMemcpyDtoHAsync cu
     rm -rf failed
 done
 
+# ---- a scene that the device can never hold: no kernels are compiled for it
+cat >"$work/pyramid.obj" <<'END'
+v 0 0 1
+v 1 0 0
+v 0 1 0
+v -1 -1 0
+f 1 2 3
+f 1 3 4
+f 1 4 2
+f 2 4 3
+END
+echo '{"hedron": 1, "camera": {"eye": [3, -4, 2]}, "meshes": [{"file": "pyramid.obj"}], "lights": [{"position": [3, -4, 8]}]}' \
+    >"$work/pyramid.json"
+mesh=("$hedron" render "$work/pyramid.json" "${small[@]}" --math fast --quiet -o mesh.data)
+expect_refusal 3 env FAKE_CUDA_MEMORY=500 HEDRON_CACHE=off "${mesh[@]}" --backend cuda
+expect_stderr_contains "the scene's tables need 984 bytes, 192 bytes of them for its triangles; Fake device 0"
+expect_stderr_contains 'has 500 bytes; fewer triangles, a device with more memory or --backend c may do'
+expect_exit 0 env FAKE_CUDA_MEMORY=984 HEDRON_CACHE=off "${mesh[@]}" --backend cuda
+expect_silent_stderr
+rm mesh.data
+
 # ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
 long=("$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)
 fastest='device +cuda 0, .*: the fastest of 2 on this kind of scene'

@@ -2,7 +2,8 @@
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
    device, up to what its kernels render: a device of sm_61 whose memory is the host's, with streams
    (streams.c), and much that does nothing (others.c). FAKE_CUDA_REFUSES is the number of modules
-   that it does not load at first. */
+   that it does not load at first; FAKE_CUDA_MEMORY is how many
+   bytes of memory it tells of. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +74,12 @@ HdCuResult cuModuleLoadData(HdCuModule *module, const void *image) {
 HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction function) {
     (void)function;
     *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? 1024 : 64;
+    return HD_CU_SUCCESS;
+}
+
+HdCuResult cuMemGetInfo_v2(size_t *available, size_t *total) {
+    const char *memory = getenv("FAKE_CUDA_MEMORY");
+    *available = *total = memory != NULL ? (size_t)atoll(memory) : 0;
     return HD_CU_SUCCESS;
 }
 

@@ -3,6 +3,7 @@
 #include "device_auto.h"
 
 #include "fake_backend.h"
+#include "job_kind.h"
 #include "self_test_scenes.h"
 #include "test_folder.h"
 
@@ -64,7 +65,7 @@ static void the_fastest_is_taken_and_remembered(void **state) {
     fake.slow_milliseconds = 200;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
     expect_contains(why, " ms (fake 0)");
-    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES + 2);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
     fake.opened = fake.rendered = 0;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, measured earlier, ");
     assert_int_equal(fake.opened + fake.rendered, 0);
@@ -110,6 +111,21 @@ static void scenes_and_devices_of_another_kind_are_measured(void **state) {
     snprintf(candidates[FAKE].driver, sizeof candidates[FAKE].driver, "driver 8");
     expect_measured(true);
     expect_measured(false);
+}
+
+/* Whatever else is the same. */
+static void meshes_of_another_size_are_another_kind(void **state) {
+    (void)state;
+    char texts[3][HD_JOB_KIND_LENGTH];
+    HdScene meshes;
+    assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    for (int i = 0; i < 3; i++) {
+        hd_job_kind(&meshes, &options, texts[i], HD_JOB_KIND_LENGTH);
+        meshes.meshes[0].triangle_count += i == 0 ? 1 : 1000;
+    }
+    hd_scene_free(&meshes);
+    assert_string_equal(texts[0], texts[1]);
+    assert_string_not_equal(texts[1], texts[2]);
 }
 
 static void a_job_too_short_is_not_measured(void **state) {
@@ -177,6 +193,24 @@ static void the_estimate_scales_with_the_picture(void **state) {
     assert_true(large > 1000.0 * small);
 }
 
+/* It is measured with the meshes, so that their triangles count. */
+static void the_estimate_searches_the_meshes(void **state) {
+    (void)state;
+    double with, without;
+    HdScene meshes;
+    assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    meshes.width = meshes.height = 256;
+    job.scene = &meshes;
+    options.lanes = 1;
+    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &with, &error), HD_OK);
+    int count = meshes.instance_count;
+    meshes.instance_count = 0;
+    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &without, &error), HD_OK);
+    meshes.instance_count = count;
+    hd_scene_free(&meshes);
+    assert_true(with > 1.3 * without);
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
 int main(void) {
@@ -184,12 +218,14 @@ int main(void) {
         TEST(the_fastest_is_taken_and_remembered),
         TEST(order_decides_nothing),
         TEST(scenes_and_devices_of_another_kind_are_measured),
+        TEST(meshes_of_another_size_are_another_kind),
         TEST(a_job_too_short_is_not_measured),
         TEST(what_computes_wrongly_is_passed_over),
         TEST(what_is_missing_is_passed_over),
         TEST(what_fails_at_work_is_tried_again),
         TEST(without_a_folder_it_is_measured_each_time),
         TEST(the_estimate_scales_with_the_picture),
+        TEST(the_estimate_searches_the_meshes),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

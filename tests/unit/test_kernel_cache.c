@@ -29,12 +29,11 @@ static int end(void **state) {
 
 /* Uploads a scene to a renderer that is opened for it; `note` is then what became of the kernels.
  */
-static HdStatus upload_with(bool refracts, uint64_t *hash) {
+static HdStatus upload_frame(HdSelfTestFrame frame_kind, bool refracts, uint64_t *hash) {
     HdRenderer *renderer;
     HdScene scene;
     HdSceneTables tables;
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, refracts, false, &error),
-                     HD_OK);
+    assert_int_equal(hd_self_test_scene(&scene, frame_kind, refracts, false, &error), HD_OK);
     assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, 1, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     HdStatus status = hd_renderer_upload(renderer, &tables, &error);
@@ -58,6 +57,10 @@ static HdStatus upload_with(bool refracts, uint64_t *hash) {
     return status;
 }
 
+static HdStatus upload_with(bool refracts, uint64_t *hash) {
+    return upload_frame(HD_SELF_TEST_SOLID, refracts, hash);
+}
+
 static HdStatus upload(void) {
     return upload_with(false, NULL);
 }
@@ -72,12 +75,12 @@ static void a_warm_start_compiles_and_tests_nothing(void **state) {
     uint64_t cold, warm;
     assert_int_equal(upload_with(false, &cold), HD_OK);
     expect_counts(1, 0);
-    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES + 1);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 1);
     expect_contains(note, "compiled in 1 ms by nobody; passed the self-test (");
     expect_contains(note, "; cached");
     assert_int_equal(upload_with(false, &warm), HD_OK);
     expect_counts(1, 1);
-    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES + 2);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
     expect_contains(note, "taken from cache, made by nobody");
     assert_true(warm == cold);
 }
@@ -183,6 +186,30 @@ static void wrong_kernels_render_nothing(void **state) {
     hd_scene_free(&scene);
 }
 
+static void kernels_with_meshes_pass_one_more_frame(void **state) {
+    (void)state;
+    options.lanes = 1;
+    fake.options = "-DMESHES";
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES);
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    expect_counts(1, 1);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES);
+    /* An entry that passed only the frames without meshes. */
+    HdKernelCache cache;
+    unsigned char *binary;
+    size_t size;
+    char entry[300];
+    HdKernelShape shape = {.needs = {.plane_bound = 8, .depth_bound = 8}};
+    hd_kernel_cache_begin(&cache, &device);
+    assert_false(hd_kernel_cache_find(&cache, &shape, "text", 5, "-DMESHES", "1", &binary, &size));
+    snprintf(entry, sizeof entry, "%s\nnobody\nfake", cache.stamp);
+    assert_int_equal(hd_cache_put_text("fake", cache.key, entry, &error), HD_OK);
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    expect_counts(2, 1);
+    expect_contains(note, "passed no test of this program's; compiled in");
+}
+
 static void fast_arithmetic_is_not_tested(void **state) {
     (void)state;
     options.math = HD_MATH_FAST;
@@ -209,6 +236,7 @@ int main(void) {
         TEST(without_a_folder_all_goes_on),
         TEST(wrong_kernels_are_an_error),
         TEST(wrong_kernels_render_nothing),
+        TEST(kernels_with_meshes_pass_one_more_frame),
         TEST(fast_arithmetic_is_not_tested),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
