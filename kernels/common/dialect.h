@@ -731,6 +731,30 @@ FN vint lane_numbers(void) {
     return numbers;
 }
 
+/* The least and the greatest of the lanes of `m`, of which there are some; numbers but infinite
+   ones or NaN. */
+#if HD_REGISTER_512
+FN real least_lane(vreal a, vmask m) {
+    return HD_REALS_512(mask_reduce_min, )(HD_MASK(m), (Reals512)a);
+}
+FN real greatest_lane(vreal a, vmask m) {
+    return HD_REALS_512(mask_reduce_max, )(HD_MASK(m), (Reals512)a);
+}
+#elif HD_LANES > 1
+FN real least_lane(vreal a, vmask m) {
+    vreal kept = pick(m, a, splat(REAL_LARGE));
+    real least = lane_real(&kept, 0);
+    for (int lane = 1; lane < HD_LANES; lane++) {
+        real other = lane_real(&kept, lane);
+        least = other < least ? other : least;
+    }
+    return least;
+}
+FN real greatest_lane(vreal a, vmask m) {
+    return -least_lane(-a, m);
+}
+#endif
+
 /* The first `count` lanes. */
 FN vmask lanes_below(int count) {
     return lt_int(lane_numbers(), splat_int(count));
@@ -761,6 +785,67 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     for (int i = 0; i < 4; i++)
         reals.number[i] = gather_reals(rows[i]);
     return reals;
+}
+#endif
+
+/* Likewise the four numbers k * `stride` after `from` in lane k; beyond lane `count` those of the
+   last one. */
+#if HD_LANES > 1
+#if HD_REGISTER_512 && !HD_DOUBLE
+FN FourReals load_rows(const real *from, int stride, int count) {
+    FourReals reals;
+    __m512 row[4];
+    for (int i = 0; i < 4; i++) {
+        const real *at = from + (i < count ? i : count - 1) * stride;
+        row[i] = _mm512_castps128_ps512(_mm_loadu_ps(at));
+    }
+    for (int quarter = 1; quarter < 4 && 4 * quarter < count; quarter++)
+        for (int i = 0; i < 4; i++) {
+            int k = 4 * quarter + i;
+            __m128 more = _mm_loadu_ps(from + (k < count ? k : count - 1) * stride);
+            row[i] = quarter == 1   ? _mm512_insertf32x4(row[i], more, 1)
+                     : quarter == 2 ? _mm512_insertf32x4(row[i], more, 2)
+                                    : _mm512_insertf32x4(row[i], more, 3);
+        }
+    __m512 a = _mm512_unpacklo_ps(row[0], row[1]), b = _mm512_unpacklo_ps(row[2], row[3]);
+    __m512 c = _mm512_unpackhi_ps(row[0], row[1]), d = _mm512_unpackhi_ps(row[2], row[3]);
+    reals.number[0] =
+        (vreal)_mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
+    reals.number[1] =
+        (vreal)_mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
+    reals.number[2] =
+        (vreal)_mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(c), _mm512_castps_pd(d)));
+    reals.number[3] =
+        (vreal)_mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(c), _mm512_castps_pd(d)));
+    return reals;
+}
+#else
+FN FourReals load_rows(GLOBAL const real *from, int stride, int count) {
+    real rows[4][HD_LANES];
+    FourReals reals;
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        GLOBAL const real *row = from + (lane < count ? lane : count - 1) * stride;
+        for (int i = 0; i < 4; i++)
+            rows[i][lane] = row[i];
+    }
+    for (int i = 0; i < 4; i++)
+        reals.number[i] = gather_reals(rows[i]);
+    return reals;
+}
+#endif
+#endif
+
+/* Asks for memory that is needed soon, where a processor can be asked. */
+#if defined(__OPENCL_C_VERSION__) || defined(__CUDACC__) || defined(__CUDACC_RTC__)
+FN void prefetch_bytes(GLOBAL const char *from, int count) {
+    (void)from;
+    (void)count;
+}
+#else
+FN void prefetch_bytes(const char *from, int count) {
+    enum { CACHE_LINE = 64 };
+    for (int i = 0; i < count; i += CACHE_LINE)
+        __builtin_prefetch(from + i);
 }
 #endif
 

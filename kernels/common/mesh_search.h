@@ -80,6 +80,22 @@ FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, 
     return lanes;
 }
 
+#if HD_LANES > 1
+/* `count` triangles side by side, at most as many as there are lanes. */
+FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first, int count,
+                                    int first_face, int first_skin) {
+    GLOBAL const real *row = (GLOBAL const real *)(triangles + first);
+    FourReals a = load_rows(row, 12, count), b = load_rows(row + 4, 12, count);
+    FourReals c = load_rows(row + 8, 12, count);
+    TriangleLanes lanes;
+    lanes.a = vec3(a.number[0], a.number[1], a.number[2]);
+    lanes.b = vec3(b.number[0], b.number[1], b.number[2]);
+    lanes.c = vec3(c.number[0], c.number[1], c.number[2]);
+    name_triangles(&lanes, lane_numbers() + first, to_int(a.number[3]), first_face, first_skin);
+    return lanes;
+}
+#endif
+
 /* A ray that leaves a mesh meets its outer side next if it runs outside, and its inner side if it
    runs inside. Where rounding has put its origin past a neighbour of the triangle that it left,
    that neighbour is met from the wrong side, nearby. */
@@ -170,76 +186,22 @@ FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m
     }
 }
 
-/* ---- rays that share a walk ---- */
+#if HD_LANES > 1
 
-FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
-                        int child) {
-    real x = node->bounds[0][negative[0]][child], y = node->bounds[1][negative[1]][child];
-    real z = node->bounds[2][negative[2]][child];
-    vreal near = multiply_add(splat(x), slabs->inverse.x, slabs->near.x);
-    near = greater(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
-    near = greater(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
-    return greater(near, splat(R(0.0)));
-}
-
-FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
-                       int child) {
-    real x = node->bounds[0][!negative[0]][child], y = node->bounds[1][!negative[1]][child];
-    real z = node->bounds[2][!negative[2]][child];
-    vreal far = multiply_add(splat(x), slabs->inverse.x, slabs->far.x);
-    far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
-    return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
-}
-
-/* The rays of `m`, whose directions have the signs `negative`. */
-FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                      const int negative[3], int root) {
-    int stack[NODE_STACK];
-    vreal stack_near[NODE_STACK];
-    int waiting = 0, current = root;
-    for (;;) {
-        int next = -1, has_next = 0;
-        if (current >= 0) {
-            GLOBAL const MeshNode *node = mesh_nodes + current;
-            vreal near0 = entry_of_child(node, &rays->slabs, negative, 0);
-            vreal near1 = entry_of_child(node, &rays->slabs, negative, 1);
-            vreal far0 = lesser(exit_of_child(node, &rays->slabs, negative, 0), found->limit);
-            vreal far1 = lesser(exit_of_child(node, &rays->slabs, negative, 1), found->limit);
-            vmask alive = m & found->alive;
-            int meets0 = any_lane(alive & le(near0, far0));
-            int meets1 = any_lane(alive & le(near1, far1));
-            int last = negative[node->axis] ? 0 : 1; /* the child further along the rays */
-            if (meets0 && meets1) {
-                stack[waiting] = node->child[last];
-                stack_near[waiting] = last ? near1 : near0;
-                waiting++;
-                next = node->child[!last];
-                has_next = 1;
-            } else if (meets0 || meets1) {
-                next = node->child[meets1 ? 1 : 0];
-                has_next = 1;
-            }
-        } else {
-            int items = ~current;
-            vmask alive = m & found->alive;
-            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
-                     items & HD_LEAF_ITEM_MASK);
-        }
-        while (!has_next && waiting > 0) {
-            waiting--;
-            next = stack[waiting];
-            vmask alive = m & found->alive;
-            has_next = any_lane(alive & le(stack_near[waiting], found->limit));
-        }
-        if (!has_next)
-            return;
-        current = next;
+/* Begins to load what a walk comes to later: a node, or the triangles of a leaf. */
+FN void prefetch_place(SCENE_PARAMETERS int place) {
+    enum { NODE_BYTES = 6 * HD_LANES * (int)sizeof(real), LEAF_BYTES = 192 };
+    if (place < 0) {
+        prefetch_bytes((GLOBAL const char *)(triangles + (~place >> HD_LEAF_ITEM_BITS)),
+                       LEAF_BYTES);
+        return;
     }
+    prefetch_bytes((GLOBAL const char *)wide_bounds + (uint64)place * NODE_BYTES, NODE_BYTES);
+    prefetch_bytes((GLOBAL const char *)(wide_children + (uint64)place * HD_LANES),
+                   HD_LANES * (int)sizeof(int));
 }
 
 /* ---- a ray by itself ---- */
-
-#if HD_LANES_ARE_ONE_REGISTER
 
 FN vreal spread_real(vreal a, int lane) {
     return splat(lane_real(&a, lane));
@@ -289,12 +251,11 @@ FN Findings spread_findings(const Findings *found, int lane) {
 FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int first,
                          int count) {
     for (int done = 0; done < count; done += HD_LANES) {
-        vmask m = lanes_below(count - done);
-        vint number = lane_numbers() + (first + done);
-        number = pick_int(m, number, splat_int(first));
+        int rest = count - done < HD_LANES ? count - done : HD_LANES;
+        vmask m = lanes_below(rest);
         TriangleCrossing crossing;
         TriangleLanes triangle =
-            fetch_triangles(triangles, number, ray->first_face, ray->first_skin);
+            adjacent_triangles(triangles, first + done, rest, ray->first_face, ray->first_skin);
         vmask met = meet_triangles(ray, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;
@@ -371,7 +332,9 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int ro
                 stack_near[place] = stack_near[place - 1];
                 place--;
             }
-            stack[place] = wide_children[(uint64)current * HD_LANES + (uint64)lane];
+            int child = wide_children[(uint64)current * HD_LANES + (uint64)lane];
+            prefetch_place(SCENE_ARGUMENTS child);
+            stack[place] = child;
             stack_near[place] = at;
             waiting++;
         }
@@ -406,8 +369,196 @@ FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, int
     found->entering = pick_mask(m, one.entering, found->entering);
 }
 
+/* ---- rays that share a walk ---- */
+
 /* Fewer rays than these walk alone. */
-enum { FEW_RAYS = HD_LANES / 4 + 1 };
+enum { FEW_RAYS = HD_LANES / 8 + 1 };
+
+/* What holds for all rays of a bundle, whose directions have the same signs: between which origins
+   they begin, for where they enter and leave a box, and the least and greatest inverse of their
+   directions. */
+typedef struct {
+    vreal first[3], last[3];
+    vreal least[3], greatest[3];
+    int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
+} Beam;
+
+FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, int negative) {
+    real least = least_lane(origin, m), greatest = greatest_lane(origin, m);
+    real far_out = -least < greatest ? greatest : -least;
+    /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
+    real slack = (far_out + R(1.0)) * (R(2.0) * SLAB_MARGIN);
+    beam->first[axis] = splat(negative ? least - slack : greatest + slack);
+    beam->last[axis] = splat(negative ? greatest + slack : least - slack);
+    beam->least[axis] = splat(least_lane(inverse, m));
+    beam->greatest[axis] = splat(greatest_lane(inverse, m));
+    beam->entry[axis] = (negative ? 3 + axis : axis) * HD_LANES;
+    beam->exit[axis] = (negative ? axis : 3 + axis) * HD_LANES;
+}
+
+FN Beam beam_of(const MeshRays *rays, vmask m, const int negative[3]) {
+    Beam beam;
+    bound_axis(&beam, 0, rays->frame.origin.x, rays->slabs.inverse.x, m, negative[0]);
+    bound_axis(&beam, 1, rays->frame.origin.y, rays->slabs.inverse.y, m, negative[1]);
+    bound_axis(&beam, 2, rays->frame.origin.z, rays->slabs.inverse.z, m, negative[2]);
+    return beam;
+}
+
+/* No ray of the beam meets the children's bounds of an axis earlier, or later. */
+FN vreal beam_entry(const Beam *beam, GLOBAL const real *bounds, int axis) {
+    vreal way = load_reals(bounds + beam->entry[axis]) - beam->first[axis];
+    return lesser(way * beam->least[axis], way * beam->greatest[axis]);
+}
+FN vreal beam_exit(const Beam *beam, GLOBAL const real *bounds, int axis) {
+    vreal way = load_reals(bounds + beam->exit[axis]) - beam->last[axis];
+    return greater(way * beam->least[axis], way * beam->greatest[axis]);
+}
+
+/* Where each ray enters the box of a child, and leaves it. */
+FN vreal ray_entry(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
+    vreal x = multiply_add(splat(bounds[beam->entry[0]]), slabs->inverse.x, slabs->near.x);
+    vreal y = multiply_add(splat(bounds[beam->entry[1]]), slabs->inverse.y, slabs->near.y);
+    vreal z = multiply_add(splat(bounds[beam->entry[2]]), slabs->inverse.z, slabs->near.z);
+    return greater(greater(x, y), greater(z, splat(R(0.0))));
+}
+FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
+    vreal x = multiply_add(splat(bounds[beam->exit[0]]), slabs->inverse.x, slabs->far.x);
+    vreal y = multiply_add(splat(bounds[beam->exit[1]]), slabs->inverse.y, slabs->far.y);
+    vreal z = multiply_add(splat(bounds[beam->exit[2]]), slabs->inverse.z, slabs->far.z);
+    return lesser(lesser(x, y), z);
+}
+
+/* The rays of `m`, whose directions have the signs `negative`. */
+FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                  const int negative[3], int root) {
+    int stack[WIDE_STACK];
+    vreal stack_near[WIDE_STACK]; /* beyond every limit in lanes that miss */
+    real stack_key[WIDE_STACK];
+    Beam beam = beam_of(rays, m, negative);
+    vreal furthest = splat(greatest_lane(found->limit, m));
+    int waiting = 1;
+    stack[0] = root;
+    stack_near[0] = splat(R(0.0));
+    stack_key[0] = R(0.0);
+    while (waiting > 0) {
+        waiting--;
+        int current = stack[waiting];
+        vmask alive = m & found->alive & le(stack_near[waiting], found->limit);
+        uint bits = lane_bits(alive);
+        if (!bits)
+            continue;
+        if (current >= 0 && count_bits(bits) < FEW_RAYS) {
+            for (; bits; bits &= bits - 1)
+                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), current);
+            continue;
+        }
+        if (current < 0) {
+            int items = ~current;
+            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
+                     items & HD_LEAF_ITEM_MASK);
+            furthest = splat(greatest_lane(found->limit, m));
+            continue;
+        }
+        GLOBAL const real *bounds = wide_bounds + (uint64)current * (6 * HD_LANES);
+        vreal entry = greater(beam_entry(&beam, bounds, 0), beam_entry(&beam, bounds, 1));
+        entry = greater(entry, greater(beam_entry(&beam, bounds, 2), splat(R(0.0))));
+        vreal exit = lesser(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
+        exit = lesser(exit, lesser(beam_exit(&beam, bounds, 2), furthest));
+        int bottom = waiting;
+        for (uint left = lane_bits(le(entry, exit)); left; left &= left - 1) {
+            int child = lowest_bit(left);
+            vreal near = ray_entry(&beam, bounds + child, &rays->slabs);
+            vreal far = lesser(ray_exit(&beam, bounds + child, &rays->slabs), found->limit);
+            vmask meets = alive & le(near, far);
+            if (!any_lane(meets))
+                continue;
+            real key = lane_real(&entry, child);
+            int place = waiting;
+            while (place > bottom && stack_key[place - 1] < key) {
+                stack[place] = stack[place - 1];
+                stack_near[place] = stack_near[place - 1];
+                stack_key[place] = stack_key[place - 1];
+                place--;
+            }
+            stack[place] = wide_children[(uint64)current * HD_LANES + (uint64)child];
+            prefetch_place(SCENE_ARGUMENTS stack[place]);
+            stack_near[place] = pick(meets, near, splat(REAL_LARGE * R(2.0)));
+            stack_key[place] = key;
+            waiting++;
+        }
+    }
+}
+
+#endif
+
+/* ---- rays that share a walk ---- */
+
+FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
+                        int child) {
+    real x = node->bounds[0][negative[0]][child], y = node->bounds[1][negative[1]][child];
+    real z = node->bounds[2][negative[2]][child];
+    vreal near = multiply_add(splat(x), slabs->inverse.x, slabs->near.x);
+    near = greater(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
+    near = greater(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
+    return greater(near, splat(R(0.0)));
+}
+
+FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
+                       int child) {
+    real x = node->bounds[0][!negative[0]][child], y = node->bounds[1][!negative[1]][child];
+    real z = node->bounds[2][!negative[2]][child];
+    vreal far = multiply_add(splat(x), slabs->inverse.x, slabs->far.x);
+    far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
+    return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
+}
+
+#if HD_LANES == 1
+
+/* The rays of `m`, whose directions have the signs `negative`. */
+FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                      const int negative[3], int root) {
+    int stack[NODE_STACK];
+    vreal stack_near[NODE_STACK];
+    int waiting = 0, current = root;
+    for (;;) {
+        int next = -1, has_next = 0;
+        if (current >= 0) {
+            GLOBAL const MeshNode *node = mesh_nodes + current;
+            vreal near0 = entry_of_child(node, &rays->slabs, negative, 0);
+            vreal near1 = entry_of_child(node, &rays->slabs, negative, 1);
+            vreal far0 = lesser(exit_of_child(node, &rays->slabs, negative, 0), found->limit);
+            vreal far1 = lesser(exit_of_child(node, &rays->slabs, negative, 1), found->limit);
+            vmask alive = m & found->alive;
+            int meets0 = any_lane(alive & le(near0, far0));
+            int meets1 = any_lane(alive & le(near1, far1));
+            int last = negative[node->axis] ? 0 : 1; /* the child further along the rays */
+            if (meets0 && meets1) {
+                stack[waiting] = node->child[last];
+                stack_near[waiting] = last ? near1 : near0;
+                waiting++;
+                next = node->child[!last];
+                has_next = 1;
+            } else if (meets0 || meets1) {
+                next = node->child[meets1 ? 1 : 0];
+                has_next = 1;
+            }
+        } else {
+            int items = ~current;
+            vmask alive = m & found->alive;
+            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
+                     items & HD_LEAF_ITEM_MASK);
+        }
+        while (!has_next && waiting > 0) {
+            waiting--;
+            next = stack[waiting];
+            vmask alive = m & found->alive;
+            has_next = any_lane(alive & le(stack_near[waiting], found->limit));
+        }
+        if (!has_next)
+            return;
+        current = next;
+    }
+}
 
 #endif
 
@@ -431,15 +582,11 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         int negative[3];
         vmask same = same_signs(&rays->slabs, left, negative);
         left = left & ~same;
-#if HD_LANES_ARE_ONE_REGISTER
-        uint bits = lane_bits(same);
-        if (count_bits(bits) < FEW_RAYS) {
-            for (; bits; bits &= bits - 1)
-                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), instance->wide_root);
-            continue;
-        }
-#endif
+#if HD_LANES > 1
+        walk_wide(SCENE_ARGUMENTS found, rays, same, negative, instance->wide_root);
+#else
         walk_together(SCENE_ARGUMENTS found, rays, same, negative, instance->root);
+#endif
     }
 }
 

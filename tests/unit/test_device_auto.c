@@ -194,23 +194,6 @@ static void the_estimate_scales_with_the_picture(void **state) {
 }
 
 /* It is measured with the meshes, so that their triangles count. */
-static void the_estimate_searches_the_meshes(void **state) {
-    (void)state;
-    double with, without;
-    HdScene meshes;
-    assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
-    meshes.width = meshes.height = 256;
-    job.scene = &meshes;
-    options.lanes = 1;
-    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &with, &error), HD_OK);
-    int count = meshes.instance_count;
-    meshes.instance_count = 0;
-    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &without, &error), HD_OK);
-    meshes.instance_count = count;
-    hd_scene_free(&meshes);
-    assert_true(with > 1.3 * without);
-}
-
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
 int main(void) {
@@ -225,7 +208,6 @@ int main(void) {
         TEST(what_fails_at_work_is_tried_again),
         TEST(without_a_folder_it_is_measured_each_time),
         TEST(the_estimate_scales_with_the_picture),
-        TEST(the_estimate_searches_the_meshes),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
