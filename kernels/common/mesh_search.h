@@ -31,6 +31,9 @@ typedef struct {
     int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
+    vreal late; /* how much further away the closest hit's search takes the wrong side of the
+                   surface to be, so that at an edge where both sides are met at once the right one
+                   is first */
 } MeshRays;
 
 /* Triangles of a mesh, one for all lanes or one for each. */
@@ -118,7 +121,12 @@ FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vma
         return met;
     met = met & le(splat(R(0.0)), crossing->t) &
           ~(rays->own & eq_int(triangle->face, rays->own_face));
-    return met & ~is_spurious(rays, triangle, met, crossing->entering);
+    met = met & ~is_spurious(rays, triangle, met, crossing->entering);
+    if (!rays->is_shadow) {
+        vmask wrong = ~(crossing->entering ^ (rays->own & rays->inside));
+        crossing->t = pick(wrong, crossing->t + rays->late, crossing->t);
+    }
+    return met;
 }
 
 /* ---- the closest hit ---- */
@@ -231,6 +239,7 @@ FN MeshRays spread_rays(const MeshRays *rays, int lane) {
     one.own = spread_mask(lane_bits(rays->own), lane);
     one.inside = spread_mask(lane_bits(rays->inside), lane);
     one.own_face = splat_int(lane_int(&rays->own_face, lane));
+    one.late = spread_real(rays->late, lane);
     return one;
 }
 

@@ -241,6 +241,36 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
     }
 }
 
+/* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
+   the reach of rounding from an edge, rays leave it from a little further inside: one that starts
+   at an edge might be on the wrong side of both its triangles, and miss both. */
+FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes *triangle,
+                           const TriangleCrossing *crossing, Vec3 normal) {
+    Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
+    Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
+    vreal least = splat(instance->contact_squared * R(0.25));
+    vreal area = greater(vec3_dot(normal, normal), splat(R(1e-30))); /* squared */
+    vreal a = crossing->a, b = crossing->b, c = crossing->c;
+    vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
+    vreal margin_b = vec3_dot(to_c, to_c) * least, margin_c = vec3_dot(to_b, to_b) * least;
+    vmask near_edge =
+        lt(a * a * area, margin_a) | lt(b * b * area, margin_b) | lt(c * c * area, margin_c);
+    if (any_lane(near_edge)) {
+        vreal scale = square_root(reciprocal(area)), one = splat(R(1.0));
+        margin_a = square_root(margin_a) * scale;
+        margin_b = square_root(margin_b) * scale;
+        margin_c = square_root(margin_c) * scale;
+        vreal sum = margin_a + margin_b + margin_c;
+        vreal fits = lesser(one, reciprocal(sum) * R(0.5)); /* half of a smaller triangle */
+        vreal rest = one - sum * fits;
+        a = pick(near_edge, multiply_add(rest, a, margin_a * fits), a);
+        b = pick(near_edge, multiply_add(rest, b, margin_b * fits), b);
+        c = pick(near_edge, multiply_add(rest, c, margin_c * fits), c);
+    }
+    return vec3_scale_add(triangle->a, a,
+                          vec3_scale_add(triangle->b, b, vec3_scale(triangle->c, c)));
+}
+
 /* The lanes of `m` have met triangles of the instance; hit->face becomes the number of the face. */
 FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *reference, int number,
                             const vmask *met, Hit *hit, Surface *surface) {
@@ -256,11 +286,9 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
                         instance->first_face, instance->first_skin);
     TriangleCrossing crossing;
     cross_triangle(&frame, &slabs, m, triangle.a, triangle.b, triangle.c, &crossing);
-    Vec3 point =
-        vec3_scale_add(triangle.a, crossing.a,
-                       vec3_scale_add(triangle.b, crossing.b, vec3_scale(triangle.c, crossing.c)));
-    surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
     Vec3 normal = vec3_cross(vec3_sub(triangle.b, triangle.a), vec3_sub(triangle.c, triangle.a));
+    Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
+    surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
     normal = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
     normal = vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
     if (instance->first_corner_normals >= 0)

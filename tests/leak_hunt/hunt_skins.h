@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* The meshes of the hunt. All have one material and are not built yet; their coordinates are those
+   of the eye, which looks along y with x to the right, and the eye's ray through a pixel is
+   hunt_pixel_ray. */
+#ifndef HD_LEAK_HUNT_SKINS_H
+#define HD_LEAK_HUNT_SKINS_H
+
+#include <stdint.h>
+
+#include "scene.h"
+
+/* Half the picture's width at distance 1. */
+#define HUNT_TANGENT 0.5
+
+/* The pixels that the rim is left of and above of; on the other sides there are as many more. */
+enum { HUNT_RIM = 8 };
+
+/* As far as y = 1; pixels are counted from the top left one. */
+HdVec3 hunt_pixel_ray(int side, int x, int y);
+
+/* The skin of two sheets, about y = 2 and y = 3, joined at y = 2.5; `roughness` is in pixels. */
+void build_sheets(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
+                  uint64_t *random);
+
+/* A room about the eye, whose far wall is as rough and like the back sheet. */
+void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
+                uint64_t *random);
+
+/* A small triangle at y = `depth` in the middle of each chosen pixel. */
+void build_spots(HdMesh *mesh, int side, const bool *chosen, double depth,
+                 const HdMaterial *material);
+
+/* The same in all pixels, with normals of which each mirrors the eye's ray to an edge or corner of
+   `target`, whose vertices are turned by `rotation_degrees`. */
+void build_mirrors(HdMesh *mesh, int side, double depth, const HdMesh *target,
+                   HdVec3 rotation_degrees, const HdMaterial *material, uint64_t *random);
+
+#endif

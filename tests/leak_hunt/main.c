@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT */
+/* The leak hunt: aims rays at edges and corners of closed meshes (hunt.h) on every backend and
+   device that opens, in float and double, with both pipelines and on CPUs with every number of
+   lanes, and counts those that cross a surface too seldom (leaks) or too often (double hits). RAYS
+   are aimed, or somewhat more, for each backend and precision.
+
+   Ends with 0 where there are none, 1 where there are some or rendering fails, 2 where it is called
+   wrongly, and 77 where nothing of the backend in --backend opens. */
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../conformance/render_scene.h"
+#include "hunt.h"
+
+enum { LANE_COUNTS = 4, PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES, ALL = -1 };
+enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
+
+/* Few rays go into small pictures, so that there are still some for every scene and renderer. */
+enum { SMALL_SIDE = 65, LARGE_SIDE = 257 };
+static const double many_rays = 2e7;
+
+static const char usage[] =
+    "usage: hedron_leak_hunt RAYS [--backend cuda|opencl|c]\n"
+    "                        [--precision float|double] [--lanes 1|4|8|16]\n"
+    "RAYS may be written as 1e9\n";
+static const char *const precision_names[2] = {"float", "double"};
+static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
+static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
+static const HdPipeline pipelines[PIPELINES] = {HD_PIPELINE_MEGA, HD_PIPELINE_WAVEFRONT};
+
+typedef struct Options {
+    double rays;
+    const HdBackend *backend; /* NULL: all */
+    int precision, lanes;     /* an HdPrecision, an index into lane_counts; or ALL */
+} Options;
+
+typedef struct Total {
+    Catch caught;
+    int renderers;
+} Total;
+
+/* The renderers of one device and precision. */
+typedef struct Party {
+    HdRenderer *renderers[MAX_RENDERERS];
+    int count;
+    HdPrecision precision;
+    int side;
+    double share; /* of rays for each renderer, placement and kind */
+} Party;
+
+static void add_catch(Catch *sum, const Catch *more) {
+    sum->rays += more->rays;
+    sum->leaks += more->leaks;
+    sum->double_hits += more->double_hits;
+}
+
+static void print_catch(const char *name, const Catch *caught) {
+    printf("  %-28s %12" PRIu64 " rays, %" PRIu64 " leaks, %" PRIu64 " double hits\n", name,
+           caught->rays, caught->leaks, caught->double_hits);
+    fflush(stdout);
+}
+
+/* What all scenes need of the kernels, so that devices that compile them do so once. */
+static void need_most(HdSceneTables *tables) {
+    enum { PLANES = 32, NODE_STACK = 32 };
+    if (tables->plane_count < PLANES)
+        tables->plane_count = PLANES;
+    if (tables->node_stack < NODE_STACK)
+        tables->node_stack = NODE_STACK;
+}
+
+static void upload(HdRenderer *renderer, const Hunt *hunt, HdPrecision precision) {
+    HdError error;
+    HdSceneTables tables;
+    if (hd_scene_validate(&hunt->scene, &error) != HD_OK ||
+        hd_compile_scene(&tables, &hunt->scene, precision, hd_renderer_lanes(renderer), &error) !=
+            HD_OK)
+        fail(hunt->placement->name, &error);
+    need_most(&tables);
+    if (hd_renderer_upload(renderer, &tables, &error) != HD_OK)
+        fail(hunt->placement->name, &error);
+    hd_scene_tables_free(&tables);
+}
+
+static void hunt_frame(HdRenderer *renderer, Hunt *hunt, HdPrecision precision, double step,
+                       HdFrame *frame, Catch *caught) {
+    HdError error;
+    HdFrameTables view;
+    HdCamera camera = hunt_camera(hunt, step);
+    if (hd_compile_frame(&view, &hunt->scene, &camera, precision, &error) != HD_OK ||
+        hd_renderer_render(renderer, &view, frame, &error) != HD_OK)
+        fail(hunt->placement->name, &error);
+    hd_frame_tables_free(&view);
+    hunt_judge(hunt, frame->rgb, caught);
+}
+
+/* Until the share of rays is spent; the first frame's eye is where the mesh was made for. */
+static void hunt_with(HdRenderer *renderer, Hunt *hunt, const Party *party, Catch *caught) {
+    HdError error;
+    HdFrame frame;
+    Catch mine = {0};
+    double step = party->precision == HD_PRECISION_FLOAT ? 0x1p-24 : 0x1p-53;
+    hunt_move_light(hunt, step);
+    upload(renderer, hunt, party->precision);
+    if (hd_frame_create(&frame, party->side, party->side, &error) != HD_OK)
+        fail(hunt->placement->name, &error);
+    for (int i = 0; i == 0 || (double)mine.rays < party->share; i++)
+        hunt_frame(renderer, hunt, party->precision, i == 0 ? 0.0 : step, &frame, &mine);
+    hd_frame_free(&frame);
+    add_catch(caught, &mine);
+}
+
+static void hunt_placement(const Party *party, int number, Catch *caught) {
+    for (int kind = 0; kind < HUNT_KINDS; kind++) {
+        Hunt hunt;
+        hunt_begin(&hunt, (HuntKind)kind, &placements[number], party->side,
+                   (uint64_t)(1 + number * HUNT_KINDS + kind));
+        for (int i = 0; i < party->count; i++)
+            hunt_with(party->renderers[i], &hunt, party, caught);
+        hunt_end(&hunt);
+    }
+}
+
+/* ---- devices ---- */
+
+/* Adds the renderer to the party if it opens. */
+static void join(Party *party, const HdDevice *device, const HdRenderOptions *wanted) {
+    HdError error;
+    HdRenderer *renderer;
+    char text[256];
+    HdStatus status = hd_renderer_open(&renderer, device, wanted, &error);
+    if (status == HD_UNAVAILABLE) {
+        printf("  without %d lanes: %s\n", wanted->lanes, error.message);
+        return;
+    }
+    if (status != HD_OK)
+        fail(device->name, &error);
+    hd_renderer_describe(renderer, text, (int)sizeof text);
+    printf("  %s\n", text);
+    party->renderers[party->count++] = renderer;
+}
+
+/* The C backend with all numbers of lanes; devices that compile their kernels, which takes long,
+   with those that suit them. */
+static void gather(Party *party, const HdDevice *device, const Options *options) {
+    int lane_choices = device->backend == &hd_backend_c ? LANE_COUNTS : 1;
+    for (int i = 0; i < lane_choices; i++)
+        for (int p = 0; p < PIPELINES; p++) {
+            HdRenderOptions wanted = {.precision = party->precision, .pipeline = pipelines[p]};
+            if (options->lanes != ALL)
+                wanted.lanes = lane_counts[options->lanes];
+            else if (lane_choices > 1)
+                wanted.lanes = lane_counts[i];
+            if (lane_choices == 1 || options->lanes == ALL || options->lanes == i)
+                join(party, device, &wanted);
+        }
+}
+
+static void hunt_device(const HdDevice *device, HdPrecision precision, const Options *options,
+                        Total *total) {
+    Party party = {.precision = precision};
+    Catch sum = {0};
+    printf("%s %s, %s\n", device->backend->name, precision_names[precision], device->name);
+    gather(&party, device, options);
+    if (party.count == 0)
+        return;
+    party.side = options->rays < many_rays ? SMALL_SIDE : LARGE_SIDE;
+    party.share = options->rays / (party.count * PLACEMENT_COUNT * (int)HUNT_KINDS);
+    for (int i = 0; i < PLACEMENT_COUNT; i++) {
+        Catch caught = {0};
+        hunt_placement(&party, i, &caught);
+        print_catch(placements[i].name, &caught);
+        add_catch(&sum, &caught);
+    }
+    print_catch("in all", &sum);
+    add_catch(&total->caught, &sum);
+    total->renderers += party.count;
+    for (int i = 0; i < party.count; i++)
+        hd_renderer_close(party.renderers[i]);
+}
+
+static void hunt_backend(const HdBackend *backend, const Options *options, Total *total) {
+    HdDevice devices[HD_MAX_DEVICES];
+    HdError error;
+    int count = 0;
+    HdStatus status = backend->enumerate(devices, HD_MAX_DEVICES, &count, &error);
+    if (status != HD_OK)
+        printf("skip %s: %s\n", backend->name, error.message);
+    for (int i = 0; status == HD_OK && i < count; i++)
+        for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
+            if (options->precision == ALL || options->precision == p)
+                hunt_device(&devices[i], (HdPrecision)p, options, total);
+}
+
+/* ---- the command line ---- */
+
+/* The index of the name, or -1. */
+static int choose(const char *name, const char *const *names, int count) {
+    for (int i = 0; i < count; i++)
+        if (strcmp(name, names[i]) == 0)
+            return i;
+    return -1;
+}
+
+static bool parse_rays(const char *text, double *rays) {
+    char *end;
+    *rays = strtod(text, &end);
+    return end != text && *end == '\0' && *rays >= 1.0 && *rays <= 1e15;
+}
+
+static bool parse_option(Options *options, const char *name, const char *value) {
+    if (strcmp(name, "--backend") == 0)
+        return (options->backend = hd_backend_find(value)) != NULL;
+    if (strcmp(name, "--precision") == 0)
+        return (options->precision = choose(value, precision_names, 2)) >= 0;
+    if (strcmp(name, "--lanes") == 0)
+        return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
+    return false;
+}
+
+static bool parse_options(Options *options, int count, char **arguments) {
+    if (count < 2 || count % 2 != 0 || !parse_rays(arguments[1], &options->rays))
+        return false;
+    for (int i = 2; i < count; i += 2)
+        if (!parse_option(options, arguments[i], arguments[i + 1]))
+            return false;
+    return true;
+}
+
+int main(int count, char **arguments) {
+    Options options = {.precision = ALL, .lanes = ALL};
+    Total total = {{0}, 0};
+    if (!parse_options(&options, count, arguments)) {
+        fputs(usage, stderr);
+        return EXIT_USAGE;
+    }
+    /* The plain C backend first: it is always there. */
+    for (int i = HD_BACKEND_COUNT - 1; i >= 0; i--)
+        if (options.backend == NULL || options.backend == hd_backends[i])
+            hunt_backend(hd_backends[i], &options, &total);
+    if (total.renderers == 0) {
+        printf("nothing opened\n");
+        return options.backend != NULL ? EXIT_SKIPPED : 1;
+    }
+    printf("total of %d renderers:\n", total.renderers);
+    print_catch("", &total.caught);
+    return total.caught.leaks > 0 || total.caught.double_hits > 0 ? 1 : 0;
+}
