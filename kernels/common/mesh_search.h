@@ -21,6 +21,7 @@ typedef struct {
 
 /* The rays in a mesh's own coordinates. */
 typedef struct {
+    LastAxis last; /* origins and directions are turned by it (triangle.h) */
     RayFrame frame;
     Slabs slabs;
     vmask own;     /* leaves this very mesh, */
@@ -35,6 +36,31 @@ typedef struct {
                    surface to be, so that at an edge where both sides are met at once the right one
                    is first */
 } MeshRays;
+
+/* Which way rays run: what bundles have in common that share a walk. */
+typedef struct {
+    int axis[3];           /* of the mesh, the one nearest to the rays last */
+    int entry[3], exit[3]; /* of a box they enter by the lower (0) or the upper bound of each */
+    int backward;          /* a bit for each axis of the mesh: they run against it */
+} Way;
+
+/* The lanes of `m` whose rays run the same way as the first one's. */
+FN vmask same_way(const Slabs *slabs, LastAxis last, vmask m, Way *way) {
+    int lane = first_lane(m);
+    int x = (int)(lane_bits(last.x) >> lane & 1), y = (int)(lane_bits(last.y) >> lane & 1);
+    m = m & (x ? last.x : ~last.x) & (y ? last.y : ~last.y);
+    way->backward = 0;
+    for (int i = 0; i < 3; i++) {
+        vmask against = slabs->negative[i];
+        int negative = (int)(lane_bits(against) >> lane & 1);
+        m = m & (negative ? against : ~against);
+        way->axis[i] = (i + (x ? 1 : y ? 2 : 0)) % 3;
+        way->entry[i] = negative;
+        way->exit[i] = !negative;
+        way->backward |= negative << way->axis[i];
+    }
+    return m;
+}
 
 /* Triangles of a mesh, one for all lanes or one for each. */
 typedef struct {
@@ -56,13 +82,14 @@ FN void name_triangles(TriangleLanes *lanes, vint number, vint tag, int first_fa
     lanes->face = face_of_triangle(number, group, first_face);
 }
 
-FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, int first_face,
-                               int first_skin) {
+/* One triangle, its coordinates in the order of `axis`. */
+FN TriangleLanes same_triangle(GLOBAL const Triangle *triangles, int number, const int axis[3],
+                               int first_face, int first_skin) {
     GLOBAL const Triangle *triangle = triangles + number;
     TriangleLanes lanes;
-    lanes.a = vec3_splat(triangle->a[0], triangle->a[1], triangle->a[2]);
-    lanes.b = vec3_splat(triangle->b[0], triangle->b[1], triangle->b[2]);
-    lanes.c = vec3_splat(triangle->c[0], triangle->c[1], triangle->c[2]);
+    lanes.a = vec3_splat(triangle->a[axis[0]], triangle->a[axis[1]], triangle->a[axis[2]]);
+    lanes.b = vec3_splat(triangle->b[axis[0]], triangle->b[axis[1]], triangle->b[axis[2]]);
+    lanes.c = vec3_splat(triangle->c[axis[0]], triangle->c[axis[1]], triangle->c[axis[2]]);
     name_triangles(&lanes, splat_int(number), splat_int((int)triangle->tag), first_face,
                    first_skin);
     return lanes;
@@ -86,14 +113,14 @@ FN TriangleLanes fetch_triangles(GLOBAL const Triangle *triangles, vint number, 
 #if HD_LANES > 1
 /* `count` triangles side by side, at most as many as there are lanes. */
 FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first, int count,
-                                    int first_face, int first_skin) {
+                                    const int axis[3], int first_face, int first_skin) {
     GLOBAL const real *row = (GLOBAL const real *)(triangles + first);
     FourReals a = load_rows(row, 12, count), b = load_rows(row + 4, 12, count);
     FourReals c = load_rows(row + 8, 12, count);
     TriangleLanes lanes;
-    lanes.a = vec3(a.number[0], a.number[1], a.number[2]);
-    lanes.b = vec3(b.number[0], b.number[1], b.number[2]);
-    lanes.c = vec3(c.number[0], c.number[1], c.number[2]);
+    lanes.a = vec3(a.number[axis[0]], a.number[axis[1]], a.number[axis[2]]);
+    lanes.b = vec3(b.number[axis[0]], b.number[axis[1]], b.number[axis[2]]);
+    lanes.c = vec3(c.number[axis[0]], c.number[axis[1]], c.number[axis[2]]);
     name_triangles(&lanes, lane_numbers() + first, to_int(a.number[3]), first_face, first_skin);
     return lanes;
 }
@@ -179,18 +206,40 @@ FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *r
 
 /* ---- leaves ---- */
 
-FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
-                 int count) {
+FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
+                      const TriangleLanes *triangle, vmask m) {
+    TriangleCrossing crossing;
+    vmask met = meet_triangles(rays, triangle, m, &crossing);
+    if (!any_lane(met))
+        return;
+    if (rays->is_shadow)
+        keep_filter(skins, found, rays, triangle, met, &crossing);
+    else
+        keep_closest(found, rays, triangle, met, &crossing);
+}
+
+/* Tries the triangles of a leaf with rays that run one way. */
+FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
+                 int leaf) {
+    int first = ~leaf >> HD_LEAF_ITEM_BITS, end = first + (~leaf & HD_LEAF_ITEM_MASK);
+    for (int i = first; i < end; i++) {
+        TriangleLanes triangle =
+            same_triangle(triangles, i, way->axis, rays->first_face, rays->first_skin);
+        keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
+    }
+}
+
+/* Tries all triangles of a mesh with rays that run any way. */
+FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
+                int count) {
+    const int axis[3] = {0, 1, 2};
     for (int i = first; i < first + count; i++) {
-        TriangleCrossing crossing;
-        TriangleLanes triangle = same_triangle(triangles, i, rays->first_face, rays->first_skin);
-        vmask met = meet_triangles(rays, &triangle, m, &crossing);
-        if (!any_lane(met))
-            continue;
-        if (rays->is_shadow)
-            keep_filter(skins, found, rays, &triangle, met, &crossing);
-        else
-            keep_closest(found, rays, &triangle, met, &crossing);
+        TriangleLanes triangle =
+            same_triangle(triangles, i, axis, rays->first_face, rays->first_skin);
+        triangle.a = turn(rays->last, triangle.a);
+        triangle.b = turn(rays->last, triangle.b);
+        triangle.c = turn(rays->last, triangle.c);
+        keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
     }
 }
 
@@ -227,9 +276,9 @@ FN vmask spread_mask(uint bits, int lane) {
 FN MeshRays spread_rays(const MeshRays *rays, int lane) {
     MeshRays one = *rays;
     one.frame.origin = spread_vector(rays->frame.origin, lane);
-    one.frame.across = spread_vector(rays->frame.across, lane);
-    one.frame.upward = spread_vector(rays->frame.upward, lane);
-    one.frame.forward = spread_vector(rays->frame.forward, lane);
+    one.frame.across = spread_real(rays->frame.across, lane);
+    one.frame.upward = spread_real(rays->frame.upward, lane);
+    one.frame.forward = spread_real(rays->frame.forward, lane);
     one.frame.backward = spread_mask(lane_bits(rays->frame.backward), lane);
     one.slabs.inverse = spread_vector(rays->slabs.inverse, lane);
     one.slabs.near = spread_vector(rays->slabs.near, lane);
@@ -257,14 +306,15 @@ FN Findings spread_findings(const Findings *found, int lane) {
 
 /* Tries the triangles of a leaf side by side. What is found in the lanes is brought together, so
    that all of them hold it. */
-FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int first,
-                         int count) {
+FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                         int leaf) {
+    int first = ~leaf >> HD_LEAF_ITEM_BITS, count = ~leaf & HD_LEAF_ITEM_MASK;
     for (int done = 0; done < count; done += HD_LANES) {
         int rest = count - done < HD_LANES ? count - done : HD_LANES;
         vmask m = lanes_below(rest);
         TriangleCrossing crossing;
-        TriangleLanes triangle =
-            adjacent_triangles(triangles, first + done, rest, ray->first_face, ray->first_skin);
+        TriangleLanes triangle = adjacent_triangles(triangles, first + done, rest, way->axis,
+                                                    ray->first_face, ray->first_skin);
         vmask met = meet_triangles(ray, &triangle, m, &crossing);
         if (!any_lane(met))
             continue;
@@ -292,14 +342,14 @@ FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, 
 }
 
 /* The ray that all lanes of `ray` hold. */
-FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int root) {
+FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                   int root) {
     int stack[WIDE_STACK];
     real stack_near[WIDE_STACK];
     int lower[3], upper[3];
     for (int axis = 0; axis < 3; axis++) {
-        int negative = any_lane(ray->slabs.negative[axis]);
-        lower[axis] = (negative ? 3 + axis : axis) * HD_LANES;
-        upper[axis] = (negative ? axis : 3 + axis) * HD_LANES;
+        lower[axis] = (3 * way->entry[axis] + way->axis[axis]) * HD_LANES;
+        upper[axis] = (3 * way->exit[axis] + way->axis[axis]) * HD_LANES;
     }
     int waiting = 1;
     stack[0] = root;
@@ -310,9 +360,7 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int ro
         if (lane_real(&found->limit, 0) < stack_near[waiting])
             continue;
         if (current < 0) {
-            int items = ~current;
-            try_leaf_at_once(SCENE_ARGUMENTS found, ray, items >> HD_LEAF_ITEM_BITS,
-                             items & HD_LEAF_ITEM_MASK);
+            try_leaf_at_once(SCENE_ARGUMENTS found, ray, way, current);
             if (ray->is_shadow && !any_lane(found->alive))
                 return;
             continue;
@@ -350,10 +398,11 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, int ro
     }
 }
 
-FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, int lane, int root) {
+FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const Way *way,
+                     int lane, int root) {
     MeshRays ray = spread_rays(rays, lane);
     Findings one = spread_findings(found, lane);
-    walk_alone(SCENE_ARGUMENTS & one, &ray, root);
+    walk_alone(SCENE_ARGUMENTS & one, &ray, way, root);
     vmask m = eq_int(lane_numbers(), splat_int(lane));
     if (rays->is_shadow) {
         for (int channel = 0; channel < 3; channel++) {
@@ -392,7 +441,8 @@ typedef struct {
     int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
 } Beam;
 
-FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, int negative) {
+FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, const Way *way) {
+    int negative = way->entry[axis];
     real least = least_lane(origin, m), greatest = greatest_lane(origin, m);
     real far_out = -least < greatest ? greatest : -least;
     /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
@@ -401,15 +451,15 @@ FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, i
     beam->last[axis] = splat(negative ? greatest + slack : least - slack);
     beam->least[axis] = splat(least_lane(inverse, m));
     beam->greatest[axis] = splat(greatest_lane(inverse, m));
-    beam->entry[axis] = (negative ? 3 + axis : axis) * HD_LANES;
-    beam->exit[axis] = (negative ? axis : 3 + axis) * HD_LANES;
+    beam->entry[axis] = (3 * way->entry[axis] + way->axis[axis]) * HD_LANES;
+    beam->exit[axis] = (3 * way->exit[axis] + way->axis[axis]) * HD_LANES;
 }
 
-FN Beam beam_of(const MeshRays *rays, vmask m, const int negative[3]) {
+FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {
     Beam beam;
-    bound_axis(&beam, 0, rays->frame.origin.x, rays->slabs.inverse.x, m, negative[0]);
-    bound_axis(&beam, 1, rays->frame.origin.y, rays->slabs.inverse.y, m, negative[1]);
-    bound_axis(&beam, 2, rays->frame.origin.z, rays->slabs.inverse.z, m, negative[2]);
+    bound_axis(&beam, 0, rays->frame.origin.x, rays->slabs.inverse.x, m, way);
+    bound_axis(&beam, 1, rays->frame.origin.y, rays->slabs.inverse.y, m, way);
+    bound_axis(&beam, 2, rays->frame.origin.z, rays->slabs.inverse.z, m, way);
     return beam;
 }
 
@@ -437,13 +487,13 @@ FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slab
     return lesser(lesser(x, y), z);
 }
 
-/* The rays of `m`, whose directions have the signs `negative`. */
-FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                  const int negative[3], int root) {
+/* The rays of `m`, which all run that way. */
+FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
+                  int root) {
     int stack[WIDE_STACK];
     vreal stack_near[WIDE_STACK]; /* beyond every limit in lanes that miss */
     real stack_key[WIDE_STACK];
-    Beam beam = beam_of(rays, m, negative);
+    Beam beam = beam_of(rays, m, way);
     vreal furthest = splat(greatest_lane(found->limit, m));
     int waiting = 1;
     stack[0] = root;
@@ -458,13 +508,11 @@ FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
             continue;
         if (current >= 0 && count_bits(bits) < FEW_RAYS) {
             for (; bits; bits &= bits - 1)
-                search_alone(SCENE_ARGUMENTS found, rays, lowest_bit(bits), current);
+                search_alone(SCENE_ARGUMENTS found, rays, way, lowest_bit(bits), current);
             continue;
         }
         if (current < 0) {
-            int items = ~current;
-            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
-                     items & HD_LEAF_ITEM_MASK);
+            try_leaf(SCENE_ARGUMENTS found, rays, alive, way, current);
             furthest = splat(greatest_lane(found->limit, m));
             continue;
         }
@@ -502,20 +550,21 @@ FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
 
 /* ---- rays that share a walk ---- */
 
-FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
+FN vreal entry_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Way *way,
                         int child) {
-    real x = node->bounds[0][negative[0]][child], y = node->bounds[1][negative[1]][child];
-    real z = node->bounds[2][negative[2]][child];
+    real x = node->bounds[way->axis[0]][way->entry[0]][child];
+    real y = node->bounds[way->axis[1]][way->entry[1]][child];
+    real z = node->bounds[way->axis[2]][way->entry[2]][child];
     vreal near = multiply_add(splat(x), slabs->inverse.x, slabs->near.x);
     near = greater(near, multiply_add(splat(y), slabs->inverse.y, slabs->near.y));
     near = greater(near, multiply_add(splat(z), slabs->inverse.z, slabs->near.z));
     return greater(near, splat(R(0.0)));
 }
 
-FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const int negative[3],
-                       int child) {
-    real x = node->bounds[0][!negative[0]][child], y = node->bounds[1][!negative[1]][child];
-    real z = node->bounds[2][!negative[2]][child];
+FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const Way *way, int child) {
+    real x = node->bounds[way->axis[0]][way->exit[0]][child];
+    real y = node->bounds[way->axis[1]][way->exit[1]][child];
+    real z = node->bounds[way->axis[2]][way->exit[2]][child];
     vreal far = multiply_add(splat(x), slabs->inverse.x, slabs->far.x);
     far = lesser(far, multiply_add(splat(y), slabs->inverse.y, slabs->far.y));
     return lesser(far, multiply_add(splat(z), slabs->inverse.z, slabs->far.z));
@@ -523,9 +572,9 @@ FN vreal exit_of_child(GLOBAL const MeshNode *node, const Slabs *slabs, const in
 
 #if HD_LANES == 1
 
-/* The rays of `m`, whose directions have the signs `negative`. */
+/* The rays of `m`, which all run that way. */
 FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                      const int negative[3], int root) {
+                      const Way *way, int root) {
     int stack[NODE_STACK];
     vreal stack_near[NODE_STACK];
     int waiting = 0, current = root;
@@ -533,14 +582,14 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
         int next = -1, has_next = 0;
         if (current >= 0) {
             GLOBAL const MeshNode *node = mesh_nodes + current;
-            vreal near0 = entry_of_child(node, &rays->slabs, negative, 0);
-            vreal near1 = entry_of_child(node, &rays->slabs, negative, 1);
-            vreal far0 = lesser(exit_of_child(node, &rays->slabs, negative, 0), found->limit);
-            vreal far1 = lesser(exit_of_child(node, &rays->slabs, negative, 1), found->limit);
+            vreal near0 = entry_of_child(node, &rays->slabs, way, 0);
+            vreal near1 = entry_of_child(node, &rays->slabs, way, 1);
+            vreal far0 = lesser(exit_of_child(node, &rays->slabs, way, 0), found->limit);
+            vreal far1 = lesser(exit_of_child(node, &rays->slabs, way, 1), found->limit);
             vmask alive = m & found->alive;
             int meets0 = any_lane(alive & le(near0, far0));
             int meets1 = any_lane(alive & le(near1, far1));
-            int last = negative[node->axis] ? 0 : 1; /* the child further along the rays */
+            int last = way->backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
             if (meets0 && meets1) {
                 stack[waiting] = node->child[last];
                 stack_near[waiting] = last ? near1 : near0;
@@ -552,10 +601,7 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
                 has_next = 1;
             }
         } else {
-            int items = ~current;
-            vmask alive = m & found->alive;
-            try_leaf(SCENE_ARGUMENTS found, rays, alive, items >> HD_LEAF_ITEM_BITS,
-                     items & HD_LEAF_ITEM_MASK);
+            try_leaf(SCENE_ARGUMENTS found, rays, m & found->alive, way, current);
         }
         while (!has_next && waiting > 0) {
             waiting--;
@@ -573,28 +619,17 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
 
 /* ---- the search ---- */
 
-/* The lanes of `m` whose directions have the same signs as the first one's. */
-FN vmask same_signs(const Slabs *slabs, vmask m, int negative[3]) {
-    int lane = first_lane(m);
-    for (int axis = 0; axis < 3; axis++) {
-        vmask other = slabs->negative[axis];
-        negative[axis] = (int)(lane_bits(other) >> lane & 1);
-        m = m & (negative[axis] ? other : ~other);
-    }
-    return m;
-}
-
 FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                         GLOBAL const Instance *instance) {
+                         int root) {
     vmask left = m;
     while (any_lane(left)) {
-        int negative[3];
-        vmask same = same_signs(&rays->slabs, left, negative);
+        Way way;
+        vmask same = same_way(&rays->slabs, rays->last, left, &way);
         left = left & ~same;
 #if HD_LANES > 1
-        walk_wide(SCENE_ARGUMENTS found, rays, same, negative, instance->wide_root);
+        walk_wide(SCENE_ARGUMENTS found, rays, same, &way, root);
 #else
-        walk_together(SCENE_ARGUMENTS found, rays, same, negative, instance->root);
+        walk_together(SCENE_ARGUMENTS found, rays, same, &way, root);
 #endif
     }
 }
@@ -603,10 +638,9 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
 FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                     GLOBAL const Instance *instance) {
     if (instance->root >= 0)
-        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance);
+        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance->root);
     else
-        try_leaf(SCENE_ARGUMENTS found, rays, m, instance->first_triangle,
-                 instance->triangle_count);
+        try_all(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count);
 }
 
 #endif

@@ -47,6 +47,9 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     Vec3 direction = transform_direction(instance->to_mesh, world->direction);
     MeshRays rays;
     rays.object = header->floor_end + number;
+    rays.last = nearest_axis(direction);
+    origin = turn(rays.last, origin);
+    direction = turn(rays.last, direction);
     rays.frame = ray_frame(origin, direction);
     rays.slabs = ray_slabs(origin, direction, splat(R(1.0)));
     rays.own = eq_int(world->touched, splat_int(rays.object));
@@ -60,8 +63,7 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     rays.contact_squared = instance->contact_squared;
     rays.late = splat(R(0.0));
     if (!rays.is_shadow)
-        rays.late = square_root(splat(instance->contact_squared) *
-                                reciprocal(vec3_dot(direction, direction)));
+        rays.late = instance->contact * reciprocal_root(vec3_dot(direction, direction));
     return rays;
 }
 
@@ -71,10 +73,9 @@ FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays 
     search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
 
-/* The rays of `m`, whose directions have the signs `negative`, through the hierarchy over the
-   instances. */
+/* The rays of `m`, which all run that way, through the hierarchy over the instances. */
 FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
-                       vmask m, const int negative[3]) {
+                       vmask m, const Way *way) {
     int stack[NODE_STACK];
     int waiting = 1;
     stack[0] = header->top_root;
@@ -91,11 +92,11 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
             continue;
         }
         GLOBAL const MeshNode *node = mesh_nodes + current;
-        int last = negative[node->axis] ? 0 : 1;
+        int last = way->backward >> node->axis & 1 ? 0 : 1;
         for (int i = 0; i < 2; i++) {
             int child = i == 0 ? last : !last; /* the nearer one ends on top */
-            vreal near = entry_of_child(node, slabs, negative, child);
-            vreal far = lesser(exit_of_child(node, slabs, negative, child), found->limit);
+            vreal near = entry_of_child(node, slabs, way, child);
+            vreal far = lesser(exit_of_child(node, slabs, way, child), found->limit);
             if (any_lane(alive & le(near, far))) {
                 stack[waiting] = node->child[child];
                 waiting++;
@@ -113,12 +114,14 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) 
         return;
     }
     Slabs slabs = ray_slabs(world->origin, world->direction, splat(header->mesh_reach));
+    LastAxis unturned;
+    unturned.x = unturned.y = mask_none();
     vmask left = found->alive;
     while (any_lane(left)) {
-        int negative[3];
-        vmask same = same_signs(&slabs, left, negative);
+        Way way;
+        vmask same = same_way(&slabs, unturned, left, &way);
         left = left & ~same;
-        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, negative);
+        walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, &way);
     }
 }
 

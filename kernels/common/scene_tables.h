@@ -113,10 +113,12 @@ typedef struct ALIGNED_16 {
 typedef struct ALIGNED_16 {
     real to_mesh[3][4];
     real to_world[3][4];
-    real contact_squared; /* of the distance, in the mesh's coordinates, that rounding may put
-                             between a point of the mesh and its surface */
-    real unused[3];
-    int root, wide_root; /* nodes; -1: every triangle is tried */
+    real contact; /* the distance, in the mesh's coordinates, that rounding may put between a point
+                     of the mesh and its surface */
+    real contact_squared;
+    real unused[2];
+    int root; /* a node, of the wide ones where bundles have lanes; -1: every triangle is tried */
+    int unused_int;
     int first_triangle, triangle_count;
     int first_skin;
     int first_face;           /* number of the face that is its group 1 */
@@ -146,7 +148,7 @@ typedef struct ALIGNED_16 {
     real bounds[3][2][2];
     int child[2];
     int axis;
-    int wide; /* the wide node with the same items; -1: there is none */
+    int unused;
 } MeshNode;
 
 /* What a mesh's triangles show: a material, and how they filter light on its way to a point, met
@@ -213,7 +215,8 @@ HD_ASSERT_SIZE(View, 12, 8);
    texels                                        two words each: r | g << 16, b; row by row, and one
                                                  more after the last; the floor's first
    triangles                                     of all meshes, in the order of the leaves
-   mesh_nodes                                    of all meshes and over the instances
+   mesh_nodes                                    over the instances; where bundles have one lane
+                                                 of all meshes too
    wide_bounds, wide_children                    of the wide nodes, which have as many children as a
                                                  bundle has lanes: lower x, y, z of all of them,
    then upper; no entries where bundles have one lane top_items numbers of instances

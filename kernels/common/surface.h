@@ -279,13 +279,17 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
     Vec3 origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
     Vec3 in_mesh = transform_point(instance->to_mesh, origin);
     Vec3 along = transform_direction(instance->to_mesh, ray->direction);
+    LastAxis last = nearest_axis(along);
+    in_mesh = turn(last, in_mesh);
+    along = turn(last, along);
     RayFrame frame = ray_frame(in_mesh, along);
     Slabs slabs = ray_slabs(in_mesh, along, splat(R(1.0)));
     TriangleLanes triangle =
         fetch_triangles(triangles, pick_int(m, hit->face, splat_int(instance->first_triangle)),
                         instance->first_face, instance->first_skin);
     TriangleCrossing crossing;
-    cross_triangle(&frame, &slabs, m, triangle.a, triangle.b, triangle.c, &crossing);
+    cross_triangle(&frame, &slabs, m, turn(last, triangle.a), turn(last, triangle.b),
+                   turn(last, triangle.c), &crossing);
     Vec3 normal = vec3_cross(vec3_sub(triangle.b, triangle.a), vec3_sub(triangle.c, triangle.a));
     Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
     surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);

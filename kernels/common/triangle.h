@@ -14,32 +14,42 @@
 #include "scene_arguments.h"
 #include "vectors.h"
 
-/* A ray's own coordinates of a point p: across . (p - origin), upward . (p - origin) and, in units
-   of the ray's direction, forward . (p - origin). The first two axes are right-handed with the axis
-   that the ray is nearest to. */
+/* The axis that each ray is nearest to: x, y or, in neither, z. */
+typedef struct {
+    vmask x, y;
+} LastAxis;
+
+FN LastAxis nearest_axis(Vec3 direction) {
+    vreal x = absolute(direction.x), y = absolute(direction.y), z = absolute(direction.z);
+    LastAxis last;
+    last.x = le(y, x) & le(z, x);
+    last.y = ~last.x & le(z, y);
+    return last;
+}
+
+/* Coordinates turned so that each ray's nearest axis comes last; the other two stay right-handed
+   with it. All that follows is told in such coordinates. */
+FN Vec3 turn(LastAxis last, Vec3 p) {
+    return vec3(pick(last.x, p.y, pick(last.y, p.z, p.x)),
+                pick(last.x, p.z, pick(last.y, p.x, p.y)),
+                pick(last.x, p.x, pick(last.y, p.y, p.z)));
+}
+
+/* A ray's own coordinates of a point p, from (x, y, z) = p - origin: x + across z and y + upward z,
+   and, in units of the ray's direction, forward z. */
 typedef struct {
     Vec3 origin;
-    Vec3 across, upward, forward;
-    vmask backward; /* runs against that axis */
+    vreal across, upward, forward;
+    vmask backward; /* runs against its nearest axis */
 } RayFrame;
 
 FN RayFrame ray_frame(Vec3 origin, Vec3 direction) {
-    vreal one = splat(R(1.0)), zero = splat(R(0.0));
-    vreal x = absolute(direction.x), y = absolute(direction.y), z = absolute(direction.z);
-    vmask is_x = le(y, x) & le(z, x), is_y = ~is_x & le(z, y);
-    vreal longest = pick(is_x, direction.x, pick(is_y, direction.y, direction.z));
-    vreal inverse = times_sign_of(reciprocal(absolute(longest)), longest);
-    Vec3 shear = vec3_scale(direction, -inverse);
     RayFrame frame;
     frame.origin = origin;
-    frame.backward = lt(longest, zero);
-    frame.across = vec3_pick(is_x, vec3(shear.y, one, zero),
-                             vec3_pick(is_y, vec3(zero, shear.z, one), vec3(one, zero, shear.x)));
-    frame.upward = vec3_pick(is_x, vec3(shear.z, zero, one),
-                             vec3_pick(is_y, vec3(one, shear.x, zero), vec3(zero, one, shear.y)));
-    frame.forward =
-        vec3_pick(is_x, vec3(inverse, zero, zero),
-                  vec3_pick(is_y, vec3(zero, inverse, zero), vec3(zero, zero, inverse)));
+    frame.forward = times_sign_of(reciprocal(absolute(direction.z)), direction.z);
+    frame.across = -direction.x * frame.forward;
+    frame.upward = -direction.y * frame.forward;
+    frame.backward = lt(direction.z, splat(R(0.0)));
     return frame;
 }
 
@@ -101,8 +111,8 @@ typedef struct {
 
 FN Corner project_corner(const RayFrame *frame, Vec3 p) {
     Corner corner;
-    corner.across = vec3_dot(frame->across, p);
-    corner.upward = vec3_dot(frame->upward, p);
+    corner.across = multiply_add(frame->across, p.z, p.x);
+    corner.upward = multiply_add(frame->upward, p.z, p.y);
     return corner;
 }
 
@@ -183,12 +193,11 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     crossing->a = area_a * inverse;
     crossing->b = area_b * inverse;
     crossing->c = area_c * inverse;
-    vreal depth = multiply_add(crossing->a, vec3_dot(frame->forward, from_a),
-                               multiply_add(crossing->b, vec3_dot(frame->forward, from_b),
-                                            crossing->c * vec3_dot(frame->forward, from_c)));
+    vreal depth = multiply_add(crossing->a, from_a.z,
+                               multiply_add(crossing->b, from_b.z, crossing->c * from_c.z));
     /* Counterclockwise about the axis is met from outside by rays that run against it. */
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
-    crossing->t = depth;
+    crossing->t = depth * frame->forward;
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 

@@ -9,14 +9,7 @@
 FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3 a, Vec3 b, Vec3 c,
                         TriangleCrossing *crossing) {
     vreal zero = splat(R(0.0)), one = splat(R(1.0));
-    /* The axis that is nearest has 1 / d forward, and -d' / d in the other two. */
-    Vec3 f = frame->forward;
-    vreal length = one / (f.x + f.y + f.z);
-    Vec3 direction =
-        vec3_pick(lt(zero, absolute(f.x)), vec3(one, -frame->across.x, -frame->upward.x),
-                  vec3_pick(lt(zero, absolute(f.y)), vec3(-frame->upward.y, one, -frame->across.y),
-                            vec3(-frame->across.z, -frame->upward.z, one)));
-    direction = vec3_scale(direction, length);
+    Vec3 direction = vec3_scale(vec3(-frame->across, -frame->upward, one), one / frame->forward);
     Vec3 to_b = vec3_sub(b, a), to_c = vec3_sub(c, a), from_a = vec3_sub(frame->origin, a);
     Vec3 p = vec3_cross(direction, to_c), q = vec3_cross(from_a, to_b);
     vreal determinant = vec3_dot(to_b, p), inverse = one / determinant;

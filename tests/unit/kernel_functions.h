@@ -500,13 +500,17 @@ static Vec3 splat_point(MeshPoint p) {
 /* How often each lane's ray enters and leaves in front of its origin. */
 static void count_crossings(MeshPoint (*mesh)[3], Vec3 origin, Vec3 direction, vint *entered,
                             vint *left) {
+    LastAxis last = nearest_axis(direction);
+    origin = turn(last, origin);
+    direction = turn(last, direction);
     RayFrame frame = ray_frame(origin, direction);
     Slabs slabs = ray_slabs(origin, direction, splat(R(1.0)));
     *entered = *left = splat_int(0);
     for (int i = 0; i < MESH_TRIANGLES; i++) {
         TriangleCrossing crossing;
-        vmask met = cross_triangle(&frame, &slabs, mask_all(), splat_point(mesh[i][0]),
-                                   splat_point(mesh[i][1]), splat_point(mesh[i][2]), &crossing);
+        vmask met = cross_triangle(&frame, &slabs, mask_all(), turn(last, splat_point(mesh[i][0])),
+                                   turn(last, splat_point(mesh[i][1])),
+                                   turn(last, splat_point(mesh[i][2])), &crossing);
         if (!any_lane(met))
             continue;
         met = met & le(splat(R(0.0)), crossing.t);
