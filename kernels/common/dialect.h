@@ -678,17 +678,6 @@ FN vint count_lanes(vint counts, vmask m) {
     return counts + pick_int(m, splat_int(1), splat_int(0));
 }
 
-/* Whether a bundle is worth filling with what concerns one ray alone. */
-#if HD_LANES == 1
-#define HD_LANES_ARE_ONE_REGISTER 0
-#elif defined(__OPENCL_C_VERSION__) || HD_REGISTER_512
-#define HD_LANES_ARE_ONE_REGISTER 1
-#elif defined(__AVX2__)
-#define HD_LANES_ARE_ONE_REGISTER (HD_LANES * (HD_DOUBLE + 1) <= 8)
-#else
-#define HD_LANES_ARE_ONE_REGISTER (HD_LANES * (HD_DOUBLE + 1) <= 4)
-#endif
-
 /* A bit for each lane of a mask, the first lane's the lowest. */
 #if HD_REGISTER_512
 FN uint lane_bits(vmask m) {
