@@ -85,8 +85,9 @@ def remarks(result):
 
 def head_lines(result):
     load = result["machine"]
-    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; targets for two cores "
-             f"on {result['few_cores']}; load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
+    few = f"targets for two cores on {result['few_cores']}; " if "few_cores" in result else ""
+    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; {few}"
+             f"load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
     lines += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
               for device in result["devices"]]
     if result["quick"]:
