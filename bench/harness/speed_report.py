@@ -6,6 +6,7 @@ import os
 from harness import gpu_peak, machine, report
 
 CORES = 2
+FEW_ROWS = 5
 
 
 def few_cores():
@@ -73,11 +74,14 @@ HEAD = ["what", "device", "least", "aim", "figure [q1..q3]", "unit", "to least",
 
 
 def remarks(result):
-    """What the table alone does not tell, each once, with the rows that it is about."""
+    """What the table alone does not tell, each once, with the rows that it is about; many rows by their
+    keys."""
     said = {}
     for row in result["rows"]:
         if row["reason"]:
-            said.setdefault(row["reason"], {})[row["what"].strip()] = True
+            alike = [each["what"] for each in result["rows"] if each["reason"] == row["reason"]]
+            name = row["what"].strip() if len(alike) <= FEW_ROWS else row["key"]
+            said.setdefault(row["reason"], {})[name] = True
         if row["note"]:
             said.setdefault(row["note"], {})[row["key"]] = True
     return [f"{', '.join(who)}: {words}" for words, who in said.items()]

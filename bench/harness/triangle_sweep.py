@@ -6,7 +6,8 @@ from statistics import median
 from harness import charts, report, summary, triangle_models
 from harness.speed_plan import Missing, Target
 
-COUNTS = tuple(10 ** power for power in range(2, 8))
+# The smallest are there for brute force, which is the faster one for a handful.
+COUNTS = (12, 30, *(10 ** power for power in range(2, 8)))
 BASE, MOST, TARGET = 1000, COUNTS[-1], Target(6, 3, False)
 WAYS = {"bvh": "hierarchy", "brute": "brute force"}
 # A GPU's frame of the CPUs' size is too short to be timed.
@@ -63,10 +64,14 @@ class Sweep:
             found.append(point)
         return found
 
+    def place(self, item):
+        label, way, count = item[0]
+        return list(self.runnable).index(label), list(WAYS).index(way), count
+
     def add_rows(self):
         for label in self.runnable:
             self.add_growth(label)
-        for (label, way, count), job in sorted(self.jobs.items()):
+        for (label, way, count), job in sorted(self.jobs.items(), key=self.place):
             self.plan.row("sweep", f"  a frame by {WAYS[way]}, {triangle_models.words(count)} triangles", "ms",
                           lambda job=job: self.plan.trace_ms(job), device=label)
 
@@ -106,8 +111,8 @@ def crossover(brute, tree):
         return f"below {math.exp(gaps[0][0]):,.0f}"
     for (x, gap), (next_x, next_gap) in zip(gaps, gaps[1:]):
         if next_gap >= 0:
-            return f"about {float(f'{math.exp(x - gap * (next_x - x) / (next_gap - gap)):.2g}'):,.0f}"
-    return f"above {math.exp(gaps[-1][0]):,.0f}"
+            return f"at about {float(f'{math.exp(x - gap * (next_x - x) / (next_gap - gap)):.2g}'):,.0f}"
+    return f"beyond {math.exp(gaps[-1][0]):,.0f}"
 
 
 def growth_words(label, tree):
@@ -123,7 +128,7 @@ def caption(points, labels):
     crossed = {label: crossover(line(points, label, "brute"), line(points, label, "bvh")) for label in labels}
     sentences = [f"{words} with the hierarchy." for words in grown if words]
     if any(crossed.values()):
-        sentences.append("Both ways take the same time at " + ", ".join(
+        sentences.append("Brute force and the hierarchy cross " + ", ".join(
             f"{words} triangles on {label}" for label, words in crossed.items() if words) + ".")
     return " ".join([*sentences, "Points are medians; the first frame of each run does not count."])
 
@@ -150,15 +155,15 @@ def chart(result):
     labels = list(dict.fromkeys(each["device"] for each in measured))
     data, parts = plots(result, labels)
     times = [each["trace_ms"]["median"] for each in measured]
-    ticks = ", ".join(f"'{triangle_models.words(count)}' {count}" for count in COUNTS)
+    ticks = ", ".join(f"'{triangle_models.words(10 ** power)}' {10 ** power}" for power in range(1, 8))
     commands = charts.style(result, "Time of a frame against the number of triangles", caption(measured, labels),
                             len(parts))
     commands += [
         "set logscale xy",
-        f"set xrange [{COUNTS[0] / 1.5}:{COUNTS[-1] * 1.5}]",
+        f"set xrange [{COUNTS[0] / 1.5!r}:{COUNTS[-1] * 1.5!r}]",
         f"set yrange [{min(times) / 1.5!r}:{max(times) * 1.5!r}]",
         "set xlabel 'triangles (logarithmic)'",
-        "set ylabel 'milliseconds of tracing for each frame (logarithmic)'",
+        "set ylabel 'milliseconds for each frame (logarithmic)'",
         f"set xtics ({ticks})",
         "set format y '%g'",
         f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {len(parts)} Left reverse noenhanced "
