@@ -121,8 +121,8 @@ class Rows:
             if least is None:
                 raise Missing(NO_RIVAL)
             return [100 * least[0]]
-        self.plan.row("rates", f"  rays that meet the same as Embree's, least, {triangle_models.words(count)} triangles",
-                      "%", figure)
+        self.plan.row("rates", f"  rays that meet the same as Embree's, least, {triangle_models.words(count)} "
+                      "triangles", "%", figure)
 
     def build(self):
         what = f"building, {triangle_models.words(BUILD_COUNT)} triangles"

@@ -95,7 +95,7 @@ def head_lines(result):
     lines += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
               for device in result["devices"]]
     if result["quick"]:
-        lines.append("QUICK: few frames and repeats, and large pictures scaled where a row says so.")
+        lines.append("QUICK: few frames and repeats; where a time is scaled, its row says so.")
     if result["hedron"]["options"]:
         lines.append(f"CHANGED by {' '.join(result['hedron']['options'])}: no figure answers to its target.")
     return lines
