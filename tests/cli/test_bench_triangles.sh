@@ -82,6 +82,24 @@ leaks and double hits of 2.39 M rays aimed at edges and corners, 16 renderers 3.
 leaks and double hits None None no driver
 ['opencl: 2 leaks and 1 double hits'] None" "$(cat leaks.py)"
 
+# ---- primary rays: the targets are those of an H200, and the first frame does not count
+cat >primary.py <<'PYTHON'
+from harness.primary_rays import PrimaryRays
+from harness.speed_plan import Plan, finish_row
+def told(name, is_cpu):
+    devices = {"x:0": {"name": name, "is_cpu": is_cpu}}
+    plan = Plan(devices, {"near-1000": "a file"})
+    study = PrimaryRays(plan, devices, [])
+    for job, runs in plan.runs.items():
+        runs.append({"frames": [{"rays": {"primary": 32e9}, "seconds": {"trace": each}} for each in (1, 4)]})
+    study.add_rows()
+    return [(row["figure"], row["least"], row["verdict"], row["reason"]) for row in map(finish_row, plan.rows)], [
+        "--size" in job.options for job in plan.runs]
+print(told("NVIDIA H200", False), told("a CPU", True), sep="\n")
+PYTHON
+expect_python "([(8.0, 5, 'least', None)], [False])
+([(8.0, None, None, None), (None, 5, None, 'no H200 here'), (None, 2, None, 'no H200 here')], [True])" "$(cat primary.py)"
+
 # ---- pictures of both ways must be the same
 expect_python False 'from harness.speed_plan import Plan, compare_pictures' 'plan = Plan({"c:0": {"strict": True}}, {})' \
     'for way in ("bvh", "brute"): plan.runs[plan.job("c:0", "a", "0", ("--accel", way))].append({"digests": {0: way}})' \
