@@ -53,6 +53,12 @@ class Plan:
         self.rows.append({"key": key, "what": what, "device": device, "unit": unit, "target": target,
                           "note": note, "figure": figure})
 
+    def absent(self, key, what, unit, target, reason):
+        """A row that has no figure here."""
+        def figure():
+            raise Missing(reason)
+        self.row(key, what, unit, figure, target=target)
+
     # ---- what rows ask for
 
     def done(self, job):
@@ -108,7 +114,7 @@ class Plan:
         """Every job once a round, so that a slow minute of the machine meets all of them."""
         for repeat in range(repeats):
             for place, job in enumerate(self.runs):
-                if self.reasons.get(job) or (job.slow and repeat > 0):
+                if self.reasons.get(job) or (job.slow and self.runs[job]):
                     continue
                 news(f"round {repeat + 1} of {repeats}, run {place + 1} of {len(self.runs)}: "
                      f"{job.device}, {job.scene} {' '.join(job.options)}")
@@ -122,6 +128,8 @@ def judge(target, value):
     """(ratio to least, ratio to aim, verdict); a ratio of 1 or more says that the target is met."""
     if target is None:
         return None, None, None
+    if target.least == 0:  # of what must not be at all, nothing is so many times as good
+        return None, None, "aim" if value == 0 else "missed"
     least, aim = [value / wanted if target.more_is_better else wanted / value for wanted in (target.least, target.aim)]
     return least, aim, "aim" if aim >= 1 else "least" if least >= 1 else "missed"
 
@@ -150,14 +158,14 @@ def finish_row(row, judged=True):
 
 def picture_groups(plan):
     """{what promises one picture: {digest: [job]}}: how rays are shared among threads, lanes and kernels
-    changes no byte."""
+    changes no byte, nor does how triangles are searched."""
     groups = {}
     for job, runs in plan.runs.items():
         options = " ".join(job.options)
         if job.output != PICTURES or "--math fast" in options or not plan.devices[job.device]["strict"]:
             continue
         words = list(job.options)
-        for free in ("--threads", "--pipeline"):
+        for free in ("--threads", "--pipeline", "--accel"):
             if free in words:
                 del words[words.index(free):words.index(free) + 2]
         for run in runs:

@@ -6,6 +6,7 @@ import os
 from harness import gpu_peak, machine, report
 
 CORES = 2
+FEW_ROWS = 5
 
 
 def few_cores():
@@ -73,11 +74,14 @@ HEAD = ["what", "device", "least", "aim", "figure [q1..q3]", "unit", "to least",
 
 
 def remarks(result):
-    """What the table alone does not tell, each once, with the rows that it is about."""
+    """What the table alone does not tell, each once, with the rows that it is about; many rows by their
+    keys."""
     said = {}
     for row in result["rows"]:
         if row["reason"]:
-            said.setdefault(row["reason"], {})[row["what"].strip()] = True
+            alike = [each["what"] for each in result["rows"] if each["reason"] == row["reason"]]
+            name = row["what"].strip() if len(alike) <= FEW_ROWS else row["key"]
+            said.setdefault(row["reason"], {})[name] = True
         if row["note"]:
             said.setdefault(row["note"], {})[row["key"]] = True
     return [f"{', '.join(who)}: {words}" for words, who in said.items()]
@@ -85,12 +89,13 @@ def remarks(result):
 
 def head_lines(result):
     load = result["machine"]
-    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; targets for two cores "
-             f"on {result['few_cores']}; load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
+    few = f"targets for two cores on {result['few_cores']}; " if "few_cores" in result else ""
+    lines = [f"hedron {result['hedron']['version']}, {report.machine_words(result)}; {few}"
+             f"load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
     lines += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
               for device in result["devices"]]
     if result["quick"]:
-        lines.append("QUICK: few frames and repeats, and large pictures scaled where a row says so.")
+        lines.append("QUICK: few frames and repeats; where a time is scaled, its row says so.")
     if result["hedron"]["options"]:
         lines.append(f"CHANGED by {' '.join(result['hedron']['options'])}: no figure answers to its target.")
     return lines

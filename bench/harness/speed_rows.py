@@ -58,18 +58,13 @@ class Rows:
         return next((label for label, device in self.runnable.items()
                      if device["backend"] == backend and device["is_cpu"]), None)
 
-    def absent(self, key, what, unit, target, reason):
-        def figure():
-            raise Missing(reason)
-        self.plan.row(key, what, unit, figure, target=target)
-
     # ---- frames
 
     def headline_film(self):
         what, target = "headline, frames going to an mp4", Target(12, 30)
         device = self.cpu("c")
         if device is None:
-            return self.absent("headline_film", what, "frames/s", target, "the C backend is left out")
+            return self.plan.absent("headline_film", what, "frames/s", target, "the C backend is left out")
         short, long = [self.job(device, "headline", f"0-{count}", output="film.mp4", few_cores=True)
                        for count in self.film_lengths()]
 
@@ -95,7 +90,7 @@ class Rows:
             self.plan.row(key, what, unit, lambda job=job, scale=scale: self.plan.trace_ms(job, scale),
                           device=label, target=target, note=note)
         if target_gpu is not None and not any(is_h200(device) for device in self.runnable.values()):
-            self.absent(key, what, unit, target_gpu, f"no {H200} here")
+            self.plan.absent(key, what, unit, target_gpu, f"no {H200} here")
 
     def headline(self):
         self.tracing("headline", "headline", "headline, tracing only", (), Target(1, 0.4, False),
@@ -116,7 +111,7 @@ class Rows:
         """Of whole runs, by the processor's time, so that a busy machine changes little."""
         device, what, target = self.cpu("c"), "unculled (point, light) pairs a CPU-second", Target(200, 500)
         if device is None:
-            return self.absent("pairs", what, "M/s", target, "the C backend is left out")
+            return self.plan.absent("pairs", what, "M/s", target, "the C backend is left out")
         for count in LIGHT_VIEWS:
             job = self.job(device, f"lights-{count}", "0,80,160", *light_view(count))
 
@@ -136,7 +131,7 @@ class Rows:
     def searches(self):
         device, what, target = self.cpu("c"), "closest-hit searches a CPU-second, coherent", Target(80, 150)
         if device is None:
-            return self.absent("searches", what, "M/s", target, "the C backend is left out")
+            return self.plan.absent("searches", what, "M/s", target, "the C backend is left out")
         self.plan.row("searches", f"{what}, bundles that meet a solid", "M/s", lambda: self.rate("search:meeting"),
                       device=device, target=target, note="the function alone; the target is for AVX-512")
         for name in ("primary", "missing", "mirrored", "inside", "solid_1", "solid_2", "solid_3"):
@@ -207,7 +202,7 @@ class Rows:
         target, plain, pocl = Target(1.25, 1, False), self.cpu("c"), self.cpu("opencl")
         what = "time on OpenCL's CPU against C"
         if plain is None or pocl is None:
-            return self.absent("pocl", what, "times", target, "one of the two is not here")
+            return self.plan.absent("pocl", what, "times", target, "one of the two is not here")
         for scene, options in self.compared_scenes().items():
             self.against("pocl", f"{what}, {scene}", pocl, scene, "0-3", options, plain, options, target)
         return None
@@ -221,7 +216,7 @@ class Rows:
     def pipelines(self):
         what = "time of wavefront against mega"
         if not self.has_pipelines:
-            return self.absent("pipelines", what, "times", None, "this hedron has no --pipeline")
+            return self.plan.absent("pipelines", what, "times", None, "this hedron has no --pipeline")
         for label in self.runnable:
             for scene, options in self.compared_scenes().items():
                 mega, wave = [(*options, "--pipeline", name) for name in PIPELINES]
