@@ -786,7 +786,7 @@ FN FourReals load_rows(const real *from, int stride, int count) {
     __m512 row[4];
     for (int i = 0; i < 4; i++) {
         const real *at = from + (i < count ? i : count - 1) * stride;
-        row[i] = _mm512_castps128_ps512(_mm_loadu_ps(at));
+        row[i] = _mm512_broadcast_f32x4(_mm_loadu_ps(at));
     }
     for (int quarter = 1; quarter < 4 && 4 * quarter < count; quarter++)
         for (int i = 0; i < 4; i++) {

@@ -194,9 +194,10 @@ FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *r
                                  splat_int(skin->filter[1][channel]));
             vint rest = pick_int(crossing->entering, splat_int(skin->filter_rest[0][channel]),
                                  splat_int(skin->filter_rest[1][channel]));
-            vint sum = found->octaves[channel] + pick_int(m, more, splat_int(0));
+            rest = found->rest[channel] + pick_int(m, rest, splat_int(0));
+            vint sum = found->octaves[channel] + pick_int(m, more, splat_int(0)) + (rest >> 24);
             found->octaves[channel] = pick_int(lt_int(sum, most), sum, most);
-            found->rest[channel] = found->rest[channel] + pick_int(m, rest, splat_int(0));
+            found->rest[channel] = rest & (HD_OCTAVE - 1);
         }
         vint opaque = pick_int(crossing->entering, splat_int(skin->filter[0][3]),
                                splat_int(skin->filter[1][3]));
@@ -412,9 +413,10 @@ FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, con
                 sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
                 rest += lane_int(&one.rest[channel], i);
             }
-            sum += lane_int(&found->octaves[channel], lane);
-            sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
             rest += lane_int(&found->rest[channel], lane);
+            sum += lane_int(&found->octaves[channel], lane) + (rest >> 24);
+            sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+            rest &= HD_OCTAVE - 1;
             found->octaves[channel] = pick_int(m, splat_int(sum), found->octaves[channel]);
             found->rest[channel] = pick_int(m, splat_int(rest), found->rest[channel]);
         }
@@ -441,12 +443,10 @@ typedef struct {
     int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
 } Beam;
 
-FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, const Way *way) {
-    int negative = way->entry[axis];
+FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, const Way *way,
+                   real slack) {
     real least = least_lane(origin, m), greatest = greatest_lane(origin, m);
-    real far_out = -least < greatest ? greatest : -least;
-    /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
-    real slack = (far_out + R(1.0)) * (R(2.0) * SLAB_MARGIN);
+    int negative = way->entry[axis];
     beam->first[axis] = splat(negative ? least - slack : greatest + slack);
     beam->last[axis] = splat(negative ? greatest + slack : least - slack);
     beam->least[axis] = splat(least_lane(inverse, m));
@@ -456,10 +456,15 @@ FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, c
 }
 
 FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {
+    Vec3 origin = rays->frame.origin, inverse = rays->slabs.inverse;
+    real far_out = greatest_lane(
+        greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z))), m);
+    /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
+    real slack = (far_out + R(1.0)) * (R(2.0) * SLAB_MARGIN);
     Beam beam;
-    bound_axis(&beam, 0, rays->frame.origin.x, rays->slabs.inverse.x, m, way);
-    bound_axis(&beam, 1, rays->frame.origin.y, rays->slabs.inverse.y, m, way);
-    bound_axis(&beam, 2, rays->frame.origin.z, rays->slabs.inverse.z, m, way);
+    bound_axis(&beam, 0, origin.x, inverse.x, m, way, slack);
+    bound_axis(&beam, 1, origin.y, inverse.y, m, way, slack);
+    bound_axis(&beam, 2, origin.z, inverse.z, m, way, slack);
     return beam;
 }
 
@@ -519,10 +524,10 @@ FN void walk_wide(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
         GLOBAL const real *bounds = wide_bounds + (uint64)current * (6 * HD_LANES);
         vreal entry = greater(beam_entry(&beam, bounds, 0), beam_entry(&beam, bounds, 1));
         entry = greater(entry, greater(beam_entry(&beam, bounds, 2), splat(R(0.0))));
-        vreal exit = lesser(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
-        exit = lesser(exit, lesser(beam_exit(&beam, bounds, 2), furthest));
+        vreal leave = lesser(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
+        leave = lesser(leave, lesser(beam_exit(&beam, bounds, 2), furthest));
         int bottom = waiting;
-        for (uint left = lane_bits(le(entry, exit)); left; left &= left - 1) {
+        for (uint left = lane_bits(le(entry, leave)); left; left &= left - 1) {
             int child = lowest_bit(left);
             vreal near = ray_entry(&beam, bounds + child, &rays->slabs);
             vreal far = lesser(ray_exit(&beam, bounds + child, &rays->slabs), found->limit);

@@ -241,6 +241,13 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
     }
 }
 
+/* Triangles of less than half of this area are smaller than the rounding of their corners. */
+#if HD_DOUBLE
+#define LEAST_AREA R(1e-30)
+#else
+#define LEAST_AREA R(1e-15)
+#endif
+
 /* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
    the reach of rounding from an edge, rays leave it from a little further inside: one that starts
    at an edge might be on the wrong side of both its triangles, and miss both. */
@@ -249,7 +256,7 @@ FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes 
     Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
     Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
     vreal least = splat(instance->contact_squared * R(0.25));
-    vreal area = greater(vec3_dot(normal, normal), splat(R(1e-30))); /* squared */
+    vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
     vreal a = crossing->a, b = crossing->b, c = crossing->c;
     vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
     vreal margin_b = vec3_dot(to_c, to_c) * least, margin_c = vec3_dot(to_b, to_b) * least;
