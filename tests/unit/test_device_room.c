@@ -12,7 +12,15 @@
 #include "expect.h"
 #include "self_test_scenes.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/* Sanitizers take more of the address space than this test leaves. gcc tells of them by macros,
+   clang by features. */
+#if defined(__has_feature)
+#define HAS_FEATURE(name) __has_feature(name)
+#else
+#define HAS_FEATURE(name) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) ||                               \
+    HAS_FEATURE(address_sanitizer) || HAS_FEATURE(thread_sanitizer)
 #define HAS_SANITIZER true
 #else
 #define HAS_SANITIZER false
