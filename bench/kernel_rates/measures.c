@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "measures.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "processor_time.h"
 #include "scene_file.h"
 
 enum { PEAK_ROUNDS = 1 << 16 };
@@ -79,12 +78,6 @@ double hd_measure_run(const HdMeasure *measure) {
     }
     kept = sum;
     return done;
-}
-
-double hd_processor_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 double hd_measure_rate(const HdMeasure *measure, double seconds) {

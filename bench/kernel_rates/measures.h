@@ -32,10 +32,6 @@ void hd_loop_scene_free(HdLoopScene *scene);
 /* Does the measure's work once, and returns how much it was, in its unit. */
 double hd_measure_run(const HdMeasure *measure);
 
-/* The processor time of this thread: what others do to the machine is not in it, but for caches and
-   clocks. */
-double hd_processor_seconds(void);
-
 /* Its work for a second of the processor's time, from at least `seconds` of it. */
 double hd_measure_rate(const HdMeasure *measure, double seconds);
 

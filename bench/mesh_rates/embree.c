@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Embree 3, by its packets, streams and single rays. */
-#define _POSIX_C_SOURCE 200809L
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "../kernel_rates/processor_time.h"
 #include "rival.h"
 
 struct HdRival {
@@ -47,12 +46,6 @@ static void filter_light(const struct RTCFilterFunctionNArguments *call) {
     }
 }
 
-static double process_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 HdRival *hd_rival_create(const HdObject *object, int threads) {
     char setting[32];
     HdRival *rival = calloc(1, sizeof *rival);
@@ -81,9 +74,9 @@ HdRival *hd_rival_create(const HdObject *object, int threads) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(rival->scene, geometry);
     rtcReleaseGeometry(geometry);
-    double begin = process_seconds();
+    double begin = hd_processors_seconds();
     rtcCommitScene(rival->scene);
-    rival->build_seconds = process_seconds() - begin;
+    rival->build_seconds = hd_processors_seconds() - begin;
     return rival;
 }
 

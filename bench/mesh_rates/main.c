@@ -10,14 +10,13 @@
      built TRIANGLES WHO CPU_SECONDS           the hierarchy, on all threads, a line for each round
 
    Ends with 0, 1 where there is too little memory, 2 where it is called wrongly. */
-#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "../../cpu/instruction_set.h"
+#include "../kernel_rates/processor_time.h"
 #include "rival.h"
 #include "thread_pool.h"
 #include "walks.h"
@@ -51,12 +50,6 @@ static const HdWalks *find_build(void) {
     return builds[i];
 }
 
-static double processor_seconds(clockid_t clock) {
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* ---- rates ---- */
 
 /* One search, by hedron or by a way of the rival's. */
@@ -75,11 +68,11 @@ static void search(const Searcher *searcher, const HdRays *rays, HdHits *hits) {
 }
 
 static double rate(const Searcher *searcher, const HdRays *rays, HdHits *hits, double seconds) {
-    double start = processor_seconds(CLOCK_THREAD_CPUTIME_ID), end = start, done = 0;
+    double start = hd_processor_seconds(), end = start, done = 0;
     while (end - start < seconds) {
         search(searcher, rays, hits);
         done += rays->count;
-        end = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+        end = hd_processor_seconds();
     }
     return done / (end - start);
 }
@@ -164,9 +157,9 @@ static bool build_again(HdMesh *mesh, int threads, double *seconds) {
     if (hd_thread_pool_create(&pool, threads, &error) != HD_OK)
         return false;
     hd_hierarchy_free(&mesh->tree);
-    double begin = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double begin = hd_processors_seconds();
     bool done = hd_mesh_build(mesh, pool, &error) == HD_OK;
-    *seconds = processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - begin;
+    *seconds = hd_processors_seconds() - begin;
     hd_thread_pool_destroy(pool);
     return done;
 }

@@ -7,98 +7,67 @@
 #include <string.h>
 
 #include "../../kernels/common/scene_tables.h"
+#include "../../tests/conformance/mesh_builder.h"
 #include "thread_pool.h"
-#include "trigonometry.h"
 
+const double hd_object_tangent = 0.6;
 const double hd_object_filter[3] = {0.9, 0.6, 0.3};
 
 static const double shell_radius = 4.0;
 
-/* A globe of `rows` rings, added to a mesh that has room for it. */
-typedef struct Globe {
-    int rows, columns, first_vertex;
-    double radius, bump;
-    bool inward; /* its outer side is the inner one */
-} Globe;
-
-static int32_t vertex_at(const Globe *globe, int row, int column) {
-    if (row == 0 || row == globe->rows)
-        return globe->first_vertex + (row == 0 ? 0 : 1);
-    return globe->first_vertex + 2 + (row - 1) * globe->columns + column % globe->columns;
+static HdMaterial material_of(double red, double green, double blue, double transmission) {
+    return (HdMaterial){.colour = hd_vec3(red, green, blue),
+                        .mirror_tint = hd_vec3(1.0, 1.0, 1.0),
+                        .diffuse = 1.0,
+                        .shininess = 1,
+                        .transmission = transmission,
+                        .index_of_refraction = 1.0};
 }
 
-static HdVec3 point_at(const Globe *globe, int row, int column) {
-    double polar_sine, polar_cosine, sine, cosine, wave, other_wave, unused;
-    hd_sine_cosine(HD_PI * row / globe->rows, &polar_sine, &polar_cosine);
-    hd_sine_cosine(2.0 * HD_PI * column / globe->columns, &sine, &cosine);
-    hd_sine_cosine(10.0 * HD_PI * column / globe->columns, &wave, &unused);
-    hd_sine_cosine(4.0 * HD_PI * row / globe->rows, &other_wave, &unused);
-    double radius =
-        globe->radius * (1.0 + globe->bump * wave * other_wave * polar_sine * polar_sine);
-    return hd_scale(hd_vec3(polar_sine * cosine, polar_sine * sine, polar_cosine), radius);
+/* Adds a mesh, larger by `scale`, whose outer side becomes the inner one; with a material of its
+   own. */
+static void take_in(HdMesh *mesh, const HdMesh *other, double scale) {
+    for (int i = 0; i < other->vertex_count; i++)
+        mesh->vertices[mesh->vertex_count + i] = hd_scale(other->vertices[i], scale);
+    for (int i = 0; i < other->triangle_count; i++) {
+        int32_t *corners = mesh->corners[mesh->triangle_count + i];
+        for (int k = 0; k < 3; k++)
+            corners[k] = other->corners[i][2 - k] + mesh->vertex_count;
+        mesh->material_of[mesh->triangle_count + i] = mesh->material_count;
+    }
+    mesh->materials[mesh->material_count++] = other->materials[0];
+    mesh->vertex_count += other->vertex_count;
+    mesh->triangle_count += other->triangle_count;
 }
 
-static void add_triangle(HdMesh *mesh, const Globe *globe, int32_t a, int32_t b, int32_t c) {
-    int32_t *corners = mesh->corners[mesh->triangle_count];
-    mesh->material_of[mesh->triangle_count++] = globe->inward;
-    corners[0] = a;
-    corners[1] = globe->inward ? c : b;
-    corners[2] = globe->inward ? b : c;
-}
-
-static void add_globe(HdMesh *mesh, const Globe *globe) {
-    for (int row = 0; row <= globe->rows; row++)
-        for (int column = 0; column < globe->columns; column++) {
-            int32_t here = vertex_at(globe, row, column);
-            mesh->vertices[here] = point_at(globe, row, column);
-            if (row == globe->rows)
-                continue;
-            int32_t below = vertex_at(globe, row + 1, column);
-            int32_t beside = vertex_at(globe, row + 1, column + 1);
-            if (row < globe->rows - 1)
-                add_triangle(mesh, globe, here, below, beside);
-            if (row > 0)
-                add_triangle(mesh, globe, here, beside, vertex_at(globe, row, column + 1));
-        }
-    mesh->vertex_count += 2 + (globe->rows - 1) * globe->columns;
+/* Room for a second mesh as large. */
+static bool make_room(HdMesh *mesh) {
+    size_t vertices = 2 * (size_t)mesh->vertex_count, triangles = 2 * (size_t)mesh->triangle_count;
+    HdVec3 *places = realloc(mesh->vertices, vertices * sizeof *places);
+    mesh->vertices = places != NULL ? places : mesh->vertices;
+    int32_t(*corners)[3] = realloc(mesh->corners, triangles * sizeof *corners);
+    mesh->corners = corners != NULL ? corners : mesh->corners;
+    HdMeshMaterial *materials = realloc(mesh->materials, 2 * sizeof *materials);
+    mesh->materials = materials != NULL ? materials : mesh->materials;
+    mesh->material_of = calloc(triangles, sizeof *mesh->material_of);
+    return places != NULL && corners != NULL && materials != NULL && mesh->material_of != NULL;
 }
 
 static bool fill_mesh(HdMesh *mesh, int triangles) {
+    const double *filter = hd_object_filter;
+    HdMaterial glass = material_of(filter[0], filter[1], filter[2], 1.0);
+    HdMaterial white = material_of(1.0, 1.0, 1.0, 0.0);
+    HdMesh shell = {0};
     int rows = 2;
     while (8 * rows * rows <= triangles)
         rows++;
-    const int columns = 2 * rows;
-    size_t vertices = 2 * (2 + (size_t)(rows - 1) * (size_t)columns);
-    size_t most = 4 * (size_t)columns * (size_t)rows;
-    mesh->vertices = malloc(vertices * sizeof *mesh->vertices);
-    mesh->corners = malloc(most * sizeof *mesh->corners);
-    mesh->material_of = malloc(most * sizeof *mesh->material_of);
-    mesh->materials = calloc(2, sizeof *mesh->materials);
-    if (mesh->vertices == NULL || mesh->corners == NULL || mesh->material_of == NULL ||
-        mesh->materials == NULL)
-        return false;
-    Globe globe = {.rows = rows, .columns = columns, .radius = 1.0, .bump = 0.2};
-    add_globe(mesh, &globe);
-    globe = (Globe){.rows = rows,
-                    .columns = columns,
-                    .first_vertex = mesh->vertex_count,
-                    .radius = shell_radius,
-                    .inward = true};
-    add_globe(mesh, &globe);
-    mesh->material_count = 2;
-    for (int i = 0; i < 2; i++) {
-        HdMeshMaterial *material = &mesh->materials[i];
-        *material = (HdMeshMaterial){.picture = -1, .passes_as = -1};
-        material->material = (HdMaterial){.colour = hd_vec3(1.0, 1.0, 1.0),
-                                          .mirror_tint = hd_vec3(1.0, 1.0, 1.0),
-                                          .diffuse = 1.0,
-                                          .shininess = 1,
-                                          .index_of_refraction = 1.0};
-    }
-    mesh->materials[0].material.transmission = 1.0;
-    mesh->materials[0].material.colour =
-        hd_vec3(hd_object_filter[0], hd_object_filter[1], hd_object_filter[2]);
-    return true;
+    build_sphere_mesh(mesh, rows, 0.2, false, false, &glass);
+    build_sphere_mesh(&shell, rows, 0.0, false, false, &white);
+    bool done = make_room(mesh);
+    if (done)
+        take_in(mesh, &shell, shell_radius);
+    hd_mesh_free(&shell);
+    return done;
 }
 
 static HdStatus build(HdMesh *mesh, HdError *error) {
@@ -162,7 +131,7 @@ bool hd_object_create(HdObject *object, int triangles, int lanes) {
                        .forward = hd_vec3(0.0, 1.0, 0.0),
                        .right = hd_vec3(1.0, 0.0, 0.0),
                        .up = hd_vec3(0.0, 0.0, 1.0),
-                       .tangent_of_half_fov = 0.6};
+                       .tangent_of_half_fov = hd_object_tangent};
     memset(object, 0, sizeof *object);
     HdScene *scene = &object->scene;
     if (begin_scene(scene, triangles) && build(&scene->meshes[0], &error) == HD_OK &&

@@ -23,6 +23,9 @@ typedef struct HdObject {
 bool hd_object_create(HdObject *object, int triangles, int lanes);
 void hd_object_free(HdObject *object);
 
+/* Of half the view's angle. */
+extern const double hd_object_tangent;
+
 /* What the sphere lets pass at each crossing. */
 extern const double hd_object_filter[3];
 

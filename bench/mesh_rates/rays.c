@@ -72,7 +72,7 @@ static int every_other_bit(int number) {
 }
 
 void hd_rays_look(HdRays *rays, const HdObject *object, int side) {
-    const double tangent = 0.6;
+    const double tangent = hd_object_tangent;
     for (int i = 0; i < rays->count; i++) {
         double x = (every_other_bit(i) + 0.5) / side, y = (every_other_bit(i >> 1) + 0.5) / side;
         HdVec3 direction = hd_vec3((2.0 * x - 1.0) * tangent, 1.0, (1.0 - 2.0 * y) * tangent);

@@ -6,7 +6,7 @@
 
 #include "../../cpu/kernel_tables.h"
 #include "../../kernels/common/wavefront.h"
-#include "../kernel_rates/measures.h"
+#include "../kernel_rates/processor_time.h"
 
 /* A level's rays: up to two runs of places. */
 typedef struct Queue {

@@ -638,7 +638,19 @@ typedef struct {
 } FourWords;
 
 #if HD_REGISTER_512 && !HD_DOUBLE
-/* Four lanes to a register, then the 4 x 4 words of each quarter are transposed. */
+/* Of the 4 x 4 words in each quarter of the registers. */
+FN FourWords transpose_quarters(const __m512i row[4]) {
+    __m512i a = _mm512_unpacklo_epi32(row[0], row[1]), b = _mm512_unpacklo_epi32(row[2], row[3]);
+    __m512i c = _mm512_unpackhi_epi32(row[0], row[1]), d = _mm512_unpackhi_epi32(row[2], row[3]);
+    FourWords words;
+    words.word[0] = (vint)_mm512_unpacklo_epi64(a, b);
+    words.word[1] = (vint)_mm512_unpackhi_epi64(a, b);
+    words.word[2] = (vint)_mm512_unpacklo_epi64(c, d);
+    words.word[3] = (vint)_mm512_unpackhi_epi64(c, d);
+    return words;
+}
+
+/* Four lanes to a register. */
 FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
     __m512i lanes[4];
     for (int i = 0; i < 4; i++) {
@@ -648,16 +660,7 @@ FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
         lanes[i] =
             _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 12])), 3);
     }
-    __m512i a = _mm512_unpacklo_epi32(lanes[0], lanes[1]);
-    __m512i b = _mm512_unpacklo_epi32(lanes[2], lanes[3]);
-    __m512i c = _mm512_unpackhi_epi32(lanes[0], lanes[1]);
-    __m512i d = _mm512_unpackhi_epi32(lanes[2], lanes[3]);
-    FourWords words;
-    words.word[0] = (vint)_mm512_unpacklo_epi64(a, b);
-    words.word[1] = (vint)_mm512_unpackhi_epi64(a, b);
-    words.word[2] = (vint)_mm512_unpacklo_epi64(c, d);
-    words.word[3] = (vint)_mm512_unpackhi_epi64(c, d);
-    return words;
+    return transpose_quarters(lanes);
 }
 #else
 FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
@@ -755,12 +758,14 @@ typedef struct {
 } FourReals;
 
 #if HD_REGISTER_512 && !HD_DOUBLE
-FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
-    FourWords words = fetch_four_words((const void *)table, index);
+FN FourReals reals_of(FourWords words) {
     FourReals reals;
     for (int i = 0; i < 4; i++)
         reals.number[i] = from_bits(words.word[i]);
     return reals;
+}
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    return reals_of(fetch_four_words((const void *)table, index));
 }
 #else
 FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
@@ -782,44 +787,23 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
 #if HD_LANES > 1
 #if HD_REGISTER_512 && !HD_DOUBLE
 FN FourReals load_rows(const real *from, int stride, int count) {
-    FourReals reals;
-    __m512 row[4];
+    __m512i row[4];
     for (int i = 0; i < 4; i++) {
         const real *at = from + (i < count ? i : count - 1) * stride;
-        row[i] = _mm512_broadcast_f32x4(_mm_loadu_ps(at));
+        row[i] = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
     }
     for (int quarter = 1; quarter < 4 && 4 * quarter < count; quarter++)
         for (int i = 0; i < 4; i++) {
             int k = 4 * quarter + i;
-            __m128 more = _mm_loadu_ps(from + (k < count ? k : count - 1) * stride);
-            row[i] = quarter == 1   ? _mm512_insertf32x4(row[i], more, 1)
-                     : quarter == 2 ? _mm512_insertf32x4(row[i], more, 2)
-                                    : _mm512_insertf32x4(row[i], more, 3);
+            const real *at = from + (k < count ? k : count - 1) * stride;
+            __m512i more = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
+            row[i] = _mm512_mask_mov_epi32(row[i], (__mmask16)(0xf << 4 * quarter), more);
         }
-    __m512 a = _mm512_unpacklo_ps(row[0], row[1]), b = _mm512_unpacklo_ps(row[2], row[3]);
-    __m512 c = _mm512_unpackhi_ps(row[0], row[1]), d = _mm512_unpackhi_ps(row[2], row[3]);
-    reals.number[0] =
-        (vreal)_mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
-    reals.number[1] =
-        (vreal)_mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
-    reals.number[2] =
-        (vreal)_mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(c), _mm512_castps_pd(d)));
-    reals.number[3] =
-        (vreal)_mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(c), _mm512_castps_pd(d)));
-    return reals;
+    return reals_of(transpose_quarters(row));
 }
 #else
 FN FourReals load_rows(GLOBAL const real *from, int stride, int count) {
-    real rows[4][HD_LANES];
-    FourReals reals;
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        GLOBAL const real *row = from + (lane < count ? lane : count - 1) * stride;
-        for (int i = 0; i < 4; i++)
-            rows[i][lane] = row[i];
-    }
-    for (int i = 0; i < 4; i++)
-        reals.number[i] = gather_reals(rows[i]);
-    return reals;
+    return fetch_four_reals(from, least_int(lane_numbers(), splat_int(count - 1)) * stride);
 }
 #endif
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The search of one mesh by a bundle of rays: for the closest hit, or for all that filters light.
 
-   Rays that run the same way share a walk through the hierarchy's nodes. Where few do, each lane's
-   ray walks by itself through the wide nodes, and the lanes are a node's children and a leaf's
-   triangles. What is found does not depend on the way. */
+   Rays that run the same way share a walk through the hierarchy. A bundle's nodes are wide: the
+   lanes are a node's children, which all rays of a walk are tested against at once; where few rays
+   are left each walks by itself, and the lanes are a leaf's triangles too. A single lane's nodes
+   have two children. What is found does not depend on the way. */
 #ifndef HD_MESH_SEARCH_H
 #define HD_MESH_SEARCH_H
 
@@ -259,6 +260,11 @@ FN void prefetch_place(SCENE_PARAMETERS int place) {
                    HD_LANES * (int)sizeof(int));
 }
 
+/* Where the bounds of an axis begin in a wide node, those of one side each. */
+FN int place_of_bounds(const int side[3], const Way *way, int axis) {
+    return (3 * side[axis] + way->axis[axis]) * HD_LANES;
+}
+
 /* ---- a ray by itself ---- */
 
 FN vreal spread_real(vreal a, int lane) {
@@ -349,8 +355,8 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const 
     real stack_near[WIDE_STACK];
     int lower[3], upper[3];
     for (int axis = 0; axis < 3; axis++) {
-        lower[axis] = (3 * way->entry[axis] + way->axis[axis]) * HD_LANES;
-        upper[axis] = (3 * way->exit[axis] + way->axis[axis]) * HD_LANES;
+        lower[axis] = place_of_bounds(way->entry, way, axis);
+        upper[axis] = place_of_bounds(way->exit, way, axis);
     }
     int waiting = 1;
     stack[0] = root;
@@ -451,8 +457,8 @@ FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, c
     beam->last[axis] = splat(negative ? greatest + slack : least - slack);
     beam->least[axis] = splat(least_lane(inverse, m));
     beam->greatest[axis] = splat(greatest_lane(inverse, m));
-    beam->entry[axis] = (3 * way->entry[axis] + way->axis[axis]) * HD_LANES;
-    beam->exit[axis] = (3 * way->exit[axis] + way->axis[axis]) * HD_LANES;
+    beam->entry[axis] = place_of_bounds(way->entry, way, axis);
+    beam->exit[axis] = place_of_bounds(way->exit, way, axis);
 }
 
 FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {

@@ -248,21 +248,9 @@ static void check_device(const HdDevice *device, const Options *options, Golden 
 static void check_backend(const HdBackend *backend, const Options *options, Golden *golden,
                           Tally *tally) {
     HdDevice devices[HD_MAX_DEVICES];
-    HdError error;
-    int count = 0;
-    HdStatus status = backend->enumerate(devices, HD_MAX_DEVICES, &count, &error);
-    if (status != HD_OK)
-        printf("skip            %s: %s\n", backend->name, error.message);
-    for (int i = 0; status == HD_OK && i < count; i++)
-        check_device(&devices[i], options, golden, tally);
-}
-
-/* The index of the name, or -1. */
-static int choose(const char *name, const char *const *names, int count) {
+    int count = find_devices(backend, devices);
     for (int i = 0; i < count; i++)
-        if (strcmp(name, names[i]) == 0)
-            return i;
-    return -1;
+        check_device(&devices[i], options, golden, tally);
 }
 
 static bool parse_option(Options *options, const char *name, const char *value) {

@@ -3,11 +3,28 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);
     fprintf(stderr, "%s: %s\n", what, error->message);
     exit(1);
+}
+
+int choose(const char *name, const char *const *names, int count) {
+    for (int i = 0; i < count; i++)
+        if (strcmp(name, names[i]) == 0)
+            return i;
+    return -1;
+}
+
+int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]) {
+    HdError error;
+    int count = 0;
+    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, &error) == HD_OK)
+        return count;
+    printf("skip            %s: %s\n", backend->name, error.message);
+    return 0;
 }
 
 static int greater(int a, int b) {

@@ -184,26 +184,14 @@ static void hunt_device(const HdDevice *device, HdPrecision precision, const Opt
 
 static void hunt_backend(const HdBackend *backend, const Options *options, Total *total) {
     HdDevice devices[HD_MAX_DEVICES];
-    HdError error;
-    int count = 0;
-    HdStatus status = backend->enumerate(devices, HD_MAX_DEVICES, &count, &error);
-    if (status != HD_OK)
-        printf("skip %s: %s\n", backend->name, error.message);
-    for (int i = 0; status == HD_OK && i < count; i++)
+    int count = find_devices(backend, devices);
+    for (int i = 0; i < count; i++)
         for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
             if (options->precision == ALL || options->precision == p)
                 hunt_device(&devices[i], (HdPrecision)p, options, total);
 }
 
 /* ---- the command line ---- */
-
-/* The index of the name, or -1. */
-static int choose(const char *name, const char *const *names, int count) {
-    for (int i = 0; i < count; i++)
-        if (strcmp(name, names[i]) == 0)
-            return i;
-    return -1;
-}
 
 static bool parse_rays(const char *text, double *rays) {
     char *end;
