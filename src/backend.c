@@ -137,6 +137,16 @@ static HdKernelCache *kernels_of(const HdRenderer *renderer) {
     return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
 }
 
+/* Compilers err most where they optimise most. */
+static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables *tables,
+                                      HdError *error) {
+    const HdBackend *backend = renderer->backend;
+    HdStatus status = backend->upload(renderer->state, tables, error);
+    return status == HD_OK
+               ? hd_self_test(backend, renderer->state, &renderer->device, tables, error)
+               : status;
+}
+
 /* The tables are on the device. If its kernels are new, they prove themselves first. */
 static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tables,
                                  HdError *error) {
@@ -147,6 +157,8 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
         return HD_OK;
     if (renderer->options.math == HD_MATH_STRICT) {
         status = hd_self_test(backend, renderer->state, &renderer->device, tables, error);
+        if (status == HD_UNAVAILABLE && backend->be_cautious(renderer->state))
+            status = test_cautious_kernels(renderer, tables, error);
         if (status == HD_OK)
             status = backend->upload(renderer->state, tables, error);
     }

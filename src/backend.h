@@ -111,6 +111,11 @@ struct HdBackend {
        where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
+    /* What the last upload compiled computes wrongly: the next uploads must compile with little
+       optimisation (HdKernelShape). False where they do so already. NULL instead of a function as
+       above. */
+    bool (*be_cautious)(void *renderer);
+
     /* The lanes of the kernels' bundles. NULL instead of a function: one. */
     int (*lanes)(const void *renderer);
 

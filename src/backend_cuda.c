@@ -388,8 +388,8 @@ static HdStatus compile(Renderer *renderer, HdError *error) {
     if (status != HD_OK)
         return status;
     snprintf(maker, sizeof maker, "NVRTC %d.%d", renderer->nvrtc.major, renderer->nvrtc.minor);
-    hd_kernel_cache_compiled(&renderer->kernels, hd_cuda_read_code, &renderer->code, maker,
-                             hd_monotonic_seconds() - start);
+    hd_kernel_cache_compiled(&renderer->kernels, &renderer->shape, hd_cuda_read_code,
+                             &renderer->code, maker, hd_monotonic_seconds() - start);
     return load_module(renderer, error);
 }
 
@@ -760,6 +760,11 @@ static HdKernelCache *cuda_kernels(void *state) {
     return &renderer->kernels;
 }
 
+static bool cuda_be_cautious(void *state) {
+    Renderer *renderer = state;
+    return hd_kernel_shape_be_cautious(&renderer->shape);
+}
+
 static void cuda_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     int length = snprintf(text, (size_t)capacity, "sm_%d, 1 lane of %s, blocks of %d threads, %s",
@@ -781,6 +786,7 @@ const HdBackend hd_backend_cuda = {
     .collect = cuda_collect,
     .drop = cuda_drop,
     .kernels = cuda_kernels,
+    .be_cautious = cuda_be_cautious,
     .describe = cuda_describe,
     .close = cuda_close,
 };

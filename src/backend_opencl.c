@@ -604,6 +604,11 @@ static int opencl_lanes(const void *state) {
     return renderer->shape.lanes;
 }
 
+static bool opencl_be_cautious(void *state) {
+    Renderer *renderer = state;
+    return hd_kernel_shape_be_cautious(&renderer->shape);
+}
+
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
@@ -626,6 +631,7 @@ const HdBackend hd_backend_opencl = {
     .collect = opencl_collect,
     .drop = opencl_drop,
     .kernels = opencl_kernels,
+    .be_cautious = opencl_be_cautious,
     .lanes = opencl_lanes,
     .describe = opencl_describe,
     .close = opencl_close,

@@ -59,6 +59,8 @@ void hd_cuda_options(char options[HD_CUDA_OPTIONS_LENGTH], int arch, const HdKer
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         length +=
             snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
+    if (shape->is_cautious)
+        snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " --ptxas-options=-O1");
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */
@@ -107,8 +109,9 @@ bool hd_cuda_find_cached(HdCudaCode *code, HdKernelCache *cache, int arch,
     char options[HD_CUDA_OPTIONS_LENGTH];
     unsigned char *cubin;
     const char *nvrtc = getenv("HEDRON_NVRTC");
+    const HdKernelShape wanted = hd_kernel_shape_in_cache(shape);
     *code = (HdCudaCode){0};
-    hd_cuda_options(options, arch, shape);
+    hd_cuda_options(options, arch, &wanted);
     if (!hd_kernel_cache_find(cache, shape, hd_cuda_source, hd_cuda_source_size, options,
                               nvrtc != NULL ? nvrtc : "", &cubin, &code->size))
         return false;

@@ -87,6 +87,12 @@ static void note_found(HdKernelCache *cache) {
 
 /* ---- finding and keeping ---- */
 
+HdKernelShape hd_kernel_shape_in_cache(const HdKernelShape *shape) {
+    HdKernelShape wanted = *shape;
+    wanted.is_cautious = false;
+    return wanted;
+}
+
 bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, const void *source,
                           size_t source_size, const char *options, const char *driver,
                           unsigned char **binary, size_t *size) {
@@ -124,10 +130,12 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
     add_note(cache, reason);
 }
 
-void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
-                              const char *maker, double seconds) {
+void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
+                              HdKernelReader *read, const void *context, const char *maker,
+                              double seconds) {
     char text[160];
-    snprintf(cache->maker, sizeof cache->maker, "%s", maker);
+    snprintf(cache->maker, sizeof cache->maker, "%s%s", maker,
+             shape->is_cautious ? " optimising little (fully, it computes wrongly)" : "");
     snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
              maker[0] != '\0' ? " by " : "", cache->maker);
     add_note(cache, text);

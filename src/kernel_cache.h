@@ -28,6 +28,10 @@ struct HdKernelCache {
     const void *context;            /* with this */
 };
 
+/* The shape whose options name the entry for `shape`: whatever passed the test in the end stands
+   for what was wanted, so that nothing is compiled in vain a second time. */
+HdKernelShape hd_kernel_shape_in_cache(const HdKernelShape *shape);
+
 /* For one device. There is nothing to free. */
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
 
@@ -41,10 +45,11 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, cons
 /* What was found is of no use: the driver refuses it, and the reason. The caller compiles. */
 void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason);
 
-/* The kernels that were not found are compiled, by `maker`. They are read once they are accepted:
-   a driver may have more to hand out when they have run. */
-void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
-                              const char *maker, double seconds);
+/* The kernels of `shape`, which were not found, are compiled, by `maker`. They are read once they
+   are accepted: a driver may have more to hand out when they have run. */
+void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
+                              HdKernelReader *read, const void *context, const char *maker,
+                              double seconds);
 
 /* The compiled kernels are in order: stores them, if that can be. */
 void hd_kernel_cache_accept(HdKernelCache *cache);

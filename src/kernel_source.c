@@ -81,6 +81,14 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
            a->lit_from_behind == b->lit_from_behind;
 }
 
+bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {
+    if (shape->is_cautious)
+        return false;
+    shape->is_cautious = true;
+    shape->needs = (HdKernelNeeds){0};
+    return true;
+}
+
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
              "built for up to %d planes and depth %d, %s refraction, %s, %s", needs->plane_bound,

@@ -32,6 +32,7 @@ typedef struct HdKernelShape {
     HdPrecision precision;
     HdMath math;
     int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
+    bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
@@ -59,6 +60,10 @@ int hd_kernel_bound(int count);
 /* What a scene needs, its numbers rounded up by hd_kernel_bound. */
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
+
+/* Makes a shape cautious and its needs those of no scene, so that the next upload compiles. False
+   where it is cautious already. */
+bool hd_kernel_shape_be_cautious(HdKernelShape *shape);
 
 /* One line for people. */
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);

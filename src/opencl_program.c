@@ -8,7 +8,12 @@
 
 enum { OPTIONS_LENGTH = 128 + HD_KERNEL_DEFINE_COUNT * (HD_KERNEL_DEFINE_LENGTH + 1) };
 
-static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *shape) {
+static const char *cautious_option(const HdOpenclDevice *device) {
+    return device->nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
+}
+
+static void write_options(char options[OPTIONS_LENGTH], const HdOpenclDevice *device,
+                          const HdKernelShape *shape) {
     char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
     hd_kernel_defines(shape, defines);
     int length = snprintf(options, OPTIONS_LENGTH, "-cl-std=CL1.2 %s",
@@ -17,8 +22,10 @@ static void write_options(char options[OPTIONS_LENGTH], const HdKernelShape *sha
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
         length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
     if (shape->register_limit > 0)
-        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, " -cl-nv-maxrregcount=%d",
-                 shape->register_limit);
+        length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length,
+                           " -cl-nv-maxrregcount=%d", shape->register_limit);
+    if (shape->is_cautious)
+        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, "%s", cautious_option(device));
 }
 
 static HdStatus fail_with_log(cl_program program, cl_device_id device, const char *name,
@@ -105,11 +112,12 @@ static HdStatus load(HdOpenclProgram *program, cl_context context, const HdOpenc
 }
 
 static bool load_cached(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
-                        const char *options, const HdKernelShape *shape, HdKernelCache *cache,
-                        HdError *error) {
-    char version[256];
+                        const HdKernelShape *shape, HdKernelCache *cache, HdError *error) {
+    const HdKernelShape wanted = hd_kernel_shape_in_cache(shape);
+    char options[OPTIONS_LENGTH], version[256];
     unsigned char *binary;
     size_t size;
+    write_options(options, device, &wanted);
     read_platform_version(device, version, sizeof version);
     if (!hd_kernel_cache_find(cache, shape, hd_opencl_source, hd_opencl_source_size, options,
                               version, &binary, &size))
@@ -144,13 +152,15 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
                          HdError *error) {
     char options[OPTIONS_LENGTH];
     *program = (HdOpenclProgram){0};
-    write_options(options, shape);
-    if (load_cached(program, context, device, options, shape, cache, error))
+    if (load_cached(program, context, device, shape, cache, error))
         return HD_OK;
+    write_options(options, device, shape);
     double start = hd_monotonic_seconds();
     HdStatus status = compile(program, context, device, name, options, shape, error);
     if (status == HD_OK)
-        hd_kernel_cache_compiled(cache, read_binary, program, "", hd_monotonic_seconds() - start);
+        hd_kernel_cache_compiled(cache, shape, read_binary, program,
+                                 shape->is_cautious ? "the driver" : "",
+                                 hd_monotonic_seconds() - start);
     else
         hd_opencl_program_free(program);
     return status;

@@ -132,8 +132,6 @@ FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first,
    that neighbour is met from the wrong side, nearby. */
 FN vmask is_spurious(const MeshRays *rays, const TriangleLanes *triangle, vmask m, vmask entering) {
     vmask wrong = m & rays->own & ~(entering ^ rays->inside);
-    if (!any_lane(wrong))
-        return wrong;
     Vec3 normal =
         vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
     vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));

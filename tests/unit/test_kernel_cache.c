@@ -159,10 +159,22 @@ static void wrong_kernels_are_an_error(void **state) {
     expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
     expect_contains(error.message, "the test frame 'solid' with the hash ");
     expect_contains(error.message, ", expected ");
-    assert_int_equal(fake.rendered, 1);
+    assert_int_equal(fake.rendered, 2); /* optimised fully, then little */
     fake.renders_wrongly = false;
     assert_int_equal(upload(), HD_OK); /* they were not kept */
+    expect_counts(3, 0);
+}
+
+static void wrong_kernels_are_compiled_again_with_little_optimisation(void **state) {
+    (void)state;
+    fake.renders_wrongly = fake.is_right_if_cautious = true;
+    assert_int_equal(upload(), HD_OK);
     expect_counts(2, 0);
+    expect_contains(note, "by nobody optimising little (fully, it computes wrongly); passed");
+    /* What passed is what is found the next time. */
+    assert_int_equal(upload(), HD_OK);
+    expect_counts(2, 1);
+    expect_contains(note, "made by nobody optimising little");
 }
 
 static void wrong_kernels_render_nothing(void **state) {
@@ -180,7 +192,7 @@ static void wrong_kernels_render_nothing(void **state) {
         assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_UNAVAILABLE);
         assert_int_equal(hd_renderer_render(renderer, &view, &frame, &error), HD_BAD_INPUT);
     }
-    expect_counts(1, 0);
+    expect_counts(2, 0);
     hd_renderer_close(renderer);
     hd_scene_tables_free(&tables);
     hd_scene_free(&scene);
@@ -235,6 +247,7 @@ int main(void) {
         TEST(what_a_driver_refuses_is_compiled_anew),
         TEST(without_a_folder_all_goes_on),
         TEST(wrong_kernels_are_an_error),
+        TEST(wrong_kernels_are_compiled_again_with_little_optimisation),
         TEST(wrong_kernels_render_nothing),
         TEST(kernels_with_meshes_pass_one_more_frame),
         TEST(fast_arithmetic_is_not_tested),
