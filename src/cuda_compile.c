@@ -60,7 +60,7 @@ void hd_cuda_options(char options[HD_CUDA_OPTIONS_LENGTH], int arch, const HdKer
         length +=
             snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " %s", defines[i]);
     if (shape->is_cautious)
-        snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " --ptxas-options=-O1");
+        snprintf(options + length, HD_CUDA_OPTIONS_LENGTH - (size_t)length, " --ptxas-options=-O0");
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */

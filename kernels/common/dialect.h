@@ -29,13 +29,14 @@
 #if HD_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
-#define FN         static inline
-#define FN_APART   static
-#define GLOBAL     __global
-#define LOCAL      __local
-#define BARRIER()  barrier(CLK_LOCAL_MEM_FENCE)
-#define RESTRICT   restrict
-#define ALIGNED_16 __attribute__((aligned(16)))
+#define FN           static inline
+#define FN_APART     static
+#define GLOBAL       __global
+#define LOCAL        __local
+#define BARRIER()    barrier(CLK_LOCAL_MEM_FENCE)
+#define RECONVERGE() ((void)0)
+#define RESTRICT     restrict
+#define ALIGNED_16   __attribute__((aligned(16)))
 typedef ulong uint64;
 typedef long fixed64;
 
@@ -45,9 +46,12 @@ typedef long fixed64;
 #define FN_APART static __device__ __forceinline__
 #define GLOBAL
 #define LOCAL
-#define BARRIER()  __syncthreads()
-#define RESTRICT   __restrict__
-#define ALIGNED_16 __align__(16)
+/* Threads of a warp that left loops at different times come together again. Left to themselves,
+   NVIDIA's compilers (13.0, sm_90) lose what some of them do where loops are nested deeply. */
+#define BARRIER()    (__syncwarp(), __syncthreads())
+#define RECONVERGE() __syncwarp(__activemask())
+#define RESTRICT     __restrict__
+#define ALIGNED_16   __align__(16)
 typedef unsigned int uint;
 typedef unsigned long long uint64;
 typedef long long fixed64;
@@ -67,9 +71,10 @@ typedef long long fixed64;
 #define FN_APART static __attribute__((noinline, unused))
 #define GLOBAL
 #define LOCAL
-#define BARRIER()  ((void)0) /* there is one work item in a group */
-#define RESTRICT   restrict
-#define ALIGNED_16 __attribute__((aligned(16)))
+#define BARRIER()    ((void)0) /* there is one work item in a group */
+#define RECONVERGE() ((void)0)
+#define RESTRICT     restrict
+#define ALIGNED_16   __attribute__((aligned(16)))
 typedef uint32_t uint;
 typedef uint64_t uint64;
 typedef int64_t fixed64;

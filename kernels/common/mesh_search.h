@@ -618,6 +618,7 @@ FN void walk_together(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vm
             vmask alive = m & found->alive;
             has_next = any_lane(alive & le(stack_near[waiting], found->limit));
         }
+        RECONVERGE();
         if (!has_next)
             return;
         current = next;
