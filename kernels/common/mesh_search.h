@@ -33,9 +33,9 @@ typedef struct {
     int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
-    vreal late; /* how much further away the closest hit's search takes the wrong side of the
-                   surface to be, so that at an edge where both sides are met at once the right one
-                   is first */
+    vreal late; /* how much further away, at least, the closest hit's search takes the wrong side of
+                   the surface to be, so that at an edge where both sides are met at once the right
+                   one is first */
 } MeshRays;
 
 /* Which way rays run: what bundles have in common that share a walk. */
@@ -127,30 +127,58 @@ FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first,
 }
 #endif
 
-/* A ray that leaves a mesh meets its outer side next if it runs outside, and its inner side if it
-   runs inside. Where rounding has put its origin past a neighbour of the triangle that it left,
-   that neighbour is met from the wrong side, nearby. */
-FN vmask is_spurious(const MeshRays *rays, const TriangleLanes *triangle, vmask m, vmask entering) {
-    vmask wrong = m & rays->own & ~(entering ^ rays->inside);
-    Vec3 normal =
-        vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
-    vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));
-    return wrong & le(away * away, vec3_dot(normal, normal) * rays->contact_squared);
+/* ---- sides ---- */
+
+/* In units of MeshRays.late. */
+#define MOST_DELAY R(64.0)
+
+FN Vec3 normal_of(const TriangleLanes *triangle) {
+    return vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
 }
 
-/* Tries triangles, with the rays of `m`. */
-FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vmask m,
+/* The rays' origin is as near to the triangle's plane as rounding may put it. */
+FN vmask is_in_contact(const MeshRays *rays, const TriangleLanes *triangle) {
+    Vec3 normal = normal_of(triangle);
+    vreal away = vec3_dot(normal, vec3_sub(triangle->a, rays->frame.origin));
+    return le(away * away, vec3_dot(normal, normal) * rays->contact_squared);
+}
+
+/* What of `met` rays cross that left a face of this mesh. They meet its outer side next if they run
+   outside, its inner side if they run inside: where rounding has put their origin past a neighbour
+   of what they left, they meet that from the wrong side, nearby. */
+FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask met,
+                    vmask entering) {
+    met = met & ~(rays->own & eq_int(triangle->face, rays->own_face));
+    vmask wrong = met & rays->own & ~(entering ^ rays->inside);
+    return any_lane(wrong) ? met & ~(wrong & is_in_contact(rays, triangle)) : met;
+}
+
+/* How much further away a crossing of the wrong side counts: the more, the flatter the ray meets
+   the triangle, for so does the rounding of its distance grow. */
+FN vreal delay_of_wrong_side(const MeshRays *rays, const TriangleLanes *triangle) {
+    const RayFrame *frame = &rays->frame;
+    Vec3 n = normal_of(triangle);
+    vreal along = multiply_add(-frame->across, n.x, multiply_add(-frame->upward, n.y, n.z));
+    vreal length = multiply_add(frame->across, frame->across,
+                                multiply_add(frame->upward, frame->upward, splat(R(1.0))));
+    vreal all = vec3_dot(n, n) * length, least = all * splat(R(1.0) / (MOST_DELAY * MOST_DELAY));
+    vreal cosine = greater(greater(along * along, least), splat(R(1e-30))); /* squared, of `all` */
+    return rays->late * square_root(greater(all * reciprocal(cosine), splat(R(1.0))));
+}
+
+/* Tries triangles, with the rays of `m`, for what is no further away than `limit`. */
+FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vreal limit, vmask m,
                         TriangleCrossing *crossing) {
     vmask met = cross_triangle(&rays->frame, &rays->slabs, m, triangle->a, triangle->b, triangle->c,
                                crossing);
-    if (!any_lane(met))
-        return met;
-    met = met & le(splat(R(0.0)), crossing->t) &
-          ~(rays->own & eq_int(triangle->face, rays->own_face));
-    met = met & ~is_spurious(rays, triangle, met, crossing->entering);
+    met = met & le(splat(R(0.0)), crossing->t) & le(crossing->t, limit);
+    if (any_lane(met & rays->own))
+        met = leave_face(rays, triangle, met, crossing->entering);
     if (!rays->is_shadow) {
-        vmask wrong = ~(crossing->entering ^ (rays->own & rays->inside));
-        crossing->t = pick(wrong, crossing->t + rays->late, crossing->t);
+        vmask wrong = met & ~(crossing->entering ^ (rays->own & rays->inside));
+        if (any_lane(wrong))
+            crossing->t =
+                pick(wrong, crossing->t + delay_of_wrong_side(rays, triangle), crossing->t);
     }
     return met;
 }
@@ -209,7 +237,7 @@ FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *r
 FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
                       const TriangleLanes *triangle, vmask m) {
     TriangleCrossing crossing;
-    vmask met = meet_triangles(rays, triangle, m, &crossing);
+    vmask met = meet_triangles(rays, triangle, found->limit, m, &crossing);
     if (!any_lane(met))
         return;
     if (rays->is_shadow)
@@ -320,7 +348,7 @@ FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, 
         TriangleCrossing crossing;
         TriangleLanes triangle = adjacent_triangles(triangles, first + done, rest, way->axis,
                                                     ray->first_face, ray->first_skin);
-        vmask met = meet_triangles(ray, &triangle, m, &crossing);
+        vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
         if (!any_lane(met))
             continue;
         if (ray->is_shadow) {

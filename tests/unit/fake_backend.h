@@ -11,12 +11,12 @@
 #include "kernel_cache.h"
 
 static struct {
-    bool is_missing;      /* open fails */
-    bool fails;           /* to render */
-    bool renders_wrongly; /* a bit of the picture's last number is wrong */
+    bool is_missing;           /* open fails */
+    bool fails;                /* to render */
+    bool renders_wrongly;      /* a bit of the picture's last number is wrong */
     bool is_right_if_cautious; /* then not */
-    bool refuses_binary;  /* what comes from the cache */
-    bool hides_binary;    /* gives none away */
+    bool refuses_binary;       /* what comes from the cache */
+    bool hides_binary;         /* gives none away */
     const char *options;
     int slow_milliseconds; /* more, for each frame of the device with this number */
     int slow_index;
@@ -84,7 +84,8 @@ static void fake_build(FakeRenderer *renderer) {
         hd_kernel_cache_refuse(&renderer->kernels, "it does not like them");
     }
     fake.compiled++;
-    hd_kernel_cache_compiled(&renderer->kernels, &renderer->shape, fake_read, NULL, "nobody", 0.001);
+    hd_kernel_cache_compiled(&renderer->kernels, &renderer->shape, fake_read, NULL, "nobody",
+                             0.001);
 }
 
 static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *error) {
