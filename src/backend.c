@@ -137,14 +137,21 @@ static HdKernelCache *kernels_of(const HdRenderer *renderer) {
     return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
 }
 
-/* Compilers err most where they optimise most. */
+/* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
 static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables *tables,
                                       HdError *error) {
     const HdBackend *backend = renderer->backend;
-    HdStatus status = backend->upload(renderer->state, tables, error);
-    return status == HD_OK
-               ? hd_self_test(backend, renderer->state, &renderer->device, tables, error)
-               : status;
+    HdError later;
+    bool is_wrong;
+    if (!backend->be_cautious(renderer->state))
+        return HD_UNAVAILABLE;
+    HdStatus status = backend->upload(renderer->state, tables, &later);
+    if (status == HD_OK)
+        status =
+            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, &later);
+    if (status == HD_INTERRUPTED)
+        *error = later;
+    return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;
 }
 
 /* The tables are on the device. If its kernels are new, they prove themselves first. */
@@ -153,11 +160,13 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
     const HdBackend *backend = renderer->backend;
     HdKernelCache *kernels = kernels_of(renderer);
     HdStatus status = HD_OK;
+    bool is_wrong;
     if (kernels == NULL || !kernels->is_untested)
         return HD_OK;
     if (renderer->options.math == HD_MATH_STRICT) {
-        status = hd_self_test(backend, renderer->state, &renderer->device, tables, error);
-        if (status == HD_UNAVAILABLE && backend->be_cautious(renderer->state))
+        status =
+            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, error);
+        if (is_wrong)
             status = test_cautious_kernels(renderer, tables, error);
         if (status == HD_OK)
             status = backend->upload(renderer->state, tables, error);

@@ -410,7 +410,7 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
         return HD_OK;
     unload_module(renderer);
     hd_cuda_code_free(&renderer->code);
-    shape->needs = *needs;
+    hd_kernel_shape_set_needs(shape, needs);
     return load_cached(renderer, error) ? HD_OK : compile(renderer, error);
 }
 

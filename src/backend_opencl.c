@@ -223,7 +223,7 @@ static HdStatus build(Renderer *renderer, const HdKernelNeeds *needs, HdError *e
     if (is_built && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     hd_opencl_program_free(&renderer->program);
-    shape->needs = *needs;
+    hd_kernel_shape_set_needs(shape, needs);
     HdStatus status = hd_opencl_build(&renderer->program, renderer->context, &renderer->device,
                                       renderer->name, shape, &renderer->kernels, error);
     if (status == HD_OK)

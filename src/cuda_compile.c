@@ -109,9 +109,8 @@ bool hd_cuda_find_cached(HdCudaCode *code, HdKernelCache *cache, int arch,
     char options[HD_CUDA_OPTIONS_LENGTH];
     unsigned char *cubin;
     const char *nvrtc = getenv("HEDRON_NVRTC");
-    const HdKernelShape wanted = hd_kernel_shape_in_cache(shape);
     *code = (HdCudaCode){0};
-    hd_cuda_options(options, arch, &wanted);
+    hd_cuda_options(options, arch, shape);
     if (!hd_kernel_cache_find(cache, shape, hd_cuda_source, hd_cuda_source_size, options,
                               nvrtc != NULL ? nvrtc : "", &cubin, &code->size))
         return false;

@@ -87,12 +87,6 @@ static void note_found(HdKernelCache *cache) {
 
 /* ---- finding and keeping ---- */
 
-HdKernelShape hd_kernel_shape_in_cache(const HdKernelShape *shape) {
-    HdKernelShape wanted = *shape;
-    wanted.is_cautious = false;
-    return wanted;
-}
-
 bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, const void *source,
                           size_t source_size, const char *options, const char *driver,
                           unsigned char **binary, size_t *size) {
@@ -140,6 +134,7 @@ void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
              maker[0] != '\0' ? " by " : "", cache->maker);
     add_note(cache, text);
     cache->is_untested = true;
+    cache->is_cautious = shape->is_cautious;
     cache->read = read;
     cache->context = context;
 }
@@ -150,6 +145,10 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
         return;
     cache->is_untested = false;
     add_note(cache, cache->stamp);
+    if (cache->is_cautious) {
+        add_note(cache, "not cached");
+        return;
+    }
     bool stored = store(cache, &error) == HD_OK;
     add_note(cache, stored ? "cached" : "not cached");
     if (!stored)

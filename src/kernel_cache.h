@@ -24,13 +24,10 @@ struct HdKernelCache {
     char maker[80];                 /* what compiled them; "": nobody knows */
     char note[1024];                /* where they came from, for people; "": there are none yet */
     bool is_untested;               /* compiled anew and not yet accepted */
+    bool is_cautious;               /* optimised little (HdKernelShape), and not kept */
     HdKernelReader *read;           /* until they are accepted, */
     const void *context;            /* with this */
 };
-
-/* The shape whose options name the entry for `shape`: whatever passed the test in the end stands
-   for what was wanted, so that nothing is compiled in vain a second time. */
-HdKernelShape hd_kernel_shape_in_cache(const HdKernelShape *shape);
 
 /* For one device. There is nothing to free. */
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
@@ -51,7 +48,8 @@ void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
                               HdKernelReader *read, const void *context, const char *maker,
                               double seconds);
 
-/* The compiled kernels are in order: stores them, if that can be. */
+/* The compiled kernels are in order: stores them, if that can be. Those that are optimised little
+   are not: a driver may optimise what it loads, and a newer compiler may need no caution. */
 void hd_kernel_cache_accept(HdKernelCache *cache);
 
 #endif

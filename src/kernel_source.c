@@ -89,6 +89,12 @@ bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {
     return true;
 }
 
+void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs) {
+    bool has_other_scene = shape->needs.plane_bound > 0;
+    shape->is_cautious = shape->is_cautious && !has_other_scene;
+    shape->needs = *needs;
+}
+
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
              "built for up to %d planes and depth %d, %s refraction, %s, %s", needs->plane_bound,

@@ -65,6 +65,9 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
    where it is cautious already. */
 bool hd_kernel_shape_be_cautious(HdKernelShape *shape);
 
+/* The needs of a scene to be compiled for. Caution ends with the scene that called for it. */
+void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs);
+
 /* One line for people. */
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);
 

@@ -8,12 +8,9 @@
 
 enum { OPTIONS_LENGTH = 128 + HD_KERNEL_DEFINE_COUNT * (HD_KERNEL_DEFINE_LENGTH + 1) };
 
-static const char *cautious_option(const HdOpenclDevice *device) {
-    return device->nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
-}
-
 static void write_options(char options[OPTIONS_LENGTH], const HdOpenclDevice *device,
                           const HdKernelShape *shape) {
+    const char *cautious = device->nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
     char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
     hd_kernel_defines(shape, defines);
     int length = snprintf(options, OPTIONS_LENGTH, "-cl-std=CL1.2 %s",
@@ -25,7 +22,7 @@ static void write_options(char options[OPTIONS_LENGTH], const HdOpenclDevice *de
         length += snprintf(options + length, OPTIONS_LENGTH - (size_t)length,
                            " -cl-nv-maxrregcount=%d", shape->register_limit);
     if (shape->is_cautious)
-        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, "%s", cautious_option(device));
+        snprintf(options + length, OPTIONS_LENGTH - (size_t)length, "%s", cautious);
 }
 
 static HdStatus fail_with_log(cl_program program, cl_device_id device, const char *name,
@@ -112,12 +109,11 @@ static HdStatus load(HdOpenclProgram *program, cl_context context, const HdOpenc
 }
 
 static bool load_cached(HdOpenclProgram *program, cl_context context, const HdOpenclDevice *device,
-                        const HdKernelShape *shape, HdKernelCache *cache, HdError *error) {
-    const HdKernelShape wanted = hd_kernel_shape_in_cache(shape);
-    char options[OPTIONS_LENGTH], version[256];
+                        const char *options, const HdKernelShape *shape, HdKernelCache *cache,
+                        HdError *error) {
+    char version[256];
     unsigned char *binary;
     size_t size;
-    write_options(options, device, &wanted);
     read_platform_version(device, version, sizeof version);
     if (!hd_kernel_cache_find(cache, shape, hd_opencl_source, hd_opencl_source_size, options,
                               version, &binary, &size))
@@ -152,9 +148,9 @@ HdStatus hd_opencl_build(HdOpenclProgram *program, cl_context context, const HdO
                          HdError *error) {
     char options[OPTIONS_LENGTH];
     *program = (HdOpenclProgram){0};
-    if (load_cached(program, context, device, shape, cache, error))
-        return HD_OK;
     write_options(options, device, shape);
+    if (load_cached(program, context, device, options, shape, cache, error))
+        return HD_OK;
     double start = hd_monotonic_seconds();
     HdStatus status = compile(program, context, device, name, options, shape, error);
     if (status == HD_OK)

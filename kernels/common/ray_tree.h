@@ -33,7 +33,7 @@ FN void add_radiance(SCENE_PARAMETERS Sample *sample, vmask m, Vec3 radiance, Ve
 }
 
 /* A ray that goes on from the points of a surface. */
-FN Ray next_ray(const Ray *ray, Vec3 origin, const Hit *hit, Vec3 direction, Vec3 weight,
+FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 direction, Vec3 weight,
                 vmask inside, vmask alive, real cutoff) {
     Ray next;
     next.weight = vec3_mul(ray->weight, weight);
@@ -42,7 +42,7 @@ FN Ray next_ray(const Ray *ray, Vec3 origin, const Hit *hit, Vec3 direction, Vec
         alive = alive & le(splat(cutoff), strongest);
     }
     next.alive = alive;
-    next.origin = origin;
+    next.origin = surface->point;
     next.direction = direction;
     next.touched = spread_first(hit->object, alive);
     next.face = hit->face;
@@ -70,7 +70,6 @@ FN Vec3 refract(Vec3 direction, Vec3 normal, vreal facing, vreal relative_index,
 FN void turn_over(Surface *surface, LitPoints *points) {
     LaneMaterial *material = &surface->material;
     surface->normal = vec3_scale(surface->normal, splat(R(-1.0)));
-    surface->point = surface->behind;
     material->diffuse = material->diffuse * material->transmission;
     material->specular = splat(R(0.0));
     points->active =
@@ -111,12 +110,12 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
                           &total);
         reflection = pick(total, reflection + transmission, reflection);
     }
-    *mirror = next_ray(ray, surface.point, hit, mirrored,
-                       vec3_scale(surface.material.mirror_tint, reflection), ~hit->entering,
-                       struck & lt(zero, reflection), view->cutoff);
-    *through = next_ray(ray, surface.behind, hit, passing,
-                        vec3_scale(surface.material.colour, transmission), hit->entering,
-                        struck & ~total & lt(zero, transmission), view->cutoff);
+    *mirror =
+        next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.material.mirror_tint, reflection),
+                 ~hit->entering, struck & lt(zero, reflection), view->cutoff);
+    *through =
+        next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
+                 hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
     return radiance;
 }
 

@@ -18,9 +18,7 @@ typedef struct {
 } LaneMaterial;
 
 typedef struct {
-    /* Relative to the object that was hit: where rays leave on the viewer's side, and on the other
-       one. On meshes the two are further apart than rounding moves them. */
-    Vec3 point, behind;
+    Vec3 point;  /* relative to the object that was hit */
     Vec3 normal; /* unit, towards the viewer */
     Vec3 emission;
     LaneMaterial material;
@@ -301,14 +299,9 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
                    turn(last, triangle.c), &crossing);
     Vec3 normal = vec3_cross(vec3_sub(triangle.b, triangle.a), vec3_sub(triangle.c, triangle.a));
     Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
-    vreal towards_viewer = pick(hit->entering, splat(R(1.0)), splat(R(-1.0)));
-    normal = vec3_scale(direction_of(normal), towards_viewer);
-    Vec3 lift = vec3_scale(normal, splat(instance->contact * R(0.25)));
-    Vec3 before = transform_point(instance->to_world, vec3_add(point, lift));
-    Vec3 behind = transform_point(instance->to_world, vec3_sub(point, lift));
-    surface->point = vec3_pick(m, before, surface->point);
-    surface->behind = vec3_pick(m, behind, surface->behind);
-    normal = direction_of(transform_normal(instance->to_mesh, normal));
+    surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
+    normal = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
+    normal = vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
     if (instance->first_corner_normals >= 0)
         normal = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering, &crossing,
                                ray->direction, normal);
@@ -323,7 +316,7 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
 FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit,
                       vmask struck) {
     Surface surface;
-    surface.point = surface.behind = surface.normal = surface.emission = vec3_zero();
+    surface.point = surface.normal = surface.emission = vec3_zero();
     surface.material = no_material();
     vmask left = struck;
     while (any_lane(left)) {
@@ -337,7 +330,6 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
         }
         Vec3 origin = move_to_object(SCENE_ARGUMENTS reference, ray->origin, object);
         surface.point = vec3_pick(m, vec3_scale_add(ray->direction, hit->t, origin), surface.point);
-        surface.behind = vec3_pick(m, surface.point, surface.behind);
         if (object < header->solid_count)
             describe_solid(SCENE_ARGUMENTS object, m, hit, &surface);
         else

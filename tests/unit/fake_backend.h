@@ -92,7 +92,7 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
     FakeRenderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     if (!renderer->is_built || !hd_kernel_needs_equal(&needs, &renderer->shape.needs)) {
-        renderer->shape.needs = needs;
+        hd_kernel_shape_set_needs(&renderer->shape, &needs);
         fake_build(renderer);
     }
     return hd_backend_c.upload(renderer->c, tables, error);

@@ -24,7 +24,9 @@ static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_fro
                           .node_stack = 1,
                           .refracts = refracts,
                           .lit_from_behind = lit_from_behind};
-    HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &error);
+    bool is_wrong;
+    HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &is_wrong, &error);
+    assert_int_equal(is_wrong, status == HD_UNAVAILABLE);
     hd_backend_c.close(renderer);
     if (status != HD_OK)
         print_error("precision %d, refraction %d, light from behind %d, %d lanes: %s\n",
