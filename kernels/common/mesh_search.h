@@ -132,6 +132,7 @@ FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first,
 /* In units of MeshRays.late. */
 #define MOST_DELAY R(64.0)
 
+/* As long as twice the area. */
 FN Vec3 normal_of(const TriangleLanes *triangle) {
     return vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
 }

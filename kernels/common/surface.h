@@ -297,7 +297,7 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
     TriangleCrossing crossing;
     cross_triangle(&frame, &slabs, m, turn(last, triangle.a), turn(last, triangle.b),
                    turn(last, triangle.c), &crossing);
-    Vec3 normal = vec3_cross(vec3_sub(triangle.b, triangle.a), vec3_sub(triangle.c, triangle.a));
+    Vec3 normal = normal_of(&triangle);
     Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
     surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
     normal = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));

@@ -176,6 +176,20 @@ static void wrong_kernels_are_compiled_again_with_little_optimisation(void **sta
     expect_counts(4, 0);
 }
 
+static void caution_ends_with_the_scene(void **state) {
+    (void)state;
+    const HdKernelNeeds first = {.plane_bound = 8, .depth_bound = 8};
+    const HdKernelNeeds other = {.plane_bound = 16, .depth_bound = 8};
+    HdKernelShape shape = {.needs = first};
+    assert_true(hd_kernel_shape_be_cautious(&shape));
+    assert_false(hd_kernel_shape_be_cautious(&shape));
+    assert_false(hd_kernel_needs_equal(&shape.needs, &first)); /* so that it is compiled again */
+    hd_kernel_shape_set_needs(&shape, &first);
+    assert_true(shape.is_cautious);
+    hd_kernel_shape_set_needs(&shape, &other);
+    assert_false(shape.is_cautious);
+}
+
 static void wrong_kernels_render_nothing(void **state) {
     (void)state;
     HdRenderer *renderer;
@@ -247,6 +261,7 @@ int main(void) {
         TEST(without_a_folder_all_goes_on),
         TEST(wrong_kernels_are_an_error),
         TEST(wrong_kernels_are_compiled_again_with_little_optimisation),
+        TEST(caution_ends_with_the_scene),
         TEST(wrong_kernels_render_nothing),
         TEST(kernels_with_meshes_pass_one_more_frame),
         TEST(fast_arithmetic_is_not_tested),
