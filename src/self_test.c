@@ -23,8 +23,8 @@ static const uint64_t floor_hashes[2] = {
 };
 
 static const uint64_t mesh_hashes[2][2][2] = {
-    [HD_PRECISION_FLOAT] = {{0x45d1ad38b22230e2, 0xb061a45b15f1b297},
-                            {0x8fdfd16c448d43fd, 0x422f306425b7046b}},
+    [HD_PRECISION_FLOAT] = {{0x95a0162d30bc0853, 0x488d9bc96fa6efe2},
+                            {0x276a388e625bd696, 0x352fd69c103f1858}},
     [HD_PRECISION_DOUBLE] = {{0x2ea394852fba7df0, 0x40940231115d73ba},
                              {0xdeaba96c4276c3ad, 0x5dc4df7957b098ea}},
 };

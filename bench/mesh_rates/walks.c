@@ -57,7 +57,7 @@ static void search_light(const HdTable *scene, const HdTable *frame, const Start
     WorldRays world;
     Vec3 passing;
     vmask all = mask_all();
-    world.origin = start->origin;
+    world.origin = world.own_origin = start->origin;
     world.direction = start->direction;
     world.touched = start->touched;
     world.face = start->face;

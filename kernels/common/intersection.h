@@ -8,7 +8,7 @@
 #include "vectors.h"
 
 typedef struct {
-    Vec3 origin;    /* relative to the object touched last, or to the eye */
+    Vec3 origin; /* relative to the object touched last, of meshes to the instance, or to the eye */
     Vec3 direction; /* unit, up to rounding */
     Vec3 weight;    /* what this ray's radiance is multiplied by on its way to the eye */
     vint touched;   /* number of the object touched last; only in rays that left an object */
@@ -27,8 +27,9 @@ typedef struct {
 /* Where the rays' origins are relative to: the eye (every lane) or the object touched last. */
 typedef struct {
     int is_eye;
-    int same; /* every lane has the same object */
-    vint row; /* first entry of the lane's object in object_offsets */
+    int same;   /* every lane has the same object */
+    vint row;   /* first entry of the lane's object in object_offsets */
+    Vec3 start; /* where the lane's mesh instance is, relative to its object, the meshes' centre */
 } Reference;
 
 /* Where numbers may be those of mesh instances: the object that these belong to. */
@@ -36,8 +37,25 @@ FN vint object_of(SCENE_PARAMETERS vint number) {
     return MESHES ? least_int(number, splat_int(header->floor_end)) : number;
 }
 
+/* Where mesh instances are, relative to the meshes' centre; other objects: zero. */
+FN Vec3 start_of_instance(SCENE_PARAMETERS vint number) {
+    enum { STRIDE = sizeof(Instance) / sizeof(real) };
+    vint instance = number - header->floor_end;
+    vmask is_instance = ~lt_int(instance, splat_int(0));
+    if (!any_lane(is_instance))
+        return vec3_zero();
+    GLOBAL const real *starts = instances->start;
+    FourReals start =
+        fetch_four_reals(starts, pick_int(is_instance, instance, splat_int(0)) * STRIDE);
+    return vec3_pick(is_instance, vec3(start.number[0], start.number[1], start.number[2]),
+                     vec3_zero());
+}
+
 FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
     Reference reference;
+    reference.start = vec3_zero();
+    if (MESHES && !is_eye)
+        reference.start = start_of_instance(SCENE_ARGUMENTS object);
     object = object_of(SCENE_ARGUMENTS object);
     reference.is_eye = is_eye;
     reference.same = is_eye || all_same(object);
@@ -48,6 +66,8 @@ FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
 /* The point `point`, relative to `reference`, made relative to the object `to`. */
 FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to) {
     GLOBAL const Vector *table = reference.is_eye ? eye_offsets : object_offsets;
+    if (MESHES)
+        point = vec3_add(point, reference.start);
     return vec3_add(point, fetch_vector(table, reference.row + to, reference.same));
 }
 

@@ -303,11 +303,14 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
     LightRows rows = light_rows(SCENE_ARGUMENTS object_of(SCENE_ARGUMENTS points->object));
+    Vec3 point = surface->point;
+    if (MESHES)
+        point = vec3_add(point, start_of_instance(SCENE_ARGUMENTS points->object));
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
     for (int i = 0; i < header->light_count; i++) {
-        Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), surface->point);
+        Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
         vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &

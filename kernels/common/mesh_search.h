@@ -129,9 +129,6 @@ FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first,
 
 /* ---- sides ---- */
 
-/* In units of MeshRays.late. */
-#define MOST_DELAY R(64.0)
-
 /* As long as twice the area. */
 FN Vec3 normal_of(const TriangleLanes *triangle) {
     return vec3_cross(vec3_sub(triangle->b, triangle->a), vec3_sub(triangle->c, triangle->a));
@@ -154,19 +151,6 @@ FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask m
     return any_lane(wrong) ? met & ~(wrong & is_in_contact(rays, triangle)) : met;
 }
 
-/* How much further away a crossing of the wrong side counts: the more, the flatter the ray meets
-   the triangle, for so does the rounding of its distance grow. */
-FN vreal delay_of_wrong_side(const MeshRays *rays, const TriangleLanes *triangle) {
-    const RayFrame *frame = &rays->frame;
-    Vec3 n = normal_of(triangle);
-    vreal along = multiply_add(-frame->across, n.x, multiply_add(-frame->upward, n.y, n.z));
-    vreal length = multiply_add(frame->across, frame->across,
-                                multiply_add(frame->upward, frame->upward, splat(R(1.0))));
-    vreal all = vec3_dot(n, n) * length, least = all * splat(R(1.0) / (MOST_DELAY * MOST_DELAY));
-    vreal cosine = greater(greater(along * along, least), splat(R(1e-30))); /* squared, of `all` */
-    return rays->late * square_root(greater(all * reciprocal(cosine), splat(R(1.0))));
-}
-
 /* Tries triangles, with the rays of `m`, for what is no further away than `limit`. */
 FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vreal limit, vmask m,
                         TriangleCrossing *crossing) {
@@ -177,9 +161,7 @@ FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vre
         met = leave_face(rays, triangle, met, crossing->entering);
     if (!rays->is_shadow) {
         vmask wrong = met & ~(crossing->entering ^ (rays->own & rays->inside));
-        if (any_lane(wrong))
-            crossing->t =
-                pick(wrong, crossing->t + delay_of_wrong_side(rays, triangle), crossing->t);
+        crossing->t = pick(wrong, crossing->t + rays->late, crossing->t);
     }
     return met;
 }

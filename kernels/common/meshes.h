@@ -9,31 +9,24 @@
 /* Rays relative to the meshes' centre. */
 typedef struct {
     Vec3 origin, direction;
+    Vec3 own_origin;    /* relative to the instance that was touched last */
     vint touched, face; /* the object touched last, -1: none, and which face of it */
     vmask inside;
     int is_shadow;     /* for what filters light, not for what is hit first */
     int light_face[2]; /* a light's own faces, -1: none */
 } WorldRays;
 
-FN Vec3 transform_point(const GLOBAL real (*rows)[4], Vec3 p) {
+/* A point relative to the instance's start, or a direction. */
+FN Vec3 transform_vector(const GLOBAL real (*rows)[3], Vec3 v) {
     vreal at[3];
     for (int i = 0; i < 3; i++)
-        at[i] = multiply_add(splat(rows[i][0]), p.x,
-                             multiply_add(splat(rows[i][1]), p.y,
-                                          multiply_add(splat(rows[i][2]), p.z, splat(rows[i][3]))));
-    return vec3(at[0], at[1], at[2]);
-}
-
-FN Vec3 transform_direction(const GLOBAL real (*rows)[4], Vec3 d) {
-    vreal at[3];
-    for (int i = 0; i < 3; i++)
-        at[i] = multiply_add(splat(rows[i][0]), d.x,
-                             multiply_add(splat(rows[i][1]), d.y, splat(rows[i][2]) * d.z));
+        at[i] = multiply_add(splat(rows[i][0]), v.x,
+                             multiply_add(splat(rows[i][1]), v.y, splat(rows[i][2]) * v.z));
     return vec3(at[0], at[1], at[2]);
 }
 
 /* Normals of a mesh in the world, by the transpose of the rows that lead to the mesh. */
-FN Vec3 transform_normal(const GLOBAL real (*rows)[4], Vec3 n) {
+FN Vec3 transform_normal(const GLOBAL real (*rows)[3], Vec3 n) {
     vreal at[3];
     for (int i = 0; i < 3; i++)
         at[i] = multiply_add(splat(rows[0][i]), n.x,
@@ -41,18 +34,25 @@ FN Vec3 transform_normal(const GLOBAL real (*rows)[4], Vec3 n) {
     return vec3(at[0], at[1], at[2]);
 }
 
+/* Where rays begin, in the instance's own coordinates: those that left it, as exactly as they did.
+ */
+FN Vec3 origin_in_mesh(GLOBAL const Instance *instance, Vec3 origin, vmask own, Vec3 own_origin) {
+    Vec3 start = vec3_splat(instance->start[0], instance->start[1], instance->start[2]);
+    return transform_vector(instance->to_mesh, vec3_pick(own, own_origin, vec3_sub(origin, start)));
+}
+
 FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     GLOBAL const Instance *instance = instances + number;
-    Vec3 origin = transform_point(instance->to_mesh, world->origin);
-    Vec3 direction = transform_direction(instance->to_mesh, world->direction);
     MeshRays rays;
     rays.object = header->floor_end + number;
+    rays.own = eq_int(world->touched, splat_int(rays.object));
+    Vec3 origin = origin_in_mesh(instance, world->origin, rays.own, world->own_origin);
+    Vec3 direction = transform_vector(instance->to_mesh, world->direction);
     rays.last = nearest_axis(direction);
     origin = turn(rays.last, origin);
     direction = turn(rays.last, direction);
     rays.frame = ray_frame(origin, direction);
     rays.slabs = ray_slabs(origin, direction, splat(R(1.0)));
-    rays.own = eq_int(world->touched, splat_int(rays.object));
     rays.own_face = pick_int(rays.own, world->face, splat_int(-1));
     rays.inside = world->inside;
     rays.first_face = instance->first_face;
@@ -63,7 +63,8 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     rays.contact_squared = instance->contact_squared;
     rays.late = splat(R(0.0));
     if (!rays.is_shadow)
-        rays.late = instance->contact * reciprocal_root(vec3_dot(direction, direction));
+        rays.late = pick(rays.own, splat(instance->contact), splat(instance->contact_of_others)) *
+                    reciprocal_root(vec3_dot(direction, direction));
     return rays;
 }
 
@@ -132,6 +133,7 @@ FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const Reference 
                                Hit *hit) {
     WorldRays world;
     world.origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
+    world.own_origin = ray->origin;
     world.direction = ray->direction;
     world.touched = reference->is_eye ? splat_int(-1) : ray->touched;
     world.face = ray->face;
@@ -199,6 +201,7 @@ FN Vec3 transmittance_of_meshes(SCENE_PARAMETERS Vec3 point, Vec3 to_light, vint
     Vec3 transmittance;
     Reference reference = reference_of(SCENE_ARGUMENTS object, 0);
     world.origin = move_to_object(SCENE_ARGUMENTS reference, point, header->floor_end);
+    world.own_origin = point;
     world.direction = to_light;
     world.touched = object;
     world.face = face;

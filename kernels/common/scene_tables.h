@@ -107,16 +107,17 @@ typedef struct ALIGNED_16 {
 } FloorMap;
 
 /* A mesh in its place. A mesh has coordinates of its own, in which its box's longest side runs from
-   -1 to 1: row . (p, 1) for each row of `to_mesh` and a point p relative to the meshes' centre;
+   -1 to 1: row . p for each row of `to_mesh` and a point p relative to the instance's start;
    `to_world` leads back. Its triangles have the numbers [first_triangle, first_triangle +
    triangle_count). */
 typedef struct ALIGNED_16 {
-    real to_mesh[3][4];
-    real to_world[3][4];
-    real contact; /* the distance, in the mesh's coordinates, that rounding may put between a point
-                     of the mesh and its surface */
+    real start[3]; /* the mesh's origin, relative to the meshes' centre */
+    real contact;  /* the distance, in the mesh's coordinates, that rounding may put between a point
+                      of the mesh and its surface */
+    real to_mesh[3][3];
+    real to_world[3][3];
     real contact_squared;
-    real unused[2];
+    real contact_of_others; /* of points that are told relative to the meshes' centre */
     int root; /* a node, of the wide ones where bundles have lanes; -1: every triangle is tried */
     int unused_int;
     int first_triangle, triangle_count;
@@ -198,7 +199,7 @@ HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
 HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 32, 4);
-HD_ASSERT_SIZE(Instance, 28, 8);
+HD_ASSERT_SIZE(Instance, 24, 8);
 HD_ASSERT_SIZE(Triangle, 12, 0);
 HD_ASSERT_SIZE(MeshNode, 12, 4);
 HD_ASSERT_SIZE(Skin, 4, 20);

@@ -18,7 +18,7 @@ typedef struct {
 } LaneMaterial;
 
 typedef struct {
-    Vec3 point;  /* relative to the object that was hit */
+    Vec3 point;  /* relative to the object that was hit, of meshes to the instance */
     Vec3 normal; /* unit, towards the viewer */
     Vec3 emission;
     LaneMaterial material;
@@ -248,14 +248,19 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
 #define LEAST_AREA R(1e-15)
 #endif
 
+#define MOST_DETOUR R(1024.0)
+
 /* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
    the reach of rounding from an edge, rays leave it from a little further inside: one that starts
-   at an edge might be on the wrong side of both its triangles, and miss both. */
+   at an edge might be on the wrong side of both its triangles, and miss both. The flatter they
+   leave, the further they run before they are on the right side of the one they left, which must
+   not be beyond its edge; `steepness` is the sine of the angle between the two. */
 FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes *triangle,
-                           const TriangleCrossing *crossing, Vec3 normal) {
+                           const TriangleCrossing *crossing, Vec3 normal, vreal steepness) {
     Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
     Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
-    vreal least = splat(instance->contact_squared * R(0.25));
+    vreal flat = greater(steepness * steepness, splat(R(1.0) / (MOST_DETOUR * MOST_DETOUR)));
+    vreal least = (instance->contact_squared * R(0.25)) * reciprocal(flat);
     vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
     vreal a = crossing->a, b = crossing->b, c = crossing->c;
     vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
@@ -284,8 +289,11 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
     vmask m = *met;
     GLOBAL const Instance *instance = instances + number;
     Vec3 origin = move_to_object(SCENE_ARGUMENTS * reference, ray->origin, header->floor_end);
-    Vec3 in_mesh = transform_point(instance->to_mesh, origin);
-    Vec3 along = transform_direction(instance->to_mesh, ray->direction);
+    vmask own = mask_none();
+    if (!reference->is_eye)
+        own = eq_int(ray->touched, splat_int(header->floor_end + number));
+    Vec3 in_mesh = origin_in_mesh(instance, origin, own, ray->origin);
+    Vec3 along = transform_vector(instance->to_mesh, ray->direction);
     LastAxis last = nearest_axis(along);
     in_mesh = turn(last, in_mesh);
     along = turn(last, along);
@@ -298,14 +306,20 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
     cross_triangle(&frame, &slabs, m, turn(last, triangle.a), turn(last, triangle.b),
                    turn(last, triangle.c), &crossing);
     Vec3 normal = normal_of(&triangle);
-    Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
-    surface->point = vec3_pick(m, transform_point(instance->to_world, point), surface->point);
-    normal = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
-    normal = vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
-    if (instance->first_corner_normals >= 0)
-        normal = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering, &crossing,
-                               ray->direction, normal);
-    surface->normal = vec3_pick(m, normal, surface->normal);
+    Vec3 flat = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
+    flat = vec3_scale(flat, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
+    vreal steepness = absolute(vec3_dot(flat, ray->direction));
+    surface->normal = vec3_pick(m, flat, surface->normal);
+    if (instance->first_corner_normals >= 0) {
+        Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering,
+                                    &crossing, ray->direction, flat);
+        Vec3 mirrored =
+            vec3_scale_add(smooth, vec3_dot(smooth, ray->direction) * R(-2.0), ray->direction);
+        steepness = lesser(steepness, vec3_dot(flat, mirrored));
+        surface->normal = vec3_pick(m, smooth, surface->normal);
+    }
+    Vec3 point = point_of_departure(instance, &triangle, &crossing, normal, steepness);
+    surface->point = vec3_pick(m, transform_vector(instance->to_world, point), surface->point);
     set_skins(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
     hit->face = pick_int(m, triangle.face, hit->face);
 }

@@ -117,9 +117,8 @@ FN Corner project_corner(const RayFrame *frame, Vec3 p) {
 }
 
 /* On which side of the line from a to b the ray passes; `left` and `right` are both empty where a
-   and b coincide. Returns twice the area of a, b and the ray, positive on the left up to rounding.
-   Only lanes of `m` need be right. */
-FN vreal edge_function(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
+   and b coincide. Only lanes of `m` need be right. */
+FN void pass_edge(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
     vreal p = a.across * b.upward, q = a.upward * b.across;
     *left = lt(q, p);
     *right = lt(p, q);
@@ -136,7 +135,16 @@ FN vreal edge_function(Corner a, Corner b, vmask m, vmask *left, vmask *right) {
         *left = *left | (tied & (exact_left | (through & moved_left)));
         *right = *right | (tied & (exact_right | (through & moved_right)));
     }
-    return p - q;
+}
+
+/* Twice the area of a, b and the ray, positive on the left. Its relative error is a few units of
+   rounding however flat the triangle is met, so that triangles that share an edge agree on where a
+   ray beside it crosses them. */
+FN vreal double_area(Corner a, Corner b) {
+    vreal p = a.across * b.upward, q = a.upward * b.across;
+    vreal p_rest = multiply_add(a.across, b.upward, -p);
+    vreal q_rest = multiply_add(a.upward, b.across, -q);
+    return (p - q) + (p_rest - q_rest);
 }
 
 /* Where a ray crosses a triangle. */
@@ -173,18 +181,19 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
     Corner at_c = project_corner(frame, from_c);
     vmask left_a, right_a, left_b, right_b, left_c, right_c;
-    vreal area_a = edge_function(at_b, at_c, m, &left_a, &right_a);
-    vreal area_b = edge_function(at_c, at_a, m, &left_b, &right_b);
+    pass_edge(at_b, at_c, m, &left_a, &right_a);
+    pass_edge(at_c, at_a, m, &left_b, &right_b);
     vmask left = m & left_a & left_b, right = m & right_a & right_b;
     if (!any_lane(left | right))
         return mask_none();
-    vreal area_c = edge_function(at_a, at_b, left | right, &left_c, &right_c);
+    pass_edge(at_a, at_b, left | right, &left_c, &right_c);
     left = left & left_c;
     right = right & right_c;
     vmask crosses = left | right;
     if (!any_lane(crosses))
         return crosses;
-    vreal area = area_a + area_b + area_c;
+    vreal area_a = double_area(at_b, at_c), area_b = double_area(at_c, at_a);
+    vreal area_c = double_area(at_a, at_b), area = area_a + area_b + area_c;
     vmask too_small =
         ~(lt(area, splat(R(0.0))) | lt(splat(R(0.0)), area)); /* one corner stands for all */
     area_a = pick(too_small, splat(R(1.0)), area_a);

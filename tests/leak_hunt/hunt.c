@@ -79,8 +79,12 @@ static void place(Hunt *hunt, int index, int mesh, HdVec3 position, HdVec3 rotat
                    hunt->placement->scale);
 }
 
+static bool is_room(HuntKind kind) {
+    return kind == HUNT_ROOM || kind == HUNT_WEDGE;
+}
+
 static bool has_light(HuntKind kind) {
-    return kind != HUNT_MIRRORS && kind != HUNT_ROOM;
+    return kind != HUNT_MIRRORS && !is_room(kind);
 }
 
 /* The pixels behind the skin, with or without their shadow rays. */
@@ -129,6 +133,8 @@ static void add_meshes(Hunt *hunt) {
     } else {
         if (hunt->kind == HUNT_ROOM)
             build_room(&scene->meshes[0], hunt->side, roughness, &mirror, &hunt->random);
+        else if (hunt->kind == HUNT_WEDGE)
+            build_wedge(&scene->meshes[0], hunt->side, &mirror, &hunt->random);
         else
             build_sheets(&scene->meshes[0], hunt->side, roughness, &passing, &hunt->random);
         unturn(&scene->meshes[0], placement->rotation_degrees);
@@ -222,7 +228,7 @@ static void judge_pixel(const Hunt *hunt, int x, int y, const float rgb[3], Catc
     int i = y * hunt->side + x;
     HuntPixel pixel = hunt->pixels[i];
     double red = (double)rgb[0], lit = (double)rgb[1] - red;
-    if (hunt->kind == HUNT_ROOM) {
+    if (is_room(hunt->kind)) {
         judge_blocked_ray(red, pixel, caught);
         return;
     }

@@ -14,7 +14,9 @@
    edges of a sphere about the eye, chosen at random: no two rays of a bundle go the same way.
 
    The room: mirrors all about the eye, rough in front, so that rays meet the next surface at once
-   where they are thrown back beside an edge. None may come out. */
+   where they are thrown back beside an edge. None may come out.
+
+   The wedge: a room of mirrors whose floor and ceiling meet at a sharp edge. */
 #ifndef HD_LEAK_HUNT_H
 #define HD_LEAK_HUNT_H
 
@@ -44,6 +46,7 @@ typedef enum HuntKind {
     HUNT_SHADE,   /* before a floor, the skin being opaque to shadow rays */
     HUNT_MIRRORS, /* the mirrors in the sphere */
     HUNT_ROOM,    /* the eye in the room */
+    HUNT_WEDGE,   /* the eye in the wedge */
     HUNT_KINDS
 } HuntKind;
 

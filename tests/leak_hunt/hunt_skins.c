@@ -144,6 +144,28 @@ void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *mate
     add_walls(mesh, n);
 }
 
+/* Of row j of n, the first of which is the edge. The nearer to it, the smaller are the triangles.
+ */
+static HdVec3 wedge_vertex(int n, int sheet, int i, int j, double roughness) {
+    const double slope = 0.08748866352592401; /* tan 5 degrees */
+    double across = (double)i / (n - 1), down = (double)j / (n - 1);
+    double away = 3.5 * down * down, height = slope * away * (1.0 + roughness);
+    return hd_vec3(3.0 * across - 1.5, 2.5 - away, sheet == FRONT ? height : -height);
+}
+
+void build_wedge(HdMesh *mesh, int side, const HdMaterial *material, uint64_t *random) {
+    int n = vertices_of_side(side);
+    make_room(mesh, 2 * n * n, 4 * (n - 1) * (n - 1) + 8 * (n - 1), material);
+    for (int sheet = FRONT; sheet <= BACK; sheet++) {
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < n; i++)
+                mesh->vertices[mesh->vertex_count++] =
+                    wedge_vertex(n, sheet, i, j, random_between(random, -0.05, 0.05));
+        add_sheet(mesh, n, sheet, random);
+    }
+    add_walls(mesh, n);
+}
+
 /* ---- a triangle a pixel ---- */
 
 static void add_spot(HdMesh *mesh, int side, int x, int y, double depth) {
