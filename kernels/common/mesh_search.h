@@ -33,9 +33,6 @@ typedef struct {
     int is_shadow;     /* all that filters light is looked for, not the closest hit */
     int light_face[2]; /* a light's own faces are not in its way; -1: none */
     real contact_squared;
-    vreal late; /* how much further away, at least, the closest hit's search takes the wrong side of
-                   the surface to be, so that at an edge where both sides are met at once the right
-                   one is first */
 } MeshRays;
 
 /* Which way rays run: what bundles have in common that share a walk. */
@@ -151,7 +148,9 @@ FN vmask leave_face(const MeshRays *rays, const TriangleLanes *triangle, vmask m
     return any_lane(wrong) ? met & ~(wrong & is_in_contact(rays, triangle)) : met;
 }
 
-/* Tries triangles, with the rays of `m`, for what is no further away than `limit`. */
+/* Tries triangles, with the rays of `m`, for what is no further away than `limit`. The closest
+   hit's search takes the wrong side of a surface to be further away by what the distance is
+   uncertain: at an edge where both sides are met at once the right one is first. */
 FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vreal limit, vmask m,
                         TriangleCrossing *crossing) {
     vmask met = cross_triangle(&rays->frame, &rays->slabs, m, triangle->a, triangle->b, triangle->c,
@@ -161,7 +160,7 @@ FN vmask meet_triangles(const MeshRays *rays, const TriangleLanes *triangle, vre
         met = leave_face(rays, triangle, met, crossing->entering);
     if (!rays->is_shadow) {
         vmask wrong = met & ~(crossing->entering ^ (rays->own & rays->inside));
-        crossing->t = pick(wrong, crossing->t + rays->late, crossing->t);
+        crossing->t = pick(wrong, crossing->t + crossing->slack, crossing->t);
     }
     return met;
 }
@@ -304,7 +303,6 @@ FN MeshRays spread_rays(const MeshRays *rays, int lane) {
     one.own = spread_mask(lane_bits(rays->own), lane);
     one.inside = spread_mask(lane_bits(rays->inside), lane);
     one.own_face = splat_int(lane_int(&rays->own_face, lane));
-    one.late = spread_real(rays->late, lane);
     return one;
 }
 

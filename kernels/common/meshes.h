@@ -61,10 +61,6 @@ FN MeshRays rays_in_mesh(SCENE_PARAMETERS const WorldRays *world, int number) {
     rays.light_face[0] = world->light_face[0];
     rays.light_face[1] = world->light_face[1];
     rays.contact_squared = instance->contact_squared;
-    rays.late = splat(R(0.0));
-    if (!rays.is_shadow)
-        rays.late = pick(rays.own, splat(instance->contact), splat(instance->contact_of_others)) *
-                    reciprocal_root(vec3_dot(direction, direction));
     return rays;
 }
 

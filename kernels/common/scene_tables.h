@@ -111,13 +111,12 @@ typedef struct ALIGNED_16 {
    `to_world` leads back. Its triangles have the numbers [first_triangle, first_triangle +
    triangle_count). */
 typedef struct ALIGNED_16 {
-    real start[3]; /* the mesh's origin, relative to the meshes' centre */
-    real contact;  /* the distance, in the mesh's coordinates, that rounding may put between a point
-                      of the mesh and its surface */
+    real start[3];        /* the mesh's origin, relative to the meshes' centre */
+    real contact_squared; /* of the distance, in the mesh's coordinates, that rounding may put
+                             between a point of the mesh and its surface */
     real to_mesh[3][3];
     real to_world[3][3];
-    real contact_squared;
-    real contact_of_others; /* of points that are told relative to the meshes' centre */
+    real unused[2];
     int root; /* a node, of the wide ones where bundles have lanes; -1: every triangle is tried */
     int unused_int;
     int first_triangle, triangle_count;

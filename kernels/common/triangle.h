@@ -150,9 +150,18 @@ FN vreal double_area(Corner a, Corner b) {
 /* Where a ray crosses a triangle. */
 typedef struct {
     vreal t;
+    vreal slack;   /* two crossings at an edge that are less than this apart may be at one place */
     vreal a, b, c; /* shares of the corners in the point, in all 1 */
     vmask entering;
 } TriangleCrossing;
+
+/* Eight units of rounding: twice what that of the shares, products and sums of a distance comes to.
+ */
+#if HD_DOUBLE
+#define DISTANCE_SLACK R(1.7763568394002505e-15) /* 2^-49 */
+#else
+#define DISTANCE_SLACK R(9.5367431640625e-7) /* 2^-20 */
+#endif
 
 /* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
    hierarchy, which hold that one, this makes every order of search find the same. */
@@ -176,7 +185,8 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
                         TriangleCrossing *crossing) {
     Vec3 from_a = vec3_sub(a, frame->origin), from_b = vec3_sub(b, frame->origin);
     Vec3 from_c = vec3_sub(c, frame->origin);
-    crossing->t = crossing->a = crossing->b = crossing->c = splat(R(0.0));
+    crossing->t = crossing->slack = splat(R(0.0));
+    crossing->a = crossing->b = crossing->c = splat(R(0.0));
     crossing->entering = mask_none();
     Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
     Corner at_c = project_corner(frame, from_c);
@@ -207,6 +217,8 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     /* Counterclockwise about the axis is met from outside by rays that run against it. */
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
     crossing->t = depth * frame->forward;
+    vreal furthest = greater(absolute(from_a.z), greater(absolute(from_b.z), absolute(from_c.z)));
+    crossing->slack = furthest * absolute(frame->forward) * splat(DISTANCE_SLACK);
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 

@@ -146,10 +146,10 @@ void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *mate
 
 /* Of row j of n, the first of which is the edge. The nearer to it, the smaller are the triangles.
  */
-static HdVec3 wedge_vertex(int n, int sheet, int i, int j, double roughness) {
+static HdVec3 wedge_vertex(int n, int sheet, int i, int j) {
     const double slope = 0.08748866352592401; /* tan 5 degrees */
     double across = (double)i / (n - 1), down = (double)j / (n - 1);
-    double away = 3.5 * down * down, height = slope * away * (1.0 + roughness);
+    double away = 3.5 * down * down, height = slope * away;
     return hd_vec3(3.0 * across - 1.5, 2.5 - away, sheet == FRONT ? height : -height);
 }
 
@@ -159,8 +159,7 @@ void build_wedge(HdMesh *mesh, int side, const HdMaterial *material, uint64_t *r
     for (int sheet = FRONT; sheet <= BACK; sheet++) {
         for (int j = 0; j < n; j++)
             for (int i = 0; i < n; i++)
-                mesh->vertices[mesh->vertex_count++] =
-                    wedge_vertex(n, sheet, i, j, random_between(random, -0.05, 0.05));
+                mesh->vertices[mesh->vertex_count++] = wedge_vertex(n, sheet, i, j);
         add_sheet(mesh, n, sheet, random);
     }
     add_walls(mesh, n);

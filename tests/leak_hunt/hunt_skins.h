@@ -26,7 +26,7 @@ void build_sheets(HdMesh *mesh, int side, double roughness, const HdMaterial *ma
 void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
                 uint64_t *random);
 
-/* A room about the eye whose floor and ceiling, a little rough, meet at 10 degrees at y = 2.5. */
+/* A room about the eye whose floor and ceiling meet at 10 degrees at y = 2.5. */
 void build_wedge(HdMesh *mesh, int side, const HdMaterial *material, uint64_t *random);
 
 /* A small triangle at y = `depth` in the middle of each chosen pixel. */
