@@ -3,12 +3,16 @@
 # arithmetic. Bundles that do not fill a register are there to compare bytes, not for speed: strict kernels
 # stand in for their fast ones, those wider than a register are built at -O1, which keeps gcc's compile
 # time bounded, and no sanitizer looks at them. With sanitizers, which look at memory and not at rounding,
-# strict kernels stand in everywhere.
+# strict kernels stand in everywhere, and there are fewer of them.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
 set(builds generic:1 generic:4 generic:8 generic:16)
 if(processor MATCHES "^(x86_64|amd64)$")
     list(APPEND builds avx2:1 avx2:4 avx2:8 avx512:8 avx512:16)
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
+    if(HEDRON_SANITIZE)
+        list(REMOVE_ITEM builds generic:4 generic:8 generic:16)
+        target_compile_definitions(hedron_core PRIVATE HD_CPU_FEW)
+    endif()
 endif()
 
 # gcc takes vectors that are filled lane by lane for uninitialised.

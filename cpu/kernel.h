@@ -21,24 +21,24 @@ typedef struct HdCpuQueue {
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
                          const HdCpuQueue *queue, float *pixels, HdRayCounts *counts);
 
-/* X(instruction set, lanes), from the most to the least capable. */
-#ifdef HD_CPU_X86
-#define HD_CPU_BUILDS(X)                                                                           \
+/* X(instruction set, lanes), from the most to the least capable. HD_CPU_FEW leaves out the bundles
+   that processors with more instructions do not take. */
+#define HD_CPU_WIDE_GENERIC_BUILDS(X)                                                              \
+    X(generic, 16)                                                                                 \
+    X(generic, 8)                                                                                  \
+    X(generic, 4)
+#define HD_CPU_X86_BUILDS(X)                                                                       \
     X(avx512, 16)                                                                                  \
     X(avx512, 8)                                                                                   \
     X(avx2, 8)                                                                                     \
     X(avx2, 4)                                                                                     \
-    X(avx2, 1)                                                                                     \
-    X(generic, 16)                                                                                 \
-    X(generic, 8)                                                                                  \
-    X(generic, 4)                                                                                  \
-    X(generic, 1)
+    X(avx2, 1)
+#ifndef HD_CPU_X86
+#define HD_CPU_BUILDS(X) HD_CPU_WIDE_GENERIC_BUILDS(X) X(generic, 1)
+#elif defined(HD_CPU_FEW)
+#define HD_CPU_BUILDS(X) HD_CPU_X86_BUILDS(X) X(generic, 1)
 #else
-#define HD_CPU_BUILDS(X)                                                                           \
-    X(generic, 16)                                                                                 \
-    X(generic, 8)                                                                                  \
-    X(generic, 4)                                                                                  \
-    X(generic, 1)
+#define HD_CPU_BUILDS(X) HD_CPU_X86_BUILDS(X) HD_CPU_WIDE_GENERIC_BUILDS(X) X(generic, 1)
 #endif
 
 #endif
