@@ -248,19 +248,54 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
 #define LEAST_AREA R(1e-15)
 #endif
 
-#define MOST_DETOUR R(1024.0)
+/* Sines of angles: below which a ray leaves flat, and the least that is told from none. */
+#define FLAT     R(0.125)
+#define FLATTEST R(0.0009765625)
+
+/* A ray that leaves a triangle from a unit of rounding on its wrong side gets to the right one
+   after 1 / sin(angle) units, which must not be beyond the edge ahead. So where it leaves flat, it
+   begins further back on its own way along the triangle, which hardly moves it aside. `way` is that
+   of the ray, in the mesh, and `normal` as long as twice the area. */
+FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle, Vec3 normal,
+                  Vec3 way, TriangleCrossing *crossing) {
+    vreal zero = splat(R(0.0)), most = splat(REAL_LARGE);
+    vreal down = absolute(vec3_dot(normal, way)), length = vec3_dot(way, way);
+    vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
+    vmask flat = lt(down * down, area * length * splat(FLAT * FLAT));
+    if (!any_lane(flat))
+        return;
+    down = greater(down, square_root(area * length) * splat(FLATTEST));
+    vreal wanted = square_root(splat(instance->contact_squared) * area) * reciprocal(down);
+    /* How fast the corners' shares change. */
+    vreal inverse = reciprocal(area), rate[3], share[3];
+    rate[1] = vec3_dot(way, vec3_cross(vec3_sub(triangle->c, triangle->a), normal)) * inverse;
+    rate[2] = vec3_dot(way, vec3_cross(normal, vec3_sub(triangle->b, triangle->a))) * inverse;
+    rate[0] = -(rate[1] + rate[2]);
+    share[0] = crossing->a;
+    share[1] = crossing->b;
+    share[2] = crossing->c;
+    vreal ahead = most, behind = most; /* to the edges, in units of `way` */
+    for (int i = 0; i < 3; i++) {
+        vmask falls = lt(rate[i], zero), rises = lt(zero, rate[i]);
+        vreal time = share[i] * reciprocal(pick(falls | rises, absolute(rate[i]), splat(R(1.0))));
+        ahead = pick(falls, lesser(ahead, time), ahead);
+        behind = pick(rises, lesser(behind, time), behind);
+    }
+    vreal back = lesser(greater(wanted - ahead, zero), greater(behind, zero) * R(0.5));
+    back = pick(flat, back, zero);
+    crossing->a = multiply_add(-back, rate[0], crossing->a);
+    crossing->b = multiply_add(-back, rate[1], crossing->b);
+    crossing->c = multiply_add(-back, rate[2], crossing->c);
+}
 
 /* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
    the reach of rounding from an edge, rays leave it from a little further inside: one that starts
-   at an edge might be on the wrong side of both its triangles, and miss both. The flatter they
-   leave, the further they run before they are on the right side of the one they left, which must
-   not be beyond its edge; `steepness` is the sine of the angle between the two. */
+   at an edge might be on the wrong side of both its triangles, and miss both. */
 FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes *triangle,
-                           const TriangleCrossing *crossing, Vec3 normal, vreal steepness) {
+                           const TriangleCrossing *crossing, Vec3 normal) {
     Vec3 to_b = vec3_sub(triangle->b, triangle->a), to_c = vec3_sub(triangle->c, triangle->a);
     Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
-    vreal flat = greater(steepness * steepness, splat(R(1.0) / (MOST_DETOUR * MOST_DETOUR)));
-    vreal least = (instance->contact_squared * R(0.25)) * reciprocal(flat);
+    vreal least = splat(instance->contact_squared * R(0.25));
     vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
     vreal a = crossing->a, b = crossing->b, c = crossing->c;
     vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
@@ -308,19 +343,21 @@ FN_APART void describe_mesh(SCENE_PARAMETERS const Ray *ray, const Reference *re
     Vec3 normal = normal_of(&triangle);
     Vec3 flat = direction_of(transform_normal(instance->to_mesh, direction_of(normal)));
     flat = vec3_scale(flat, pick(hit->entering, splat(R(1.0)), splat(R(-1.0))));
-    vreal steepness = absolute(vec3_dot(flat, ray->direction));
     surface->normal = vec3_pick(m, flat, surface->normal);
+    Vec3 leaving = ray->direction;
     if (instance->first_corner_normals >= 0) {
         Vec3 smooth = smooth_normal(SCENE_ARGUMENTS instance, triangle.number, hit->entering,
                                     &crossing, ray->direction, flat);
         Vec3 mirrored =
             vec3_scale_add(smooth, vec3_dot(smooth, ray->direction) * R(-2.0), ray->direction);
-        steepness = lesser(steepness, vec3_dot(flat, mirrored));
+        vmask flatter = lt(vec3_dot(flat, mirrored), absolute(vec3_dot(flat, leaving)));
+        leaving = vec3_pick(flatter, mirrored, leaving);
         surface->normal = vec3_pick(m, smooth, surface->normal);
     }
-    Vec3 point = point_of_departure(instance, &triangle, &crossing, normal, steepness);
-    surface->point = vec3_pick(m, transform_vector(instance->to_world, point), surface->point);
     set_skins(SCENE_ARGUMENTS instance, m, &triangle, &crossing, hit->entering, surface);
+    step_back(instance, &triangle, normal, transform_vector(instance->to_mesh, leaving), &crossing);
+    Vec3 point = point_of_departure(instance, &triangle, &crossing, normal);
+    surface->point = vec3_pick(m, transform_vector(instance->to_world, point), surface->point);
     hit->face = pick_int(m, triangle.face, hit->face);
 }
 

@@ -155,12 +155,12 @@ typedef struct {
     vmask entering;
 } TriangleCrossing;
 
-/* Eight units of rounding: twice what that of the shares, products and sums of a distance comes to.
- */
+/* What the rounding of the shares, products and sums of two distances may come to, relative to the
+   furthest corner. */
 #if HD_DOUBLE
-#define DISTANCE_SLACK R(1.7763568394002505e-15) /* 2^-49 */
+#define DISTANCE_SLACK R(3.5527136788005009e-15) /* 2^-48 */
 #else
-#define DISTANCE_SLACK R(9.5367431640625e-7) /* 2^-20 */
+#define DISTANCE_SLACK R(1.9073486328125e-6) /* 2^-19 */
 #endif
 
 /* What is before and beyond the box about a triangle is no crossing of it: with the boxes of a
