@@ -265,7 +265,7 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     if (!any_lane(flat))
         return;
     down = greater(down, square_root(area * length) * splat(FLATTEST));
-    vreal wanted = square_root(splat(instance->contact_squared) * area) * reciprocal(down);
+    vreal wanted = square_root(area * (instance->contact_squared * R(0.015625))) * reciprocal(down);
     /* How fast the corners' shares change. */
     vreal inverse = reciprocal(area), rate[3], share[3];
     rate[1] = vec3_dot(way, vec3_cross(vec3_sub(triangle->c, triangle->a), normal)) * inverse;
