@@ -19,11 +19,11 @@ const Variant variants[] = {
     {FOR_PLAIN_C, false, {WAVEFRONT, .threads = 1, .test.queue_bytes = LEAST}},
 
     {FOR_GPUS, true, {WAVEFRONT}},
-    {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 3, .test.queue_bytes = LEAST}},
     {FOR_GPUS, true, {WAVEFRONT, .block = 96, .test.queue_bytes = LITTLE}},
     {FOR_GPUS, false, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
     {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1}},
     {FOR_GPUS, false, {MEGA, .block = 1024, .grid = 2}},
+    {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 3, .test.queue_bytes = LEAST}},
 
     {FOR_CPUS_AS_GPUS, false, {MEGA, .block = 96, .grid = 3, .test.groups = true}},
     {FOR_CPUS_AS_GPUS,
