@@ -29,14 +29,19 @@
 #if HD_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
-#define FN           static inline
-#define FN_APART     static
-#define GLOBAL       __global
-#define LOCAL        __local
-#define BARRIER()    barrier(CLK_LOCAL_MEM_FENCE)
+#define FN        static inline
+#define FN_APART  static
+#define GLOBAL    __global
+#define LOCAL     __local
+#define BARRIER() barrier(CLK_LOCAL_MEM_FENCE)
+#ifdef cl_nv_pragma_unroll /* NVIDIA's compiler; see CUDA below */
+#define RECONVERGE()                                                                               \
+    __asm__ volatile("{ .reg .b32 m; activemask.b32 m; bar.warp.sync m; }" ::: "memory")
+#else
 #define RECONVERGE() ((void)0)
-#define RESTRICT     restrict
-#define ALIGNED_16   __attribute__((aligned(16)))
+#endif
+#define RESTRICT   restrict
+#define ALIGNED_16 __attribute__((aligned(16)))
 typedef ulong uint64;
 typedef long fixed64;
 
