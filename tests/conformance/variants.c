@@ -22,7 +22,7 @@ const Variant variants[] = {
     {FOR_GPUS, true, {WAVEFRONT, .block = 96, .test.queue_bytes = LITTLE}},
     {FOR_GPUS, false, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
     {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1}},
-    {FOR_GPUS, false, {MEGA, .block = 1024, .grid = 2}},
+    {FOR_CUDA, false, {MEGA, .block = 1024, .grid = 2}},
     {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 3, .test.queue_bytes = LEAST}},
 
     {FOR_CPUS_AS_GPUS, false, {MEGA, .block = 96, .grid = 3, .test.groups = true}},
@@ -40,6 +40,8 @@ bool variant_suits(const Variant *variant, const HdDevice *device) {
         return device->is_cpu;
     case FOR_PLAIN_C:
         return is_plain_c;
+    case FOR_CUDA: /* only it compiles for as many threads as it is asked to */
+        return device->backend == &hd_backend_cuda;
     case FOR_CPUS_AS_GPUS:
         return device->is_cpu && !is_plain_c;
     case FOR_GPUS:

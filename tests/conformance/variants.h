@@ -7,7 +7,7 @@
 #include "backend.h"
 
 typedef struct Variant {
-    enum { FOR_CPUS, FOR_PLAIN_C, FOR_GPUS, FOR_CPUS_AS_GPUS } kind;
+    enum { FOR_CPUS, FOR_PLAIN_C, FOR_GPUS, FOR_CUDA, FOR_CPUS_AS_GPUS } kind;
     bool all_frames; /* otherwise those of is_variant_frame */
     HdRenderOptions options;
 } Variant;
