@@ -248,9 +248,11 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
 #define LEAST_AREA R(1e-15)
 #endif
 
-/* Sines of angles: below which a ray leaves flat, and the least that is told from none. */
-#define FLAT     R(0.125)
-#define FLATTEST R(0.0009765625)
+/* Sines of angles: below which a ray leaves flat, and the least that is told from none; and the
+   share of the way to a triangle's middle that rays are moved by at most. */
+#define FLAT         R(0.125)
+#define FLATTEST     R(0.0009765625)
+#define MOST_INWARDS R(0.25)
 
 /* A ray that leaves a triangle from a unit of rounding on its wrong side gets to the right one
    after 1 / sin(angle) units, which must not be beyond the edge ahead. So where it leaves flat, it
@@ -274,18 +276,30 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     share[0] = crossing->a;
     share[1] = crossing->b;
     share[2] = crossing->c;
-    vreal ahead = most, behind = most; /* to the edges, in units of `way` */
+    vreal ahead = most, behind = most;               /* to the edges, in units of `way` */
+    vreal middle_ahead = most, middle_behind = most; /* the same from the middle */
+    vreal third = splat(R(0.33333333333333333));
     for (int i = 0; i < 3; i++) {
         vmask falls = lt(rate[i], zero), rises = lt(zero, rate[i]);
-        vreal time = share[i] * reciprocal(pick(falls | rises, absolute(rate[i]), splat(R(1.0))));
-        ahead = pick(falls, lesser(ahead, time), ahead);
-        behind = pick(rises, lesser(behind, time), behind);
+        vreal time = reciprocal(pick(falls | rises, absolute(rate[i]), splat(R(1.0))));
+        ahead = pick(falls, lesser(ahead, share[i] * time), ahead);
+        behind = pick(rises, lesser(behind, share[i] * time), behind);
+        middle_ahead = pick(falls, lesser(middle_ahead, third * time), middle_ahead);
+        middle_behind = pick(rises, lesser(middle_behind, third * time), middle_behind);
     }
+    /* At a corner there is too little room: towards the middle it grows as the distance. */
+    vreal lacking = greater(wanted - (ahead + behind), zero);
+    vreal inwards = lesser(lacking * reciprocal(middle_ahead + middle_behind), splat(MOST_INWARDS));
+    ahead = multiply_add(inwards, middle_ahead - ahead, ahead);
+    behind = multiply_add(inwards, middle_behind - behind, behind);
     vreal back = lesser(greater(wanted - ahead, zero), greater(behind, zero) * R(0.5));
-    back = pick(flat, back, zero);
-    crossing->a = multiply_add(-back, rate[0], crossing->a);
-    crossing->b = multiply_add(-back, rate[1], crossing->b);
-    crossing->c = multiply_add(-back, rate[2], crossing->c);
+    for (int i = 0; i < 3; i++) {
+        vreal moved = multiply_add(inwards, third - share[i], share[i]);
+        share[i] = pick(flat, multiply_add(-back, rate[i], moved), share[i]);
+    }
+    crossing->a = share[0];
+    crossing->b = share[1];
+    crossing->c = share[2];
 }
 
 /* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
