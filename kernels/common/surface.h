@@ -267,6 +267,7 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     if (!any_lane(flat))
         return;
     down = greater(down, square_root(area * length) * splat(FLATTEST));
+    /* An eighth of the contact distance is as much as a point is off. */
     vreal wanted = square_root(area * (instance->contact_squared * R(0.015625))) * reciprocal(down);
     /* How fast the corners' shares change. */
     vreal inverse = reciprocal(area), rate[3], share[3];

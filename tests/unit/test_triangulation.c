@@ -299,7 +299,7 @@ static double off_disc(int sides) {
 /* Random points of the triangles, but those so near to a border that a polygon may be on the other
    side of it than the disc; that is few points. */
 static void expect_rule(const HdMesh *mesh, const HdSolid *solid, int disc_sides) {
-    enum { POINTS = 500 };
+    enum { POINTS = 2000 };
     HdPlatonic shape;
     double vagueness = 1.1 * off_disc(disc_sides);
     hd_platonic(solid->kind, &shape);
@@ -372,7 +372,7 @@ static void test_materials_follow_the_rule_of_the_kernels(void **state) {
 /* Whatever the lengths are; discs of up to a third of an edge among them. */
 static void test_any_lengths(void **state) {
     (void)state;
-    for (int i = 0; i < 100; i++) {
+    for (int i = 0; i < 200; i++) {
         Pattern pattern = {0.3 * random_share() * random_share(),
                            1e-7 + 0.5 * pow(random_share(), 3.0), (int)(1.0 + 7.0 * random_share()),
                            (int)(1.0 + 29.0 * random_share())};
