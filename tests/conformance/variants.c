@@ -23,7 +23,7 @@ const Variant variants[] = {
     {FOR_GPUS, false, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
     {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1}},
     {FOR_CUDA, false, {MEGA, .block = 1024, .grid = 2}},
-    {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 3, .test.queue_bytes = LEAST}},
+    {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 24, .test.queue_bytes = LEAST}},
 
     {FOR_CPUS_AS_GPUS, false, {MEGA, .block = 96, .grid = 3, .test.groups = true}},
     {FOR_CPUS_AS_GPUS,
