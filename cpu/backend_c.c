@@ -152,13 +152,13 @@ static size_t padded(size_t bytes) {
     return (bytes + 63) / 64 * 64;
 }
 
-static HdStatus prepare_queues(CRenderer *c, int samples_per_side, HdError *error) {
+static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     HdWaveNeeds needs = {
         .bytes = c->queue_budget,
         .precision = c->build->precision,
         .depth = c->scene.depth,
         .grain = c->build->lanes,
-        .samples = HD_BLOCK_PIXELS * samples_per_side * samples_per_side,
+        .samples = HD_BLOCK_PIXELS * samples,
         .samples_at_once = HD_WAVE_BUNDLE,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
@@ -225,7 +225,7 @@ static HdStatus c_collect(void *renderer, HdFrame *frame, HdError *error) {
     int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
     HdStatus status = reserve_counts(c, items, error);
     if (status == HD_OK && c->queues != NULL)
-        status = prepare_queues(c, tables->samples_per_side, error);
+        status = prepare_queues(c, tables->samples, error);
     if (status != HD_OK)
         return status;
     FrameWork work = {c, tables, frame->rgb};
@@ -234,7 +234,7 @@ static HdStatus c_collect(void *renderer, HdFrame *frame, HdError *error) {
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     frame->is_encoded = false;
     frame->trace_seconds = hd_monotonic_seconds() - start;
-    hd_frame_set_counts(frame, tables->samples_per_side, c->counts, items);
+    hd_frame_set_counts(frame, tables->samples, c->counts, items);
     return HD_OK;
 }
 

@@ -23,7 +23,7 @@ struct HdRenderer {
     bool has_scene;
     int in_flight;
     struct {
-        int width, height;
+        int width, height, floats;
         bool wants_radiance;
     } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
@@ -235,8 +235,11 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
     return status == HD_OK ? check_size(tables->width, tables->height, error) : status;
 }
 
-static HdStatus check_room(const HdFrame *frame, int width, int height, bool wants_radiance,
-                           HdError *error) {
+static HdStatus check_room(const HdFrame *frame, int width, int height, int floats,
+                           bool wants_radiance, HdError *error) {
+    if (frame->floats != floats)
+        return hd_fail(error, HD_BAD_INPUT, "a frame of %d floats a pixel was given for one of %d",
+                       frame->floats, floats);
     if (!frame->rgb || frame->width != width || frame->height != height)
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
@@ -259,6 +262,7 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
     int place = renderer->in_flight++;
     renderer->flights[place].width = tables->width;
     renderer->flights[place].height = tables->height;
+    renderer->flights[place].floats = tables->floats;
     renderer->flights[place].wants_radiance = wish->radiance;
     return HD_OK;
 }
@@ -266,8 +270,9 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
     if (renderer->in_flight == 0)
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
-    HdStatus status = check_room(frame, renderer->flights[0].width, renderer->flights[0].height,
-                                 renderer->flights[0].wants_radiance, error);
+    HdStatus status =
+        check_room(frame, renderer->flights[0].width, renderer->flights[0].height,
+                   renderer->flights[0].floats, renderer->flights[0].wants_radiance, error);
     if (status != HD_OK)
         return status;
     status = renderer->backend->collect(renderer->state, frame, error);
@@ -294,7 +299,7 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
                             HdError *error) {
     HdStatus status = check_frame_tables(renderer, tables, error);
     if (status == HD_OK)
-        status = check_room(frame, tables->width, tables->height, true, error);
+        status = check_room(frame, tables->width, tables->height, tables->floats, true, error);
     if (status == HD_OK)
         status = check_in_flight(renderer, 0, "a frame was rendered", error);
     if (status != HD_OK)

@@ -552,7 +552,7 @@ enum { MOST_ARGUMENTS = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 };
 
 static HdStatus launch_mega(Renderer *renderer, HdCudaFlight *flight, int items, HdError *error) {
     int block = renderer->shape.group_size;
-    int first, count, parts = hd_gpu_sample_parts(flight->samples_per_side, block);
+    int first, count, parts = hd_gpu_sample_parts(flight->samples, block);
     void *arguments[MOST_ARGUMENTS];
     int n = table_arguments(renderer, arguments);
     arguments[n++] = &first;
@@ -621,7 +621,8 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     const WaveLaunches *launches = context;
     Renderer *renderer = launches->renderer;
     HdWavePlan plan = renderer->plan;
-    void *arguments[] = {&renderer->frame[HD_TABLE_view].pointer,
+    void *arguments[] = {&renderer->scene[HD_TABLE_header].pointer,
+                         &renderer->frame[HD_TABLE_view].pointer,
                          &renderer->queue_sums.pointer,
                          &plan.sum_stride,
                          &first_item,
@@ -637,7 +638,7 @@ static HdStatus launch_waves(Renderer *renderer, HdCudaFlight *flight, int items
     HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
     HdWaveFrame frame = {
         .items = items,
-        .samples_per_item = flight->samples_per_side * flight->samples_per_side,
+        .samples_per_item = flight->samples,
         .depth = renderer->depth,
         .grain = renderer->shape.group_size,
     };
@@ -701,7 +702,7 @@ static HdStatus launch_frame(Renderer *renderer, HdCudaFlight *flight, const HdF
                              HdCurve curve, HdError *error) {
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
-    int samples = tables->samples_per_side * tables->samples_per_side, count_slots = items;
+    int samples = tables->samples, count_slots = items;
     HdStatus status = HD_OK;
     if (renderer->shape.wavefront) {
         status = plan_waves(renderer, items, samples, error);

@@ -352,8 +352,7 @@ static HdStatus wait_between(const Renderer *renderer, HdError *error) {
 static HdStatus launch_mega(Renderer *renderer, HdOpenclFlight *flight, int items, HdError *error) {
     cl_kernel render = renderer->program.render;
     int group_size = (int)renderer->local_size;
-    int parts =
-        renderer->has_groups ? hd_gpu_sample_parts(flight->samples_per_side, group_size) : 1;
+    int parts = renderer->has_groups ? hd_gpu_sample_parts(flight->samples, group_size) : 1;
     int count;
     HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &flight->pixels, error);
     if (status == HD_OK)
@@ -426,9 +425,9 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     const WaveLaunches *launches = context;
     Renderer *renderer = launches->renderer;
     cl_kernel store = renderer->program.store;
-    HdStatus status = set_int(store, 3, first_item, error);
+    HdStatus status = set_int(store, 4, first_item, error);
     if (status == HD_OK)
-        status = set_int(store, 4, item_count, error);
+        status = set_int(store, 5, item_count, error);
     if (status == HD_OK)
         status = launch(renderer, store, item_count, (int)renderer->local_size, NULL, error);
     return status;
@@ -448,13 +447,15 @@ static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, 
     if (status == HD_OK)
         status = set_buffer(render, own + 1, &renderer->counts, error);
     if (status == HD_OK)
-        status = set_buffer(store, 0, &renderer->frame[HD_TABLE_view], error);
+        status = set_buffer(store, 0, &renderer->scene[HD_TABLE_header], error);
     if (status == HD_OK)
-        status = set_buffer(store, 1, &renderer->queue_sums, error);
+        status = set_buffer(store, 1, &renderer->frame[HD_TABLE_view], error);
     if (status == HD_OK)
-        status = set_int(store, 2, renderer->plan.sum_stride, error);
+        status = set_buffer(store, 2, &renderer->queue_sums, error);
     if (status == HD_OK)
-        status = set_buffer(store, 5, &flight->pixels, error);
+        status = set_int(store, 3, renderer->plan.sum_stride, error);
+    if (status == HD_OK)
+        status = set_buffer(store, 6, &flight->pixels, error);
     return status;
 }
 
@@ -465,7 +466,7 @@ static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int ite
     HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
     HdWaveFrame frame = {
         .items = items,
-        .samples_per_item = flight->samples_per_side * flight->samples_per_side,
+        .samples_per_item = flight->samples,
         .depth = renderer->depth,
         .grain = (int)renderer->local_size,
     };
@@ -527,9 +528,9 @@ static HdStatus encode(Renderer *renderer, HdOpenclFlight *flight, HdCurve curve
 
 /* ---- frames ---- */
 
-static void plan_waves(Renderer *renderer, int items, int samples_per_side) {
+static void plan_waves(Renderer *renderer, int items, int samples) {
     const HdKernelShape *shape = &renderer->shape;
-    int per_item = shape->pixels_per_item * samples_per_side * samples_per_side;
+    int per_item = shape->pixels_per_item * samples;
     HdWaveNeeds needs = {
         .bytes = renderer->queue_bytes,
         .precision = shape->precision,
@@ -548,7 +549,7 @@ static HdStatus launch_frame(Renderer *renderer, HdOpenclFlight *flight,
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
     int count_slots = items;
     if (renderer->shape.wavefront)
-        plan_waves(renderer, items, tables->samples_per_side);
+        plan_waves(renderer, items, tables->samples);
     if (renderer->shape.wavefront && renderer->has_groups)
         count_slots = hd_wave_groups(&renderer->plan, (int)renderer->local_size, renderer->grid);
     HdStatus status = prepare(renderer, flight, tables, count_slots, error);

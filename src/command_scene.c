@@ -9,12 +9,17 @@
 #include "default_scene.h"
 #include "interrupt.h"
 #include "scene_triangles.h"
+#include "survey_pass.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */
 enum { MAX_INPUT_BYTES = 1 << 20 };
 
 /* Of the discs of edge lights, where they become polygons. */
 enum { DISC_SIDES = 16 };
+
+/* What a reference has where nothing else was asked for. */
+enum { REFERENCE_SAMPLES = 32 };
+#define REFERENCE_ERROR (1.0 / 64.0)
 
 static const char standard_input[] = "standard input";
 
@@ -87,8 +92,10 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSo
 }
 
 /* As they stand on the command line; nothing where none was given. */
-static void spell_scene_options(const HdOptions *options, char text[128]) {
-    char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "";
+enum { SPELLED = 256 };
+
+static void spell_scene_options(const HdOptions *options, char text[SPELLED]) {
+    char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "", crop[64] = "";
     if (options->width > 0)
         snprintf(size, sizeof size, " --size %dx%d", options->width, options->height);
     if (options->samples > 0)
@@ -97,14 +104,26 @@ static void spell_scene_options(const HdOptions *options, char text[128]) {
         snprintf(depth, sizeof depth, " --depth %d", options->depth);
     if (options->cutoff >= 0.0)
         snprintf(cutoff, sizeof cutoff, " --cutoff %g", options->cutoff);
-    snprintf(text, 128, "%s%s%s%s", size, samples, depth, cutoff);
+    if (options->crop.width > 0)
+        snprintf(crop, sizeof crop, " --crop %dx%d+%d+%d", options->crop.width,
+                 options->crop.height, options->crop.left, options->crop.top);
+    snprintf(text, SPELLED, "%s%s%s%s%s", size, samples, depth, cutoff, crop);
 }
 
-HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
-    char given[128];
-    spell_scene_options(options, given);
-    if (given[0] == '\0')
+static HdStatus crop(HdScene *scene, const HdOptions *options, HdError *error) {
+    if (options->crop.width == 0)
         return HD_OK;
+    if (options->crop.left + options->crop.width > scene->width ||
+        options->crop.top + options->crop.height > scene->height)
+        return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
+                       scene->width, scene->height);
+    scene->crop = (HdCrop){scene->width, scene->height, options->crop.left, options->crop.top};
+    scene->width = options->crop.width;
+    scene->height = options->crop.height;
+    return HD_OK;
+}
+
+static void set_numbers(HdScene *scene, const HdOptions *options) {
     if (options->width > 0) {
         scene->width = options->width;
         scene->height = options->height;
@@ -115,9 +134,39 @@ HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdErro
         scene->depth = options->depth;
     if (options->cutoff >= 0.0)
         scene->cutoff = options->cutoff;
-    HdStatus status = hd_scene_validate(scene, error);
+    if (options->max_error >= 0.0)
+        scene->max_error = options->max_error;
+    if (options->sampling >= 0)
+        scene->sampling = (HdSampling)options->sampling;
+}
+
+/* What follows from the error that is allowed: nothing else cuts rays off. */
+static void set_by_error(HdScene *scene, const HdOptions *options) {
+    if (scene->sampling == HD_SAMPLING_REFERENCE) {
+        if (options->samples < 0)
+            scene->samples_per_side = REFERENCE_SAMPLES;
+        if (options->max_error < 0.0)
+            scene->max_error = REFERENCE_ERROR;
+    }
+    if (!(scene->max_error > 0.0))
+        return;
+    if (options->depth < 0)
+        scene->depth = hd_survey_depth(scene);
+    if (options->cutoff < 0.0)
+        scene->cutoff = 0.0;
+}
+
+HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
+    char given[SPELLED];
+    spell_scene_options(options, given);
+    set_numbers(scene, options);
+    HdStatus status = given[0] != '\0' ? hd_scene_validate(scene, error) : HD_OK;
+    if (status == HD_OK)
+        status = crop(scene, options, error);
     if (status != HD_OK)
         hd_error_prefix(error, given + 1);
+    else
+        set_by_error(scene, options);
     return status;
 }
 

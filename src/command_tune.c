@@ -166,6 +166,7 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     HdStatus status = hd_read_scene(&file, options, error);
     if (status != HD_OK)
         return status;
+    hd_scene_drop_survey(&file.scene);
     run = (Run){.options = options, .scene = &file.scene};
     status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);
     if (status == HD_OK) {

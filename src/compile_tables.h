@@ -7,9 +7,10 @@
 
 HdStatus hd_compile_scene_float(HdSceneTables *tables, const HdScene *scene, HdError *error);
 HdStatus hd_compile_scene_double(HdSceneTables *tables, const HdScene *scene, HdError *error);
+/* `list` is NULL where all pixels have all places of the grid. */
 HdStatus hd_compile_frame_float(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                                HdError *error);
+                                const HdSampleList *list, HdError *error);
 HdStatus hd_compile_frame_double(HdFrameTables *tables, const HdScene *scene,
-                                 const HdCamera *camera, HdError *error);
+                                 const HdCamera *camera, const HdSampleList *list, HdError *error);
 
 #endif

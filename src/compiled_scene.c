@@ -6,6 +6,11 @@
 
 #include "../kernels/common/scene_tables.h"
 #include "compile_tables.h"
+#include "frame.h"
+
+_Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
+                   (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
+               "a float comes of each sum");
 
 const char *hd_scene_table_content(int table) {
     static const char *const contents[HD_SCENE_TABLE_COUNT] = {
@@ -65,17 +70,31 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
     return status;
 }
 
-HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
-                          HdPrecision precision, HdError *error) {
+static HdStatus compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                              HdPrecision precision, const HdSampleList *list, HdError *error) {
     memset(tables, 0, sizeof *tables);
     tables->precision = precision;
-    tables->width = scene->width;
-    tables->height = scene->height;
-    tables->samples_per_side = scene->samples_per_side;
+    tables->width = list != NULL ? HD_LISTED_WIDTH : scene->width;
+    tables->height =
+        list != NULL ? (list->entry_count + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH : scene->height;
+    tables->samples =
+        list != NULL ? list->samples : scene->samples_per_side * scene->samples_per_side;
+    tables->floats = hd_scene_is_surveyed(scene) ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
     HdStatus status = precision == HD_PRECISION_FLOAT
-                          ? hd_compile_frame_float(tables, scene, camera, error)
-                          : hd_compile_frame_double(tables, scene, camera, error);
+                          ? hd_compile_frame_float(tables, scene, camera, list, error)
+                          : hd_compile_frame_double(tables, scene, camera, list, error);
     if (status != HD_OK)
         hd_frame_tables_free(tables);
     return status;
+}
+
+HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
+                          HdPrecision precision, HdError *error) {
+    return compile_frame(tables, scene, camera, precision, NULL, error);
+}
+
+HdStatus hd_compile_listed_frame(HdFrameTables *tables, const HdScene *scene,
+                                 const HdCamera *camera, HdPrecision precision,
+                                 const HdSampleList *list, HdError *error) {
+    return compile_frame(tables, scene, camera, precision, list, error);
 }

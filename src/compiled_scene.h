@@ -28,15 +28,32 @@ typedef struct HdSceneTables {
     int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
     bool refracts;        /* some solid has an index of refraction that is not 1 */
     bool lit_from_behind; /* some material is */
+    bool surveyed;        /* pixels come with bounds of what was left out and with identities */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */
 typedef struct HdFrameTables {
     HdTable table[4];
     int table_count;
-    int width, height, samples_per_side;
+    int width, height;
+    int samples; /* of a pixel */
+    int floats;  /* that come of a pixel: 3, of surveyed scenes 5 (HdFrame) */
     HdPrecision precision;
 } HdFrameTables;
+
+/* The pixels of a listed frame, of the whole picture and in any order, and the samples of each. */
+typedef struct HdSampleList {
+    const int *entries; /* two numbers for each: x | y << 16, and the first sample in `places` */
+    int entry_count;
+    const int *places; /* of samples in their pixel: column | row << 16 */
+    int place_count;
+    int grid_side; /* columns and rows are less */
+    int samples;   /* of each entry: those that follow the first one */
+    double
+        bound_cutoff; /* rays and lights that cannot add more than this to a sample are left out */
+} HdSampleList;
+
+enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */
 
 /* Compiles a scene that hd_scene_validate accepted. All geometry is computed in double; differences
    of centres are formed before they are rounded to the kernels' precision. `lanes` is what
@@ -52,6 +69,12 @@ const char *hd_scene_table_content(int table);
 /* The tables of one frame of the same scene. */
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
                           HdPrecision precision, HdError *error);
+
+/* The same with the listed samples, 1 or more, of a surveyed scene. */
+HdStatus hd_compile_listed_frame(HdFrameTables *tables, const HdScene *scene,
+                                 const HdCamera *camera, HdPrecision precision,
+                                 const HdSampleList *list, HdError *error);
+
 void hd_frame_tables_free(HdFrameTables *tables);
 
 #endif

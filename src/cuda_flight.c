@@ -69,7 +69,7 @@ static size_t pixel_count(const HdCudaFlight *flight) {
 
 /* Of what is copied. */
 static size_t picture_bytes(const HdCudaFlight *flight) {
-    return pixel_count(flight) * (flight->encodes ? 4 : 3 * sizeof(float));
+    return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->floats * sizeof(float));
 }
 
 static size_t bytes_of_tables(const HdFrameTables *tables) {
@@ -87,10 +87,12 @@ HdStatus hd_cuda_flight_begin(HdCudaFlights *flights, const HdFrameTables *table
     flight->encodes = encodes;
     flight->width = tables->width;
     flight->height = tables->height;
-    flight->samples_per_side = tables->samples_per_side;
+    flight->samples = tables->samples;
+    flight->floats = tables->floats;
     *out = flight;
     HdStatus status = hd_cuda_resize(owner, &flight->pixels,
-                                     sizeof(float) * 3 * pixel_count(flight), "pixels", error);
+                                     sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+                                     "pixels", error);
     if (status == HD_OK)
         status = hd_cuda_resize(owner, &flight->sums, SUM_BYTES, "sums of the counts", error);
     if (status == HD_OK && encodes)
@@ -143,7 +145,7 @@ HdStatus hd_cuda_flight_collect(HdCudaFlights *flights, HdFrame *frame, HdError 
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
            (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));
-    hd_frame_set_counts(frame, flight->samples_per_side, flight->copy.data, HD_SUM_WORKERS);
+    hd_frame_set_counts(frame, flight->samples, flight->copy.data, HD_SUM_WORKERS);
     return HD_OK;
 }
 

@@ -12,8 +12,8 @@ typedef struct HdCudaFlight {
     HdCudaMemory image;        /* 8 bits, where the frame is encoded */
     HdCudaHostMemory tables;   /* of the frame, on their way to the device */
     bool encodes;
-    int width, height, samples_per_side;
-    HdCuEvent start, end;  /* of the tracing, for the caller to record */
+    int width, height, samples, floats; /* as of the frame's tables */
+    HdCuEvent start, end;               /* of the tracing, for the caller to record */
     HdCuEvent ready;       /* after it the results can be copied; for the caller as well */
     HdCudaHostMemory copy; /* the sums, then the pixels or the image */
     HdCuEvent copied;

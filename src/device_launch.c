@@ -6,9 +6,8 @@
 
 _Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied as they are");
 
-int hd_gpu_sample_parts(int samples_per_side, int group_size) {
+int hd_gpu_sample_parts(int samples, int group_size) {
     enum { MAX_PARTS = 64 };
-    int samples = samples_per_side * samples_per_side;
     int parts = group_size < MAX_PARTS ? group_size : MAX_PARTS;
     while (samples % parts != 0)
         parts--;

@@ -16,6 +16,6 @@ int hd_gpu_launch_items(int compute_units);
 
 /* Among how many threads of a group of `group_size` the samples of a pixel are shared: the greatest
    divisor of their number up to the group's size and 64, so that all of them have as many. */
-int hd_gpu_sample_parts(int samples_per_side, int group_size);
+int hd_gpu_sample_parts(int samples, int group_size);
 
 #endif

@@ -25,6 +25,7 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_WIDE_STACK", shape->needs.node_stack_bound * shape->lanes},
         {"HD_REFRACTS", shape->needs.refracts},
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
+        {"HD_SURVEYED", shape->needs.surveyed},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
     };
     for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
@@ -72,13 +73,14 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
+        .surveyed = tables->surveyed,
     };
 }
 
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
            a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
-           a->lit_from_behind == b->lit_from_behind;
+           a->lit_from_behind == b->lit_from_behind && a->surveyed == b->surveyed;
 }
 
 bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {
@@ -97,10 +99,11 @@ void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs)
 
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
-             "built for up to %d planes and depth %d, %s refraction, %s, %s", needs->plane_bound,
+             "built for up to %d planes and depth %d, %s refraction, %s, %s%s", needs->plane_bound,
              needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
-             needs->node_stack_bound > 0 ? "meshes" : "no meshes");
+             needs->node_stack_bound > 0 ? "meshes" : "no meshes",
+             needs->surveyed ? ", with surveys" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

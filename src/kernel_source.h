@@ -20,6 +20,7 @@ typedef struct HdKernelNeeds {
     int node_stack_bound;         /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
+    bool surveyed; /* pixels come with their survey */
 } HdKernelNeeds;
 
 /* What the text is specialised by. */
@@ -41,7 +42,7 @@ typedef struct HdKernelShape {
    all. A block's threads share 65536 registers, so that large blocks get fewer. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
-enum { HD_KERNEL_DEFINE_COUNT = 12, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINE_COUNT = 13, HD_KERNEL_DEFINE_LENGTH = 40 };
 
 /* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
    -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */

@@ -35,7 +35,7 @@ static size_t pixel_count(const HdOpenclFlight *flight) {
 
 /* Of what is copied. */
 static size_t picture_bytes(const HdOpenclFlight *flight) {
-    return pixel_count(flight) * (flight->encodes ? 4 : 3 * sizeof(float));
+    return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->floats * sizeof(float));
 }
 
 HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *tables, bool encodes,
@@ -46,12 +46,13 @@ HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *t
     flight->encodes = encodes;
     flight->width = tables->width;
     flight->height = tables->height;
-    flight->samples_per_side = tables->samples_per_side;
+    flight->samples = tables->samples;
+    flight->floats = tables->floats;
     flight->submitted = hd_monotonic_seconds();
     *out = flight;
-    HdStatus status =
-        hd_opencl_resize(owner, &flight->pixels, sizeof(float) * 3 * pixel_count(flight),
-                         CL_MEM_READ_WRITE, "pixels", error);
+    HdStatus status = hd_opencl_resize(owner, &flight->pixels,
+                                       sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+                                       CL_MEM_READ_WRITE, "pixels", error);
     if (status == HD_OK)
         status = hd_opencl_resize(owner, &flight->sums, SUM_BYTES, CL_MEM_READ_WRITE,
                                   "sums of the counts", error);
@@ -124,7 +125,7 @@ HdStatus hd_opencl_flight_collect(HdOpenclFlights *flights, HdFrame *frame, HdEr
         frame->is_encoded = flight->encodes;
         memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
                (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));
-        hd_frame_set_counts(frame, flight->samples_per_side, flight->copy.data, HD_SUM_WORKERS);
+        hd_frame_set_counts(frame, flight->samples, flight->copy.data, HD_SUM_WORKERS);
     }
     hd_opencl_flight_cancel(flight);
     flights->collected = hd_monotonic_seconds();

@@ -11,11 +11,11 @@ typedef struct HdOpenclFlight {
     HdOpenclBuffer pixels, sums; /* radiance, and HD_SUM_WORKERS sums of the counts */
     HdOpenclBuffer image;        /* 8 bits, where the frame is encoded */
     bool encodes;
-    int width, height, samples_per_side;
-    double submitted;        /* by hd_monotonic_seconds */
-    cl_event first, last;    /* of the tracing; the flight's own */
-    cl_event ready;          /* after it the results can be copied; the flight's own */
-    HdOpenclHostMemory copy; /* the sums, then the pixels or the image */
+    int width, height, samples, floats; /* as of the frame's tables */
+    double submitted;                   /* by hd_monotonic_seconds */
+    cl_event first, last;               /* of the tracing; the flight's own */
+    cl_event ready;                     /* after it the results can be copied; the flight's own */
+    HdOpenclHostMemory copy;            /* the sums, then the pixels or the image */
     cl_event copied;
 } HdOpenclFlight;
 

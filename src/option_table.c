@@ -44,6 +44,18 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "how often a ray may be mirrored or pass a face"},
     {HD_OPTION_CUTOFF, "--cutoff", NULL, "W", NULL, false, 0, 0, MEASURING,
      "end rays that weigh less than W, 0..1 (0: never)"},
+    {HD_OPTION_AA, "--aa", NULL, "NAME", "grid adaptive", false, 0, 0, RENDERING,
+     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
+     "an estimate and no promise (default grid)"},
+    {HD_OPTION_MAX_ERROR, "--max-error", NULL, "E", NULL, false, 0, 0, RENDERING,
+     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
+     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
+     "sampling aims at"},
+    {HD_OPTION_REFERENCE, "--reference", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
+     "(or N x N), --max-error 1/64; slow, so take a small picture or --crop"},
+    {HD_OPTION_CROP, "--crop", NULL, "WxH+X+Y", NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "render only so many pixels from column X and row Y on"},
     {HD_OPTION_BACKEND, "--backend", NULL, "NAME", "auto c opencl cuda", false, 0, 0, MEASURING,
      "auto, c, opencl or cuda (default auto: the best one found)"},
     {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, MEASURING,

@@ -18,6 +18,10 @@ typedef enum HdOptionId {
     HD_OPTION_SAMPLES,
     HD_OPTION_DEPTH,
     HD_OPTION_CUTOFF,
+    HD_OPTION_CROP,
+    HD_OPTION_AA,
+    HD_OPTION_MAX_ERROR,
+    HD_OPTION_REFERENCE,
     HD_OPTION_BACKEND,
     HD_OPTION_DEVICE,
     HD_OPTION_LANES,
@@ -52,7 +56,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 31 };
+enum { HD_OPTION_SPEC_COUNT = 35 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

@@ -79,6 +79,49 @@ static HdStatus parse_fraction(const HdOptionSpec *spec, const char *text, doubl
     return HD_OK;
 }
 
+/* More than any picture is off by, or less than arithmetic can tell, is a mistake. */
+static HdStatus parse_error(const HdOptionSpec *spec, const char *text, double *out,
+                            HdError *error) {
+    double value = is_decimal(text) ? strtod(text, NULL) : -1.0;
+    if (!(value >= HD_LEAST_ERROR && value <= HD_MAX_ERROR))
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from %g to %g",
+                       spec->name, text, HD_LEAST_ERROR, HD_MAX_ERROR);
+    *out = value;
+    return HD_OK;
+}
+
+/* The next number of a crop, which ends with the character `end`. */
+static bool take_number(const char **text, char end, int least, int *out) {
+    char *rest;
+    errno = 0;
+    if (digits(*text) == 0)
+        return false;
+    long value = strtol(*text, &rest, 10);
+    if (*rest != end || errno != 0 || value < least || value > HD_MAX_IMAGE_SIDE)
+        return false;
+    *out = (int)value;
+    *text = end != '\0' ? rest + 1 : rest;
+    return true;
+}
+
+static HdStatus parse_crop(const HdOptionSpec *spec, const char *text, HdOptions *options,
+                           HdError *error) {
+    const char *rest = text;
+    if (take_number(&rest, 'x', 1, &options->crop.width) &&
+        take_number(&rest, '+', 1, &options->crop.height) &&
+        take_number(&rest, '+', 0, &options->crop.left) &&
+        take_number(&rest, '\0', 0, &options->crop.top))
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "%s is '%s', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200", spec->name, text);
+}
+
+static HdStatus set_reference(HdOptions *options) {
+    options->sampling = HD_SAMPLING_REFERENCE;
+    options->render.precision = HD_PRECISION_DOUBLE;
+    return HD_OK;
+}
+
 static HdStatus parse_choice(const HdOptionSpec *spec, const char *text, int *number,
                              HdError *error) {
     char list[256];
@@ -160,6 +203,8 @@ static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const
         options->render.lanes = lanes[number];
     else if (spec->id == HD_OPTION_PIPELINE)
         options->render.pipeline = (HdPipeline)number;
+    else if (spec->id == HD_OPTION_AA)
+        options->sampling = number == 0 ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
     else if (spec->id == HD_OPTION_GEOMETRY)
         options->geometry = number == 0 ? HD_GEOMETRY_SOLIDS : HD_GEOMETRY_TRIANGLES;
     else if (spec->id == HD_OPTION_ACCEL)
@@ -203,6 +248,12 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         return parse_integer(spec, value, &options->depth, error);
     case HD_OPTION_CUTOFF:
         return parse_fraction(spec, value, &options->cutoff, error);
+    case HD_OPTION_CROP:
+        return parse_crop(spec, value, options, error);
+    case HD_OPTION_MAX_ERROR:
+        return parse_error(spec, value, &options->max_error, error);
+    case HD_OPTION_REFERENCE:
+        return set_reference(options);
     case HD_OPTION_DIVISIONS:
         return parse_integer(spec, value, &options->divisions, error);
     case HD_OPTION_DEVICE:
@@ -217,6 +268,7 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_BACKEND:
     case HD_OPTION_PIPELINE:
     case HD_OPTION_LANES:
+    case HD_OPTION_AA:
     case HD_OPTION_GEOMETRY:
     case HD_OPTION_ACCEL:
     case HD_OPTION_PRECISION:

@@ -210,6 +210,8 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     memset(options, 0, sizeof *options);
     options->variant = HD_CLASSIC_DEFAULT_VARIANT;
     options->depth = options->samples = options->width = options->height = -1;
+    options->max_error = -1.0;
+    options->sampling = -1;
     options->cutoff = -1.0;
     options->help_topic.command = HD_COMMAND_CLASSIC;
     const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;

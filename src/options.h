@@ -46,7 +46,11 @@ typedef struct HdOptions {
     int divisions; /* 0: not given */
     HdAccel accel;
     int depth, samples, width, height; /* each -1: not given */
-    double cutoff;                     /* -1: not given */
+    double cutoff, max_error;          /* each -1: not given */
+    int sampling;                      /* an HdSampling; -1: not given */
+    struct {
+        int width, height, left, top; /* width 0: not given */
+    } crop;
 } HdOptions;
 
 /* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that

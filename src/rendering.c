@@ -63,11 +63,13 @@ static HdStatus open_device(Run *run, HdError *error) {
         .device = options->device,
         .kind = run->rendering->device_kind,
     };
+    HdScene plain = *run->rendering->scene; /* what it owns stays with the other */
     HdJob job = {
-        .scene = run->rendering->scene,
+        .scene = &plain,
         .first_frame = run->rendering->frames->frames[0],
         .frame_count = run->rendering->frames->count,
     };
+    hd_scene_drop_survey(&plain);
     if (!options->verbose)
         hd_progress_prepare(&run->progress, "preparing the device");
     HdStatus status =

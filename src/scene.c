@@ -5,6 +5,18 @@
 
 #include "image.h"
 
+bool hd_scene_is_surveyed(const HdScene *scene) {
+    return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
+}
+
+void hd_scene_drop_survey(HdScene *scene) {
+    enum { USUAL_DEPTH = 16 };
+    if (scene->max_error > 0.0 && scene->depth > USUAL_DEPTH)
+        scene->depth = USUAL_DEPTH;
+    scene->sampling = HD_SAMPLING_GRID;
+    scene->max_error = 0.0;
+}
+
 int hd_edge_light_count(const HdSolid *solid) {
     HdPlatonic platonic;
     hd_platonic(solid->kind, &platonic);

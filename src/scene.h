@@ -103,14 +103,30 @@ typedef struct HdPath {
     HdCylinderPath cylinder;
 } HdPath;
 
+/* Where in a pixel its samples are, and how many it gets. */
+typedef enum HdSampling {
+    HD_SAMPLING_GRID,     /* all places of a grid */
+    HD_SAMPLING_ADAPTIVE, /* places of that grid, as many as the pixel needs */
+    HD_SAMPLING_REFERENCE /* a low-discrepancy set, dense and the same in every pixel */
+} HdSampling;
+
+/* The picture is a part of a larger one, whose pixel left, top is its first one. */
+typedef struct HdCrop {
+    int whole_width, whole_height; /* 0: it is the whole */
+    int left, top;
+} HdCrop;
+
 typedef struct HdScene {
     int frame_count;
     HdPath eye, target;
     double field_of_view_degrees; /* horizontal */
     int width, height;
-    int samples_per_side; /* n of the n x n samples of a pixel */
-    int depth;            /* primary rays have depth 0 */
-    double cutoff;        /* rays whose weight falls below it in every channel end; 0: off */
+    HdCrop crop;
+    int samples_per_side; /* n of the n x n samples of a pixel, at most, or of its grid */
+    HdSampling sampling;
+    double max_error; /* what may be left out of a pixel, in steps of 255; 0: no such limit */
+    int depth;        /* primary rays have depth 0 */
+    double cutoff;    /* rays whose weight falls below it in every channel end; 0: off */
     double exposure;
     HdVec3 background;
     int solid_count;
@@ -130,6 +146,12 @@ typedef struct HdScene {
 
 /* The lights on the edges of a solid whose values are valid. */
 int hd_edge_light_count(const HdSolid *solid);
+
+/* Pixels come with bounds of what was left out and with identities (HdFrame). */
+bool hd_scene_is_surveyed(const HdScene *scene);
+
+/* Makes it a scene of about the same work that is not: to learn how fast a device is. */
+void hd_scene_drop_survey(HdScene *scene);
 
 /* The mean of the corners. */
 HdVec3 hd_floor_centre(const HdFloor *floor);

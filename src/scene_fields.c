@@ -46,6 +46,10 @@ static const HdChoice kinds[] = {
     {"\"octahedron\"", HD_OCTAHEDRON},   {"\"dodecahedron\"", HD_DODECAHEDRON},
     {"\"icosahedron\"", HD_ICOSAHEDRON}, {NULL, 0}};
 
+static const HdChoice samplings[] = {
+    {"\"grid\"", HD_SAMPLING_GRID}, {"\"adaptive\"", HD_SAMPLING_ADAPTIVE}, {NULL, 0}};
+_Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
+
 static const HdField image_fields[] = {
     {AT(HdSceneFile, scene.width, "width", "Pixels in a row"), INTEGER(1, HD_MAX_IMAGE_SIDE),
      DEFAULT(640)},
@@ -60,6 +64,14 @@ static const HdField image_fields[] = {
     {AT(HdSceneFile, scene.cutoff, "cutoff",
         "Rays whose weight falls below it in every channel end; 0: off"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
+    {AT(HdSceneFile, scene.sampling, "aa",
+        "Which of the n x n samples a pixel gets: all of the grid, or as many as it needs"),
+     .type = HD_FIELD_CHOICE, .choices = samplings, DEFAULT(HD_SAMPLING_GRID)},
+    {AT(HdSceneFile, scene.max_error, "max_error",
+        "What may be left out of a pixel, in steps of 255: depth, cutoff and lights follow from "
+        "it; "
+        "0: off"),
+     NUMBER(0.0, HD_MAX_ERROR), DEFAULT(0.0)},
     {AT(HdSceneFile, scene.exposure, "exposure", "What every pixel is multiplied by"),
      NUMBER(0.0, HD_MAX_EXPOSURE), .above_low = true, DEFAULT(1.0)},
 };

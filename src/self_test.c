@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "camera.h"
 #include "self_test_scenes.h"
@@ -75,10 +76,21 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
     tables->node_stack = greater(tables->node_stack, like->node_stack);
     tables->refracts = like->refracts;
     tables->lit_from_behind = like->lit_from_behind;
+    tables->surveyed = like->surveyed;
     status = hd_compile_frame(view, scene, &camera, like->precision, error);
+    view->floats = like->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
     if (status != HD_OK)
         hd_scene_tables_free(tables);
     return status;
+}
+
+/* Without what else surveyed pixels come with. */
+static void keep_radiance(HdFrame *image) {
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        memmove(image->rgb + 3 * pixel, image->rgb + (size_t)image->floats * pixel,
+                3 * sizeof *image->rgb);
+    image->floats = 3;
 }
 
 static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *scene,
@@ -89,11 +101,12 @@ static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *
     HdStatus status = compile(&tables, &view, scene, like, error);
     if (status != HD_OK)
         return status;
-    status = hd_frame_create(&image, scene->width, scene->height, error);
+    status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
     if (status == HD_OK) {
         status = backend->upload(renderer, &tables, error);
         if (status == HD_OK)
             status = hd_backend_render(backend, renderer, &view, &image, error);
+        keep_radiance(&image);
         *hash = hd_frame_hash(&image);
         hd_frame_free(&image);
     }

@@ -4,6 +4,7 @@
 #include "camera.h"
 #include "clock.h"
 #include "interrupt.h"
+#include "refinement.h"
 
 /* A frame that the renderer works on. */
 typedef struct Flight {
@@ -14,6 +15,7 @@ typedef struct Flight {
 typedef struct Run {
     const HdSequence *sequence;
     HdRenderer *renderer;
+    HdRefinement *refinement; /* NULL: the scene is not surveyed */
     double start;
     HdFrameWish wish;
     HdOutputs *outputs;
@@ -89,6 +91,39 @@ static HdStatus collect_oldest(Run *run, HdError *error) {
     return HD_OK;
 }
 
+/* A surveyed frame is made of several, which are waited for one after the other. */
+static HdStatus refine_next(Run *run, HdError *error) {
+    const HdSequence *sequence = run->sequence;
+    HdFrameTimes *times;
+    HdFrame *frame = hd_frame_store_next(run->store, &times);
+    if (frame == NULL)
+        return HD_FAILED; /* hd_frame_store_end tells why */
+    double began = seconds_since_start(run);
+    HdCamera camera;
+    HdStatus status =
+        hd_camera_at(&camera, sequence->scene, sequence->frames->frames[run->collected], error);
+    double prepared = seconds_since_start(run);
+    if (status == HD_OK)
+        status = hd_refinement_render(run->refinement, &camera, frame, error);
+    if ((status == HD_OK || status == HD_INTERRUPTED) && hd_interrupt_signal() != 0)
+        return HD_INTERRUPTED;
+    if (status != HD_OK)
+        return status;
+    run->collected++;
+    *times = (HdFrameTimes){.prepare = {began, prepared - began},
+                            .trace = {prepared, frame->trace_seconds},
+                            .copy = {-1.0, 0.0}};
+    hd_frame_store_give(run->store);
+    return HD_OK;
+}
+
+static HdStatus refine_frames(Run *run, HdError *error) {
+    HdStatus status = HD_OK;
+    while (status == HD_OK && run->collected < run->sequence->frames->count)
+        status = refine_next(run, error);
+    return status;
+}
+
 static void drop_rest(Run *run) {
     hd_renderer_drop(run->renderer);
     for (; run->collected < run->submitted; run->collected++)
@@ -128,7 +163,7 @@ static HdStatus render_and_store(Run *run, HdError *error) {
     HdStatus status = hd_frame_store_start(&run->store, &plan, error);
     if (status != HD_OK)
         return status;
-    status = render_frames(run, error);
+    status = run->refinement != NULL ? refine_frames(run, error) : render_frames(run, error);
     HdStatus store_status = hd_frame_store_end(run->store, &stored, &store_error);
     if (store_status != HD_OK) {
         status = store_status;
@@ -152,6 +187,9 @@ static HdStatus prepare(Run *run, HdError *error) {
     if (status == HD_OK)
         sequence->uploaded(sequence->context, &tables);
     hd_scene_tables_free(&tables);
+    if (status == HD_OK && hd_scene_is_surveyed(scene))
+        status = hd_refinement_create(&run->refinement, scene, run->renderer, sequence->precision,
+                                      run->wish.curve, error);
     if (status == HD_OK)
         status = hd_outputs_probe(sequence->outputs, sequence->frames->frames[0], error);
     if (status == HD_OK)
@@ -174,5 +212,6 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, Hd
         status = hd_outputs_close(run.outputs, error);
     else
         hd_outputs_abort(run.outputs);
+    hd_refinement_free(run.refinement);
     return status;
 }

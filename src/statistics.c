@@ -121,9 +121,21 @@ static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stor
         "clamps", (json_int_t)frame->clamps);
 }
 
+/* Of surveyed scenes only. */
+static bool add_bound(json_t *line, const HdFrame *frame) {
+    return !frame->has_bound ||
+           json_object_set_new(line, "missing",
+                               json_pack("{s:f, s:f}", "largest", frame->largest_bound, "mean",
+                                         frame->mean_bound)) == 0;
+}
+
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
                            const HdStoredFrame *stored, HdError *error) {
     json_t *line = describe_frame(facts, stored);
+    if (line != NULL && !add_bound(line, stored->frame)) {
+        json_decref(line);
+        line = NULL;
+    }
     if (line == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
     bool can_write = hd_wait_to_write(fileno(statistics->stream));

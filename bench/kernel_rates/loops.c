@@ -46,7 +46,7 @@ static int sum_of_lanes(vint a) {
 static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
     HD_DECLARE_TABLES
     Vec3 direction;
-    vmask alive = sample_directions(view, item, first, &direction);
+    vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
     if (!any_lane(alive))
         return 0;
     sight->ray = eye_ray(direction, alive);
@@ -114,7 +114,7 @@ static void walk_view(const HdTable *scene, const HdTable *frame, Visit *visit, 
     const View *view = frame[HD_TABLE_view].data;
     int blocks_per_row = (view->width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
     int blocks = blocks_per_row * ((view->height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE);
-    int samples = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    int samples = HD_PIXELS_PER_ITEM * view->samples;
     for (int item = 0; item < blocks * (HD_BLOCK_PIXELS / HD_PIXELS_PER_ITEM); item++)
         for (int first = 0; first < samples; first += HD_LANES) {
             Sight sight;

@@ -88,7 +88,7 @@ static bool begin_waves(Waves *waves, int items) {
     const Header *header = waves->scene[HD_TABLE_header].data;
     const Object *objects = waves->scene[HD_TABLE_objects].data;
     const Object *last = objects + header->object_count - 1;
-    waves->per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    waves->per_item = HD_PIXELS_PER_ITEM * view->samples;
     waves->sum_stride = waves->per_item * items;
     /* A face and a side, or a state of a ray, which is less. */
     waves->key_count = 4 * (last->first_plane + last->plane_count) + 4;
@@ -133,9 +133,9 @@ FN void append(Waves *waves, const Ray *mirror, const Ray *through, vint numbers
     int compact = waves->order != HD_ORDER_UNCOMPACTED;
     *mirrored += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
                              to->first[waves->order == HD_ORDER_SEGMENTS] + *mirrored, mirror,
-                             has_faces(waves), numbers);
+                             has_faces(waves), 0, numbers);
     to->count[0] += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
-                                to->first[0] + to->count[0], through, has_faces(waves), numbers);
+                                to->first[0] + to->count[0], through, has_faces(waves), 0, numbers);
 }
 
 static void trace_first(Waves *waves, int first_item, int items) {
@@ -145,13 +145,13 @@ static void trace_first(Waves *waves, int first_item, int items) {
         Sample sample = empty_sample();
         Ray mirror, through;
         int within = number % waves->per_item;
-        Ray ray = first_rays(view, first_item + number / waves->per_item, within,
+        Ray ray = first_rays(SAMPLE_ARGUMENTS first_item + number / waves->per_item, within,
                              waves->per_item - within);
         vint numbers = numbers_from(number);
         mirror.alive = through.alive = mask_none();
         if (any_lane(ray.alive))
             follow(SCENE_ARGUMENTS & ray, 0, &sample, &mirror, &through);
-        set_sums(NULL, NULL, waves->sums, 0, waves->sum_stride, 1, number, &sample);
+        set_sums(NULL, NULL, waves->sums, 0, waves->sum_stride, 1, number, 0, &sample);
         if (waves->recorder != NULL)
             record(waves, &ray, numbers, &sample);
         append(waves, &mirror, &through, numbers);
@@ -161,7 +161,7 @@ static void trace_first(Waves *waves, int first_item, int items) {
 
 static Ray load(const Waves *waves, const Queue *queue, int place, int count, vint *numbers) {
     return load_rays(queue->reals, queue->ints, NULL, queue->stride, 0, 1, place, count,
-                     has_faces(waves), numbers);
+                     has_faces(waves), 0, numbers);
 }
 
 static void trace_run(Waves *waves, int level, int first, int count) {
@@ -173,7 +173,8 @@ static void trace_run(Waves *waves, int level, int first, int count) {
         vint numbers;
         Ray ray = load(waves, &waves->now, first + i, count - i, &numbers);
         follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
-        add_to_sums(NULL, NULL, waves->sums, 0, waves->sum_stride, 1, ray.alive, numbers, &sample);
+        add_to_sums(NULL, NULL, waves->sums, 0, waves->sum_stride, 1, ray.alive, numbers, 0,
+                    &sample);
         if (waves->recorder != NULL)
             record(waves, &ray, numbers, &sample);
         append(waves, &mirror, &through, numbers);
@@ -314,15 +315,15 @@ static bool sort_level(Waves *waves) {
 
 /* ---- batches ---- */
 
-static uint64_t mix(uint64_t digest, uint64_t word) {
+static uint64_t mix_words(uint64_t digest, uint64_t word) {
     return (digest ^ word) * 0x100000001b3u;
 }
 
 static void add_to_digest(Waves *waves, int samples) {
-    for (int channel = 0; channel < WAVE_SUMS; channel++)
+    for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
         for (int i = 0; i < samples; i++)
-            waves->result->digest =
-                mix(waves->result->digest, (uint64_t)waves->sums[channel * waves->sum_stride + i]);
+            waves->result->digest = mix_words(
+                waves->result->digest, (uint64_t)waves->sums[channel * waves->sum_stride + i]);
 }
 
 static int round_up(int count) {
@@ -429,7 +430,7 @@ static bool run(const HdTable *scene, const HdTable *frame, HdQueueOrder order, 
     Waves waves = {
         .scene = scene, .frame = frame, .order = order, .counts = counts, .result = &warm_up};
     const View *view = frame[HD_TABLE_view].data;
-    int per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    int per_item = HD_PIXELS_PER_ITEM * view->samples;
     int items = items_of(frame);
     int size = batches.samples > per_item ? batches.samples / per_item : 1;
     size = size < items ? size : items;

@@ -3,7 +3,7 @@
 #ifndef HD_LIGHTS_H
 #define HD_LIGHTS_H
 
-#include "surface.h"
+#include "identity.h"
 
 /* The lit points of a bundle. */
 typedef struct {

@@ -11,7 +11,11 @@ typedef struct {
     vfix r, g, b;
     vint mirrored, transmitted; /* rays */
     vint shadow_tests, clamps;
+    vfix bound;    /* of surveyed scenes: of what was left out, with BOUND_BITS fewer bits */
+    vint identity; /* likewise: those of what it met */
 } Sample;
+
+enum { BOUND_BITS = 8 };
 
 #define CONTRIBUTION_LIMIT R(65536.0)
 
@@ -32,20 +36,67 @@ FN void add_radiance(SCENE_PARAMETERS Sample *sample, vmask m, Vec3 radiance, Ve
     sample->b += contribution(m, radiance.z, weight.z, view->to_fixed, &sample->clamps);
 }
 
+FN vreal greatest_component(Vec3 a) {
+    return greater(a.x, greater(a.y, a.z));
+}
+
+/* Adds to the bound of what was left out, in the lanes of `m`; rounded up. More than MOST_BOUND
+   says as little. */
+#define MOST_BOUND R(16.0)
+FN void add_to_bound(SCENE_PARAMETERS Sample *sample, vmask m, vreal bound) {
+    real scale = view->to_fixed / (real)(1 << BOUND_BITS);
+    vreal ceiling = multiply_add(lesser(bound, splat(MOST_BOUND)), splat(scale), splat(R(1.0)));
+    sample->bound += truncate_to_fix(pick(m, ceiling, splat(R(0.0))));
+}
+
+/* The most that `radiance` can add to a channel of the picture. */
+FN vreal bound_of(SCENE_PARAMETERS Vec3 weight, Vec3 radiance) {
+    return greatest_component(vec3_mul(weight, radiance)) * splat(header->exposure);
+}
+
+/* Ends the rays whose weight is too small, or that are the last of the scene's depth. */
+FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
+    vmask weak = mask_none();
+    if (view->cutoff > R(0.0))
+        weak = ~le(splat(view->cutoff), greatest_component(next->weight));
+    if (level == view->depth)
+        weak = mask_all();
+    if (SURVEYED) {
+        Vec3 most = vec3_splat(header->radiance_bound[0], header->radiance_bound[1],
+                               header->radiance_bound[2]);
+        vreal bound = bound_of(SCENE_ARGUMENTS next->weight, most);
+        weak = weak | lt(bound, splat(view->bound_cutoff));
+        add_to_bound(SCENE_ARGUMENTS sample, next->alive & weak, bound);
+    }
+    next->alive = next->alive & ~weak;
+}
+
+/* The lanes of `lit` whose lights are worth a look; the others' are added to the bound. */
+FN vmask end_lights(SCENE_PARAMETERS vmask lit, Vec3 weight, const LaneMaterial *material,
+                    Sample *sample) {
+    Vec3 arriving =
+        vec3_splat(header->light_bound[0], header->light_bound[1], header->light_bound[2]);
+    vreal behind = pick(material->lit_from_behind, material->transmission, splat(R(0.0)));
+    vreal diffuse = multiply_add(behind, material->diffuse, material->diffuse);
+    Vec3 most = vec3_scale_add(material->colour, diffuse,
+                               vec3_scale(vec3_splat(R(1.0), R(1.0), R(1.0)), material->specular));
+    vreal bound = bound_of(SCENE_ARGUMENTS weight, vec3_mul(most, arriving));
+    vmask dim = lit & lt(bound, splat(view->bound_cutoff));
+    add_to_bound(SCENE_ARGUMENTS sample, dim, bound);
+    return lit & ~dim;
+}
+
 /* A ray that goes on from the points of a surface. */
 FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 direction, Vec3 weight,
-                vmask inside, vmask alive, real cutoff) {
+                vmask inside, vmask alive) {
     Ray next;
     next.weight = vec3_mul(ray->weight, weight);
-    if (cutoff > R(0.0)) {
-        vreal strongest = greater(next.weight.x, greater(next.weight.y, next.weight.z));
-        alive = alive & le(splat(cutoff), strongest);
-    }
     next.alive = alive;
     next.origin = surface->point;
     next.direction = direction;
     next.touched = spread_first(hit->object, alive);
     next.face = hit->face;
+    next.path = ray->path;
     next.inside = inside;
     return next;
 }
@@ -77,6 +128,16 @@ FN void turn_over(Surface *surface, LitPoints *points) {
     points->inside = ~points->inside;
 }
 
+/* Adds to the samples' identities what the rays met, and names the ways of those that go on. */
+FN void identify(const Ray *ray, const Surface *surface, const Hit *hit, vmask struck,
+                 Sample *sample, Ray *mirror, Ray *through) {
+    vint met = identity_of(ray->path, surface, hit);
+    vmask seen = struck & le(splat(LEAST_IDENTITY_WEIGHT), greatest_component(ray->weight));
+    sample->identity = (sample->identity + pick_int(seen, met, splat_int(0))) & HD_IDENTITY_MASK;
+    mirror->path = mix(met, splat_int(PATH_MIRRORED));
+    through->path = mix(met, splat_int(PATH_THROUGH));
+}
+
 /* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
    may go on. */
 FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vmask struck,
@@ -91,6 +152,9 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     points.object = spread_first(hit->object, struck);
     points.face = hit->face;
     points.inside = ~hit->entering;
+    if (SURVEYED)
+        points.active =
+            end_lights(SCENE_ARGUMENTS points.active, ray->weight, &surface.material, sample);
     Vec3 radiance =
         vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
     Surface lit = surface;
@@ -112,10 +176,12 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     }
     *mirror =
         next_ray(ray, &surface, hit, mirrored, vec3_scale(surface.material.mirror_tint, reflection),
-                 ~hit->entering, struck & lt(zero, reflection), view->cutoff);
+                 ~hit->entering, struck & lt(zero, reflection));
     *through =
         next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
-                 hit->entering, struck & ~total & lt(zero, transmission), view->cutoff);
+                 hit->entering, struck & ~total & lt(zero, transmission));
+    if (SURVEYED)
+        identify(ray, &surface, hit, struck, sample, mirror, through);
     return radiance;
 }
 
@@ -126,6 +192,7 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     ray.weight = vec3_splat(R(1.0), R(1.0), R(1.0));
     ray.touched = splat_int(0);
     ray.face = splat_int(-1);
+    ray.path = splat_int(PATH_OF_EYE);
     ray.inside = mask_none();
     ray.alive = alive;
     return ray;
@@ -147,8 +214,8 @@ FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *
     Vec3 shaded = shade(SCENE_ARGUMENTS ray, reference, &hit, struck, sample, mirror, through);
     radiance = vec3_pick(struck, shaded, radiance);
     add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
-    if (level == view->depth)
-        mirror->alive = through->alive = mask_none();
+    end_rays(SCENE_ARGUMENTS level, mirror, sample);
+    end_rays(SCENE_ARGUMENTS level, through, sample);
     sample->mirrored = count_lanes(sample->mirrored, mirror->alive);
     sample->transmitted = count_lanes(sample->transmitted, through->alive);
 }

@@ -42,24 +42,52 @@ FN vint divide_int(vint a, int divisor) {
     return to_int((to_real(a) + splat(R(0.5))) * splat(R(1.0) / (real)divisor));
 }
 
+/* The samples `within` their entries of a listed frame whose pixels are x, y: these become the
+   pixels of the whole picture. Entries that are none leave `alive`. */
+FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vint *y, vint *column,
+                       vint *row) {
+    vint pixel = splat_int(0), sample = splat_int(-1), place = splat_int(0);
+    vint entry = *y * view->width + *x;
+    vint live = pick_int(*alive, splat_int(1), splat_int(0));
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        if (!lane_int(&live, lane))
+            continue;
+        GLOBAL const int *words = entries + 2 * (uint64)lane_int(&entry, lane);
+        set_lane_int(&pixel, lane, words[0]);
+        set_lane_int(&sample, lane, words[1]);
+        if (words[1] >= 0)
+            set_lane_int(&place, lane, sample_places[words[1] + lane_int(&within, lane)]);
+    }
+    *alive = *alive & ~lt_int(sample, splat_int(0));
+    *x = pixel & 0xffff;
+    *y = (pixel >> 16) & 0xffff;
+    *column = place & 0xffff;
+    *row = (place >> 16) & 0xffff;
+}
+
 /* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel and row by
    row; returns the lanes that hold one. */
-FN vmask sample_directions(GLOBAL const View *view, int item, int first, Vec3 *direction) {
-    int n = view->samples_per_side;
-    vint within = lane_numbers() + first % (n * n); /* from the first lane's pixel on */
-    vint pixels = divide_int(within, n * n);
-    within = within - pixels * (n * n);
-    vint row = divide_int(within, n);
-    vint column = within - row * n;
-    vint place = pixels + first / (n * n);
+FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
+    int n = view->grid_side, samples = view->samples;
+    vint within = lane_numbers() + first % samples; /* from the first lane's pixel on */
+    vint pixels = divide_int(within, samples);
+    within = within - pixels * samples;
+    vint place = pixels + first / samples;
     vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
     Pixel corner = block_of_item(view, item);
     vint x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
     vint y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
     vmask alive = lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(x, splat_int(view->width)) &
                   lt_int(y, splat_int(view->height));
-    vreal right = to_real((x * n + column) * 2 + (1 - view->width * n));
-    vreal down = to_real((y * n + row) * 2 + (1 - view->height * n));
+    vint row, column;
+    if (view->listed) {
+        listed_samples(SAMPLE_ARGUMENTS within, &alive, &x, &y, &column, &row);
+    } else {
+        row = divide_int(within, n);
+        column = within - row * n;
+    }
+    vreal right = to_real((x * n + column) * 2 + view->first_column);
+    vreal down = to_real((y * n + row) * 2 + view->first_row);
     Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
     Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
     sum = vec3_scale_add(axis, down, sum);
@@ -72,31 +100,37 @@ FN Sample empty_sample(void) {
     Sample sample;
     sample.mirrored = sample.transmitted = splat_int(0);
     sample.shadow_tests = sample.clamps = splat_int(0);
-    sample.r = sample.g = sample.b = truncate_to_fix(splat(R(0.0)));
+    sample.r = sample.g = sample.b = sample.bound = truncate_to_fix(splat(R(0.0)));
+    sample.identity = splat_int(0);
     return sample;
 }
 
 /* What the samples of an item's pixels, or a part of them, add up to. */
 typedef struct {
-    fixed64 sums[HD_PIXELS_PER_ITEM * 3];
+    fixed64 sums[HD_PIXELS_PER_ITEM * PIXEL_SUMS];
     RayCounts counts;
 } Gathered;
 
 FN void clear_gathered(Gathered *gathered) {
-    for (int i = 0; i < HD_PIXELS_PER_ITEM * 3; i++)
+    for (int i = 0; i < HD_PIXELS_PER_ITEM * PIXEL_SUMS; i++)
         gathered->sums[i] = 0;
     gathered->counts.mirrored = gathered->counts.transmitted = 0;
     gathered->counts.shadow_tests = gathered->counts.clamps = 0;
 }
 
 /* `first` is the number of the first lane's sample within the item. */
-FN void add_sample(GLOBAL const View *view, const Sample *sample, int first, Gathered *gathered) {
-    int per_pixel = view->samples_per_side * view->samples_per_side;
+FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *gathered) {
+    int per_pixel = view->samples;
     int place = first / per_pixel, left = per_pixel - first % per_pixel;
     for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
-        gathered->sums[place * 3] += lane_fix(&sample->r, lane) >> view->pixel_shift;
-        gathered->sums[place * 3 + 1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
-        gathered->sums[place * 3 + 2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
+        fixed64 *sums = gathered->sums + place * PIXEL_SUMS;
+        sums[0] += lane_fix(&sample->r, lane) >> view->pixel_shift;
+        sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
+        sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
+        if (SURVEYED) {
+            sums[HD_RADIANCE_SUMS] += lane_fix(&sample->bound, lane);
+            sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
+        }
         gathered->counts.mirrored += (uint64)lane_int(&sample->mirrored, lane);
         gathered->counts.transmitted += (uint64)lane_int(&sample->transmitted, lane);
         gathered->counts.shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
@@ -111,30 +145,37 @@ FN void add_sample(GLOBAL const View *view, const Sample *sample, int first, Gat
 
 /* Traces every `parts`-th bundle of the item's samples, from bundle number `part` on. */
 FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, Gathered *gathered) {
-    int count = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    int count = HD_PIXELS_PER_ITEM * view->samples;
     for (int first = part * HD_LANES; first < count; first += parts * HD_LANES) {
         Vec3 direction;
-        vmask alive = sample_directions(view, item, first, &direction);
+        vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
         if (!any_lane(alive))
             continue;
         Sample sample = empty_sample();
         trace(SCENE_ARGUMENTS direction, alive, &sample);
-        add_sample(view, &sample, first, gathered);
+        add_sample(SCENE_ARGUMENTS & sample, first, gathered);
     }
 }
 
-FN void store_pixels(GLOBAL const View *view, int item, const Gathered *gathered,
-                     GLOBAL float *pixels) {
-    real samples = (real)(view->samples_per_side * view->samples_per_side);
+FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
+                     const Gathered *gathered, GLOBAL float *pixels) {
+    real samples = (real)view->samples;
+    int floats = SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS;
     Pixel corner = block_of_item(view, item);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
         Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
         if (!in_picture(view, pixel))
             continue;
-        GLOBAL float *rgb = pixels + ((uint64)pixel.y * (uint64)view->width + (uint64)pixel.x) * 3;
-        for (int channel = 0; channel < 3; channel++)
-            rgb[channel] =
-                (float)((real)gathered->sums[place * 3 + channel] * view->from_fixed / samples);
+        const fixed64 *sums = gathered->sums + place * PIXEL_SUMS;
+        uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
+        GLOBAL float *out = pixels + number * (uint64)floats;
+        for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
+            out[channel] = (float)((real)sums[channel] * view->from_fixed / samples);
+        if (SURVEYED) {
+            real one = (real)(1 << BOUND_BITS) / view->to_fixed;
+            out[HD_RADIANCE_SUMS] = (float)((real)sums[HD_RADIANCE_SUMS] * one / samples);
+            out[HD_RADIANCE_SUMS + 1] = (float)(sums[HD_RADIANCE_SUMS + 1] & HD_IDENTITY_MASK);
+        }
     }
 }
 
@@ -143,17 +184,17 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
     Gathered gathered;
     clear_gathered(&gathered);
     gather_samples(SCENE_ARGUMENTS item, 0, 1, &gathered);
-    store_pixels(view, item, &gathered, pixels);
+    store_pixels(header, view, item, &gathered, pixels);
     *counts = gathered.counts;
 }
 
 /* Numbers that each thread of a group needs to pass its share on: its sums, then its counts. */
-enum { GROUP_ROOM = HD_PIXELS_PER_ITEM * 3 > 4 ? HD_PIXELS_PER_ITEM * 3 : 4 };
+enum { GROUP_ROOM = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
 
 /* Adds to `whole`, of the first of `parts` neighbouring threads, what the others gathered. All
    threads of the group must call this. */
 FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
-    const int sums = HD_PIXELS_PER_ITEM * 3;
+    const int sums = HD_PIXELS_PER_ITEM * PIXEL_SUMS;
     for (int i = 0; i < sums; i++)
         own[i] = whole->sums[i];
     BARRIER();
@@ -195,7 +236,7 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
         /* Threads without an item may have no neighbours to read from. */
         add_parts(&gathered, has_item ? part : 1, parts, room + thread * GROUP_ROOM);
         if (has_item && part == 0) {
-            store_pixels(view, item, &gathered, pixels);
+            store_pixels(header, view, item, &gathered, pixels);
             counts[item] = gathered.counts;
         }
     }

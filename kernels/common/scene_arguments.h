@@ -13,6 +13,12 @@
 #define SCENE_PARAMETERS HD_SCENE_TABLES(HD_TABLE_PARAMETER) HD_FRAME_TABLES(HD_TABLE_PARAMETER)
 #define SCENE_ARGUMENTS  HD_SCENE_TABLES(HD_TABLE_ARGUMENT) HD_FRAME_TABLES(HD_TABLE_ARGUMENT)
 
+/* Likewise of what tells where a frame's samples are. */
+#define SAMPLE_PARAMETERS                                                                          \
+    GLOBAL const View *RESTRICT view, GLOBAL const int *RESTRICT entries,                          \
+        GLOBAL const int *RESTRICT sample_places,
+#define SAMPLE_ARGUMENTS view, entries, sample_places,
+
 /* Every solid has three planes at least. Constants where the kernels are built at run time,
  * otherwise the scene's own numbers. */
 #ifdef HD_PLANE_BOUND
@@ -21,6 +27,8 @@
 #define DEPTH_BOUND     HD_DEPTH_BOUND
 #define REFRACTS        HD_REFRACTS
 #define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
+#define SURVEYED        HD_SURVEYED
+#define PIXEL_SUMS      (HD_SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS)
 #define MESHES          (HD_NODE_STACK > 0 && header->instance_count > 0)
 #define NODE_STACK      (HD_NODE_STACK + 1)
 #define WIDE_STACK      (HD_WIDE_STACK + 1)
@@ -30,6 +38,8 @@
 #define DEPTH_BOUND     (view->depth + 1)
 #define REFRACTS        (header->refracts)
 #define LIT_FROM_BEHIND (header->lit_from_behind)
+#define SURVEYED        (header->surveyed)
+#define PIXEL_SUMS      HD_SURVEY_SUMS
 #define MESHES          (header->instance_count > 0)
 #define NODE_STACK      (header->node_stack + 1)
 #define WIDE_STACK      (header->wide_stack + 1)

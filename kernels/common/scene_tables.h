@@ -20,7 +20,11 @@ typedef struct ALIGNED_16 {
     real background[3]; /* radiance */
     real exposure;
     real mesh_reach; /* no coordinate of a mesh, relative to their centre, is larger */
-    real unused[3];
+    real unused0;
+    real radiance_bound[3]; /* no ray sees more, were its tree endless; of surveyed scenes */
+    real unused1;
+    real light_bound[3]; /* the lights' intensities, added up */
+    real unused2[2];
     int solid_count; /* the floor, if there is one, is object number solid_count */
     int floor_end;
     int object_count;
@@ -32,7 +36,7 @@ typedef struct ALIGNED_16 {
     int wide_stack;      /* likewise of the wide nodes */
     int refracts;        /* some index of refraction is not 1 */
     int lit_from_behind; /* some material is */
-    int unused_int;
+    int surveyed;        /* pixels come with their survey (HD_PIXEL_SUMS) */
 } Header;
 
 /* Of a solid with parallel faces (Object.paired): the planes n.x = distance and n.x = -distance of
@@ -173,14 +177,26 @@ typedef struct ALIGNED_16 {
     real u, v, unused[2];
 } TextureCoordinates;
 
-/* One frame. The direction to the image point (i, j), counted in half sample steps from the middle
-   of the picture, is forward + i * right + j * down. */
+/* One frame. The direction to the image point (i, j), counted in half steps of a sample grid from
+   the middle of the whole picture, is forward + i * right + j * down. The grid has grid_side x
+   grid_side places for samples in each pixel.
+
+   Pixels that follow each other in the picture have all places of the grid, row by row. A listed
+   frame has any: its pixel number e is entries[2 e] = x | y << 16 of the whole picture, with the
+   samples sample_places[entries[2 e + 1] + i] = column | row << 16 of the pixel's grid; there is
+   none where entries[2 e + 1] is negative. */
 typedef struct ALIGNED_16 {
     real forward[3], cutoff;
     real right[3], to_fixed;  /* 2^(fraction bits of a sample) */
     real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
+    real bound_cutoff; /* of surveyed scenes: rays and lights that cannot add more than this to a
+                          sample, after exposure, are left out; 0: none are */
+    real unused[3];
     int width, height;
-    int samples_per_side;
+    int samples; /* of a pixel */
+    int grid_side;
+    int first_column, first_row; /* i and j of the first sample */
+    int listed;
     int depth;
     int pixel_shift; /* bits that a sample loses before it joins a pixel's sum */
     int unused_int[3];
@@ -190,7 +206,7 @@ typedef struct ALIGNED_16 {
     typedef char hd_size_of_##type##_is_as_documented                                              \
         [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
-HD_ASSERT_SIZE(Header, 8, 12);
+HD_ASSERT_SIZE(Header, 16, 12);
 HD_ASSERT_SIZE(Plane, 4, 0);
 HD_ASSERT_SIZE(Object, 8, 8);
 HD_ASSERT_SIZE(Edge, 12, 0);
@@ -204,7 +220,7 @@ HD_ASSERT_SIZE(MeshNode, 12, 4);
 HD_ASSERT_SIZE(Skin, 4, 20);
 HD_ASSERT_SIZE(Picture, 0, 4);
 HD_ASSERT_SIZE(TextureCoordinates, 4, 0);
-HD_ASSERT_SIZE(View, 12, 8);
+HD_ASSERT_SIZE(View, 16, 12);
 
 /* The tables of a scene, in the order of the kernels' arguments:
    light_offsets[object * light_count + light]   the light's position relative to the object
@@ -250,10 +266,12 @@ HD_ASSERT_SIZE(View, 12, 8);
     X(Picture, pictures)
 
 /* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of
- * `to`. */
+   `to`; entries and sample_places are those of a listed frame. */
 #define HD_FRAME_TABLES(X)                                                                         \
     X(View, view)                                                                                  \
-    X(Vector, eye_offsets)
+    X(Vector, eye_offsets)                                                                         \
+    X(int, entries)                                                                                \
+    X(int, sample_places)
 
 #define HD_TABLE_INDEX(type, name) HD_TABLE_##name,
 enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
@@ -265,6 +283,11 @@ enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 typedef struct ALIGNED_16 {
     uint64 mirrored, transmitted, shadow_tests, clamps;
 } RayCounts;
+
+/* What is summed up for each pixel, and comes of it as floats: red, green, blue; of surveyed scenes
+   also a bound of what was left out, after exposure, and a number that tells what the samples'
+   trees of rays met, where it weighs something: their identities, added up modulo 2^24. */
+enum { HD_RADIANCE_SUMS = 3, HD_SURVEY_SUMS = 5, HD_IDENTITY_MASK = 0xffffff };
 
 /* The floor has its own plane and one for each of its sides. */
 enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };

@@ -29,7 +29,8 @@ FN vint ray_state(const Ray *ray) {
 
 /* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. Only
    scenes with meshes need the faces that rays leave. */
-FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
+FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, int has_paths,
+                 vint *numbers) {
     GLOBAL const real *reals = ray_reals + from;
     uint64 stride = (uint64)queue_stride;
     vint state = load_ints(ray_ints + from);
@@ -39,6 +40,7 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
     ray.touched = spread_first(state >> 1, ray.alive);
     *numbers = load_ints(ray_ints + stride + from);
     ray.face = has_faces ? load_ints(ray_ints + 2 * stride + from) : splat_int(-1);
+    ray.path = has_paths ? load_ints(ray_ints + 3 * stride + from) : splat_int(0);
     ray.origin =
         vec3(load_reals(reals), load_reals(reals + stride), load_reals(reals + 2 * stride));
     ray.direction = vec3(load_reals(reals + 3 * stride), load_reals(reals + 4 * stride),
@@ -50,7 +52,8 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numb
 
 /* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
    places are overwritten. */
-FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
+FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, int has_paths,
+                  vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
     vint state = ray_state(ray);
@@ -60,6 +63,8 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_face
     store_lanes_int(ray_ints + stride + to, offset, &numbers);
     if (has_faces)
         store_lanes_int(ray_ints + 2 * stride + to, offset, &ray->face);
+    if (has_paths)
+        store_lanes_int(ray_ints + 3 * stride + to, offset, &ray->path);
     store_lanes(reals, m, offset, &ray->origin.x);
     store_lanes(reals + stride, m, offset, &ray->origin.y);
     store_lanes(reals + 2 * stride, m, offset, &ray->origin.z);
@@ -75,17 +80,21 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_face
 /* ---- the batch's sums ---- */
 
 /* Level 0 has one ray for each sample and sets its sum, so that nobody need clear it. */
-FN void set_sums(QUEUE_PARAMETERS int number, const Sample *sample) {
+FN void set_sums(QUEUE_PARAMETERS int number, int has_survey, const Sample *sample) {
     GLOBAL fixed64 *sum = sums + number;
     for (int lane = 0; lane < HD_LANES; lane++) {
         sum[0] = lane_fix(&sample->r, lane);
         sum[(uint64)sum_stride] = lane_fix(&sample->g, lane);
         sum[2 * (uint64)sum_stride] = lane_fix(&sample->b, lane);
+        if (has_survey) {
+            sum[3 * (uint64)sum_stride] = lane_fix(&sample->bound, lane);
+            sum[4 * (uint64)sum_stride] = lane_int(&sample->identity, lane);
+        }
         sum++;
     }
 }
 
-FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, const Sample *sample) {
+FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_survey, const Sample *sample) {
     vint chosen = pick_int(m, splat_int(1), splat_int(0));
     for (int lane = 0; lane < HD_LANES; lane++) {
         if (!lane_int(&chosen, lane))
@@ -94,18 +103,26 @@ FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, const Sample *sample
         add_shared(sum, lane_fix(&sample->r, lane));
         add_shared(sum + (uint64)sum_stride, lane_fix(&sample->g, lane));
         add_shared(sum + 2 * (uint64)sum_stride, lane_fix(&sample->b, lane));
+        if (has_survey) {
+            add_shared(sum + 3 * (uint64)sum_stride, lane_fix(&sample->bound, lane));
+            add_shared(sum + 4 * (uint64)sum_stride, lane_int(&sample->identity, lane));
+        }
     }
 }
 
 /* Adds the sums of `count` samples, the item's from number `first` on, to its pixels. */
-FN void gather_sums(GLOBAL const View *view, GLOBAL const fixed64 *sums, int sum_stride, int first,
-                    int count, Gathered *gathered) {
-    int per_pixel = view->samples_per_side * view->samples_per_side;
+FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
+                    GLOBAL const fixed64 *sums, int sum_stride, int first, int count,
+                    Gathered *gathered) {
+    int per_pixel = view->samples;
     int place = first / per_pixel, left = per_pixel - first % per_pixel;
     for (int i = 0; i < count; i++) {
-        for (int channel = 0; channel < 3; channel++)
-            gathered->sums[place * 3 + channel] +=
+        fixed64 *pixel = gathered->sums + place * PIXEL_SUMS;
+        for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
+            pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
+        for (int part = HD_RADIANCE_SUMS; SURVEYED && part < HD_SURVEY_SUMS; part++)
+            pixel[part] += sums[(uint64)part * (uint64)sum_stride + (uint64)i];
         left--;
         if (left == 0) {
             left = per_pixel;
@@ -133,17 +150,18 @@ FN void add_vector_counts(const Sample *sample, Sample *sum) {
 }
 
 /* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
-FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint numbers) {
+FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, int has_paths,
+                   vint numbers) {
     if (!any_lane(ray->alive))
         return 0;
     return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, has_faces,
-                      numbers);
+                      has_paths, numbers);
 }
 
 /* The ray of each sample from number `number` of the item on, at most `count`. */
-FN Ray first_rays(GLOBAL const View *view, int item, int number, int count) {
+FN Ray first_rays(SAMPLE_PARAMETERS int item, int number, int count) {
     Vec3 direction;
-    vmask alive = sample_directions(view, item, number, &direction);
+    vmask alive = sample_directions(SAMPLE_ARGUMENTS item, number, &direction);
     return eye_ray(direction, alive & lanes_below(count));
 }
 
@@ -164,22 +182,23 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         Ray ray, mirror, through;
         vint numbers;
         if (take.level == 0) {
-            ray = first_rays(view, item, first_sample + number, take.count - i);
+            ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, take.count - i);
             numbers = numbers_from(number);
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES, &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES, SURVEYED, &numbers);
         }
         if (!any_lane(ray.alive))
             continue;
         follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
         if (take.level == 0)
-            set_sums(QUEUE_ARGUMENTS number, &sample);
+            set_sums(QUEUE_ARGUMENTS number, SURVEYED, &sample);
         else
-            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, &sample);
+            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, SURVEYED, &sample);
         add_vector_counts(&sample, &sum);
-        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES, numbers);
-        *mirrored +=
-            append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, MESHES, numbers);
+        *passing +=
+            append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES, SURVEYED, numbers);
+        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, MESHES,
+                                 SURVEYED, numbers);
     }
     add_counts(&sum, counts);
 }
@@ -204,14 +223,14 @@ FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int b
 FN void render_item_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item, GLOBAL float *pixels,
                              GLOBAL RayCounts *counts) {
     Gathered gathered;
-    int samples = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+    int samples = HD_PIXELS_PER_ITEM * view->samples;
     clear_gathered(&gathered);
     for (int first = 0; first < samples; first += sum_stride) {
         int batch = samples - first < sum_stride ? samples - first : sum_stride;
         trace_batch(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, batch, &gathered.counts);
-        gather_sums(view, sums, sum_stride, first, batch, &gathered);
+        gather_sums(header, view, sums, sum_stride, first, batch, &gathered);
     }
-    store_pixels(view, item, &gathered, pixels);
+    store_pixels(header, view, item, &gathered, pixels);
     *counts = gathered.counts;
 }
 
@@ -261,11 +280,11 @@ FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 va
 }
 
 /* The ray that is number `number` of its batch, as level 0 has it. */
-FN Ray first_ray(GLOBAL const View *view, int first_item, int number) {
-    int per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+FN Ray first_ray(SAMPLE_PARAMETERS int first_item, int number) {
+    int per_item = HD_PIXELS_PER_ITEM * view->samples;
     Vec3 direction;
-    vmask alive =
-        sample_directions(view, first_item + number / per_item, number % per_item, &direction);
+    vmask alive = sample_directions(SAMPLE_ARGUMENTS first_item + number / per_item,
+                                    number % per_item, &direction);
     return eye_ray(direction, alive);
 }
 
@@ -273,9 +292,9 @@ FN Ray first_ray(GLOBAL const View *view, int first_item, int number) {
    this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
    counted, packed. */
 FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
-                          const Ray *through, int has_faces, vint number, const Sample *sample,
-                          int thread, int thread_count, LOCAL uint64 *room, LOCAL uint *place,
-                          GLOBAL uint *taken) {
+                          const Ray *through, int has_faces, int has_paths, vint number,
+                          const Sample *sample, int thread, int thread_count, LOCAL uint64 *room,
+                          LOCAL uint *place, GLOBAL uint *taken) {
     uint64 total, own = pack_counts(sample);
     uint64 before = scan_group(room, thread, thread_count, own, &total) - own;
     int mirrors = (int)(total & COUNT_MASK), passes = (int)(total >> PASSING_SHIFT & COUNT_MASK);
@@ -294,10 +313,10 @@ FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray 
     BARRIER();
     if (any_lane(keeps_mirror))
         store_rays(QUEUE_ARGUMENTS to + (int)*place + mirror_place, keeps_mirror, mirror, has_faces,
-                   number);
+                   has_paths, number);
     if (any_lane(keeps_through))
         store_rays(QUEUE_ARGUMENTS to + (int)*place + mirrors + through_place, keeps_through,
-                   through, has_faces, number);
+                   through, has_faces, has_paths, number);
     return total;
 }
 
@@ -320,17 +339,18 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         Ray ray, mirror, through;
         mirror.alive = through.alive = ray.alive = mask_none();
         if (i < count)
-            ray = level == 0 ? first_ray(view, first_item, first + i)
-                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES, &number);
+            ray = level == 0 ? first_ray(SAMPLE_ARGUMENTS first_item, first + i)
+                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES, SURVEYED, &number);
         if (any_lane(ray.alive)) {
             follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
             if (level == 0)
-                set_sums(QUEUE_ARGUMENTS first + i, &sample);
+                set_sums(QUEUE_ARGUMENTS first + i, SURVEYED, &sample);
             else
-                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, &sample);
+                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, SURVEYED, &sample);
         }
-        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES,
-                                       number, &sample, thread, thread_count, room, place, taken);
+        uint64 total =
+            append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES, SURVEYED,
+                            number, &sample, thread, thread_count, room, place, taken);
         sum.mirrored += total & COUNT_MASK;
         sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
         sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);
@@ -349,14 +369,15 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
 
 /* Stores the pixels of a finished batch, those of the items [first_item, first_item + item_count);
    every `workers`-th item is this worker's. */
-FN void store_batch(GLOBAL const View *view, GLOBAL const fixed64 *sums, int sum_stride,
-                    int first_item, int item_count, int worker, int workers, GLOBAL float *pixels) {
-    int per_item = HD_PIXELS_PER_ITEM * view->samples_per_side * view->samples_per_side;
+FN void store_batch(GLOBAL const Header *header, GLOBAL const View *view,
+                    GLOBAL const fixed64 *sums, int sum_stride, int first_item, int item_count,
+                    int worker, int workers, GLOBAL float *pixels) {
+    int per_item = HD_PIXELS_PER_ITEM * view->samples;
     for (int i = worker; i < item_count; i += workers) {
         Gathered gathered;
         clear_gathered(&gathered);
-        gather_sums(view, sums + i * per_item, sum_stride, 0, per_item, &gathered);
-        store_pixels(view, first_item + i, &gathered, pixels);
+        gather_sums(header, view, sums + i * per_item, sum_stride, 0, per_item, &gathered);
+        store_pixels(header, view, first_item + i, &gathered, pixels);
     }
 }
 

@@ -20,12 +20,13 @@ extern "C" __global__ void hedron_trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS i
                         (int)threadIdx.x, (int)blockDim.x, room, &place, taken, counts);
 }
 
-extern "C" __global__ void hedron_store_batch(const View *__restrict__ view,
+extern "C" __global__ void hedron_store_batch(const Header *__restrict__ header,
+                                              const View *__restrict__ view,
                                               const fixed64 *__restrict__ sums, int sum_stride,
                                               int first_item, int item_count,
                                               float *__restrict__ pixels) {
     int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
-    store_batch(view, sums, sum_stride, first_item, item_count, worker,
+    store_batch(header, view, sums, sum_stride, first_item, item_count, worker,
                 (int)(gridDim.x * blockDim.x), pixels);
 }
 

@@ -20,10 +20,10 @@ __kernel void hedron_trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item
                         (int)get_local_id(0), (int)get_local_size(0), room, &place, taken, counts);
 }
 
-__kernel void hedron_store_batch(__global const View *view, __global const fixed64 *sums,
-                                 int sum_stride, int first_item, int item_count,
-                                 __global float *pixels) {
-    store_batch(view, sums, sum_stride, first_item, item_count, (int)get_global_id(0),
+__kernel void hedron_store_batch(__global const Header *header, __global const View *view,
+                                 __global const fixed64 *sums, int sum_stride, int first_item,
+                                 int item_count, __global float *pixels) {
+    store_batch(header, view, sums, sum_stride, first_item, item_count, (int)get_global_id(0),
                 (int)get_global_size(0), pixels);
 }
 

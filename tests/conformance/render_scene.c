@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "refinement.h"
+
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);
     fprintf(stderr, "%s: %s\n", what, error->message);
@@ -40,25 +42,44 @@ static void need_most(HdSceneTables *tables) {
     tables->refracts = tables->lit_from_behind = true;
 }
 
+static HdStatus render_frame(const Target *target, const HdScene *scene, const HdCamera *camera,
+                             HdFrame *frame, HdError *error) {
+    HdFrameTables view;
+    HdStatus status = hd_compile_frame(&view, scene, camera, target->precision, error);
+    if (status == HD_OK)
+        status = hd_renderer_render(target->renderer, &view, frame, error);
+    hd_frame_tables_free(&view);
+    return status;
+}
+
+static HdStatus refine_frame(const Target *target, const HdScene *scene, const HdCamera *camera,
+                             HdFrame *frame, HdError *error) {
+    HdRefinement *refinement = NULL;
+    HdStatus status = hd_refinement_create(&refinement, scene, target->renderer, target->precision,
+                                           HD_CURVE_SRGB, error);
+    if (status == HD_OK)
+        status = hd_refinement_render(refinement, camera, frame, error);
+    hd_refinement_free(refinement);
+    return status;
+}
+
 HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
                      const char *name) {
     HdRenderer *renderer = target->renderer;
     HdError error;
     HdFrame frame;
     HdSceneTables tables;
-    HdFrameTables view;
     if (hd_scene_validate(scene, &error) != HD_OK ||
         hd_compile_scene(&tables, scene, target->precision, hd_renderer_lanes(renderer), &error) !=
             HD_OK ||
-        hd_compile_frame(&view, scene, camera, target->precision, &error) != HD_OK ||
         hd_frame_create(&frame, scene->width, scene->height, &error) != HD_OK)
         fail(name, &error);
     if (target->one_build)
         need_most(&tables);
     if (hd_renderer_upload(renderer, &tables, &error) != HD_OK ||
-        hd_renderer_render(renderer, &view, &frame, &error) != HD_OK)
+        (hd_scene_is_surveyed(scene) ? refine_frame : render_frame)(target, scene, camera, &frame,
+                                                                    &error) != HD_OK)
         fail(name, &error);
-    hd_frame_tables_free(&view);
     hd_scene_tables_free(&tables);
     return frame;
 }

@@ -315,6 +315,30 @@ static void everything(HdScene *scene, HdCamera *camera) {
     build_texture(&scene->floor.texture, 24, 24);
 }
 
+/* Pixels with one sample, with four and with all of them; rays and lights that are left out; passes
+   that are repeated. */
+static void adaptive_and_bounded(HdScene *scene, HdCamera *camera) {
+    everything(scene, camera);
+    scene->cutoff = 0.0;
+    scene->depth = 24;
+    scene->samples_per_side = 4;
+    scene->sampling = HD_SAMPLING_ADAPTIVE;
+    scene->max_error = 4.0;
+}
+
+static void crop_of_reference(HdScene *scene, HdCamera *camera) {
+    many_instances(scene, camera);
+    scene->samples_per_side = 3;
+    scene->sampling = HD_SAMPLING_REFERENCE;
+    scene->max_error = 0.5;
+    scene->crop = (HdCrop){.whole_width = scene->width,
+                           .whole_height = scene->height,
+                           .left = scene->width / 3,
+                           .top = scene->height / 4};
+    scene->width /= 3;
+    scene->height /= 2;
+}
+
 const ConformanceFrame conformance_frames[] = {
     {"tetrahedron", tetrahedron},
     {"hexahedron", hexahedron},
@@ -355,5 +379,7 @@ const ConformanceFrame conformance_frames[] = {
     {"triangulated-solids", triangulated_solids},
     {"mesh-edges-and-corners", mesh_edges_and_corners},
     {"mesh-far-from-origin", mesh_far_from_origin},
+    {"adaptive-and-bounded", adaptive_and_bounded},
+    {"crop-of-reference", crop_of_reference},
 };
 const int conformance_frame_count = (int)(sizeof conformance_frames / sizeof conformance_frames[0]);

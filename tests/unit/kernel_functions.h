@@ -402,11 +402,14 @@ static void samples_fill_the_lanes(void **state) {
                  .down = {R(0.0), R(0.0), R(-0.001)},
                  .width = 8,
                  .height = 8,
-                 .samples_per_side = 3};
+                 .samples = 9,
+                 .grid_side = 3,
+                 .first_column = 1 - 8 * 3,
+                 .first_row = 1 - 8 * 3};
     int live = 0;
     for (int first = 0; first < HD_BLOCK_PIXELS * 9; first += HD_LANES) {
         Vec3 direction;
-        vmask alive = sample_directions(&view, 0, first, &direction);
+        vmask alive = sample_directions(&view, NULL, NULL, 0, first, &direction);
         for (int lane = 0; lane < HD_LANES; lane++)
             live += lane_int(&alive, lane) != 0;
         vreal length = vec3_dot(direction, direction);

@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT */
+#include "refinement.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+#include "survey_pass.h"
+
+/* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
+   neighbours that have one sample; of the quarters of a pixel's samples; of neighbours that have
+   more. Measured on the scenes that ship (docs/performance.md). */
+#define FIRST_CONTRAST     0.75
+#define QUARTER_CONTRAST   3.0
+#define NEIGHBOUR_CONTRAST 6.0
+
+/* The error that is aimed at where nobody said another. */
+#define USUAL_ERROR 2.0
+
+/* How often unevenness spreads to neighbours. */
+enum { MOST_SPREADS = 4 };
+
+typedef struct Codes {
+    uint8_t rgb[3];
+} Codes;
+
+typedef struct Pixel {
+    float mean[3];
+    float bound;
+    float identity; /* of the first sample */
+    int samples;
+    Codes codes;       /* of the mean */
+    Codes least, most; /* of the means of the samples' quarters */
+} Pixel;
+
+struct HdRefinement {
+    HdSurveyor surveyor;
+    HdSampleSet samples;
+    HdCurve curve;
+    int width, height;
+    int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
+    Pixel *pixels;
+    int *chosen; /* pixels of the pass */
+    HdSurveyRequest *requests;
+    HdSurvey *surveys;
+    int request_capacity;
+};
+
+void hd_refinement_free(HdRefinement *r) {
+    if (r == NULL)
+        return;
+    hd_surveyor_free(&r->surveyor);
+    hd_sample_set_free(&r->samples);
+    free(r->order);
+    free(r->pixels);
+    free(r->chosen);
+    free(r->requests);
+    free(r->surveys);
+    free(r);
+}
+
+static void order_pixels(HdRefinement *r) {
+    enum { SIDE = 8 };
+    int count = 0;
+    for (int top = 0; top < r->height; top += SIDE)
+        for (int left = 0; left < r->width; left += SIDE)
+            for (int y = top; y < top + SIDE && y < r->height; y++)
+                for (int x = left; x < left + SIDE && x < r->width; x++)
+                    r->order[count++] = y * r->width + x;
+}
+
+static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
+    if (count <= r->request_capacity)
+        return HD_OK;
+    free(r->requests);
+    free(r->surveys);
+    r->request_capacity = 0;
+    r->requests = calloc((size_t)count, sizeof *r->requests);
+    r->surveys = calloc((size_t)count, sizeof *r->surveys);
+    if (r->requests == NULL || r->surveys == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", count);
+    r->request_capacity = count;
+    return HD_OK;
+}
+
+HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
+                              HdPrecision precision, HdCurve curve, HdError *error) {
+    HdRefinement *r = calloc(1, sizeof *r);
+    if (r == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a refinement");
+    size_t pixels = (size_t)scene->width * (size_t)scene->height;
+    r->width = scene->width;
+    r->height = scene->height;
+    r->curve = curve;
+    HdStatus status = scene->sampling == HD_SAMPLING_REFERENCE
+                          ? hd_sample_set_dense(&r->samples, scene->samples_per_side, error)
+                          : hd_sample_set_grid(&r->samples, scene->samples_per_side, error);
+    r->surveyor = (HdSurveyor){.scene = scene,
+                               .precision = precision,
+                               .renderer = renderer,
+                               .samples = &r->samples,
+                               .budget = hd_error_budget(curve)};
+    r->order = calloc(pixels, sizeof *r->order);
+    r->pixels = calloc(pixels, sizeof *r->pixels);
+    r->chosen = calloc(pixels, sizeof *r->chosen);
+    if (status == HD_OK && !(r->order && r->pixels && r->chosen))
+        status = hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
+    if (status == HD_OK)
+        order_pixels(r);
+    if (status != HD_OK)
+        hd_refinement_free(r);
+    else
+        *refinement = r;
+    return status;
+}
+
+/* ---- what is known of a pixel ---- */
+
+static Codes encode(const HdRefinement *r, const float rgb[3]) {
+    Codes codes;
+    hd_curve_encode8(r->curve, rgb, 3, codes.rgb);
+    return codes;
+}
+
+static void widen(Pixel *pixel, Codes codes) {
+    for (int channel = 0; channel < 3; channel++) {
+        uint8_t code = codes.rgb[channel];
+        if (code < pixel->least.rgb[channel])
+            pixel->least.rgb[channel] = code;
+        if (code > pixel->most.rgb[channel])
+            pixel->most.rgb[channel] = code;
+    }
+}
+
+/* `count` surveys of `samples` samples each. The pixel's own samples until now are one quarter. */
+static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *surveys, int count,
+                        int samples) {
+    double total = pixel->samples + (double)count * samples;
+    if (pixel->samples == 0)
+        pixel->identity = surveys[0].identity;
+    pixel->least = pixel->most =
+        pixel->samples > 0 ? encode(r, pixel->mean) : encode(r, surveys[0].rgb);
+    for (int i = 0; i < count; i++)
+        widen(pixel, encode(r, surveys[i].rgb));
+    for (int channel = 0; channel < 3; channel++) {
+        double sum = (double)pixel->mean[channel] * pixel->samples;
+        for (int i = 0; i < count; i++)
+            sum += (double)surveys[i].rgb[channel] * samples;
+        pixel->mean[channel] = (float)(sum / total);
+    }
+    double bound = (double)pixel->bound * pixel->samples;
+    for (int i = 0; i < count; i++)
+        bound += (double)surveys[i].bound * samples;
+    pixel->bound = (float)(bound / total);
+    pixel->samples = (int)total;
+    pixel->codes = encode(r, pixel->mean);
+}
+
+static int greatest_difference(const Codes *a, const Codes *b) {
+    int greatest = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        int difference = abs(a->rgb[channel] - b->rgb[channel]);
+        greatest = difference > greatest ? difference : greatest;
+    }
+    return greatest;
+}
+
+/* ---- passes ---- */
+
+/* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. */
+static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
+                              int samples, int parts, HdError *error) {
+    int each = (samples - from) / parts, made = 0;
+    HdStatus status = reserve_requests(r, count * parts, error);
+    if (status != HD_OK)
+        return status;
+    for (int i = 0; i < count; i++) {
+        int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
+        for (int p = 0; p < parts; p++)
+            r->requests[made++] = (HdSurveyRequest){x | y << 16, from + p * each};
+    }
+    status = hd_survey_pass(&r->surveyor, camera, r->requests, made, each, r->surveys, error);
+    for (int i = 0; status == HD_OK && i < count; i++)
+        add_surveys(r, &r->pixels[r->chosen[i]], &r->surveys[i * parts], parts, each);
+    return status;
+}
+
+static double error_aimed_at(const HdRefinement *r) {
+    double limit = r->surveyor.scene->max_error;
+    return limit > 0.0 ? limit : USUAL_ERROR;
+}
+
+typedef bool Judge(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour);
+
+static bool any_neighbour(const HdRefinement *r, int number, Judge *judge) {
+    int x = number % r->width, y = number / r->width;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            int column = x + dx, row = y + dy;
+            if (column < 0 || row < 0 || column >= r->width || row >= r->height)
+                continue;
+            if (judge(r, &r->pixels[number], &r->pixels[row * r->width + column]))
+                return true;
+        }
+    return false;
+}
+
+static bool sees_another(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour) {
+    return pixel->identity != neighbour->identity ||
+           greatest_difference(&pixel->codes, &neighbour->codes) >
+               FIRST_CONTRAST * error_aimed_at(r);
+}
+
+static bool is_uneven(const HdRefinement *r, const Pixel *pixel) {
+    return greatest_difference(&pixel->least, &pixel->most) > QUARTER_CONTRAST * error_aimed_at(r);
+}
+
+static bool has_uneven_neighbour(const HdRefinement *r, const Pixel *pixel,
+                                 const Pixel *neighbour) {
+    (void)pixel;
+    return is_uneven(r, neighbour);
+}
+
+static bool differs_much(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour) {
+    return greatest_difference(&pixel->codes, &neighbour->codes) >
+           NEIGHBOUR_CONTRAST * error_aimed_at(r);
+}
+
+/* Chooses the pixels of so many samples that `judge` finds a reason for; returns their number. */
+static int choose(HdRefinement *r, int samples, Judge *judge) {
+    int pixels = r->width * r->height, count = 0;
+    for (int i = 0; i < pixels; i++) {
+        int number = r->order[i];
+        if (r->pixels[number].samples == samples && any_neighbour(r, number, judge))
+            r->chosen[count++] = number;
+    }
+    return count;
+}
+
+static int choose_uneven(HdRefinement *r, int samples) {
+    int pixels = r->width * r->height, count = 0;
+    for (int i = 0; i < pixels; i++) {
+        int number = r->order[i];
+        const Pixel *pixel = &r->pixels[number];
+        if (pixel->samples == samples &&
+            (is_uneven(r, pixel) || any_neighbour(r, number, differs_much)))
+            r->chosen[count++] = number;
+    }
+    return count;
+}
+
+static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
+    int pixels = r->width * r->height;
+    memset(r->pixels, 0, sizeof *r->pixels * (size_t)pixels);
+    memcpy(r->chosen, r->order, sizeof *r->order * (size_t)pixels);
+    return sample_chosen(r, camera, pixels, 0, samples, 1, error);
+}
+
+/* Into how many parts so many samples are cut: three, or else the least number that divides them.
+ */
+static int part_count(int samples) {
+    int parts = 3;
+    while (parts < samples && samples % parts != 0)
+        parts++;
+    return parts < samples ? parts : samples;
+}
+
+static int next_level(const HdRefinement *r, int samples) {
+    return 4 * samples < r->samples.count ? 4 * samples : r->samples.count;
+}
+
+static HdStatus refine(HdRefinement *r, const HdCamera *camera, HdError *error) {
+    HdStatus status = sample_all(r, camera, 1, error);
+    int samples = 1, level = next_level(r, 1), count = 1;
+    if (level == 1)
+        return status;
+    for (int spread = 0; status == HD_OK && count > 0 && spread <= MOST_SPREADS; spread++) {
+        count = choose(r, 1, spread == 0 ? sees_another : has_uneven_neighbour);
+        status = sample_chosen(r, camera, count, 1, level, part_count(level - 1), error);
+    }
+    while (status == HD_OK && level < r->samples.count) {
+        samples = level;
+        level = next_level(r, samples);
+        count = choose_uneven(r, samples);
+        status =
+            sample_chosen(r, camera, count, samples, level, part_count(level - samples), error);
+    }
+    return status;
+}
+
+/* ---- the frame ---- */
+
+static void fill_frame(const HdRefinement *r, HdFrame *frame) {
+    size_t pixels = (size_t)r->width * (size_t)r->height;
+    double largest = 0.0, sum = 0.0;
+    for (size_t i = 0; i < pixels; i++) {
+        const Pixel *pixel = &r->pixels[i];
+        const float *rgb = pixel->mean;
+        float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
+        double steps = hd_error_budget_steps(&r->surveyor.budget, pixel->bound,
+                                             least < rgb[2] ? least : rgb[2]);
+        memcpy(frame->rgb + 3 * i, rgb, sizeof pixel->mean);
+        largest = steps > largest ? steps : largest;
+        sum += steps;
+    }
+    frame->has_bound = true;
+    frame->largest_bound = largest;
+    frame->mean_bound = sum / (double)pixels;
+}
+
+static void fill_counts(const HdFrame *sums, HdFrame *frame) {
+    frame->primary_rays = sums->primary_rays;
+    frame->mirrored_rays = sums->mirrored_rays;
+    frame->transmitted_rays = sums->transmitted_rays;
+    frame->shadow_tests = sums->shadow_tests;
+    frame->clamps = sums->clamps;
+}
+
+HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdFrame *frame,
+                              HdError *error) {
+    double start = hd_monotonic_seconds();
+    r->surveyor.sums = (HdFrame){0};
+    HdStatus status = r->surveyor.scene->sampling == HD_SAMPLING_ADAPTIVE
+                          ? refine(r, camera, error)
+                          : sample_all(r, camera, r->samples.count, error);
+    if (status != HD_OK)
+        return status;
+    frame->is_encoded = false;
+    fill_frame(r, frame);
+    fill_counts(&r->surveyor.sums, frame);
+    frame->trace_seconds = hd_monotonic_seconds() - start;
+    return HD_OK;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* Renders listed samples of a surveyed scene, so often with a smaller cut-off that what was left
+   out of each of them stays within bounds. */
+#ifndef HD_SURVEY_PASS_H
+#define HD_SURVEY_PASS_H
+
+#include "backend.h"
+#include "error_budget.h"
+#include "sample_set.h"
+
+/* Samples of a pixel that follow each other in the set: their means. */
+typedef struct HdSurvey {
+    float rgb[3]; /* radiance times exposure */
+    float bound;  /* of what is missing from any channel */
+    float identity;
+} HdSurvey;
+
+typedef struct HdSurveyRequest {
+    int pixel; /* x | y << 16 */
+    int first; /* sample in the set */
+} HdSurveyRequest;
+
+typedef struct HdSurveyor {
+    const HdScene *scene; /* uploaded; surveyed */
+    HdPrecision precision;
+    HdRenderer *renderer; /* no frame is under way */
+    const HdSampleSet *samples;
+    HdErrorBudget budget;
+    HdFrame sums; /* counts and time of all passes so far; without pixels */
+    int *entries; /* the surveyor's own from here on */
+    int capacity;
+    HdFrame frame;
+} HdSurveyor;
+
+/* Gives up what the surveyor owns itself. */
+void hd_surveyor_free(HdSurveyor *surveyor);
+
+/* How deep a scene with such a limit must be, so that what lies beyond is worth little of it. */
+int hd_survey_depth(const HdScene *scene);
+
+/* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
+   (HdScene.max_error) each bound is within it, but for what lies beyond the scene's depth. */
+HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
+                        const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
+                        HdError *error);
+
+#endif

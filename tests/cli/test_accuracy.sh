@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What is promised of a picture's error, and what is kept: --max-error, --aa, --reference, --crop.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+if ! command -v jq >"$logs/which"; then
+    skip "there is no jq"
+fi
+render=("$hedron" render --quiet --backend c)
+
+# expect_all FILE FILTER: what jq says of each line is true.
+expect_all() {
+    if ! jq -e -s "all(.[]; $2)" "$1" >"$logs/jq" 2>&1; then
+        fail "$1: not $2: $(tr '\n' ' ' <"$1" | cut -c1-600)"
+    fi
+}
+
+# compare A B: into compared.json.
+compare() {
+    "$hedron" compare --json "$1" "$2" >compared.json || true
+}
+
+# ---- what is left out: within the bound, which is within the limit
+for scene in "$project"/scenes/*.json; do
+    name=$(basename "$scene" .json)
+    size=(--size 24x18)
+    [[ $name == knot ]] && size=(--size 12x9)
+    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error 1 -o one.pfm \
+        --stats one.jsonl
+    expect_all one.jsonl '.missing.largest <= 1 and .missing.mean <= .missing.largest'
+    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error 0.03 --precision double \
+        -o truth.pfm --stats truth.jsonl
+    expect_all truth.jsonl '.missing.largest <= 0.03'
+    compare one.pfm truth.pfm
+    expect_all compared.json '.display.largest != null and .first.not_finite == 0'
+    # Rays that meet another thing in float than in double are another error: few, and not left out.
+    expect_all compared.json '.display.above_1 <= 0.005'
+done
+
+# ---- a looser limit takes fewer rays; what was left out is told also where the depth does it
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --max-error 8 -o loose.pfm --stats loose.jsonl
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --max-error 0.5 -o tight.pfm --stats tight.jsonl
+rays='.rays.mirrored + .rays.transmitted'
+if (($(jq "$rays" loose.jsonl) * 10 > $(jq "$rays" tight.jsonl) * 9)); then
+    fail "an error of 8 takes $(jq "$rays" loose.jsonl) rays, one of 0.5 $(jq "$rays" tight.jsonl)"
+fi
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --max-error 1 --depth 2 -o shallow.pfm --stats shallow.jsonl
+expect_all shallow.jsonl '.missing.largest > 1 and .depth == 2'
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 -o plain.pfm --stats plain.jsonl
+expect_all plain.jsonl '.missing == null'
+
+# ---- adaptive: half of the rays, and the picture of the grid
+expect_exit 0 "${render[@]}" --frames 0 --size 320x240 --samples 4 -o grid.pfm --stats grid.jsonl
+expect_exit 0 "${render[@]}" --frames 0 --size 320x240 --samples 4 --aa adaptive -o adaptive.pfm --stats adaptive.jsonl
+compare adaptive.pfm grid.pfm
+expect_all compared.json '.display.rmse > 0 and .display.p999 <= 4'
+if (($(jq .rays.primary adaptive.jsonl) * 10 > $(jq .rays.primary grid.jsonl) * 6)); then
+    fail "adaptive sampling takes $(jq .rays.primary adaptive.jsonl) samples, the grid $(jq .rays.primary grid.jsonl)"
+fi
+# One sample a pixel leaves nothing to choose.
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --samples 1 -o a.pfm
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --samples 1 --aa adaptive -o b.pfm
+expect_same a.pfm b.pfm
+# A frame alone is that of the sequence, on any number of threads and lanes.
+expect_exit 0 "${render[@]}" --frames 3-5 --size 64x48 --samples 3 --aa adaptive --max-error 2 -o 'many##.pfm'
+expect_exit 0 "${render[@]}" --frames 5 --size 64x48 --samples 3 --aa adaptive --max-error 2 --threads 1 --lanes 1 \
+    -o alone.pfm
+expect_same many05.pfm alone.pfm
+
+# ---- a crop is that part of the picture, byte for byte
+expect_exit 0 "${render[@]}" --frames 7 --size 64x48 --samples 3 -o whole.pfm
+expect_exit 0 "${render[@]}" --frames 7 --size 64x48 --samples 3 --crop 20x11+9+30 -o part.pfm
+expect_exit 0 "${render[@]}" --frames 7 --size 64x48 --samples 3 --crop 64x48+0+0 -o all.pfm
+expect_same whole.pfm all.pfm
+# rows LEFT TOP WIDTH HEIGHT FILE WIDE HIGH: the bytes of a part; PFM has its rows from the bottom.
+rows() {
+    local header row
+    header=$(($(head -c 100 "$5" | head -n 3 | wc -c)))
+    for ((row = $7 - $2 - $4; row < $7 - $2; row++)); do
+        tail -c "+$((header + 1 + (row * $6 + $1) * 12))" "$5" | head -c "$(($3 * 12))"
+    done
+}
+rows 9 30 20 11 whole.pfm 64 48 >cut || true
+rows 0 0 20 11 part.pfm 20 11 >own || true
+expect_same cut own
+expect_exit 0 "${render[@]}" --frames 7 --size 64x48 --aa adaptive --max-error 4 --crop 9x9+55+39 -o corner.pfm
+
+# ---- the reference: double, many samples, and nearer to itself than any other
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --crop 8x6+28+20 --reference -o reference.pfm --stats reference.jsonl
+expect_all reference.jsonl '.samples == 32 and .missing.largest <= 0.016 and .rays.primary >= 8 * 6 * 1024'
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --crop 8x6+28+20 --samples 2 -o coarse.pfm
+expect_exit 0 "${render[@]}" --frames 0 --size 64x48 --crop 8x6+28+20 --samples 16 --max-error 0.5 -o fine.pfm
+compare coarse.pfm reference.pfm
+coarse=$(jq .display.rmse compared.json)
+compare fine.pfm reference.pfm
+expect_all compared.json ".display.rmse < $coarse / 3"
+
+# ---- a scene file says it too
+expect_exit 0 "${render[@]}" --set image.aa=adaptive --set image.max_error=2 --frames 0 --size 32x24 -o file.pfm
+expect_exit 0 "${render[@]}" --aa adaptive --max-error 2 --frames 0 --size 32x24 -o option.pfm
+expect_same file.pfm option.pfm
+
+# ---- wrong options
+expect_exit 2 "${render[@]}" --max-error 0 -o a.pfm
+expect_sentence "--max-error is '0', expected a number from 1e-06 to 255"
+expect_exit 2 "${render[@]}" --max-error -1 -o a.pfm
+expect_exit 2 "${render[@]}" --max-error nan -o a.pfm
+expect_exit 2 "${render[@]}" --aa smart -o a.pfm
+expect_sentence "--aa is 'smart', expected grid or adaptive"
+for crop in 8 8x8 8x8+1 8x8+1+ 0x8+1+1 8x8-1+1 8x8+1+1x 8x8+1+99999999999; do
+    expect_exit 2 "${render[@]}" --crop "$crop" -o a.pfm
+    expect_sentence "--crop is '$crop', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200"
+done
+expect_exit 2 "${render[@]}" --size 64x48 --crop 8x8+57+0 -o a.pfm
+expect_sentence "the picture has 64 x 48 pixels"
+finish
