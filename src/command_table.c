@@ -59,7 +59,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "linear, as 'hedron render' writes them.\n\n"
      "The heat map of --diff shows the display error of each pixel on a logarithmic scale: black "
      "below 1/4 of a step of 255, dark violet at 1/4, then purple (1), red (4), orange (16), "
-     "yellow (64) and pale yellow (255), lighter by the same step with each doubling; cyan for "
+     "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
      "NaN and infinite values."},
     {HD_COMMAND_HELP, "help", "[TOPIC]", NULL,
      "render check convert devices tune compare help man completion", 1, "explain a command",

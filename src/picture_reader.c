@@ -18,7 +18,7 @@ enum { CODES = 65536 };
 
 struct HdPictureReader {
     FILE *file;
-    char *path;
+    const char *path; /* the caller's */
     HdPictureFacts facts;
     HdCurve curve;
     HdPngRows *png; /* one of these two */
@@ -65,11 +65,10 @@ static HdStatus open_format(HdPictureReader *reader, HdError *error) {
 
 HdStatus hd_picture_reader_open(HdPictureReader **out, const char *path, HdError *error) {
     HdPictureReader *reader = calloc(1, sizeof *reader);
-    if (reader != NULL)
-        reader->path = strdup(path);
-    HdStatus status = reader == NULL || reader->path == NULL
-                          ? hd_fail(error, HD_FAILED, "not enough memory to read %s", path)
-                          : open_file(reader, error);
+    if (reader == NULL)
+        return hd_fail(error, HD_FAILED, "not enough memory to read %s", path);
+    reader->path = path;
+    HdStatus status = open_file(reader, error);
     if (status == HD_OK)
         status = open_format(reader, error);
     if (status != HD_OK)
@@ -138,6 +137,5 @@ void hd_picture_reader_close(HdPictureReader *reader) {
     free(reader->codes);
     free(reader->radiances);
     free(reader->by_code);
-    free(reader->path);
     free(reader);
 }
