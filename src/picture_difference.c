@@ -124,7 +124,8 @@ void hd_difference_add_row(HdPictureDifference *difference, const HdPictureValue
 static HdDifferenceFigures figures_of(const Space *space, uint64_t pixels, double unit,
                                       double peak) {
     if (pixels == 0)
-        return (HdDifferenceFigures){NAN, NAN, NAN, NAN, -1, -1, -1, NAN};
+        return (HdDifferenceFigures){(double)NAN, (double)NAN, (double)NAN, (double)NAN,
+                                     -1,          -1,          -1,          (double)NAN};
     const double values = (double)pixels * CHANNELS;
     const bool differs = space->largest > 0.0;
     HdDifferenceFigures figures = {

@@ -54,5 +54,5 @@ double hd_quantile_above(const HdQuantile *quantile, uint64_t out_of) {
             return bucket->largest;
         above += bucket->count;
     }
-    return NAN;
+    return (double)NAN;
 }
