@@ -3,6 +3,7 @@
 add_library(hedron_program STATIC
     src/command_check.c
     src/command_classic.c
+    src/command_compare.c
     src/command_convert.c
     src/command_devices.c
     src/command_help.c

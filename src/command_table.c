@@ -46,8 +46,23 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "to the device's default, and remembers the best in the cache folder: 'hedron render' uses it "
      "for scenes of this kind and size with the same options, and says so with --verbose. The "
      "bytes of strict pictures do not depend on it."},
+    {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, NULL, 2,
+     "tell how far two pictures are apart",
+     "Compares two pictures of the same size, PNG (8 or 16 bits) or PFM, in two spaces. Display: "
+     "the "
+     "values clamped to 0..1 and on the curve, in steps of 255. Linear: light, 1 is white; clamped "
+     "to 0..1 as well if one of them is a PNG. Prints RMSE, PSNR, mean and largest error with its "
+     "pixel, the error that one pixel in 1000 exceeds, and the shares of pixels off by more than 1 "
+     "and 8 steps of 255. The error of a pixel is that of its worst channel.\n\n"
+     "The exit code is 1 if a value is NaN or infinite, or if the largest display error is above "
+     "--fail-above. Without --curve the curve is sRGB if a PNG says so or both are PFM, else "
+     "linear, as 'hedron render' writes them.\n\n"
+     "The heat map of --diff shows the display error of each pixel on a logarithmic scale: black "
+     "below 1/4 of a step of 255, dark violet at 1/4, then purple (1), red (4), orange (16), "
+     "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
+     "NaN and infinite values."},
     {HD_COMMAND_HELP, "help", "[TOPIC]", NULL,
-     "render check convert devices tune help man completion", 1, "explain a command",
+     "render check convert devices tune compare help man completion", 1, "explain a command",
      "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
      "of this program."},
     {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, NULL, 0,
@@ -89,6 +104,8 @@ const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
      "times and rays of each frame, a line of JSON each"},
     {"hedron check scene.json", "mistakes of a scene"},
     {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
+    {"hedron compare a.png b.png --diff heat.png --fail-above 1",
+     "how far apart two pictures are, where, and whether that is too much"},
     {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
     {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
     {"source <(hedron help completion)", "completion for this bash"},

@@ -12,7 +12,8 @@ typedef enum HdCommand {
     HD_COMMAND_DEVICES = 16,
     HD_COMMAND_TUNE = 32,
     HD_COMMAND_HELP = 64,
-    HD_COMMAND_VERSION = 128
+    HD_COMMAND_VERSION = 128,
+    HD_COMMAND_COMPARE = 256
 } HdCommand;
 
 /* What there is help about, apart from commands: the man page and the completion script. */
@@ -34,7 +35,7 @@ typedef struct HdCommandSpec {
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
-enum { HD_COMMAND_SPEC_COUNT = 7 };
+enum { HD_COMMAND_SPEC_COUNT = 8 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
 /* NULL where no command has that name. */
@@ -48,7 +49,7 @@ typedef struct HdExplained {
     const char *text, *meaning;
 } HdExplained;
 
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 10 };
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 11 };
 extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
 

@@ -23,6 +23,9 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error);
 /* Measures ways to launch a device's kernels for a scene, prints them and remembers the best. */
 HdStatus hd_command_tune(const HdOptions *options, HdError *error);
 
+/* Prints how far two pictures are apart; HD_FAILED where that is too far. */
+HdStatus hd_command_compare(const HdOptions *options, HdError *error);
+
 /* Prints help, the man page or the completion script on standard output. */
 void hd_command_help(const HdHelpTopic *topic);
 

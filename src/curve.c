@@ -62,6 +62,25 @@ static double srgb_to_linear(double value) {
     return x * x * fifth_root(x * x);
 }
 
+/* For 0 < x <= 1, as above. */
+static double cube_root(double x) {
+    double root = 1.0;
+    for (;;) {
+        const double next = root - (root - x / (root * root)) / 3.0;
+        if (!(next < root))
+            return root;
+        root = next;
+    }
+}
+
+/* x^(1/2.4) is the fourth root of x times the cube root of its square. */
+static double linear_to_srgb(double value) {
+    if (value <= 0.04045 / 12.92)
+        return value * 12.92;
+    const double square = sqrt(value);
+    return 1.055 * sqrt(square) * cube_root(square) - 0.055;
+}
+
 static uint32_t bits_of(float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -224,4 +243,16 @@ void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count) {
 void hd_curve_decode8(HdCurve curve, uint16_t values[256]) {
     for (int code = 0; code < 256; code++)
         values[code] = (uint16_t)(curve == HD_CURVE_LINEAR ? code * 257 : decode(code / 255.0));
+}
+
+double hd_curve_to_display(HdCurve curve, double linear) {
+    if (linear <= 0.0 || linear >= 1.0)
+        return linear >= 1.0 ? 1.0 : 0.0;
+    return curve == HD_CURVE_LINEAR ? linear : linear_to_srgb(linear);
+}
+
+double hd_curve_to_linear(HdCurve curve, double display) {
+    if (display <= 0.0 || display >= 1.0)
+        return display >= 1.0 ? 1.0 : 0.0;
+    return curve == HD_CURVE_LINEAR ? display : srgb_to_linear(display);
 }

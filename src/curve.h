@@ -27,4 +27,8 @@ void hd_curve_decode16(HdCurve curve, uint16_t *values, size_t count);
 /* The same for 8 bits: by code, 0..65535 for 0..1. */
 void hd_curve_decode8(HdCurve curve, uint16_t values[256]);
 
+/* The curve itself in double, for 0..1; what lies outside is clamped. NaN stays. */
+double hd_curve_to_display(HdCurve curve, double linear);
+double hd_curve_to_linear(HdCurve curve, double display);
+
 #endif

@@ -3,16 +3,11 @@
 
 #include "image_files.h"
 
-#include <errno.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <png.h>
-#include <zlib.h>
-
-/* Far above what a texture needs, far below what would hurt. */
-enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
+#include "png_setup.h"
 
 enum { SIGNATURE_SIZE = 8, SIZE_OFFSET = 16, SIZE_END = 24 };
 
@@ -24,20 +19,8 @@ typedef struct PngJob {
     size_t size;
     unsigned bits; /* of the rows that were read */
     FILE *stream;
-    char message[256];
+    char message[HD_PNG_MESSAGE_SIZE];
 } PngJob;
-
-static void on_error(png_structp png, png_const_charp message) {
-    PngJob *job = png_get_error_ptr(png);
-    snprintf(job->message, sizeof job->message, "%s", message);
-    png_longjmp(png, 1);
-}
-
-/* libpng would print warnings. */
-static void on_warning(png_structp png, png_const_charp message) {
-    (void)png;
-    (void)message;
-}
 
 static void read_bytes(png_structp png, png_bytep out, size_t count) {
     PngJob *job = png_get_io_ptr(png);
@@ -46,16 +29,6 @@ static void read_bytes(png_structp png, png_bytep out, size_t count) {
     memcpy(out, job->bytes, count);
     job->bytes += count;
     job->size -= count;
-}
-
-static void write_bytes(png_structp png, png_bytep bytes, size_t count) {
-    PngJob *job = png_get_io_ptr(png);
-    if (fwrite(bytes, 1, count, job->stream) != count)
-        png_error(png, strerror(errno));
-}
-
-static void flush_nothing(png_structp png) {
-    (void)png;
 }
 
 bool hd_image_is_png(const unsigned char *bytes, size_t size) {
@@ -72,29 +45,14 @@ static HdStatus create_texture(HdTexture *texture, const unsigned char *bytes, s
                              png_get_uint_32(bytes + SIZE_OFFSET + 4), name, error);
 }
 
-static void limit_reading(png_structp png) {
-    png_set_user_limits(png, HD_MAX_TEXTURE_SIDE, HD_MAX_TEXTURE_SIDE);
-    png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);
-    png_set_chunk_cache_max(png, MAX_KEPT_CHUNKS);
-    /* Texts, profiles and gamma have no use here: skipped, they cannot do harm either. */
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-}
-
-/* Every kind of PNG becomes RGB, with 16 bits where it has as many, otherwise with 8. */
-static void convert_to_rgb(png_structp png) {
-    png_set_expand(png);
-    png_set_strip_alpha(png);
-    png_set_gray_to_rgb(png);
-}
-
 /* Runs under setjmp. Rows of 8 bits fill the first half of the texels' row. An interlaced picture
    passes over the same rows several times. */
 static void read_rows(PngJob *job, const HdTexture *texture) {
     const size_t row_size = (size_t)texture->width * 6;
     png_set_read_fn(job->png, job, read_bytes);
-    limit_reading(job->png);
+    hd_png_limit_reading(job->png);
     png_read_info(job->png, job->info);
-    convert_to_rgb(job->png);
+    hd_png_convert_to_rgb(job->png);
     int passes = png_set_interlace_handling(job->png);
     png_read_update_info(job->png, job->info);
     job->bits = png_get_bit_depth(job->png, job->info);
@@ -141,7 +99,7 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status != HD_OK)
         return status;
-    job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    job.png = hd_png_create_reader(job.message);
     if (job.png != NULL)
         job.info = png_create_info_struct(job.png);
     bool done = job.info != NULL && try_reading(&job, texture);
@@ -177,18 +135,11 @@ static void copy_row(const uint8_t *rgba, size_t pixels, uint8_t *row) {
         memcpy(row + 3 * i, rgba + 4 * i, 3);
 }
 
-/* Runs under setjmp. Speed comes before size: frames are many and short-lived. After the filter
-   what repeats is mostly zeros, and looking for nothing else is both faster and smaller than
-   level 1. */
+/* Runs under setjmp. */
 static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
                        uint16_t *row) {
     const size_t width = (size_t)frame->width, values = width * 3;
-    png_set_write_fn(job->png, job, write_bytes, flush_nothing);
-    png_set_compression_strategy(job->png, Z_RLE);
-    png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_IHDR(job->png, job->info, (png_uint_32)frame->width, (png_uint_32)frame->height,
-                 style->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    hd_png_begin_rgb(job->png, job->info, job->stream, frame->width, frame->height, style->bits);
     if (style->curve == HD_CURVE_SRGB)
         png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job->png, job->info);
@@ -215,7 +166,7 @@ HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style, F
     PngJob job = {.stream = stream, .message = "out of memory"};
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row != NULL)
-        job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+        job.png = hd_png_create_writer(job.message);
     if (job.png != NULL)
         job.info = png_create_info_struct(job.png);
     bool done = job.info != NULL && try_writing(&job, frame, style, row);

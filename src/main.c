@@ -21,6 +21,8 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_command_devices(options, error);
     case HD_COMMAND_TUNE:
         return hd_command_tune(options, error);
+    case HD_COMMAND_COMPARE:
+        return hd_command_compare(options, error);
     case HD_COMMAND_HELP:
         hd_command_help(&options->help_topic);
         return HD_OK;

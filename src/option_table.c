@@ -13,8 +13,8 @@
 enum {
     RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
     MEASURING = RENDERING | HD_COMMAND_TUNE,
-    EVERYTHING =
-        MEASURING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES | HD_COMMAND_HELP
+    EVERYTHING = MEASURING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES |
+                 HD_COMMAND_COMPARE | HD_COMMAND_HELP
 };
 
 const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
@@ -96,6 +96,16 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "print the JSON Schema of scene files, and exit"},
     {HD_OPTION_JSON, "--json", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_DEVICES | HD_COMMAND_TUNE,
      "print the list as JSON"},
+    {HD_OPTION_JSON, "--json", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_COMPARE,
+     "print the figures as JSON"},
+    {HD_OPTION_DIFF, "--diff", NULL, "OUT.png", NULL, true, 0, 0, HD_COMMAND_COMPARE,
+     "write a heat map of the display error"},
+    {HD_OPTION_FAIL_ABOVE, "--fail-above", NULL, "X", NULL, false, 0, 0, HD_COMMAND_COMPARE,
+     "end with exit code 1 if the largest display error is above X steps of 255"},
+    {HD_OPTION_CURVE, "--curve", NULL, "NAME", "linear srgb", false, 0, 0, HD_COMMAND_COMPARE,
+     "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
+     "the "
+     "files say"},
     {HD_OPTION_HELP, "--help", "-h", NULL, NULL, false, 0, 0, EVERYTHING, "print this help"},
     {HD_OPTION_VERSION, "--version", "-V", NULL, NULL, false, 0, 0, RENDERING, "print the version"},
 };

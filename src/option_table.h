@@ -39,6 +39,9 @@ typedef enum HdOptionId {
     HD_OPTION_QUIET,
     HD_OPTION_SCHEMA,
     HD_OPTION_JSON,
+    HD_OPTION_DIFF,
+    HD_OPTION_FAIL_ABOVE,
+    HD_OPTION_CURVE,
     HD_OPTION_HELP,
     HD_OPTION_VERSION
 } HdOptionId;
@@ -56,7 +59,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 35 };
+enum { HD_OPTION_SPEC_COUNT = 39 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

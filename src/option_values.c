@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output_kind.h"
 #include "scene.h"
 
 static size_t digits(const char *text) {
@@ -79,13 +80,13 @@ static HdStatus parse_fraction(const HdOptionSpec *spec, const char *text, doubl
     return HD_OK;
 }
 
-/* More than any picture is off by, or less than arithmetic can tell, is a mistake. */
-static HdStatus parse_error(const HdOptionSpec *spec, const char *text, double *out,
+/* Of errors, from `least` to all that a picture can be off by. */
+static HdStatus parse_steps(const HdOptionSpec *spec, const char *text, double least, double *out,
                             HdError *error) {
     double value = is_decimal(text) ? strtod(text, NULL) : -1.0;
-    if (!(value >= HD_LEAST_ERROR && value <= HD_MAX_ERROR))
+    if (!(value >= least && value <= HD_MAX_ERROR))
         return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a number from %g to %g",
-                       spec->name, text, HD_LEAST_ERROR, HD_MAX_ERROR);
+                       spec->name, text, least, HD_MAX_ERROR);
     *out = value;
     return HD_OK;
 }
@@ -162,6 +163,15 @@ static HdStatus add_output(const HdOptionSpec *spec, const char *text, HdOptions
     return status;
 }
 
+static HdStatus set_diff(const HdOptionSpec *spec, const char *text, HdOptions *options,
+                         HdError *error) {
+    if (hd_output_kind(text) != HD_OUTPUT_PNG)
+        return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a name that ends in .png",
+                       spec->name, text);
+    options->diff = text;
+    return HD_OK;
+}
+
 static HdStatus add_change(const HdOptionSpec *spec, const char *text, HdOptions *options,
                            HdError *error) {
     const char *equals = strchr(text, '=');
@@ -190,6 +200,11 @@ static HdStatus set_flag(bool *flag, const bool *opposite, HdError *error) {
     return HD_OK;
 }
 
+static void set_curve(HdOptions *options, HdCurve curve) {
+    options->has_curve = true;
+    options->curve = curve;
+}
+
 static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const char *value,
                              HdError *error) {
     static const int lanes[] = {1, 4, 8, 16};
@@ -209,6 +224,8 @@ static HdStatus apply_choice(HdOptions *options, const HdOptionSpec *spec, const
         options->geometry = number == 0 ? HD_GEOMETRY_SOLIDS : HD_GEOMETRY_TRIANGLES;
     else if (spec->id == HD_OPTION_ACCEL)
         options->accel = (HdAccel)number;
+    else if (spec->id == HD_OPTION_CURVE)
+        set_curve(options, (HdCurve)number);
     else if (spec->id == HD_OPTION_PRECISION)
         options->render.precision = number == 0 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE;
     else
@@ -251,7 +268,7 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_CROP:
         return parse_crop(spec, value, options, error);
     case HD_OPTION_MAX_ERROR:
-        return parse_error(spec, value, &options->max_error, error);
+        return parse_steps(spec, value, HD_LEAST_ERROR, &options->max_error, error);
     case HD_OPTION_REFERENCE:
         return set_reference(options);
     case HD_OPTION_DIVISIONS:
@@ -273,6 +290,7 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_ACCEL:
     case HD_OPTION_PRECISION:
     case HD_OPTION_MATH:
+    case HD_OPTION_CURVE:
         return apply_choice(options, spec, value, error);
     case HD_OPTION_STATS:
         return parse_text(spec, value, "a file or -", &options->statistics, error);
@@ -284,6 +302,10 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         return set_flag(&options->schema, NULL, error);
     case HD_OPTION_JSON:
         return set_flag(&options->json, NULL, error);
+    case HD_OPTION_DIFF:
+        return set_diff(spec, value, options, error);
+    case HD_OPTION_FAIL_ABOVE:
+        return parse_steps(spec, value, 0.0, &options->fail_above, error);
     case HD_OPTION_HELP:
         return ask_for_help(options);
     case HD_OPTION_VERSION:

@@ -120,8 +120,8 @@ static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT, "%s takes options only, but '%s' was given", name,
                        argument);
     if (most > 0 && options->operand_count == most)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes one name only, but '%s' came after '%s'",
-                       name, argument, options->operands[0]);
+        return hd_fail(error, HD_BAD_INPUT, "%s takes %s only, but '%s' came after '%s'", name,
+                       most == 1 ? "one name" : "two names", argument, options->operands[most - 1]);
     options->operands[options->operand_count++] = argument;
     return HD_OK;
 }
@@ -198,6 +198,10 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
     if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron check' needs the name of a scene; see 'hedron help check'");
+    if (options->command == HD_COMMAND_COMPARE && options->operand_count < 2)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron compare' needs the names of two pictures; see 'hedron help "
+                       "compare'");
     if (options->command == HD_COMMAND_CLASSIC && options->statistics != NULL &&
         strcmp(options->statistics, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
@@ -210,9 +214,8 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
     memset(options, 0, sizeof *options);
     options->variant = HD_CLASSIC_DEFAULT_VARIANT;
     options->depth = options->samples = options->width = options->height = -1;
-    options->max_error = -1.0;
+    options->cutoff = options->max_error = options->fail_above = -1.0;
     options->sampling = -1;
-    options->cutoff = -1.0;
     options->help_topic.command = HD_COMMAND_CLASSIC;
     const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
     Parser parser = {

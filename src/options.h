@@ -38,7 +38,7 @@ typedef struct HdOptions {
     const char *frames;     /* NULL: not given */
     const char *statistics; /* a file, "-": standard output; NULL: not given */
     bool verbose, quiet;    /* not both */
-    bool json;              /* of 'devices' and 'tune' */
+    bool json;              /* of 'devices', 'tune' and 'compare' */
     bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
                                float, strict */
@@ -51,6 +51,10 @@ typedef struct HdOptions {
     struct {
         int width, height, left, top; /* width 0: not given */
     } crop;
+    const char *diff;  /* a PNG file; NULL: not given */
+    double fail_above; /* steps of 255; -1: not given */
+    bool has_curve;    /* `curve` is given */
+    HdCurve curve;
 } HdOptions;
 
 /* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that

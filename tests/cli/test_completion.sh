@@ -32,13 +32,13 @@ expect_completions() {
     fi
 }
 
-commands='render check convert devices tune help'
+commands='render check convert devices tune compare help'
 touch a.json b.json c.in 'with space.json'
 mkdir scenes
 
 expect_completions "$commands" ''
 expect_completions 'render' r
-expect_completions 'check convert' c
+expect_completions 'check convert compare' c
 expect_completions '' x
 expect_completions '--geometry --gpu --grid' --g
 expect_completions '--variant --verbose --version' --v
@@ -47,13 +47,16 @@ expect_completions '' --cpu ''
 for command in $commands; do
     "$hedron" help "$command" >"$logs/help"
     short=$(sed -n 's/^  \(-[a-zA-Z]\), .*/\1/p' "$logs/help")
-    long=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z]*\).*/\2/p' "$logs/help")
+    long=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z-]*\).*/\2/p' "$logs/help")
     expect_completions "$long" "$command" --
     expect_completions "$short"$'\n'"$long" "$command" -
 done
 expect_completions '--schema' check --s
 expect_completions '--json' devices --j
 expect_completions '--json' tune --j
+expect_completions '--fail-above' compare --f
+expect_completions 'linear srgb' compare --curve ''
+expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
 expect_completions '' devices ''
 expect_completions "$commands man completion" help ''
 expect_completions 'man' help m

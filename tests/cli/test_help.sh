@@ -12,7 +12,7 @@ expect_help() {
     expect_exit 0 "$@" </dev/null
     expect_silent_stderr
     expect_stdout_contains 'Usage'
-    found=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
+    found=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z-]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
     expected=$(tr -s ' ' '\n' <<<"$expected" | sort | tr '\n' ' ')
     if [[ $found != "$expected" ]]; then
         fail "the help has '$found', expected '$expected'"
@@ -46,10 +46,11 @@ expect_help '--help --schema' "$hedron" check --help
 expect_help '--help --schema' "$hedron" help check
 expect_help '--help --output --variant' "$hedron" convert --help
 expect_help '--help --output --variant' "$hedron" help convert
+expect_help '--help --json --diff --fail-above --curve' "$hedron" compare --help
 expect_help '--help' "$hedron" help --help
 expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render check convert devices tune help --default '[OPTIONS] < INPUT'; do
+for usage in render check convert devices tune compare help --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
 

@@ -11,7 +11,7 @@ cp "$logs/stdout" "$work/hedron.1"
 if [[ $(head -c 10 "$work/hedron.1") != '.TH HEDRON' ]]; then
     fail "the man page does not begin as one"
 fi
-commands='render check convert devices tune help'
+commands='render check convert devices tune compare help'
 # formatted COMMAND...: the page as text; the formatter has nothing to complain about.
 formatted() {
     expect_exit 0 "$@"
@@ -19,7 +19,7 @@ formatted() {
     sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$logs/stdout" >"$work/page"
     for word in NAME SYNOPSIS DESCRIPTION COMMANDS 'EXIT STATUS' EXAMPLES 'hedron render' 'hedron convert' \
         'hedron render scene.json -o out/%04d.png -o film.mkv' '130, 143' $commands \
-        $(sed -n "s/^  \(-[a-zA-Z], \)*\(--[a-z]*\).*/\2/p" <("$hedron" --help; "$hedron" help render)); do
+        $(sed -n "s/^  \(-[a-zA-Z], \)*\(--[a-z-]*\).*/\2/p" <("$hedron" --help; "$hedron" help render)); do
         if ! tr -s ' \n' '  ' <"$work/page" | grep -q -F -e "$word"; then
             fail "the man page lacks '$word'"
         fi

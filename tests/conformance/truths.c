@@ -10,6 +10,7 @@ void check_truths(const Target *target, int *checked, int *failed) {
     check_rotation(&check);
     check_refraction(&check);
     check_sides(&check);
+    check_invariance(&check);
     *checked += check.checked;
     *failed += check.failed;
 }

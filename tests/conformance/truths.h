@@ -15,5 +15,6 @@ void check_lights(Check *check);
 void check_rotation(Check *check);
 void check_refraction(Check *check);
 void check_sides(Check *check);
+void check_invariance(Check *check);
 
 #endif

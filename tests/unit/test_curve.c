@@ -185,6 +185,31 @@ static void the_tables_are_the_same_everywhere(void **state) {
         fail_msg("the tables have the hash %016llx", (unsigned long long)hash);
 }
 
+static void the_curve_is_that_of_the_standard(void **state) {
+    (void)state;
+    for (int i = 0; i <= 100000; i++) {
+        const double value = i / 100000.0;
+        const double power = 1.055 * pow(value, 1.0 / 2.4) - 0.055;
+        expect_near(hd_curve_to_linear(HD_CURVE_SRGB, value), to_linear(value), 1e-15);
+        expect_near(hd_curve_to_display(HD_CURVE_SRGB, value),
+                    value <= 0.04045 / 12.92 ? 12.92 * value : power, 1e-15);
+        assert_true(hd_curve_to_display(HD_CURVE_LINEAR, value) == value);
+        assert_true(hd_curve_to_linear(HD_CURVE_LINEAR, value) == value);
+    }
+    expect_near(hd_curve_to_display(HD_CURVE_SRGB, 1e-300), 12.92e-300, 1e-313);
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        const double outside[] = {1.0, 1.5, 1e30, (double)INFINITY};
+        for (int i = 0; i < 4; i++) {
+            assert_true(hd_curve_to_display((HdCurve)curve, outside[i]) == 1.0);
+            assert_true(hd_curve_to_linear((HdCurve)curve, outside[i]) == 1.0);
+            assert_true(hd_curve_to_display((HdCurve)curve, -outside[i]) == 0.0);
+            assert_true(hd_curve_to_linear((HdCurve)curve, -outside[i]) == 0.0);
+        }
+        assert_true(isnan(hd_curve_to_display((HdCurve)curve, (double)NAN)));
+        assert_true(isnan(hd_curve_to_linear((HdCurve)curve, (double)NAN)));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_bits_are_rounded_to_the_nearest),
@@ -196,6 +221,7 @@ int main(void) {
         cmocka_unit_test(codes_are_decoded_to_the_nearest),
         cmocka_unit_test(bytes_come_back),
         cmocka_unit_test(the_tables_are_the_same_everywhere),
+        cmocka_unit_test(the_curve_is_that_of_the_standard),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

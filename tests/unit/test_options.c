@@ -41,6 +41,33 @@ static void nothing_is_the_classic_mode(void **state) {
     assert_false(options.quiet || options.verbose);
 }
 
+static void comparisons_take_two_pictures(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron compare a.png b.pfm"), HD_OK);
+    assert_int_equal(options.command, HD_COMMAND_COMPARE);
+    assert_string_equal(options.operands[1], "b.pfm");
+    assert_true(options.fail_above == -1.0);
+    assert_false(options.json || options.has_curve);
+    assert_null(options.diff);
+    assert_int_equal(parse("hedron compare --json a --diff d.PNG b --fail-above .5 --curve=linear"),
+                     HD_OK);
+    assert_true(options.json && options.has_curve && options.fail_above == 0.5);
+    assert_int_equal(options.curve, HD_CURVE_LINEAR);
+    assert_string_equal(options.diff, "d.PNG");
+    assert_int_equal(parse("hedron compare a b --curve srgb --fail-above 255"), HD_OK);
+    assert_int_equal(options.curve, HD_CURVE_SRGB);
+    check_refused("hedron compare", "needs the names of two pictures");
+    check_refused("hedron compare a", "needs the names of two pictures");
+    check_refused("hedron compare a b c", "takes two names only, but 'c' came after 'b'");
+    check_refused("hedron compare a b --fail-above 256", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --fail-above -1", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --fail-above nan", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --diff d.pfm", "expected a name that ends in .png");
+    check_refused("hedron compare a b --curve sRGB", "expected linear or srgb");
+    check_refused("hedron compare a b --size 1x1", "--size does not belong to 'hedron compare'");
+    check_refused("hedron render --diff d.png", "--diff does not belong to 'hedron render'");
+}
+
 static void operands_and_options_mix(void **state) {
     (void)state;
     assert_int_equal(parse("hedron check --help"), HD_OK);
@@ -190,6 +217,7 @@ static void the_table_is_whole(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_is_the_classic_mode),
+        cmocka_unit_test(comparisons_take_two_pictures),
         cmocka_unit_test(operands_and_options_mix),
         cmocka_unit_test(repetitions_have_a_limit),
         cmocka_unit_test(changes_have_a_path_and_a_value),
