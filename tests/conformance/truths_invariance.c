@@ -7,6 +7,7 @@
 
 #include "camera.h"
 #include "scene_builder.h"
+#include "scene_triangles.h"
 #include "trigonometry.h"
 #include "truth_check.h"
 #include "truths.h"
@@ -53,18 +54,22 @@ static void build_placed(HdScene *scene, HdCamera *camera, const Place *place) {
     camera->eye = placed(place, 0.5, -4.0, 1.25);
 }
 
-static HdFrame render_placed(const Check *check, const Place *place) {
+static HdFrame render_placed(const Check *check, const Place *place, HdGeometry geometry) {
     HdScene scene;
     HdCamera camera;
+    HdError error;
     build_placed(&scene, &camera, place);
+    if (geometry == HD_GEOMETRY_TRIANGLES && hd_scene_triangulate(&scene, 8, 2, &error) != HD_OK)
+        fail("triangles", &error);
     return render_last(check, &scene, &camera);
 }
 
-static void check_same_bytes(Check *check, const char *truth, const Place *places, int count) {
+static void check_same_bytes(Check *check, const char *truth, HdGeometry geometry,
+                             const Place *places, int count) {
     const Place origin = {.scale = 1.0};
-    HdFrame before = render_placed(check, &origin);
+    HdFrame before = render_placed(check, &origin, geometry);
     for (int i = 0; i < count; i++) {
-        HdFrame after = render_placed(check, &places[i]);
+        HdFrame after = render_placed(check, &places[i], geometry);
         expect_true(check, truth, hd_frame_hash(&after) == hd_frame_hash(&before));
         hd_frame_free(&after);
     }
@@ -74,7 +79,8 @@ static void check_same_bytes(Check *check, const char *truth, const Place *place
 /* A power of two changes exponents and no digit. */
 static void check_scaling(Check *check) {
     const Place places[] = {{.scale = 0x1p-20}, {.scale = 0.5}, {.scale = 0x1p10}};
-    check_same_bytes(check, "scaled by a power of two", places, 3);
+    check_same_bytes(check, "scaled by a power of two", HD_GEOMETRY_SOLIDS, places, 3);
+    check_same_bytes(check, "triangles scaled by a power of two", HD_GEOMETRY_TRIANGLES, places, 3);
 }
 
 /* On the grid of its places a scene may move: what the kernels get is relative to the eye. */
@@ -82,7 +88,8 @@ static void check_moving(Check *check) {
     const Place places[] = {{1.0, {0.125, -0.25, 0.375}},
                             {1.0, {64.0, -128.0, 32.0}},
                             {1.0, {-4096.0, 8192.5, 1024.25}}};
-    check_same_bytes(check, "moved on the grid", places, 3);
+    check_same_bytes(check, "moved on the grid", HD_GEOMETRY_SOLIDS, places, 3);
+    check_same_bytes(check, "triangles moved on the grid", HD_GEOMETRY_TRIANGLES, places, 3);
 }
 
 /* ---- symmetry ---- */
