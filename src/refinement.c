@@ -269,21 +269,26 @@ static int next_level(const HdRefinement *r, int samples) {
     return 4 * samples < r->samples.count ? 4 * samples : r->samples.count;
 }
 
+/* The chosen pixels get as many samples as `level` says, and after them the neighbours of those
+   that turn out to be uneven, as far as that spreads. */
+static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count, int samples,
+                              int level, HdError *error) {
+    int parts = part_count(level - samples);
+    HdStatus status = sample_chosen(r, camera, count, samples, level, parts, error);
+    for (int spread = 0; status == HD_OK && count > 0 && spread < MOST_SPREADS; spread++) {
+        count = choose(r, samples, has_uneven_neighbour);
+        status = sample_chosen(r, camera, count, samples, level, parts, error);
+    }
+    return status;
+}
+
 static HdStatus refine(HdRefinement *r, const HdCamera *camera, HdError *error) {
     HdStatus status = sample_all(r, camera, 1, error);
-    int samples = 1, level = next_level(r, 1), count = 1;
-    if (level == 1)
-        return status;
-    for (int spread = 0; status == HD_OK && count > 0 && spread <= MOST_SPREADS; spread++) {
-        count = choose(r, 1, spread == 0 ? sees_another : has_uneven_neighbour);
-        status = sample_chosen(r, camera, count, 1, level, part_count(level - 1), error);
-    }
-    while (status == HD_OK && level < r->samples.count) {
+    for (int samples = 1; status == HD_OK && samples < r->samples.count;) {
+        int level = next_level(r, samples);
+        int count = samples == 1 ? choose(r, 1, sees_another) : choose_uneven(r, samples);
+        status = refine_chosen(r, camera, count, samples, level, error);
         samples = level;
-        level = next_level(r, samples);
-        count = choose_uneven(r, samples);
-        status =
-            sample_chosen(r, camera, count, samples, level, part_count(level - samples), error);
     }
     return status;
 }

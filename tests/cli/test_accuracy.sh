@@ -24,19 +24,25 @@ compare() {
 
 # ---- what is left out: within the bound, which is within the limit
 for scene in "$project"/scenes/*.json; do
-    name=$(basename "$scene" .json)
     size=(--size 24x18)
-    [[ $name == knot ]] && size=(--size 12x9)
-    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error 1 -o one.pfm \
+    limit=1
+    nearer=0.03
+    # Every ray goes on twice there, at every hit: what is bounded costs rays as 1 over the bound.
+    if [[ $scene == */knot.json ]]; then
+        size=(--size 8x6)
+        limit=16
+        nearer=2
+    fi
+    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error "$limit" -o one.pfm \
         --stats one.jsonl
-    expect_all one.jsonl '.missing.largest <= 1 and .missing.mean <= .missing.largest'
-    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error 0.03 --precision double \
-        -o truth.pfm --stats truth.jsonl
-    expect_all truth.jsonl '.missing.largest <= 0.03'
+    expect_all one.jsonl ".missing.largest <= $limit and .missing.mean <= .missing.largest"
+    expect_exit 0 "${render[@]}" "$scene" --frames 0 --samples 1 "${size[@]}" --max-error "$nearer" \
+        --precision double -o truth.pfm --stats truth.jsonl
+    expect_all truth.jsonl ".missing.largest <= $nearer"
     compare one.pfm truth.pfm
-    expect_all compared.json '.display.largest != null and .first.not_finite == 0'
+    expect_all compared.json '.first.not_finite == 0 and .second.not_finite == 0'
     # Rays that meet another thing in float than in double are another error: few, and not left out.
-    expect_all compared.json '.display.above_1 <= 0.005'
+    expect_all compared.json ".display.above_1 <= 0.005"
 done
 
 # ---- a looser limit takes fewer rays; what was left out is told also where the depth does it
