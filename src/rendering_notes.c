@@ -19,6 +19,21 @@ static void note_meshes(const HdScene *scene) {
             hd_plural(scene->picture_count));
 }
 
+static void note_accuracy(const HdScene *scene) {
+    static const char *const samplings[] = {
+        [HD_SAMPLING_GRID] = "all samples of each pixel",
+        [HD_SAMPLING_ADAPTIVE] = "as many samples as each pixel needs",
+        [HD_SAMPLING_REFERENCE] = "dense samples",
+    };
+    fprintf(stderr, "accuracy  %s; ", samplings[scene->sampling]);
+    if (scene->max_error > 0.0)
+        fprintf(stderr,
+                "rays and lights are left out that change no pixel by more than %g of 255 steps\n",
+                scene->max_error);
+    else
+        fprintf(stderr, "rays end by depth and cut-off\n");
+}
+
 void hd_note_scene(const char *name, const HdScene *scene) {
     const int lights = hd_scene_light_count(scene);
     fprintf(stderr,
@@ -30,6 +45,8 @@ void hd_note_scene(const char *name, const HdScene *scene) {
             scene->samples_per_side, scene->depth);
     if (scene->mesh_count > 0)
         note_meshes(scene);
+    if (hd_scene_is_surveyed(scene))
+        note_accuracy(scene);
 }
 
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {

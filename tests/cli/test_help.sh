@@ -24,10 +24,10 @@ expect_help() {
 }
 
 rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size --samples --depth
-    --cutoff --help --version'
+    --cutoff --aa --max-error --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
 classic="--gpu --cpu --default --variant ${rendering% }"
-render="--output --set ${rendering% }"
+render="--output --set --crop --reference ${rendering% }"
 
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"
