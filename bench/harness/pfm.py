@@ -44,11 +44,11 @@ def is_near(a, b):
     return abs(displayed(a) - displayed(b)) <= STEP + ROUNDING
 
 
-def near_pixels(one, other):
-    """How many pixels are within a step of 255 of each other in every channel, on the sRGB curve."""
-    if one[:2] != other[:2]:
+def near_pixels(one, *others):
+    """How many pixels are within a step of 255 of those of one of the others, in every channel, on the
+    sRGB curve."""
+    if any(other[:2] != one[:2] for other in others):
         raise Problem(1, "pictures of different sizes cannot be compared")
-    a, b = one[2], other[2]
-    if a == b:
-        return len(a) // 3
-    return sum(all(is_near(a[k], b[k]) for k in range(i, i + 3)) for i in range(0, len(a), 3))
+    a = one[2]
+    return sum(any(all(is_near(a[k], other[2][k]) for k in range(i, i + 3)) for other in others)
+               for i in range(0, len(a), 3))

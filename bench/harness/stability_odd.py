@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Renders odd scenes: each must come to its end or be refused with an error that says why."""
+from harness import pfm
 from harness import stability_pictures as pictures
 from harness import stability_scenes as scenes
 
@@ -12,7 +13,7 @@ def outcome(odd, runs):
     if codes == {0}:
         return "rendered", not odd.refused
     if codes == {REFUSED}:
-        return f"refused: {runs[0]['message']}", odd.refused
+        return f"refused: {runs[0]['message'].rpartition('.json: ')[2]}", odd.refused
     return f"failed: {next(run['message'] for run in runs if run['code'])}", False
 
 
@@ -24,9 +25,20 @@ class OddScenes:
         self.truths = {}  # pictures in double, by scene and geometry
         self.entries = []
 
-    def try_geometry(self, odd, file, geometry):
-        runs = [pictures.render(self.program, file, "0", ("--geometry", geometry, *pictures.KINDS[kind],
-                                                          *self.options), self.folder) for kind in ("double", "float")]
+    def render(self, scene, geometry, kind):
+        file = scenes.write(scene, self.folder, "odd")
+        return pictures.render(self.program, file, "0", ("--geometry", geometry, *pictures.KINDS[kind], *self.options),
+                               self.folder)
+
+    def near_beside(self, odd, geometry, picture):
+        """Pixels like those with the odd thing a hair to the one or the other side; None: it has none."""
+        beside = [self.render(scene, geometry, "double")["pictures"] for scene in odd.beside]
+        if not beside or not picture or not all(beside):
+            return None
+        return pfm.near_pixels(picture[0], *(each[0] for each in beside))
+
+    def try_geometry(self, odd, geometry):
+        runs = [self.render(odd.scene, geometry, kind) for kind in ("double", "float")]
         truth = self.truths.setdefault((odd.name, geometry), runs[0])
         if odd.like:
             truth = self.truths[odd.like, geometry]
@@ -35,13 +47,12 @@ class OddScenes:
         self.entries.append({"scene": odd.name, "geometry": geometry, "outcome": words, "as_it_should": good,
                              "like": odd.like, "nan": pictures.odd_numbers(runs), "clamps": runs[1]["clamps"],
                              **counted,
+                             "beside_near": self.near_beside(odd, geometry, runs[1]["pictures"]),
                              "double_near": pictures.compare(runs[0], truth)["near"] if odd.like else None})
 
     def run(self, odd):
-        file = scenes.write(odd, self.folder)
         for geometry in pictures.GEOMETRIES:
-            self.try_geometry(odd, file, geometry)
-        file.unlink()
+            self.try_geometry(odd, geometry)
 
 
 def failures(entries):

@@ -25,7 +25,8 @@ def worst_place(counts, method):
     if found is None:
         return None
     share, each = found
-    return (f"least at one place {100 - 100 * share:.2f} % of {each['tried']} ({each['case']}, scale {each['scale']:g}, "
+    strayed, tried = methods.tally(methods.select(counts, "paths", method=method, place=methods.is_in_target), "paths")
+    return (f"{methods.NAMES[method]}: {strayed} of {tried} paths stray; least at one place {100 - 100 * share:.2f} % of {each['tried']} ({each['case']}, scale {each['scale']:g}, "
             f"offset {each['offset']:g})")
 
 
@@ -57,7 +58,12 @@ def add_pictures(plan, entries):
         for geometry in pictures.GEOMETRIES:
             plan.row("precision", f"pixels within 1 of 255, {what}, all scenes, {geometry}", "%",
                      lambda what=what, geometry=geometry: percent(*pictures.total(entries or [], what, geometry)),
-                     target=target)
+                     target=target, note=off_words(entries or [], what, geometry))
+
+
+def off_words(entries, what, geometry):
+    near, pixels = pictures.total(entries, what, geometry)
+    return f"{what}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None
 
 
 def add_odd(plan, precision, odd):

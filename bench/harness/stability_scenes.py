@@ -9,17 +9,20 @@ from dataclasses import dataclass
 FACE = 3 ** -0.5  # half the side of a cube of circumradius 1
 LIMIT = 1e12  # of the numbers of a scene
 SCALES = (1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6)
+HAIR = 1e-9
 OFFSETS = (0.0, 1.0, 1e2, 1e4, 1e6)
 SIZE = 10.0  # of the default scene, in its own unit
 
 
 @dataclass
 class Odd:
-    """`like` names the scene whose picture in double is to be matched; None: its own."""
+    """`like` names the scene whose picture in double is to be matched; None: its own. `beside` are the
+    same scenes with the odd thing a hair to either side, where that decides what is seen."""
     name: str
     scene: dict
     like: str | None = None
     refused: bool = False  # whether an error is what is wanted
+    beside: tuple = ()
 
 
 def base(**changes):
@@ -51,11 +54,19 @@ def camera(eye, target=(0.0, 0.0, 0.0), field_of_view=60):
     return {"field_of_view": field_of_view, "eye": list(eye), "target": list(target)}
 
 
+def hairs(place, make):
+    """Scenes with a thing a little outwards and inwards of its place; floors are left upwards."""
+    up = place[2] < -0.7
+    return tuple(make([x + sign * HAIR * (k == 2 if up else x > 0.3) for k, x in enumerate(place)]) for sign in (1, -1))
+
+
 def eyes():
     places = {"eye_on_face": (FACE, 0.1, 0.2), "eye_on_edge": (FACE, FACE, 0.1), "eye_on_corner": (FACE,) * 3,
               "eye_inside": (0.1, 0.2, -0.1), "eye_on_floor": (1.9, -1.4, -0.8)}
     for name, place in places.items():
-        yield Odd(name, base(camera=camera(place, (-1.0, 0.3, -0.2))))
+        def make(at):
+            return base(camera=camera(at, (-1.0, 0.3, -0.2)))
+        yield Odd(name, make(place), beside=() if name == "eye_inside" else hairs(place, make))
 
 
 def lights():
@@ -63,7 +74,9 @@ def lights():
     places = {"light_on_face": [FACE, 0.1, 0.2], "light_on_edge": [FACE, FACE, 0.1], "light_on_corner": [FACE] * 3,
               "light_inside": [0.1, 0.2, -0.1], "light_at_a_hit_point": looks_at}
     for name, place in places.items():
-        yield Odd(name, base(lights=[{"position": place}], camera=camera((2.6, -1.9, 1.3), looks_at)))
+        def make(at):
+            return base(lights=[{"position": at}], camera=camera((2.6, -1.9, 1.3), looks_at))
+        yield Odd(name, make(place), beside=() if name == "light_inside" else hairs(place, make))
     bright = {"light_of_1e30": (1e30, True), "light_of_1e12": (1e12, False), "light_of_1e-30": (1e-30, False)}
     for name, (intensity, refused) in bright.items():
         yield Odd(name, base(lights=[{"position": [3, -4, 5], "intensity": intensity}]), refused=refused)
@@ -183,7 +196,7 @@ def all_scenes(default, folder, quick):
     yield from sorted(moves(default, quick), key=lambda odd: odd.name != odd.like)
 
 
-def write(odd, folder):
-    file = folder / f"{odd.name}.json"
-    file.write_text(json.dumps(odd.scene), encoding="utf-8")
+def write(scene, folder, name):
+    file = folder / f"{name}.json"
+    file.write_text(json.dumps(scene), encoding="utf-8")
     return file

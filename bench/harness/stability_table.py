@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """The table of failure modes: what each method does at each place, what ours does, and what keeps it so."""
-from harness import report
 from harness import stability_methods as methods
 from harness import stability_pictures as pictures
 
@@ -61,7 +60,7 @@ def ours_words(counts, study, cases, what):
 
 def method_rows(counts, study, cases, what, words, test):
     rows = []
-    for method in methods.methods(counts, study):
+    for method in [*methods.methods(counts, study), methods.CHECK]:
         these = methods.select(counts, study, cases, method)
         found = methods.worst(these, what)
         if method in methods.OURS or found is None:
@@ -111,6 +110,8 @@ def scene_row(name, entries):
     share, least = pictures.share(entries), pictures.share([worst])
     pixels = [1 - share, 1 - least] if share is not None else [None, None]
     said = "; ".join(dict.fromkeys(each["outcome"] for each in entries if each["outcome"] == "rendered")) or worst["outcome"]
+    if worst["beside_near"] is not None:
+        said += f"; off both pictures with it a hair to either side: {percent(1 - worst['beside_near'] / worst['pixels'])}"
     return [f"{name.replace('_', ' ')}, {worst['geometry']}", "float against double", *map(percent, pixels),
             worst["scene"] if pixels[1] and len(entries) > 1 else "",
             f"{said}; {sum(each['nan'] for each in entries)} NaN, {sum(each['clamps'] for each in entries)} clamps", HERE]
@@ -128,12 +129,16 @@ def rows(result):
 
 
 def text(table):
-    lines = [HEAD, *[list(row.values()) for row in table]]
-    return "\n".join(report.lines([[shortened(cell) for cell in line] for line in lines]))
-
-
-def shortened(cell):
-    return cell if len(cell) <= 100 else cell[:97] + "..."
+    """Each place with what ours does, and the methods below it."""
+    lines, place = [], None
+    width = max((len(row["method"]) for row in table), default=0)
+    for row in table:
+        if (row["place"], row["ours"]) != place:
+            place = row["place"], row["ours"]
+            lines += [f"{row['place']}", f"    ours: {row['ours']}; kept so by {row['test']}"]
+        worst = f", at worst {row['worst']} ({row['where']})" if row["where"] else ""
+        lines.append(f"    {row['method'].ljust(width)}  {row['rate']}{worst}")
+    return "\n".join(lines)
 
 
 def markdown(table):

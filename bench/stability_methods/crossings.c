@@ -21,7 +21,7 @@ static const double least_facing = 0.05, least_graze = 1e-4, most_graze = 1e-2;
 
 typedef struct Tally {
     const char *name;
-    long long rays, missed, twice, misplaced;
+    long long rays, missed, twice, wrong, misplaced;
 } Tally;
 
 typedef enum Surroundings { PLATONIC, NEEDLE, ZERO_AREAS, DUPLICATES } Surroundings;
@@ -174,6 +174,7 @@ static void note(Tally *tally, const Stage *stage, const Aimed *ray, HdCrossings
     tally->rays++;
     tally->missed += missed;
     tally->twice += twice;
+    tally->wrong += missed || twice;
     tally->misplaced += misplaced;
 }
 
@@ -236,9 +237,10 @@ static bool try_ray(Stage *stage, const Case *each, const Aimed *ray, bool contr
 
 static void print_tallies(const Case *each, HdPlace place, const Tally *tallies) {
     for (int i = 0; i < MOST_METHODS && tallies[i].name != NULL; i++)
-        printf("crossings %s %s %g %g tried=%lld missed=%lld twice=%lld misplaced=%lld\n",
-               each->name, tallies[i].name, place.scale, place.offset, tallies[i].rays,
-               tallies[i].missed, tallies[i].twice, tallies[i].misplaced);
+        printf(
+            "crossings %s %s %g %g tried=%lld missed=%lld twice=%lld wrong=%lld misplaced=%lld\n",
+            each->name, tallies[i].name, place.scale, place.offset, tallies[i].rays,
+            tallies[i].missed, tallies[i].twice, tallies[i].wrong, tallies[i].misplaced);
     fflush(stdout);
 }
 

@@ -6,10 +6,10 @@
 
    SCALE is how large things are, OFFSET how many sizes they are away from the world's origin. Keys:
 
-     crossings  tried (rays), missed, twice, misplaced
+     crossings  tried (rays), missed, twice, wrong (either), misplaced
      paths      tried, completed (30 bounces), followed (that the path in double makes); tried_far,
                 followed_far (300 bounces)
-     shadows    tried (segments that are open), blocked; tried_shut, opened; nan
+     shadows    tried (segments that are open), blocked; tried_shut, opened; nan (of both)
      sums       tried (pixels), differing (with the order), ulps (most), error (most, relative)
 
    Ends with 0, 1 where something goes wrong, 2 where it is called wrongly. */

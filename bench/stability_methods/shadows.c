@@ -38,7 +38,7 @@ static const Window windows[] = {
     {"unnormalised_epsilon_1e-4", false, 1e-4f},
 };
 
-enum { WINDOWS = sizeof windows / sizeof *windows, OURS = WINDOWS, METHODS };
+enum { WINDOWS = sizeof windows / sizeof *windows, OURS = WINDOWS, OURS_DOUBLE, METHODS };
 
 typedef struct Tally {
     long long open, blocked_wrongly; /* of segments that should be open */
@@ -54,7 +54,7 @@ typedef struct Stage {
     double scale;
     HdVec3 light[FREE_LIGHTS]; /* on faces, in sizes about the centre */
     int light_face[FREE_LIGHTS];
-    HdCompiled compiled;
+    HdCompiled compiled[2]; /* for float and for double */
 } Stage;
 
 /* In sizes about the solid's centre. */
@@ -80,21 +80,23 @@ static void put_floor(HdScene *scene, const Stage *stage) {
     scene->floor.material = scene->solids[0].face;
 }
 
-static bool compile(Stage *stage, HdSolidKind kind, HdVec3 degrees, Where where) {
+static bool compile(Stage *stage, HdSolidKind kind, HdVec3 degrees, Where where, bool is_double) {
+    HdCompiled *compiled = &stage->compiled[is_double];
     HdSolid solid = hd_plain_solid(kind, stage->centre, stage->scale, degrees, HD_FACE_OPAQUE);
     bool has_free = where == FACE_LIGHTS || where == AT_THE_POINT;
     if (!has_free) {
         solid.lights.per_edge = LIGHTS_AN_EDGE;
         solid.lights.intensity = 1.0;
     }
-    hd_compiled_free(&stage->compiled);
-    if (!hd_compiled_begin(&stage->compiled, &solid, 1, has_free ? FREE_LIGHTS : 0))
+    hd_compiled_free(compiled);
+    if (!hd_compiled_begin(compiled, &solid, 1, has_free ? FREE_LIGHTS : 0))
         return false;
-    HdScene *scene = &stage->compiled.scene;
+    HdScene *scene = &compiled->scene;
     for (int i = 0; i < scene->light_count; i++)
         scene->lights[i].position = place_of(stage, stage->light[i]);
     put_floor(scene, stage);
-    return hd_compiled_finish(&stage->compiled, HD_PRECISION_FLOAT, HD_GEOMETRY_SOLIDS);
+    return hd_compiled_finish(compiled, is_double ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
+                              HD_GEOMETRY_SOLIDS);
 }
 
 static HdVec3 floor_point(uint64_t *random) {
@@ -131,7 +133,8 @@ static bool put(Stage *stage, Where where, HdPlace place, int turn, uint64_t *ra
         stage->triangles[i].c = hd_to_float(place_of(stage, v[corner[2]]));
     }
     choose_lights(stage, where, random);
-    return compile(stage, kind, degrees, where);
+    return compile(stage, kind, degrees, where, false) &&
+           compile(stage, kind, degrees, where, true);
 }
 
 /* ---- segments, and what is true of them ---- */
@@ -203,7 +206,8 @@ static bool plain_blocks(const Stage *stage, const Window *window, const Segment
     return false;
 }
 
-static bool ours_blocks(const Stage *stage, const Segment *segment, bool *has_number) {
+static bool ours_blocks(const Stage *stage, bool is_double, const Segment *segment,
+                        bool *has_number) {
     const HdPlatonic *solid = &stage->solid;
     HdVec3 up = {0.0, 0.0, 1.0}, floor_centre = {0.0, 0.0, floor_height};
     bool is_within = segment->own_face >= 0;
@@ -216,17 +220,18 @@ static bool ours_blocks(const Stage *stage, const Segment *segment, bool *has_nu
         point.face = solid->face_count == 4 ? 2 * segment->own_face : segment->own_face;
         point.normal = hd_scale(solid->face_normal[segment->own_face], -1.0);
     }
-    const HdTable *scene = stage->compiled.tables.table;
-    *has_number = isfinite(hd_product_float.radiance(scene, &point));
-    return !(hd_product_float.transmittance(scene, &point, segment->number) > 0.0);
+    const HdTable *scene = stage->compiled[is_double].tables.table;
+    const HdProduct *product = is_double ? &hd_product_double : &hd_product_float;
+    *has_number = isfinite(product->radiance(scene, &point));
+    return !(product->transmittance(scene, &point, segment->number) > 0.0);
 }
 
 static void try_segment(const Stage *stage, Where where, const Segment *segment, Tally *tallies) {
     int truth = where == AT_THE_POINT ? 1 : is_open(stage, segment);
     for (int method = 0; method < METHODS && truth >= 0; method++) {
         bool has_number, blocks;
-        if (method == OURS)
-            blocks = ours_blocks(stage, segment, &has_number);
+        if (method >= OURS)
+            blocks = ours_blocks(stage, method == OURS_DOUBLE, segment, &has_number);
         else
             blocks = plain_blocks(stage, &windows[method], segment, &has_number);
         Tally *tally = &tallies[method];
@@ -250,11 +255,15 @@ static bool study_place(Stage *stage, Where where, HdPlace place, int count) {
         if (done)
             try_segment(stage, where, &segment, tallies);
     }
-    for (int method = 0; method < METHODS && done; method++)
+    for (int method = 0; method < METHODS && done; method++) {
+        const char *name = method < OURS    ? windows[method].name
+                           : method == OURS ? "ours"
+                                            : "ours_double";
         printf("shadows %s %s %g %g tried=%lld blocked=%lld tried_shut=%lld opened=%lld nan=%lld\n",
-               where_names[where], method == OURS ? "ours" : windows[method].name, place.scale,
-               place.offset, tallies[method].open, tallies[method].blocked_wrongly,
-               tallies[method].shut, tallies[method].opened_wrongly, tallies[method].no_numbers);
+               where_names[where], name, place.scale, place.offset, tallies[method].open,
+               tallies[method].blocked_wrongly, tallies[method].shut,
+               tallies[method].opened_wrongly, tallies[method].no_numbers);
+    }
     fflush(stdout);
     return done;
 }
@@ -265,8 +274,8 @@ bool hd_study_shadows(int count) {
     for (int where = EDGE_LIGHTS; where <= AT_THE_POINT && done; where++)
         for (int p = 0; p < hd_place_count && done; p++)
             done = study_place(stage, (Where)where, hd_places[p], count);
-    if (stage != NULL)
-        hd_compiled_free(&stage->compiled);
+    for (int i = 0; stage != NULL && i < 2; i++)
+        hd_compiled_free(&stage->compiled[i]);
     free(stage);
     return done;
 }
