@@ -42,11 +42,22 @@ def style_of(method, place):
             f"linecolor rgb '{colour}'")
 
 
-def panel(found, side, floor, label, ticks, legend):
-    plots = [f"${side}{place} using 1:2 with linespoints {style_of(method, place)} "
-             + (f"title {charts.quoted(methods.NAMES[method])}" if legend else "notitle")
+def panel(found, side, label, ticks):
+    plots = [f"${side}{place} using 1:2 with linespoints {style_of(method, place)} notitle"
              for place, method in enumerate(found)]
-    return [f"set xlabel {charts.quoted(label)}", f"set xtics ({ticks})", "plot " + ", ".join(plots)]
+    return [f"set xlabel {charts.quoted(label)}", f"set xtics nomirror out ({ticks})", "plot " + ", ".join(plots)]
+
+
+def legend(found, rows):
+    """A plot of nothing, as wide as the picture, for its key alone."""
+    plots = [f"NaN with linespoints {style_of(method, place)} title {charts.quoted(methods.NAMES[method])}"
+             for place, method in enumerate(found)]
+    return [
+        "set lmargin screen 0.03", "set rmargin screen 0.97", "set xrange [1:2]", "unset border", "unset tics",
+        f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced samplen 3",
+        "plot " + ", ".join(plots),
+        "unset label 1", "unset label 2", "unset key", "set border 3",
+    ]
 
 
 def panels(result, found, title, caption, ylabel):
@@ -61,17 +72,17 @@ def panels(result, found, title, caption, ylabel):
         "set logscale xy",
         f"set yrange [{floor / 1.5!r}:1.5]",
         "set format y '%g'",
-        f"set ytics add ('none' {floor!r})",
-        "set lmargin screen 0.08", "set rmargin screen 0.52",
-        f"set key at screen 0.5, screen 0.86 center top horizontal maxcols 3 Left reverse noenhanced samplen 3",
         "set multiplot",
+        *legend(found, rows),
+        f"set ytics nomirror out add ('none' {floor!r})",
+        "set lmargin screen 0.08", "set rmargin screen 0.52",
         f"set ylabel {charts.quoted(ylabel)}",
         f"set xrange [{scales[0] / 3!r}:{scales[-1] * 3!r}]",
-        *panel(found, "scale", floor, "size of things, at the origin", ticks_of(scales), True),
-        "unset label 1", "unset label 2", "unset ylabel",
+        *panel(found, "scale", "size of things, at the origin", ticks_of(scales)),
+        "unset ylabel",
         "set lmargin screen 0.6", "set rmargin screen 0.97",
         f"set xrange [{AT_ORIGIN / 2!r}:{offsets[-1] * 3!r}]",
-        *panel(found, "offset", floor, "distance from the origin, in sizes", ticks_of(offsets), False),
+        *panel(found, "offset", "distance from the origin, in sizes", ticks_of(offsets)),
         "unset multiplot",
     ]
     return 560 + 24 * rows, commands
@@ -85,15 +96,17 @@ def most(found, side, method):
     return max((y for _, y in found[method][side] if y is not None), default=0) if method in found else 0
 
 
-def words_of(found, methods_told, what):
-    return ", ".join(f"{methods.NAMES[method]} {what} up to {100 * max(most(found, 0, method), most(found, 1, method)):.3g} %"
-                     for method in methods_told if method in found)
+def words_of(found, methods_told):
+    """How often they fail at most, those that never do last."""
+    shares = {method: max(most(found, 0, method), most(found, 1, method)) for method in methods_told if method in found}
+    said = [f"{methods.NAMES[method]} up to {100 * share:.3g} %" for method, share in shares.items() if share]
+    return "; ".join(said + [f"{methods.NAMES[method]} never" for method, share in shares.items() if not share])
 
 
 def crossings(result):
     found = lines(result["counts"], "crossings", EDGES, "crossings")
     caption = "Share of rays aimed at edges and corners that miss a triangle or meet one twice: " + words_of(
-        found, ("moeller_trumbore_0", "watertight", "ours_solids", "ours_triangles"), "fails") + "."
+        found, ("moeller_trumbore_0", "watertight", "ours_solids", "ours_triangles")) + "."
     return panels(result, found, "Rays at edges and corners of closed solids", caption, "share of rays (logarithmic)")
 
 
@@ -107,7 +120,7 @@ def misplaced(result):
 def paths(result):
     found = lines(result["counts"], "paths", None, "paths")
     caption = "Share of mirror paths, inside of solids and between them, that meet other faces than the path in double: " + words_of(
-        found, ("epsilon_1e-3", "waechter_binder", "own_face", "ours_solids", "ours_triangles"), "strays") + "."
+        found, ("epsilon_1e-3", "waechter_binder", "own_face", "ours_solids", "ours_triangles")) + "."
     return panels(result, found, "Mirror paths that leave the double path within 30 bounces", caption,
                   "share of paths (logarithmic)")
 
@@ -115,7 +128,7 @@ def paths(result):
 def shadows(result):
     found = lines(result["counts"], "shadows", ("edge_lights", "edge_lights_from_within", "face_lights"), "shadows")
     caption = "Share of segments to lights on edges and faces that are wrongly blocked, or wrongly open: " + words_of(
-        found, ("normalised", "normalised_epsilon_1e-4", "ours"), "fails") + "."
+        found, ("normalised", "normalised_epsilon_1e-4", "ours")) + "."
     return panels(result, found, "Shadow segments to lights on the surface", caption, "share of segments (logarithmic)")
 
 

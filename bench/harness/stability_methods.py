@@ -25,9 +25,9 @@ NAMES = {
     "own_triangle": "own triangle skipped",
     "own_face": "own face skipped",
     "normalised": "unit direction, t < distance",
-    "normalised_epsilon_1e-4": "the same with epsilon 1e-4",
+    "normalised_epsilon_1e-4": "unit direction, epsilon 1e-4",
     "unnormalised": "whole segment, t < 1",
-    "unnormalised_epsilon_1e-4": "the same with epsilon 1e-4 of it",
+    "unnormalised_epsilon_1e-4": "whole segment, epsilon 1e-4 of it",
     "float": "sums of floats",
     "ours_solids": "ours, half-spaces",
     "ours_triangles": "ours, triangles",
@@ -117,7 +117,7 @@ def methods(counts, study):
     return [each for each in found if each not in (*OURS, CHECK)] + [each for each in found if each in OURS]
 
 
-# Where ours must not fail once: case of a study, or None for all.
+# What ours must not do once, whatever the case.
 NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan"),
          "sums": ("differing",)}
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pictures of one scene in float and in double, in strict and in fast arithmetic."""
+import json
+
 from harness import pfm
 from harness.program import Problem
 
@@ -40,13 +42,21 @@ def frames_of(count):
     return "0" if count < 2 else f"0,{count // 2}"
 
 
-def study_scene(program, name, scene, count, options, folder):
+def read_scene(file):
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Problem(2, f"cannot read {file}: {error}") from error
+
+
+def study_scene(program, file, options, folder):
     """An entry for each geometry and comparison."""
-    entries = []
+    entries, name = [], file.stem
+    frames = frames_of(read_scene(file)["camera"].get("frames", 1))
     for geometry in GEOMETRIES:
         runs = {}
         for kind, own in KINDS.items():
-            runs[kind] = render(program, scene, frames_of(count), ("--geometry", geometry, *own, *options), folder)
+            runs[kind] = render(program, file, frames, ("--geometry", geometry, *own, *options), folder)
             if runs[kind]["message"]:
                 raise Problem(runs[kind]["code"], f"{name}: {runs[kind]['message']}")
         for what, one, other in ((FLOAT, "float", "double"), (FAST, "fast", "float")):

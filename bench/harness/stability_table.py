@@ -82,7 +82,7 @@ def picture_rows(entries):
         ours = f"as told: float by default, --precision double for more; {sum(each['nan'] for each in these)} NaN"
         if what == pictures.FAST:
             ours = "strict by default: the same bytes on every device"
-        rows.append([f"pixels off by more than 1 of 255, {what}", method, percent(off), percent(worst),
+        rows.append([f"pixels off by more than 1 of 255, {what}, shipped scenes", method, percent(off), percent(worst),
                      f"{found['scene']}, {found['geometry']}" if worst else "", ours,
                      "conformance_c, conformance_notices_fast_math" if what == pictures.FAST else "conformance_c"])
     return rows
