@@ -65,6 +65,19 @@ crossings, edges, ours, half-spaces: 1 missed of 9
 paths, inside, ours, triangles: 2 lost of 9
 shadows, face_lights, ours: 3 blocked of 9" "$(cat never.py)"
 
+# ---- the table names tests that there are
+ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
+cat >named.py <<'PYTHON'
+import re
+from harness import stability_table as t
+there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())
+said = " ".join([each[-1] for each in (*t.PLACES.values(), *t.MORE.values())])
+named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_[\w*]+", said))
+print(len(named) > 5, [name for name in sorted(named)
+                       if not any(each == name or each.startswith(name.rstrip("*")) and "*" in name for each in there)])
+PYTHON
+expect_python 'True []' "$(cat named.py)"
+
 # ---- rays, paths, segments and sums
 expect_exit 0 "$bench" --hedron "$hedron" --out out --parts crossings,paths,shadows,sums --rays 200
 expect_stdout_contains 'kept so by'
