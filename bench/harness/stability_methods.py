@@ -120,14 +120,18 @@ def methods(counts, study):
 # What ours must not do once, whatever the case.
 NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan"),
          "sums": ("differing",)}
+# Nor in double, where a light that is put on a face is on one side of it by rounding.
+DOUBLE_MAY = ("face_lights",)
 
 
 def failures(counts):
     """What ours does wrong that it never may, a sentence for each case and method."""
     found = []
     for study, keys in NEVER.items():
-        for method in OURS:
+        for method in (*OURS, CHECK):
             for case in dict.fromkeys(each["case"] for each in select(counts, study, method=method)):
+                if method == CHECK and case in DOUBLE_MAY:
+                    continue
                 these = select(counts, study, [case], method)
                 said = [f"{sum(each[key] for each in these)} {key}" for key in keys
                         if any(each[key] for each in these)]

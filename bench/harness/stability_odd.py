@@ -7,13 +7,20 @@ from harness import stability_scenes as scenes
 REFUSED = 2
 
 
+def problem_in(run):
+    """The first of those that hedron tells, without the file's name."""
+    first, *others = run["said"].strip().splitlines()
+    words = first.rpartition(".json: ")[2]
+    return f"{others[0].strip()} ({words})" if others else words
+
+
 def outcome(odd, runs):
     """(words, whether it is as it should be)"""
     codes = {run["code"] for run in runs}
     if codes == {0}:
         return "rendered", not odd.refused
     if codes == {REFUSED}:
-        return f"refused: {runs[0]['message'].rpartition('.json: ')[2]}", odd.refused
+        return f"refused: {problem_in(runs[0])}", odd.refused
     return f"failed: {next(run['message'] for run in runs if run['code'])}", False
 
 

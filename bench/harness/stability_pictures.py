@@ -17,10 +17,10 @@ def read_all(folder):
 
 
 def render(program, scene, frames, options, folder):
-    """{"message": None or why there are no pictures, "code", "pictures": {frame: picture}, "clamps"}"""
+    """{"code", "message": None or why there are no pictures, "said", "pictures": {frame: picture}, "clamps"}"""
     run = program.render(DEVICE, scene, frames, list(options), folder, output=PICTURES, look=read_all)
     failed = run["code"] != 0
-    return {"code": run["code"], "message": run["message"] if failed else None,
+    return {"code": run["code"], "message": run["message"] if failed else None, "said": run["said"],
             "pictures": {} if failed else run["seen"],
             "clamps": sum(frame["clamps"] for frame in run["frames"])}
 

@@ -54,16 +54,18 @@ def text(wrong, lost, blocked):
             f"crossings edges ours_solids 1 0 tried=9 missed={wrong} twice=0 wrong={wrong} misplaced=0\n"
             f"paths inside ours_triangles 1 0 tried=9 completed={9 - lost} followed=5 tried_far=2 followed_far=1\n"
             f"shadows face_lights ours_double 1 0 tried=9 blocked=9 tried_shut=3 opened=0 nan=0\n"
+            f"shadows edge_lights ours_double 1 0 tried=9 blocked={blocked} tried_shut=3 opened=0 nan=0\n"
             f"shadows face_lights ours 1 0 tried=9 blocked={blocked} tried_shut=3 opened=0 nan=0\n")
 counts = m.parse(text(0, 0, 0))
 print(m.failures(counts), m.share(m.select(counts, "crossings", method="pluecker"), "crossings"),
       m.tally(m.select(counts, "paths"), "paths"), m.tally(m.select(counts, "shadows", method="ours_double"), "shadows"))
 print(*m.failures(m.parse(text(1, 2, 3))), sep="\n")
 PYTHON
-expect_python "[] 0.8888888888888888 (4, 9) (9, 12)
+expect_python "[] 0.8888888888888888 (4, 9) (9, 24)
 crossings, edges, ours, half-spaces: 1 missed of 9
 paths, inside, ours, triangles: 2 lost of 9
-shadows, face_lights, ours: 3 blocked of 9" "$(cat never.py)"
+shadows, face_lights, ours: 3 blocked of 9
+shadows, edge_lights, ours, in double: 3 blocked of 9" "$(cat never.py)"
 
 # ---- the table names tests that there are
 ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
@@ -118,9 +120,14 @@ cp "$project"/scenes/{octahedron,tunnel}.json scenes
 expect_exit 0 "$bench" --hedron "$hedron" --out out --parts precision,odd --quick --scenes scenes -- --size 24x18 --depth 3
 expect_value '[["octahedron", "solids", 432], ["octahedron", "triangles", 432], ["tunnel", "solids", 432], ["tunnel", "triangles", 432]]' \
     '[[e["scene"], e["geometry"], e["pixels"]] for e in r["precision"] if e["what"].startswith("float")]'
+expect_value true 'all(e["near"] >= 0.99 * e["pixels"] and e["nan"] == 0 for e in r["precision"])'
 expect_value '[[], 0, true]' '[r["failures"], sum(e["nan"] for e in r["odd"]), all(e["as_it_should"] for e in r["odd"])]'
 expect_value '["colour_above_1", "light_of_1e30"]' 'sorted({e["scene"] for e in r["odd"] if e["outcome"].startswith("refused")})'
+expect_value '["rendered"]' 'sorted({e["outcome"] for e in r["odd"] if not e["outcome"].startswith("refused: ")})'
+# Wherever it is and however large, the scene looks the same; a pixel may be off in so small a picture.
 expect_value true 'all(e["near"] >= 0.99 * e["pixels"] for e in r["odd"] if e["like"])'
+# An eye or a light a hair to either side is one that stands exactly there.
+expect_value true 'all(e["beside_near"] >= 0.98 * e["pixels"] for e in r["odd"] if e["geometry"] == "solids" and e["beside_near"] is not None)'
 expect_value true 'sum(e["clamps"] for e in r["odd"] if e["scene"] == "light_of_1e12") > 0'
 
 # ---- a hedron without the other program beside it
