@@ -39,7 +39,7 @@ static double sum_of(bool fixed, const float *numbers) {
 }
 
 static void try_pixel(bool fixed, float *numbers, uint64_t *random, Tally *tally) {
-    double truth = 0.0, least = INFINITY, most = 0.0;
+    double truth = 0.0, least = HUGE_VAL, most = 0.0;
     for (int i = 0; i < CONTRIBUTIONS; i++) {
         numbers[i] = (float)pow(10.0, random_between(random, -6.0, 0.0));
         truth += (double)numbers[i];
