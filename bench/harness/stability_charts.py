@@ -36,9 +36,10 @@ def data(name, points, floor):
 
 def style_of(method, place):
     ours = method in methods.OURS
-    colour = "#000000" if ours else charts.COLOURS[place % (len(charts.COLOURS) - 1)]
-    dashes = 1 if place < len(charts.COLOURS) - 1 else 2
-    return (f"linewidth {4 if ours else 2} dashtype {2 if method == 'ours_triangles' else dashes} pointtype {place % MARKS + 4} "
+    plain_colours = len(charts.COLOURS) - 1  # black is for ours
+    colour = "#000000" if ours else charts.COLOURS[place % plain_colours]
+    dashed = method == "ours_triangles" if ours else place >= plain_colours
+    return (f"linewidth {4 if ours else 2} dashtype {2 if dashed else 1} pointtype {place % MARKS + 4} "
             f"linecolor rgb '{colour}'")
 
 
@@ -75,7 +76,7 @@ def panels(result, found, title, caption, ylabel):
         "set multiplot",
         *legend(found, rows),
         f"set ytics nomirror out add ('none' {floor!r})",
-        "set lmargin screen 0.08", "set rmargin screen 0.52",
+        "set lmargin screen 0.1", "set rmargin screen 0.52",
         f"set ylabel {charts.quoted(ylabel)}",
         f"set xrange [{scales[0] / 3!r}:{scales[-1] * 3!r}]",
         *panel(found, "scale", "size of things, at the origin", ticks_of(scales)),

@@ -9,14 +9,14 @@ OURS = ("ours_solids", "ours_triangles", "ours")
 CHECK = "ours_double"  # the same in double: tells whether what is compared with is right
 
 NAMES = {
-    "moeller_trumbore_1e-6": "Moeller-Trumbore, determinant from 1e-6",
-    "moeller_trumbore_0": "Moeller-Trumbore, determinant not 0",
+    "moeller_trumbore_1e-6": "Moeller-Trumbore, epsilon 1e-6",
+    "moeller_trumbore_0": "Moeller-Trumbore, epsilon 0",
     "baldwin_weber": "Baldwin-Weber",
     "pluecker": "Pluecker",
-    "watertight": "watertight (Woop), no tie rule",
-    "watertight_tie": "watertight (Woop) with tie rule",
-    "watertight_contracted": "watertight, contraction on",
-    "watertight_tie_contracted": "watertight with tie rule, contraction on",
+    "watertight": "watertight, no tie rule",
+    "watertight_tie": "watertight, tie rule",
+    "watertight_contracted": "watertight, contracted",
+    "watertight_tie_contracted": "tie rule, contracted",
     "epsilon_1e-3": "epsilon 1e-3",
     "epsilon_1e-4": "epsilon 1e-4",
     "epsilon_4e-6": "epsilon 4e-6",

@@ -13,7 +13,7 @@
 #include "studies.h"
 
 enum { BOUNCES = 30, MANY_BOUNCES = 300, PATHS_A_ROOM = 250 };
-enum { FEW = 5 }; /* the part of the paths that plain methods and many bounces get */
+enum { FEW = 5 }; /* a path of so many goes on to many bounces */
 
 /* The plain methods, then the product's. */
 enum { OURS_SOLIDS = HD_AVOIDANCES, OURS_TRIANGLES, OURS_DOUBLE, METHODS };
@@ -122,7 +122,7 @@ static bool study_room(Stage *stage, int count, Tally (*tallies)[METHODS]) {
     for (int p = 0; p < hd_all_place_count && done; p++) {
         done = put(stage, hd_places[p]);
         for (int method = 0; method < METHODS && done; method++)
-            for (int i = 0; i < (method < OURS_SOLIDS ? few : count) && done; i++)
+            for (int i = 0; i < count && done; i++)
                 done = try_path(stage, method, &stage->paths[i], i < few, &tallies[p][method]);
     }
     return done;
