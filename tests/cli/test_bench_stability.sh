@@ -67,6 +67,25 @@ paths, inside, ours, triangles: 2 lost of 9
 shadows, face_lights, ours: 3 blocked of 9
 shadows, edge_lights, ours, in double: 3 blocked of 9" "$(cat never.py)"
 
+# ---- odd scenes: what is to be rendered is, what is to be refused is, and nothing else ends otherwise
+cat >odd.py <<'PYTHON'
+from harness.stability_odd import failures, outcome
+from harness.stability_scenes import Odd
+refused = {"code": 2, "said": "hedron: x.json: 2 problems\n  a is 1\n  b is 2\n"}
+for wanted in (False, True):
+    for runs in ([{"code": 0}] * 2, [refused] * 2, [{"code": 0}, {"code": 1, "message": "no room"}]):
+        print(*outcome(Odd("a", {}, refused=wanted), runs), sep=", ")
+print(failures([{"scene": "a", "geometry": "solids", "outcome": "rendered", "as_it_should": wanted, "nan": 3 * wanted}
+                for wanted in (False, True)]))
+PYTHON
+expect_python "rendered, True
+refused: a is 1 (2 problems), False
+failed: no room, False
+rendered, False
+refused: a is 1 (2 problems), True
+failed: no room, False
+['a, solids: rendered', 'a, solids: 3 pixels are no numbers']" "$(cat odd.py)"
+
 # ---- the table names tests that there are
 ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
 cat >named.py <<'PYTHON'
