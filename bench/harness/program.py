@@ -55,13 +55,15 @@ class Program:
         except (ValueError, KeyError, TypeError) as error:
             raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
 
-    def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None):
+    def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
+               look=None):
         """One run, in a new folder within the temporary one, so that no name in the path counts as a
         pattern; on `cores` alone, with `path` for PATH, where these are given. Returns {"code",
-        "message", "frames", "digests", "wall", "cpu"}: the exit code (None where a run was interrupted), what
-        hedron said, the lines of the statistics, for each frame the digest of its picture if that is a
+        "message", "said", "frames", "digests", "wall", "cpu"}: the exit code (None where a run was interrupted),
+        the first line of what hedron said, all of it, the lines of the statistics, for each frame the digest of its picture if that is a
         file of its own, the seconds from the start to the end of the program, and those that processors
-        worked for it and its children.
+        worked for it and its children. `look` is called with the folder before that goes, and what it
+        gives is there as `seen`.
         """
         place = Path(folder, "run")
         place.mkdir()
@@ -83,7 +85,7 @@ class Program:
                 stop(child)
                 raise Interrupted(collect(place, None, "")) from None
             return {**collect(place, child.returncode, message), "wall": time.monotonic() - start,
-                    "cpu": children_seconds() - worked}
+                    "cpu": children_seconds() - worked, "seen": look and look(place)}
         finally:
             shutil.rmtree(place)
 
@@ -113,7 +115,7 @@ def collect(place, code, message):
                 frames.append(json.loads(line))
     pictures = {frame["frame"]: place / f"{frame['frame']:07}.data" for frame in frames}
     digests = {number: digest(file) for number, file in pictures.items() if file.exists()}
-    return {"code": code, "message": message_in(message), "frames": frames, "digests": digests}
+    return {"code": code, "message": message_in(message), "said": message, "frames": frames, "digests": digests}
 
 
 def digest(file):

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* What hedron_stability_methods measures. Each study prints lines as main.c tells and returns false
+   where memory runs out. */
+#ifndef HD_BENCH_STUDIES_H
+#define HD_BENCH_STUDIES_H
+
+#include <stdbool.h>
+
+/* How large things are, and how many of their sizes away from the origin of the world. */
+typedef struct HdPlace {
+    double scale, offset;
+} HdPlace;
+
+/* Scales at the origin, then offsets of scale 1, then, of the paths alone, all others. */
+extern const HdPlace hd_places[];
+extern const int hd_place_count, hd_all_place_count;
+
+/* The direction that offsets lead in; unit, and nothing about it is round. */
+#define HD_OFFSET_X 0.6297
+#define HD_OFFSET_Y -0.5421
+#define HD_OFFSET_Z 0.5562
+
+/* `count` of rays, paths or segments for each place. */
+bool hd_study_crossings(int count);
+bool hd_study_paths(int count);
+bool hd_study_shadows(int count);
+bool hd_study_sums(int count);
+
+#endif
