@@ -70,7 +70,7 @@ static void order_pixels(HdRefinement *r) {
 }
 
 static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
-    if (count <= r->request_capacity)
+    if (count == 0 || count <= r->request_capacity)
         return HD_OK;
     free(r->requests);
     free(r->surveys);
@@ -105,13 +105,13 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     r->chosen = calloc(pixels, sizeof *r->chosen);
     if (status == HD_OK && !(r->order && r->pixels && r->chosen))
         status = hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
-    if (status == HD_OK)
-        order_pixels(r);
-    if (status != HD_OK)
+    if (status != HD_OK || r->order == NULL) {
         hd_refinement_free(r);
-    else
-        *refinement = r;
-    return status;
+        return status;
+    }
+    order_pixels(r);
+    *refinement = r;
+    return HD_OK;
 }
 
 /* ---- what is known of a pixel ---- */
@@ -302,8 +302,8 @@ static void fill_frame(const HdRefinement *r, HdFrame *frame) {
         const Pixel *pixel = &r->pixels[i];
         const float *rgb = pixel->mean;
         float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
-        double steps = hd_error_budget_steps(&r->surveyor.budget, pixel->bound,
-                                             least < rgb[2] ? least : rgb[2]);
+        double darkest = (double)(least < rgb[2] ? least : rgb[2]);
+        double steps = hd_error_budget_steps(&r->surveyor.budget, (double)pixel->bound, darkest);
         memcpy(frame->rgb + 3 * i, rgb, sizeof pixel->mean);
         largest = steps > largest ? steps : largest;
         sum += steps;

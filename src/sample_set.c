@@ -47,11 +47,15 @@ static HdStatus create(HdSampleSet *set, int count, int grid_side, HdError *erro
 HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
     const int count = side * side;
     HdStatus status = create(set, count, side, error);
+    if (status != HD_OK)
+        return status;
     unsigned char *taken = calloc((size_t)count, 1);
-    if (status == HD_OK && taken == NULL)
-        status = hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+    if (taken == NULL) {
+        hd_sample_set_free(set);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d samples", count);
+    }
     int found = 0;
-    for (uint32_t i = 0; status == HD_OK && found < count; i++) {
+    for (uint32_t i = 0; found < count; i++) {
         Point point = sequence_point(i);
         int column = cell_of(point.x, side), row = cell_of(point.y, side);
         if (taken[row * side + column])
@@ -60,9 +64,7 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error) {
         set->places[found++] = column | row << 16;
     }
     free(taken);
-    if (status != HD_OK)
-        hd_sample_set_free(set);
-    return status;
+    return HD_OK;
 }
 
 /* Marsaglia 2003, "Xorshift RNGs". */
@@ -91,7 +93,7 @@ static int dense_place(int side, int cell, int part, uint32_t within) {
 }
 
 HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error) {
-    int column_of[HD_MAX_SAMPLES_PER_SIDE], row_of[HD_MAX_SAMPLES_PER_SIDE];
+    int column_of[HD_MAX_SAMPLES_PER_SIDE] = {0}, row_of[HD_MAX_SAMPLES_PER_SIDE] = {0};
     uint32_t state = 1 + (uint32_t)side * UINT32_C(2654435761);
     HdStatus status = create(set, side * side, HD_DENSE_GRID, error);
     if (status != HD_OK)

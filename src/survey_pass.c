@@ -126,10 +126,12 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
     if (count == 0)
         return HD_OK;
     HdStatus status = reserve(surveyor, count < MOST_ENTRIES ? count : MOST_ENTRIES, error);
+    if (status != HD_OK)
+        return status;
     int *open = calloc((size_t)count, sizeof *open);
-    if (status == HD_OK && open == NULL)
-        status = hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
-    for (int i = 0; status == HD_OK && i < count; i++)
+    if (open == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
+    for (int i = 0; i < count; i++)
         open[i] = i;
     for (int tries = 0; status == HD_OK && count > 0 && tries < MOST_TRIES; tries++) {
         status =

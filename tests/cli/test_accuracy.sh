@@ -88,9 +88,9 @@ rows() {
         tail -c "+$((header + 1 + (row * $6 + $1) * 12))" "$5" | head -c "$(($3 * 12))"
     done
 }
-rows 9 30 20 11 whole.pfm 64 48 >cut || true
-rows 0 0 20 11 part.pfm 20 11 >own || true
-expect_same cut own
+rows 9 30 20 11 whole.pfm 64 48 >expected.bytes || true
+rows 0 0 20 11 part.pfm 20 11 >own.bytes || true
+expect_same expected.bytes own.bytes
 expect_exit 0 "${render[@]}" --frames 7 --size 64x48 --aa adaptive --max-error 4 --crop 9x9+55+39 -o corner.pfm
 
 # ---- the reference: double, many samples, and nearer to itself than any other
