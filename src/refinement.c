@@ -167,6 +167,11 @@ static int greatest_difference(const Codes *a, const Codes *b) {
 
 /* ---- passes ---- */
 
+/* Rows from 32768 on reach into the sign. */
+static int pack(int x, int y) {
+    return (int)((uint32_t)y << 16 | (uint32_t)x);
+}
+
 /* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. */
 static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
                               int samples, int parts, HdError *error) {
@@ -177,7 +182,7 @@ static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count
     for (int i = 0; i < count; i++) {
         int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
         for (int p = 0; p < parts; p++)
-            r->requests[made++] = (HdSurveyRequest){x | y << 16, from + p * each};
+            r->requests[made++] = (HdSurveyRequest){pack(x, y), from + p * each};
     }
     status = hd_survey_pass(&r->surveyor, camera, r->requests, made, each, r->surveys, error);
     for (int i = 0; status == HD_OK && i < count; i++)
