@@ -142,7 +142,8 @@ static void set_numbers(HdScene *scene, const HdOptions *options) {
 
 /* What follows from the error that is allowed: nothing else cuts rays off. */
 static void set_by_error(HdScene *scene, const HdOptions *options) {
-    if (scene->sampling == HD_SAMPLING_REFERENCE) {
+    if (options->reference) {
+        scene->sampling = HD_SAMPLING_REFERENCE;
         if (options->samples < 0)
             scene->samples_per_side = REFERENCE_SAMPLES;
         if (options->max_error < 0.0)

@@ -117,12 +117,6 @@ static HdStatus parse_crop(const HdOptionSpec *spec, const char *text, HdOptions
                    "%s is '%s', expected WIDTHxHEIGHT+X+Y such as 64x64+320+200", spec->name, text);
 }
 
-static HdStatus set_reference(HdOptions *options) {
-    options->sampling = HD_SAMPLING_REFERENCE;
-    options->render.precision = HD_PRECISION_DOUBLE;
-    return HD_OK;
-}
-
 static HdStatus parse_choice(const HdOptionSpec *spec, const char *text, int *number,
                              HdError *error) {
     char list[256];
@@ -270,7 +264,7 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
     case HD_OPTION_MAX_ERROR:
         return parse_steps(spec, value, HD_LEAST_ERROR, &options->max_error, error);
     case HD_OPTION_REFERENCE:
-        return set_reference(options);
+        return set_flag(&options->reference, NULL, error);
     case HD_OPTION_DIVISIONS:
         return parse_integer(spec, value, &options->divisions, error);
     case HD_OPTION_DEVICE:

@@ -207,6 +207,10 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT,
                        "--stats is '-', but standard output has the lines of the classic mode; "
                        "expected a file");
+    if (options->reference && options->sampling >= 0)
+        return hd_fail(error, HD_BAD_INPUT, "--reference has samples of its own: leave out --aa");
+    if (options->reference)
+        options->render.precision = HD_PRECISION_DOUBLE;
     return HD_OK;
 }
 

@@ -48,6 +48,7 @@ typedef struct HdOptions {
     int depth, samples, width, height; /* each -1: not given */
     double cutoff, max_error;          /* each -1: not given */
     int sampling;                      /* an HdSampling; -1: not given */
+    bool reference;
     struct {
         int width, height, left, top; /* width 0: not given */
     } crop;

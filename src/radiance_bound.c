@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "radiance_bound.h"
 
-/* More than all roundings of the sums and of the kernels' products. */
-#define MARGIN 1.00001
+#include <math.h>
+
+/* More than all roundings, those of highlights' powers and of weights over many levels included. */
+#define MARGIN 1.02
 
 static double greater(double a, double b) {
     return a > b ? a : b;
@@ -63,25 +65,35 @@ static void visit_materials(const HdScene *scene, Visit *visit, void *context) {
         visit_mesh(scene, &scene->instances[i], visit, context);
 }
 
-/* The share of light that goes on, of the side where it is greater. */
+/* The share of light that goes on from one side; total reflection mirrors what would have passed.
+ */
+static HdVec3 share_of_side(const HdMaterial *material, double reflection, double transmission) {
+    HdVec3 share = hd_add(hd_scale(material->mirror_tint, reflection),
+                          hd_scale(material->colour, transmission));
+    if (material->index_of_refraction != 1.0)
+        share = greater3(share, hd_scale(material->mirror_tint, reflection + transmission));
+    return share;
+}
+
+/* Of the side where it is greater. */
 static HdVec3 share_sent_on(const HdMaterial *material) {
-    HdVec3 outside = hd_add(hd_scale(material->mirror_tint, material->reflection),
-                            hd_scale(material->colour, material->transmission));
+    HdVec3 outside = share_of_side(material, material->reflection, material->transmission);
     if (!material->has_inner_side)
         return outside;
-    return greater3(outside, hd_add(hd_scale(material->mirror_tint, material->inner_reflection),
-                                    hd_scale(material->colour, material->inner_transmission)));
+    return greater3(
+        outside, share_of_side(material, material->inner_reflection, material->inner_transmission));
 }
 
 typedef struct Bounding {
-    HdVec3 light; /* the sum of all */
-    HdVec3 most;  /* so far */
+    HdVec3 light;   /* the sum of all */
+    HdVec3 own;     /* the most that a surface shows by itself */
+    HdVec3 endless; /* the most that one shows which sees its like without end */
 } Bounding;
 
 static double endless(double own, double share) {
-    double without_end = share < 1.0 ? own / (1.0 - share) : own * (HD_MAX_DEPTH + 1.0);
-    double all_levels = own * (HD_MAX_DEPTH + 1.0);
-    return without_end < all_levels ? without_end : all_levels;
+    if (own <= 0.0)
+        return 0.0;
+    return share < 1.0 ? own / (1.0 - share) : HUGE_VAL;
 }
 
 static void bound_material(void *context, const HdMaterial *material, HdVec3 emission) {
@@ -95,7 +107,8 @@ static void bound_material(void *context, const HdMaterial *material, HdVec3 emi
                         hd_scale(material->colour, material->ambient));
     HdVec3 share = share_sent_on(material);
     HdVec3 shown = {endless(own.x, share.x), endless(own.y, share.y), endless(own.z, share.z)};
-    bounding->most = greater3(bounding->most, shown);
+    bounding->own = greater3(bounding->own, own);
+    bounding->endless = greater3(bounding->endless, shown);
 }
 
 static HdVec3 disc_bound(const HdSolid *solid) {
@@ -105,12 +118,23 @@ static HdVec3 disc_bound(const HdSolid *solid) {
     return hd_scale(most, solid->lights.disc_radiance);
 }
 
+/* `last`: what ends a ray's way shows. */
+static double bound_of_channel(double last, double own, double without_end) {
+    double all_levels = last + own * (HD_MAX_DEPTH + 1.0);
+    double endless_too = greater(last, without_end);
+    return endless_too < all_levels ? endless_too : all_levels;
+}
+
 HdVec3 hd_radiance_bound(const HdScene *scene) {
-    Bounding bounding = {.light = hd_light_bound(scene), .most = scene->background};
+    Bounding bounding = {.light = hd_light_bound(scene)};
+    HdVec3 last = scene->background;
     for (int s = 0; s < scene->solid_count; s++)
-        bounding.most = greater3(bounding.most, disc_bound(&scene->solids[s]));
+        last = greater3(last, disc_bound(&scene->solids[s]));
     visit_materials(scene, bound_material, &bounding);
-    return hd_scale(bounding.most, MARGIN);
+    return hd_scale((HdVec3){bound_of_channel(last.x, bounding.own.x, bounding.endless.x),
+                             bound_of_channel(last.y, bounding.own.y, bounding.endless.y),
+                             bound_of_channel(last.z, bounding.own.z, bounding.endless.z)},
+                    MARGIN);
 }
 
 static void find_strongest(void *context, const HdMaterial *material, HdVec3 emission) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "refinement.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -176,6 +177,8 @@ static int pack(int x, int y) {
 static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
                               int samples, int parts, HdError *error) {
     int each = (samples - from) / parts, made = 0;
+    if (count > INT_MAX / parts)
+        return hd_fail(error, HD_FAILED, "%d pixels are too many for adaptive sampling", count);
     HdStatus status = reserve_requests(r, count * parts, error);
     if (status != HD_OK)
         return status;

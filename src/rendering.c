@@ -18,7 +18,8 @@ typedef struct Run {
     HdDevice device;
     HdRenderer *renderer;
     char renderer_line[512];
-    uint64_t rays; /* of all frames so far */
+    uint64_t rays;  /* of all frames so far */
+    double missing; /* steps of 255 at most, of the worst frame so far */
 } Run;
 
 static void scene_uploaded(void *context, const HdSceneTables *tables) {
@@ -43,6 +44,8 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
     run->rays += hd_frame_rays(stored->frame);
+    if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
+        run->missing = stored->frame->largest_bound;
     if (status == HD_OK)
         hd_progress_update(&run->progress, stored->done);
     return status;
@@ -114,6 +117,8 @@ static HdStatus render_all(Run *run, HdError *error) {
     hd_progress_end(&run->progress);
     if (status == HD_OK)
         hd_progress_tell_end(&run->progress, run->rays);
+    if (status == HD_OK && !run->options->quiet)
+        hd_note_missing(rendering->scene, run->missing);
     return status;
 }
 

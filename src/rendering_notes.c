@@ -80,3 +80,11 @@ void hd_note_renderer(const HdDevice *device, const char *renderer, const char *
     if (kernels[0] != '\0')
         fprintf(stderr, "build     %s\n", kernels);
 }
+
+void hd_note_missing(const HdScene *scene, double missing) {
+    if (scene->max_error > 0.0 && missing > scene->max_error)
+        fprintf(stderr,
+                "hedron: up to %.3g steps of 255 may be missing from a pixel, more than the %g of "
+                "--max-error: rays end by --depth or --cutoff, or the scene has too many of them\n",
+                missing, scene->max_error);
+}

@@ -18,4 +18,7 @@ void hd_note_launch(const HdLaunch *launch);
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
                       const HdSceneTables *tables);
 
+/* Where more may be missing from a picture than the scene allows. `missing`: in steps of 255. */
+void hd_note_missing(const HdScene *scene, double missing);
+
 #endif

@@ -139,6 +139,9 @@ static void check_picture(HdSceneChecker *checker, const HdScene *scene) {
     check_int(checker, "depth", scene->depth, 0, HD_MAX_DEPTH);
     if (!(scene->cutoff >= 0.0 && scene->cutoff < 1.0))
         add_value(checker, "cutoff", "", scene->cutoff, "at least 0 and less than 1");
+    if (!(scene->max_error == 0.0 ||
+          (scene->max_error >= HD_LEAST_ERROR && scene->max_error <= HD_MAX_ERROR)))
+        add_value(checker, "max_error", "", scene->max_error, "0, or a number from 0.001 to 255");
     check_positive(checker, "exposure", scene->exposure, HD_MAX_EXPOSURE, "");
     check_light(checker, "background", scene->background);
 }

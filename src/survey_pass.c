@@ -10,11 +10,22 @@
 /* Entries of one submission, at most; lists are worked off in parts. */
 enum { MOST_ENTRIES = HD_LISTED_WIDTH << 15 };
 
-/* The first cut-off is this part of what a dark pixel may miss; each further one a part of the last
-   one, down to a part that no sum of what is cut off fills. */
+/* Cut-offs, as parts of what a dark pixel may miss: the first one, the factor to the next one, and
+   the last one, with which no sample can miss too much that has so many rays at most. */
 #define FIRST_CUTOFF (1.0 / 64.0)
 #define NEXT_CUTOFF  (1.0 / 8.0)
-enum { MOST_TRIES = 8 };
+#define LAST_CUTOFF  (1.0 / MOST_RAYS)
+
+/* Of a sample, on the mean of a pass: where there are more already, smaller cut-offs come to no
+   end. A bundle cannot be interrupted. */
+#define MOST_RAYS 1048576.0
+
+/* Small limits are approached from this one, so that each pass tells what the next one costs. */
+#define EASY_LIMIT 1.0
+
+/* A smaller cut-off is of no use where the bound stays above this part of what it was: depth or
+   weight ended the rays. */
+#define PROGRESS 0.99F
 
 void hd_surveyor_free(HdSurveyor *surveyor) {
     free(surveyor->entries);
@@ -26,7 +37,7 @@ void hd_surveyor_free(HdSurveyor *surveyor) {
 int hd_survey_depth(const HdScene *scene) {
     HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
     double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
-    return hd_depth_for_bound(scene, limit * FIRST_CUTOFF * NEXT_CUTOFF);
+    return hd_depth_for_bound(scene, limit * LAST_CUTOFF);
 }
 
 static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
@@ -96,7 +107,8 @@ static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
 /* Of the requests numbered `open`, in place: those that are not within the limit stay. */
 static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
                             const HdSurveyRequest *requests, int *open, int *open_count,
-                            int samples, double cutoff, HdSurvey *surveys, HdError *error) {
+                            int samples, double cutoff, bool is_first, HdSurvey *surveys,
+                            HdError *error) {
     int left = 0;
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
         int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
@@ -109,8 +121,10 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
         add_counts(surveyor, count, samples, hd_monotonic_seconds() - start);
         for (int i = 0; i < count; i++) {
             HdSurvey *survey = &surveys[open[from + i]];
+            float before = survey->bound;
             memcpy(survey, surveyor->frame.rgb + HD_SURVEY_FLOATS * (size_t)i, sizeof *survey);
-            if (!is_within(surveyor, survey))
+            bool goes_on = is_first || survey->bound < PROGRESS * before;
+            if (goes_on && !is_within(surveyor, survey))
                 open[left++] = open[from + i];
         }
     }
@@ -118,11 +132,37 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
     return HD_OK;
 }
 
+static double rays_so_far(const HdSurveyor *surveyor) {
+    const HdFrame *sums = &surveyor->sums;
+    return (double)(sums->primary_rays + sums->mirrored_rays + sums->transmitted_rays);
+}
+
+/* Passes with smaller and smaller cut-offs, until none of the `count` requests is open. */
+static HdStatus close_requests(HdSurveyor *surveyor, const HdCamera *camera,
+                               const HdSurveyRequest *requests, int *open, int count, int samples,
+                               HdSurvey *surveys, HdError *error) {
+    double limit = surveyor->scene->max_error;
+    double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
+    double cutoff = FIRST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, easy, 0.0);
+    double last = LAST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, limit, 0.0);
+    bool is_first = true;
+    while (count > 0) {
+        double before = rays_so_far(surveyor), tried = (double)count * samples;
+        HdStatus status = survey_open(surveyor, camera, requests, open, &count, samples, cutoff,
+                                      is_first, surveys, error);
+        if (status != HD_OK)
+            return status;
+        if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
+            break;
+        cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
+        is_first = false;
+    }
+    return HD_OK;
+}
+
 HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
                         const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
                         HdError *error) {
-    double limit = surveyor->scene->max_error;
-    double cutoff = FIRST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, limit, 0.0);
     if (count == 0)
         return HD_OK;
     HdStatus status = reserve(surveyor, count < MOST_ENTRIES ? count : MOST_ENTRIES, error);
@@ -133,11 +173,7 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
     for (int i = 0; i < count; i++)
         open[i] = i;
-    for (int tries = 0; status == HD_OK && count > 0 && tries < MOST_TRIES; tries++) {
-        status =
-            survey_open(surveyor, camera, requests, open, &count, samples, cutoff, surveys, error);
-        cutoff *= NEXT_CUTOFF;
-    }
+    status = close_requests(surveyor, camera, requests, open, count, samples, surveys, error);
     free(open);
     return status;
 }

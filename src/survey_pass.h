@@ -39,7 +39,9 @@ void hd_surveyor_free(HdSurveyor *surveyor);
 int hd_survey_depth(const HdScene *scene);
 
 /* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
-   (HdScene.max_error) each bound is within it, but for what lies beyond the scene's depth. */
+   (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays
+   before, or so many rays of a sample are needed that they come to no end: then it says by how
+   much. */
 HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
                         const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
                         HdError *error);

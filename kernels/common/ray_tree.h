@@ -15,7 +15,7 @@ typedef struct {
     vint identity; /* likewise: those of what it met */
 } Sample;
 
-enum { BOUND_BITS = 8 };
+enum { BOUND_BITS = 2 };
 
 #define CONTRIBUTION_LIMIT R(65536.0)
 

@@ -96,6 +96,12 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     return alive;
 }
 
+/* A sample's bound; more than this says as little, and pixels may have many samples. */
+FN fixed64 saturated(fixed64 bound) {
+    const fixed64 most = (fixed64)1 << 48;
+    return bound < most ? bound : most;
+}
+
 FN Sample empty_sample(void) {
     Sample sample;
     sample.mirrored = sample.transmitted = splat_int(0);
@@ -128,7 +134,7 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
         sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
         if (SURVEYED) {
-            sums[HD_RADIANCE_SUMS] += lane_fix(&sample->bound, lane);
+            sums[HD_RADIANCE_SUMS] += saturated(lane_fix(&sample->bound, lane));
             sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
         }
         gathered->counts.mirrored += (uint64)lane_int(&sample->mirrored, lane);

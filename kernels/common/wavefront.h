@@ -122,7 +122,7 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
             pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
         for (int part = HD_RADIANCE_SUMS; SURVEYED && part < HD_SURVEY_SUMS; part++)
-            pixel[part] += sums[(uint64)part * (uint64)sum_stride + (uint64)i];
+            pixel[part] += saturated(sums[(uint64)part * (uint64)sum_stride + (uint64)i]);
         left--;
         if (left == 0) {
             left = per_pixel;

@@ -108,9 +108,40 @@ expect_exit 0 "${render[@]}" --set image.aa=adaptive --set image.max_error=2 --f
 expect_exit 0 "${render[@]}" --aa adaptive --max-error 2 --frames 0 --size 32x24 -o option.pfm
 expect_same file.pfm option.pfm
 
+# ---- promises that cannot be kept are not: the bound is told, and the run ends
+python3 - <<'END'
+import json
+def scene(solids, **more):
+    return {"hedron": 1, "camera": {"eye": [3.1, -4.2, 2.3]}, "solids": solids, **more}
+nested = [{"kind": "cube", "center": [0, 0, 0], "circumradius": 2 - 0.05 * i,
+           "face": {"reflection": 0.5, "transmission": 0.5, "diffuse": 0}, "rim": {"width": 0}} for i in range(20)]
+json.dump(scene(nested, background=[0.8, 0.8, 0.8]), open("nested.json", "w"))
+dark = [{"kind": "icosahedron", "center": [0, 0, 0], "circumradius": 2,
+         "face": {"colour": [0.0095] * 3, "ambient": 0.045, "diffuse": 0, "specular": 0, "reflection": 0.02,
+                  "transmission": 0.98, "inner_reflection": 0.01, "inner_transmission": 0.99,
+                  "index_of_refraction": 10}, "rim": {"width": 0}}]
+json.dump(scene(dark), open("dark.json", "w"))
+END
+if ! "$hedron" check nested.json >"$logs/nested" 2>&1; then
+    fail "nested.json: $(cat "$logs/nested")"
+fi
+expect_exit 0 "$hedron" render nested.json --backend c --frames 0 --size 4x3 --samples 1 --max-error 16 -o nested.pfm \
+    --stats nested.jsonl
+if jq -e '.missing.largest > 16' nested.jsonl >"$logs/jq"; then
+    expect_stderr_contains 'may be missing from a pixel, more than the 16 of --max-error'
+fi
+# Total reflection, dark glass: what white mirrors of it show is bounded too.
+expect_exit 0 "${render[@]}" dark.json --frames 0 --size 24x18 --samples 1 --max-error 1 -o dark.pfm
+expect_exit 0 "${render[@]}" dark.json --frames 0 --size 24x18 --samples 1 --max-error 0.01 --precision double -o truth.pfm
+compare dark.pfm truth.pfm
+expect_all compared.json '.display.above_1 <= 0.005'
+
 # ---- wrong options
+expect_exit 2 "${render[@]}" --reference --aa adaptive -o a.pfm
+expect_sentence "--reference has samples of its own: leave out --aa"
+expect_exit 2 "${render[@]}" --set image.max_error=1e-300 -o a.pfm
 expect_exit 2 "${render[@]}" --max-error 0 -o a.pfm
-expect_sentence "--max-error is '0', expected a number from 1e-06 to 255"
+expect_sentence "--max-error is '0', expected a number from 0.001 to 255"
 expect_exit 2 "${render[@]}" --max-error -1 -o a.pfm
 expect_exit 2 "${render[@]}" --max-error nan -o a.pfm
 expect_exit 2 "${render[@]}" --aa smart -o a.pfm
