@@ -5,6 +5,7 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
+need_python
 if ! command -v jq >"$logs/which"; then
     skip "there is no jq"
 fi
@@ -111,16 +112,18 @@ expect_same file.pfm option.pfm
 # ---- promises that cannot be kept are not: the bound is told, and the run ends
 python3 - <<'END'
 import json
-def scene(solids, **more):
-    return {"hedron": 1, "camera": {"eye": [3.1, -4.2, 2.3]}, "solids": solids, **more}
-nested = [{"kind": "cube", "center": [0, 0, 0], "circumradius": 2 - 0.05 * i,
-           "face": {"reflection": 0.5, "transmission": 0.5, "diffuse": 0}, "rim": {"width": 0}} for i in range(20)]
-json.dump(scene(nested, background=[0.8, 0.8, 0.8]), open("nested.json", "w"))
-dark = [{"kind": "icosahedron", "center": [0, 0, 0], "circumradius": 2,
-         "face": {"colour": [0.0095] * 3, "ambient": 0.045, "diffuse": 0, "specular": 0, "reflection": 0.02,
-                  "transmission": 0.98, "inner_reflection": 0.01, "inner_transmission": 0.99,
-                  "index_of_refraction": 10}, "rim": {"width": 0}}]
-json.dump(scene(dark), open("dark.json", "w"))
+
+
+def write(name, material, solids, **more):
+    json.dump({"hedron": 1, "camera": {"field_of_view": 30, "eye": [0.6, -6, 2.3]}, "materials": {"glass": material},
+               "solids": solids, "output": {"curve": "linear"}, **more}, open(name, "w", encoding="utf-8"))
+
+
+write("nested.json", {"reflection": 0.5, "transmission": 0.5},
+      [{"kind": "cube", "circumradius": 3 - 0.1 * i, "material": "glass"} for i in range(20)], background=[0.8] * 3)
+write("dark.json", {"colour": [0.0095] * 3, "ambient": 0.045, "reflection": 0.02, "transmission": 0.98,
+                    "inner_reflection": 0.01, "inner_transmission": 0.99, "index_of_refraction": 10},
+      [{"kind": "icosahedron", "circumradius": 2, "material": "glass"}])
 END
 if ! "$hedron" check nested.json >"$logs/nested" 2>&1; then
     fail "nested.json: $(cat "$logs/nested")"
