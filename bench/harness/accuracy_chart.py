@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Error against time, a chart for each device and each kind of error."""
+import math
 from functools import partial
 
 from harness import accuracy_front, accuracy_settings, charts, report
@@ -7,6 +8,7 @@ from harness import accuracy_front, accuracy_settings, charts, report
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
 MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
 LEAST = 1e-4  # of 255: what is less is drawn there
+SIDES = (("left", 0.8, 0.6), ("right", -0.8, -0.7))  # of the front where its names stand, in turns
 
 
 def chart_name(label, error):
@@ -33,12 +35,23 @@ def caption(result, points, error):
 
 def labels(points, error):
     """Those on the front are named, and what is recommended in words of its own."""
+    named = accuracy_front.front(points, error)
+    named += [point for point in points if point["recommended"] and point not in named]
     lines = []
-    for point in accuracy_front.front(points, error):
+    for place, point in enumerate(named):
         word = f" ({point['recommended']})" if point["recommended"] else ""
-        name = charts.plain(point["name"] + word, 40)
-        lines.append(f'{point["ms"]!r} {point[error]!r} "{name}"')
+        name = charts.quoted(charts.plain(point["name"] + word, 40))
+        to, right, up = SIDES[place % len(SIDES)]
+        lines.append(f"set label {place + 10} {name} at {point['ms']!r}, {point[error]!r} {to} "
+                     f"offset character {right}, {up} noenhanced font ',11'")
     return lines
+
+
+def ticks(values):
+    """1, 2 and 5 times the powers of ten."""
+    first, last = math.floor(math.log10(min(values))) - 1, math.ceil(math.log10(max(values))) + 1
+    return "(" + ", ".join(f"'{digit * 10.0 ** power:g}' {digit * 10.0 ** power!r}"
+                           for power in range(first, last) for digit in (1, 2, 5)) + ")"
 
 
 def chart(result, label, error):
@@ -51,13 +64,14 @@ def chart(result, label, error):
                             caption(result, points, error), rows)
     times, errors = [point["ms"] for point in points], [point[error] for point in points]
     commands += [
-        "set logscale xy", "set format '%g'",
+        "set logscale xy", f"set xtics {ticks(times)}", f"set ytics {ticks(errors)}",
         f"set xrange [{min(times) / 1.5!r}:{max(times) * 2.5!r}]",
         f"set yrange [{min(errors) / 1.6!r}:{max(errors) * 1.6!r}]",
         "set xlabel 'milliseconds for each frame (logarithmic)'",
         f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
         f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced",
-        "$front << END", *labels(points, error), "END",
+        *labels(points, error),
+        "$front << END", *(f"{each['ms']!r} {each[error]!r}" for each in accuracy_front.front(points, error)), "END",
     ]
     plots = ["$front using 1:2 with lines linewidth 2.5 linecolor rgb '#999999' title 'the best front'"]
     for place, family in enumerate(families):
@@ -71,7 +85,6 @@ def chart(result, label, error):
         commands += ["$best << END", *(f"{each['ms']!r} {each[error]!r}" for each in best), "END"]
         plots.append("$best using 1:2 with points pointtype 6 pointsize 3 linewidth 2 linecolor rgb '#000000' "
                      "title 'recommended'")
-    plots.append("$front using 1:2:3 with labels left offset 0.8, 0.5 noenhanced font ',11' notitle")
     commands.append("plot " + ", ".join(plots))
     return 640 + 20 * rows, commands
 

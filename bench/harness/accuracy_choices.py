@@ -21,7 +21,7 @@ GRID = ("--samples", "4")
 CHOICES = (
     Choice("search of triangles, many", "knot", ("--samples", "1"), (
         ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute")))),
-    Choice("search of triangles, few", "plain", (*GRID, "--geometry", "triangles"), (
+    Choice("search of triangles, few", "few", (*GRID, "--geometry", "triangles"), (
         ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute")))),
     Choice("geometry", "built-in", GRID, (
         ("automatic", ()), ("solids", ("--geometry", "solids")), ("triangles", ("--geometry", "triangles")))),

@@ -113,10 +113,11 @@ class Points:
 
 
 def recommend(points):
-    """Marks the fastest settings that are at least as good as some grids."""
+    """Marks the fastest settings that are at least as good as some grids. What hedron chooses by itself is none."""
+    settings = [point for point in points if point["family"] != accuracy_settings.CHOSEN]
     for number, word in accuracy_settings.DRAFT_USUAL_FINE.items():
         grid = next((each for each in points if each["name"] == f"grid {number}"), None)
-        best = grid and accuracy_front.cheapest(points, grid["rmse"])
+        best = grid and accuracy_front.cheapest(settings, grid["rmse"])
         if best:
             best["recommended"] = " and ".join(filter(None, (best["recommended"], word)))
 

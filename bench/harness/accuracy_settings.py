@@ -30,6 +30,7 @@ FAMILIES = {
     "promise": "adaptive, up to 8 x 8, --max-error E",
     "arithmetic": f"grid {SIDE} x {SIDE}, other arithmetic or geometry",
 }
+CHOSEN = "arithmetic"
 BASELINE, BOUNDED_FAMILIES = "full", ("adaptive", "deep", "promise")
 
 
