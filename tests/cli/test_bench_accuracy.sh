@@ -130,6 +130,14 @@ expect_value '[true, true, true]' \
     '[points["grid 1"]["rmse"] > points["grid 4"]["rmse"], points["depth 4"]["rmse"] > points["depth 30"]["rmse"], points["mega"]["rmse"] == points["wavefront"]["rmse"] == points["grid 4"]["rmse"]]'
 expect_value '[true, true, 1]' \
     '[0 < r["truth"]["to_quarter_of_samples"]["rmse"] < points["grid 1"]["rmse"], r["truth"]["missing"]["largest"] <= r["truth"]["max_error"], sum("draft" in (each["recommended"] or "") for each in points.values())]'
+# The error is that of frame 0 against its reference.
+limit=$(python3 -c 'import json; print(json.load(open("out/accuracy.json", encoding="utf-8"))["truth"]["max_error"])')
+frame=("$hedron" render --quiet --backend c --frames 0 --size 16x12)
+"${frame[@]}" --reference --samples 16 --max-error "$limit" -o truth.pfm >"$logs/stdout"
+"${frame[@]}" --samples 4 -o grid.pfm >"$logs/stdout"
+"$hedron" compare --json grid.pfm truth.pfm >compared.json
+expect_value '[true, true]' \
+    '(lambda d: [points["grid 4"][key] == d[key] for key in ("rmse", "largest")])(json.load(open("compared.json"))["display"])'
 expect_value '[0.0, true, true]' \
     '(lambda ways: [ways["double"]["rmse"], 0 < ways["float"]["rmse"] < 0.1, ways["triangles"]["rmse"] > ways["float"]["rmse"]])({each["way"]: each for each in r["choices"]})'
 if [[ ! -s out/accuracy.md ]]; then
