@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What hedron chooses by itself, against what it could have chosen: time, and error of the arithmetic."""
 from dataclasses import dataclass
+from statistics import median
 
 from harness import accuracy_error, summary
+from harness.accuracy_points import ONCE_SECONDS
 from harness.accuracy_truth import run
 from harness.program import Interrupted, Problem
 
@@ -15,12 +17,13 @@ class Choice:
     scene: str
     view: tuple
     ways: tuple  # (name, options); the first one is what comes by itself
+    part: int = 1  # of the sides of the frame
 
 
 GRID = ("--samples", "4")
 CHOICES = (
     Choice("search of triangles, many", "knot", ("--samples", "1"), (
-        ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute")))),
+        ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute"))), part=4),
     Choice("search of triangles, few", "few", (*GRID, "--geometry", "triangles"), (
         ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute")))),
     Choice("geometry", "built-in", GRID, (
@@ -37,16 +40,19 @@ CHOICES = (
 class Choices:
     def __init__(self, plan, runnable, judge, size, options, folder):
         self.plan, self.runnable, self.judge, self.folder = plan, runnable, judge, folder
-        self.size, self.options = ("--size", f"{size[0]}x{size[1]}"), tuple(options)
+        self.size, self.options = size, tuple(options)
         self.jobs, self.errors = {}, {}
         self.not_finite = self.frames = 0
+
+    def view(self, choice):
+        return "--size", "x".join(str(max(1, length // choice.part)) for length in self.size)
 
     def reference(self, program, choice):
         """Double with the same samples, and no triangles in place of solids."""
         file = self.folder / "double.pfm"
         view = [word for word in choice.view if word not in ("--geometry", "triangles")]
         run(program, self.judge, self.plan.scenes[choice.scene],
-            (*view, *self.size, "--precision", "double", *self.options), file)
+            (*view, *self.view(choice), "--precision", "double", *self.options), file)
         return file
 
     def measure(self, program, repeats, news):
@@ -65,17 +71,20 @@ class Choices:
             for label in self.runnable:
                 for name, options in choice.ways:
                     job = self.job(label, choice, name, options)
-                    if not self.plan.reasons.get(job):
+                    if not self.plan.reasons.get(job) and not self.is_enough(job):
                         self.plan.run_job(job, program, self.folder, None)
                     if not self.plan.reasons.get(job):
                         self.judge_picture(program, (label, choice.name, name), job, reference)
+
+    def is_enough(self, job):
+        return self.plan.runs[job] and median(self.plan.medians(job)) > ONCE_SECONDS
 
     def job(self, label, choice, name, options):
         key = label, choice.name, name
         if key not in self.jobs:
             file = self.folder / f"choice-{len(self.jobs)}-####.pfm"
             self.jobs[key] = self.plan.job(label, choice.scene, FRAMES,
-                                           (*options, *choice.view, *self.size, *self.options), output=str(file))
+                                           (*options, *choice.view, *self.view(choice), *self.options), output=str(file))
         return self.jobs[key]
 
     def judge_picture(self, program, key, job, reference):

@@ -122,8 +122,9 @@ def recommend(points):
             best["recommended"] = " and ".join(filter(None, (best["recommended"], word)))
 
 
-def equal_error(points, label):
-    """[(error, ratio)] of the time of adaptive sampling and bounded depth by that of the grid in full depth."""
+def equal_error(points, label, families=accuracy_settings.BOUNDED_FAMILIES, baseline=accuracy_settings.BASELINE):
+    """[(error, ratio)] of the time of some families by that of another; of adaptive sampling and bounded depth by that
+    of the grid in full depth, if not said."""
     own = [each for each in points if each["device"] == label]
-    return accuracy_front.ratios([each for each in own if each["family"] in accuracy_settings.BOUNDED_FAMILIES],
-                                 [each for each in own if each["family"] == accuracy_settings.BASELINE])
+    return accuracy_front.ratios([each for each in own if each["family"] in families],
+                                 [each for each in own if each["family"] == baseline])

@@ -87,7 +87,7 @@ class SceneTargets:
         whole = {name: found for name, found in self.truncation.items() if not isinstance(found, str)}
         told = {name: found for name, found in self.truncation.items() if isinstance(found, str)}
         measured = {**{name: found["measured"] for name, found in whole.items()}, **told}
-        bounds = {name: found["bound"] / found["measured"] for name, found in whole.items() if found["measured"] > 0}
+        bounds = {name: found["bound"] / found["measured"] for name, found in whole.items() if found["bound"] > 0 and found["measured"] > 0}
         self.worst("truncation", f"--max-error {LIMIT}: largest error by what is left out, worst scene", "of 255",
                    measured, TRUNCATION, max,
                    f"against --max-error {NEARER}, both double, same samples; {BRANCHING}, {FEW_PIXELS[1]}, against "
@@ -123,6 +123,7 @@ class SceneTargets:
         measured = self.adaptive and not isinstance(self.adaptive, str)
         size = f"{self.adaptive['width']} x {self.adaptive['height']}" if measured else None
         for key, what, unit, target in (("samples", "samples", "times", SAMPLES), ("rays", "rays", "times", RAYS),
+                                        ("time", "time, one frame", "times", None),
                                         ("within_2", "pixels within 2 of 255", "%", WITHIN)):
             self.plan.row("adaptive", f"adaptive against grid 4 x 4, built-in scene: {what}", unit,
                           lambda key=key: figure(key), device=self.device["label"], target=target, note=size)

@@ -40,10 +40,10 @@ points = [point("grid", "grid 2", 4, 20), point("grid", "grid 4", 16, 10), point
           point("adaptive", "adaptive 2", 3, 20), point("arithmetic", "fast", 1, 1), point("full", "full 3", 50, 9.9)]
 recommend(points)
 print([(each["name"], each["recommended"]) for each in points if each["recommended"]])
-print(equal_error(points, "c:0"), equal_error(points, "c:1"))
+print(equal_error(points, "c:0"), equal_error(points, "c:1"), equal_error(points, "c:0", ("adaptive",), "grid"))
 PYTHON
 expect_python "[('deep 3', 'usual'), ('adaptive 2', 'draft')]
-[(9.9, 0.1)] []" "$(cat recommend.py)"
+[(9.9, 0.1)] [] [(20, 0.75)]" "$(cat recommend.py)"
 
 # ---- settings: families that go on only where the one before was affordable are ordered by their work
 expect_python True 'from harness.accuracy_settings import FAMILIES, settings' \
