@@ -3,7 +3,7 @@
 import math
 from functools import partial
 
-from harness import accuracy_front, accuracy_settings, charts, report
+from harness import accuracy_front, accuracy_points, accuracy_settings, charts, report
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
 MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
@@ -20,11 +20,8 @@ def drawn(points, error):
 
 
 def caption(result, points, error):
-    words = []
-    for point in points:
-        if point["recommended"]:
-            words.append(f"{point['recommended']}: {point['name']} ({report.number(point['ms'], 3)} ms, "
-                         f"{report.number(point[error], 3)} of 255)")
+    words = [f"{word}: {' '.join(point['options'])} ({report.number(point['ms'], 3)} ms)"
+             for word, point in accuracy_points.recommended(points)]
     truth = result["truth"]
     made = (f"The reference has {truth['samples']} x {truth['samples']} samples and misses at most "
             f"{report.number(truth['missing']['largest'], 2)} of 255; one of a quarter of its samples is off by "

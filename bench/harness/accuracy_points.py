@@ -122,6 +122,13 @@ def recommend(points):
             best["recommended"] = " and ".join(filter(None, (best["recommended"], word)))
 
 
+def recommended(points):
+    """[(word, point)], from the draft on."""
+    words = list(accuracy_settings.DRAFT_USUAL_FINE.values())
+    return sorted(((point["recommended"], point) for point in points if point["recommended"]),
+                  key=lambda each: words.index(each[0].split()[0]))
+
+
 def equal_error(points, label, families=accuracy_settings.BOUNDED_FAMILIES, baseline=accuracy_settings.BASELINE):
     """[(error, ratio)] of the time of some families by that of another; of adaptive sampling and bounded depth by that
     of the grid in full depth, if not said."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The tables of bench/accuracy beside that of the targets: settings, and what hedron chooses by itself."""
-from harness import report, speed_report
+from harness import accuracy_points, report, speed_report
 
 
 def spread(entry):
@@ -46,6 +46,13 @@ def equal_words(result):
             for each in result["equal_error"] or []]
 
 
+def recommended_words(result):
+    return [f"Recommended on {point['device']}, {word}: {' '.join(point['options'])}: {report.number(point['ms'], 3)} ms, "
+            f"RMSE {report.number(point['rmse'], 3)}, largest {report.number(point['largest'], 3)}."
+            for device in result["devices"] for word, point in accuracy_points.recommended(
+                [each for each in result["points"] if each["device"] == device["label"]])]
+
+
 def absent_words(result):
     said = {}
     for each in result["not_tried"] or []:
@@ -59,7 +66,7 @@ def sections(result):
     found = []
     if result["points"]:
         found.append(("Settings", point_rows(result["points"]),
-                      [truth_words(result), *equal_words(result), *absent_words(result)]))
+                      [truth_words(result), *recommended_words(result), *equal_words(result), *absent_words(result)]))
     if result["choices"]:
         found.append(("What hedron chooses by itself", choice_rows(result["choices"]),
                       ["Errors are against double with the same samples, and solids in place of triangles."]))

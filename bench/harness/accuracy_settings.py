@@ -6,6 +6,7 @@ from dataclasses import dataclass
 # exaggeration.
 FULL_DEPTH = 40
 BOUNDED = ("--depth", "30", "--cutoff", "0.001")
+LESS_BOUNDED = ("--depth", "30", "--cutoff", "0.003")
 SIDE = 4  # of the grid where something else is tried
 SIDES, SIDES_QUICKLY = (1, 2, 3, 4, 6, 8), (1, 2, 4)
 DRAFT_USUAL_FINE = {2: "draft", 4: "usual", 8: "fine"}  # sides of the grids that they are as good as
@@ -24,6 +25,7 @@ FAMILIES = {
     "adaptive": "adaptive, up to N x N, the scene's depth and cut-off",
     "full": f"grid N x N, depth {FULL_DEPTH}, no cut-off",
     "deep": "adaptive, up to N x N, depth 30, cut-off 0.001",
+    "fine": "grid N x N, depth 30, cut-off 0.003",
     "depth": f"grid {SIDE} x {SIDE}, depth D",
     "cutoff": f"grid {SIDE} x {SIDE}, depth 30, cut-off W",
     "bound": f"grid {SIDE} x {SIDE}, --max-error E",
@@ -67,6 +69,7 @@ def settings(quick):
         "adaptive": by_side("adaptive", sides[1:], *adaptive),
         "full": by_side("full", sides, "--depth", str(FULL_DEPTH), "--cutoff", "0"),
         "deep": by_side("deep", sides[1:], *BOUNDED, *adaptive),
+        "fine": by_side("fine", sides[1:], *LESS_BOUNDED),
         "depth": by_value("depth", "--depth", (4, 30) if quick else (2, 4, 8, 20, 30), "depth ", *at_side),
         "cutoff": by_value("cutoff", "--cutoff", (0.03, 0.003) if quick else (0.1, 0.03, 0.01, 0.003, 0.001, 0.0003),
                            "cut-off ", *at_side, "--depth", "30"),
