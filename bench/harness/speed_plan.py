@@ -130,6 +130,8 @@ def judge(target, value):
         return None, None, None
     if target.least == 0:  # of what must not be at all, nothing is so many times as good
         return None, None, "aim" if value == 0 else "missed"
+    if value == 0 and not target.more_is_better:
+        return None, None, "aim"
     least, aim = [value / wanted if target.more_is_better else wanted / value for wanted in (target.least, target.aim)]
     return least, aim, "aim" if aim >= 1 else "least" if least >= 1 else "missed"
 
@@ -162,7 +164,7 @@ def picture_groups(plan):
     groups = {}
     for job, runs in plan.runs.items():
         options = " ".join(job.options)
-        if job.output != PICTURES or "--math fast" in options or not plan.devices[job.device]["strict"]:
+        if "--math fast" in options or not plan.devices[job.device]["strict"]:
             continue
         words = list(job.options)
         for free in ("--threads", "--pipeline", "--accel"):

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""Error against time, a chart for each device and each kind of error."""
+import math
+from functools import partial
+
+from harness import accuracy_front, accuracy_points, accuracy_settings, charts, report
+
+ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
+MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
+LEAST = 1e-4  # of 255: what is less is drawn there
+SIDES = (("left", 0.8, 0.6), ("right", -0.8, -0.7))  # of the front where its names stand, in turns
+
+
+def chart_name(label, error):
+    return f"accuracy_{label.replace(':', '')}_{error}"
+
+
+def drawn(points, error):
+    return [{**point, error: max(point[error], LEAST)} for point in points]
+
+
+def caption(result, points, error):
+    words = [f"{word}: {' '.join(point['options'])} ({report.number(point['ms'], 3)} ms)"
+             for word, point in accuracy_points.recommended(points)]
+    truth = result["truth"]
+    made = (f"The reference has {truth['samples']} x {truth['samples']} samples and misses at most "
+            f"{report.number(truth['missing']['largest'], 2)} of 255; one of a quarter of its samples is off by "
+            f"{report.number(truth['to_quarter_of_samples'][error], 2)}.")
+    return " ".join([f"The fastest at least as good as grids of 2, 4 and 8: {'; '.join(words)}." if words else "",
+                     made, "Times are medians of frames next to the one that is judged."]).strip()
+
+
+def labels(points, error):
+    """Those on the front are named, and what is recommended in words of its own."""
+    named = accuracy_front.front(points, error)
+    named += [point for point in points if point["recommended"] and point not in named]
+    lines = []
+    for place, point in enumerate(named):
+        word = f" ({point['recommended']})" if point["recommended"] else ""
+        name = charts.quoted(charts.plain(point["name"] + word, 40))
+        to, right, up = SIDES[place % len(SIDES)]
+        lines.append(f"set label {place + 10} {name} at {point['ms']!r}, {point[error]!r} {to} "
+                     f"offset character {right}, {up} noenhanced font ',11'")
+    return lines
+
+
+def ticks(values):
+    """1, 2 and 5 times the powers of ten."""
+    first, last = math.floor(math.log10(min(values))) - 1, math.ceil(math.log10(max(values))) + 1
+    return "(" + ", ".join(f"'{digit * 10.0 ** power:g}' {digit * 10.0 ** power!r}"
+                           for power in range(first, last) for digit in (1, 2, 5)) + ")"
+
+
+def chart(result, label, error):
+    """(height, commands)"""
+    points = drawn([each for each in result["points"] if each["device"] == label], error)
+    families = [name for name in accuracy_settings.FAMILIES if any(each["family"] == name for each in points)]
+    device = next(each for each in result["devices"] if each["label"] == label)
+    rows = (len(families) + 3) // 2
+    commands = charts.style(result, f"{ERRORS[error].capitalize()} against time, {charts.device_title(device)}",
+                            caption(result, points, error), rows)
+    times, errors = [point["ms"] for point in points], [point[error] for point in points]
+    commands += [
+        "set logscale xy", f"set xtics {ticks(times)}", f"set ytics {ticks(errors)}",
+        f"set xrange [{min(times) / 1.5!r}:{max(times) * 2.5!r}]",
+        f"set yrange [{min(errors) / 1.6!r}:{max(errors) * 1.6!r}]",
+        "set xlabel 'milliseconds for each frame (logarithmic)'",
+        f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
+        f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced",
+        *labels(points, error),
+        "$front << END", *(f"{each['ms']!r} {each[error]!r}" for each in accuracy_front.front(points, error)), "END",
+    ]
+    plots = ["$front using 1:2 with lines linewidth 2.5 linecolor rgb '#999999' title 'the best front'"]
+    for place, family in enumerate(families):
+        commands += [f"$f{place} << END", *(f"{each['ms']!r} {each[error]!r}" for each in points
+                                            if each["family"] == family), "END"]
+        plots.append(f"$f{place} using 1:2 with points pointtype {MARKS[place % len(MARKS)]} pointsize 1.3 "
+                     f"linewidth 1.5 linecolor rgb '{charts.colour(place)}' "
+                     f"title {charts.quoted(accuracy_settings.FAMILIES[family])}")
+    best = [each for each in points if each["recommended"]]
+    if best:
+        commands += ["$best << END", *(f"{each['ms']!r} {each[error]!r}" for each in best), "END"]
+        plots.append("$best using 1:2 with points pointtype 6 pointsize 3 linewidth 2 linecolor rgb '#000000' "
+                     "title 'recommended'")
+    commands.append("plot " + ", ".join(plots))
+    return 640 + 20 * rows, commands
+
+
+def drawable(result):
+    """{name: chart}"""
+    if not result["points"]:
+        return {}
+    names = dict.fromkeys(point["device"] for point in result["points"])
+    return {chart_name(label, error): partial(chart, label=label, error=error)
+            for label in names for error in ERRORS}
