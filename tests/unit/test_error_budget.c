@@ -20,8 +20,9 @@ static void budget_is_kept(void **state) {
     for (int curve = 0; curve < 2; curve++) {
         HdErrorBudget budget = hd_error_budget((HdCurve)curve);
         double closest = 0.0;
-        for (double steps = 0.01; steps < 200.0; steps *= 1.7)
+        for (int trial = 0; trial < 19; trial++)
             for (int i = 0; i <= 20000; i++) {
+                double steps = 0.01 * pow(1.7, trial);
                 double v = i / 10000.0;
                 double missing = hd_error_budget_radiance(&budget, steps, v);
                 double off = 255.0 * (curves[curve](v + missing) - curves[curve](v));
