@@ -155,7 +155,7 @@ expect_sentence() {
 expect_refusal() {
     local expected=$1
     shift
-    expect_exit "$expected" timeout 20 "$@"
+    expect_exit "$expected" timeout "$patience" "$@"
     if ((code == expected)); then
         expect_sentence
         expect_stdout_lines 0
@@ -296,10 +296,13 @@ is_gone() {
     ! kill -0 "$1" 2>/dev/null
 }
 
-# expect_end CODE SECONDS: the program that was started ends in time and with this code.
+# Seconds after which a program is taken to hang: more than any of them takes on a slow and busy machine.
+patience=300
+
+# expect_end CODE: the program that was started ends by itself, with this code.
 expect_end() {
-    if ! wait_until "$2" is_gone "$pid"; then
-        fail "still running after $2 s"
+    if ! wait_until "$patience" is_gone "$pid"; then
+        fail "still running after $patience s"
         show_logs
         kill -KILL -- "-$pid" 2>/dev/null || true
     fi

@@ -111,7 +111,7 @@ fake_bench() {
     local expected=$1 mode=$2
     shift 2
     rm -rf "$FAKE_LOG" out
-    FAKE_MODE=$mode expect_exit "$expected" timeout 100 "$bench" --hedron fake/hedron --out out "$@"
+    FAKE_MODE=$mode expect_exit "$expected" timeout "$patience" "$bench" --hedron fake/hedron --out out "$@"
 }
 
 # ---- the arithmetic: the first frame of each run does not count
@@ -206,7 +206,7 @@ expect_bench_refusal() {
     local expected=$1 text=$2
     shift 2
     rm -rf out
-    expect_exit "$expected" timeout 20 "$bench" --out out "$@"
+    expect_exit "$expected" timeout "$patience" "$bench" --out out "$@"
     expect_stderr_contains "$text"
     expect_stdout_lines 0
 }
@@ -246,5 +246,5 @@ fi
 if has_opencl; then
     expect_stdout_contains 'are the same bytes'
 fi
-expect_exit 2 timeout 60 "$bench" --hedron "$hedron" --out out --device c --frames 5-3
+expect_exit 2 timeout "$patience" "$bench" --hedron "$hedron" --out out --device c --frames 5-3
 finish

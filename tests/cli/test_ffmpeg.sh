@@ -24,12 +24,12 @@ fake() {
 # expect_no_film CODE WHAT [WHAT_ELSE]: with the tools folder before everything else in PATH; the second
 # film may fail with other words.
 expect_no_film() {
-    expect_exit "$1" timeout 20 env PATH="$tools:$PATH" "${film[@]}" --size 32x24 --frames 0-2
+    expect_exit "$1" timeout "$patience" env PATH="$tools:$PATH" "${film[@]}" --size 32x24 --frames 0-2
     expect_stderr_contains 'hedron: '
     expect_stderr_contains "$2"
     expect_stdout_lines 0
     # More than the buffers on the way hold.
-    expect_exit "$1" timeout 20 env PATH="$tools:$PATH" "${film[@]}" --size 400x300 --frames 0-2
+    expect_exit "$1" timeout "$patience" env PATH="$tools:$PATH" "${film[@]}" --size 400x300 --frames 0-2
     expect_stderr_contains "${3:-$2}"
     expect_stdout_lines 0
     expect_files .
@@ -140,7 +140,7 @@ expect_different film.mp4 "$work/old.mp4"
 # A talkative FFmpeg does not bring everything to a halt.
 rm film.mp4
 fake ffmpeg "head -c 1000000 /dev/zero | tr '\\0' x >&2; exec \"$true_ffmpeg\" \"\$@\""
-expect_exit 0 timeout 20 env PATH="$tools:$PATH" "${film[@]}" --size 400x300 --frames 0-2
+expect_exit 0 timeout "$patience" env PATH="$tools:$PATH" "${film[@]}" --size 400x300 --frames 0-2
 expect_files . film.mp4
 
 finish

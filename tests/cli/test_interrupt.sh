@@ -6,17 +6,17 @@ set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# A hundred frames that take many seconds together, so that a signal comes in their midst.
-slow=(--quiet --size 240x180 --samples 1 --depth 4 --threads 1 --frames 0-99)
+# Frames that take a minute together, so that a signal comes in their midst.
+slow=(--quiet --size 240x180 --samples 2 --depth 4 --threads 1 --frames 0-239)
 use_official_input
 
 # Signals come when something shows that it is time for them, never after a fixed while.
 
-# wait_for WHAT COMMAND...: until the command succeeds, and at most 20 s.
+# wait_for WHAT COMMAND...: until the command succeeds, and no longer than the patience lasts.
 wait_for() {
     local what=$1
     shift
-    if ! wait_until 20 "$@"; then
+    if ! wait_until "$patience" "$@"; then
         fail "waited in vain for $what"
         show_logs
     fi
@@ -25,6 +25,12 @@ wait_for() {
 # send SIGNAL TARGET: where the target is gone already, the test would show nothing.
 send() {
     kill "-$1" -- "$2" 2>/dev/null || fail 'it was over before the signal'
+}
+
+ends_by_signals() {
+    sleep 0.6
+    kill -INT "$pid" 2>/dev/null || true
+    is_gone "$pid"
 }
 
 # The state of the program's main thread, as a letter, and the hundredths of a second it has computed.
@@ -60,8 +66,8 @@ expect_first_frames() {
         expect_data "$1/$i.data" 240 180
     done
     expect_files "$1" "${names[@]}"
-    if ((frames < 3 || frames >= 100)); then
-        fail "$frames frames were written, expected the first few of 100"
+    if ((frames < 3 || frames >= 240)); then
+        fail "$frames frames were written, expected the first few of 240"
     fi
 }
 
@@ -71,11 +77,11 @@ for signal in INT TERM; do
     start "$hedron" render --backend c "${slow[@]}" -o 'out/%d.data'
     wait_for 'the third frame' test -e out/2.data
     send "$signal" "$pid"
-    expect_end $((128 + number)) 10
+    expect_end $((128 + number))
     expect_sentence
     expect_stdout_lines 0
     expect_first_frames out
-    expect_stderr_contains "after $frames of 100"
+    expect_stderr_contains "after $frames of 240"
     rm -r out
 
     # The classic mode has a line for each frame that is there.
@@ -84,7 +90,7 @@ for signal in INT TERM; do
     wait_for 'the third frame' test -e out/2.data
     # As a terminal does it: to the whole group.
     send "$signal" "-$pid"
-    expect_end $((128 + number)) 10
+    expect_end $((128 + number))
     expect_sentence
     expect_first_frames out
     expect_stdout_lines "$frames" $'[0-9]+\t[0-9.]+\t[0-9]+'
@@ -111,7 +117,7 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
             # Twice at once, as 'timeout' does it.
             send "$signal" "-$pid"
             kill "-$signal" "$pid" 2>/dev/null || true
-            expect_end $((128 + $(kill -l "$signal"))) 10
+            expect_end $((128 + $(kill -l "$signal")))
             expect_sentence
             expect_stdout_lines 0
             expect_files . new
@@ -124,7 +130,7 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
     start "$hedron" render --backend c "${slow[@]}" -o film.mkv -o 'out/%d.data' --stats "$work/stats.jsonl"
     wait_for 'the third frame' test -e out/2.data
     send TERM "$pid"
-    expect_end 143 10
+    expect_end 143
     expect_sentence
     expect_first_frames out
     if (($(grep -c '^{.*}$' "$work/stats.jsonl") != frames || $(wc -l <"$work/stats.jsonl") != frames)); then
@@ -135,12 +141,12 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
 
     # An FFmpeg that stopped reading, or that does not come to its end, must not stop us from ending.
     for body in 'head -c 100000 >/dev/null' 'cat >/dev/null'; do
-        fake_ffmpeg "$body; : >'$work/reached'; exec sleep 60"
+        fake_ffmpeg "$body; : >'$work/reached'; exec sleep 3600"
         start env PATH="$work/tools:$PATH" "$hedron" render --backend c --size 400x300 --samples 1 --depth 0 \
             --frames 0-3 -o film.mp4
         wait_for 'FFmpeg to come to its point' test -e "$work/reached"
         send TERM "$pid"
-        expect_end 143 5
+        expect_end 143
         expect_files .
         rm -rf ./*
     done
@@ -156,12 +162,12 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
 
     # While ffprobe counts, it is an interrupt as well.
     fake_ffmpeg "exec '$ffmpeg' \"\$@\""
-    printf '#!%s\n%s\n' "$(command -v bash)" ": >'$work/reached'; exec sleep 60" >"$work/tools/ffprobe"
+    printf '#!%s\n%s\n' "$(command -v bash)" ": >'$work/reached'; exec sleep 3600" >"$work/tools/ffprobe"
     chmod +x "$work/tools/ffprobe"
     start env PATH="$work/tools:$PATH" "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o film.mkv
     wait_for 'ffprobe to count' test -e "$work/reached"
     send INT "$pid"
-    expect_end 130 5
+    expect_end 130
     expect_sentence
     expect_stderr_contains interrupted
     expect_files .
@@ -169,14 +175,13 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
 
     # A second signal, long enough after the first, ends the program at once whatever it waits for: here for
     # an FFmpeg that neither speaks nor ends. Nothing stays behind.
-    fake_ffmpeg "cat >/dev/null; echo \$\$ >'$work/leader'; exec >&- 2>&-; : >'$work/reached'; exec sleep 60"
+    fake_ffmpeg "cat >/dev/null; echo \$\$ >'$work/leader'; exec >&- 2>&-; : >'$work/reached'; exec sleep 3600"
     start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${small[@]}" --frames 0 -o film.mkv
     wait_for 'FFmpeg to fall silent' test -e "$work/reached"
-    sleep 0.6
     send INT "$pid"
-    sleep 0.6
-    send INT "$pid"
-    expect_end 130 3
+    # Again and again, for those that come too soon after the first are taken for the same one.
+    wait_for 'it to end' ends_by_signals
+    expect_end 130
     wait_for 'FFmpeg to be gone' is_gone "$(<"$work/leader")"
     expect_files .
     rm "$work/tools/ffmpeg"
@@ -191,7 +196,7 @@ for signal in INT TERM; do
     start "$hedron" --cpu <"$work/pipe" 9>&-
     wait_for 'it to wait for its input' waits
     send "$signal" "$pid"
-    expect_end $((128 + $(kill -l "$signal"))) 3
+    expect_end $((128 + $(kill -l "$signal")))
 done
 exec 9>&-
 
@@ -199,7 +204,7 @@ exec 9>&-
 start "$hedron" render --backend c "${small[@]}" --frames 0 -o picture.data --stats "$work/pipe"
 wait_for 'it to wait for a reader' waits
 send INT "$pid"
-expect_end 130 3
+expect_end 130
 expect_sentence
 
 # ---- while it waits for a reader of the statistics that does not read on
@@ -215,7 +220,7 @@ start "$hedron" render --quiet --backend c --size 16x12 --samples 1 --depth 0 --
 wait_for 'it to wait for the reader' test -e out/3.data
 wait_for 'it to wait for the reader' stands_still
 send INT "$pid"
-expect_end 130 3
+expect_end 130
 expect_sentence
 exec 9>&-
 if (($(find out -type f | wc -l) > 200)) || [[ -n $(find out -name '*.tmp-*') ]]; then
@@ -227,7 +232,7 @@ rm -r out
 start "$hedron" render --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
 wait_for 'it to compute' has_computed 30
 send INT "$pid"
-expect_end 130 3
+expect_end 130
 expect_sentence
 expect_stderr_contains 'interrupted after 0 of 1 frames'
 

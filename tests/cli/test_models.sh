@@ -10,7 +10,7 @@ model=$(realpath "$2")/hedron_model
 expect_model_refusal() {
     local expected=$1 what=$2
     shift 2
-    expect_exit "$expected" timeout 20 "$model" "$@"
+    expect_exit "$expected" timeout "$patience" "$model" "$@"
     expect_stdout_lines 0
     expect_stderr_contains "$what"
     if (($(grep -c -E '^hedron_model: .{10,}$' "$logs/stderr") != 1 || $(wc -l <"$logs/stderr") != 1)); then
@@ -137,9 +137,9 @@ if [[ $(cat old.obj) != old ]]; then
     fail "old.obj is not what it was"
 fi
 start "$model" soup 10000000 -o late.obj
-wait_until 20 compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
+wait_until "$patience" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
 kill -INT "$pid"
-expect_end 130 20
+expect_end 130
 expect_stderr_contains 'hedron_model: interrupted'
 expect_files . any.data any.json old.obj
 

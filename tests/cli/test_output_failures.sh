@@ -92,7 +92,7 @@ long=$(printf '%0252d' 0)
 : >blocked
 for name in "$long.png" "$long.mkv" "$long%d.pfm" blocked/picture.png; do
     if [[ $name != *.mkv ]] || { command -v ffmpeg && command -v ffprobe; } >"$logs/which"; then
-        run timeout 20 "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 \
+        run timeout "$patience" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 \
             -o "$name"
         if ((code != 1 && code != 2)); then
             fail "exit code $code, expected 1 or 2"

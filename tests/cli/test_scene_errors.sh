@@ -30,7 +30,7 @@ render=("$hedron" render --backend c --frames 0 -o picture.data)
 # refuse WHAT...: bad.json is refused, with each of these in the message, which begins with the file's name.
 refuse() {
     local what
-    expect_exit 2 timeout 20 "$hedron" check bad.json
+    expect_exit 2 timeout "$patience" "$hedron" check bad.json
     for what in "$@"; do
         expect_stderr_contains "$what"
     done
@@ -52,7 +52,7 @@ wrong() {
 # 'render' says the same as 'check' and makes no file.
 render_says_the_same() {
     cp "$logs/stderr" "$work/checked"
-    expect_exit 2 timeout 20 "${render[@]}" bad.json
+    expect_exit 2 timeout "$patience" "${render[@]}" bad.json
     expect_stdout_lines 0
     expect_same "$logs/stderr" "$work/checked"
 }

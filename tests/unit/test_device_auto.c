@@ -62,7 +62,7 @@ static void expect_chosen(const HdBackend *backend, const char *reason) {
 
 static void the_fastest_is_taken_and_remembered(void **state) {
     (void)state;
-    fake.slow_milliseconds = 200;
+    fake.slow_milliseconds = 400;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
     expect_contains(why, " ms (fake 0)");
     assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
@@ -76,7 +76,7 @@ static void order_decides_nothing(void **state) {
     (void)state;
     candidates[1] = candidates[0];
     candidates[1].index = 1;
-    fake.slow_milliseconds = 100;
+    fake.slow_milliseconds = 400;
     for (fake.slow_index = 0; fake.slow_index < 2; fake.slow_index++) {
         expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
         assert_int_equal(chosen.index, 1 - fake.slow_index);
@@ -92,7 +92,7 @@ static void expect_measured(bool is_measured) {
 
 static void scenes_and_devices_of_another_kind_are_measured(void **state) {
     (void)state;
-    fake.slow_milliseconds = 50;
+    fake.slow_milliseconds = 200;
     expect_measured(true);
     expect_measured(false);
     scene.exposure = 2.0;
@@ -174,7 +174,7 @@ static void what_fails_at_work_is_tried_again(void **state) {
 static void without_a_folder_it_is_measured_each_time(void **state) {
     (void)state;
     setenv("HEDRON_CACHE", "off", 1);
-    fake.slow_milliseconds = 100;
+    fake.slow_milliseconds = 400;
     for (int i = 1; i <= 2; i++) {
         expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
         assert_int_equal(fake.opened, i);
@@ -183,14 +183,14 @@ static void without_a_folder_it_is_measured_each_time(void **state) {
 
 /* ---- the estimate ---- */
 
+/* No machine is so slow or busy that less than what it really needs would be told: more than a
+   second for so many pixels on one thread, of which a few thousandths are measured. */
 static void the_estimate_scales_with_the_picture(void **state) {
     (void)state;
-    double small, large;
-    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &small, &error), HD_OK);
-    scene.width = scene.height = 4096;
-    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &large, &error), HD_OK);
-    assert_true(small > 0.0 && small < 1.0);
-    assert_true(large > 1000.0 * small);
+    double seconds;
+    scene.width = scene.height = 16384;
+    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &seconds, &error), HD_OK);
+    assert_true(seconds > 1.0);
 }
 
 /* It is measured with the meshes, so that their triangles count. */

@@ -7,7 +7,7 @@
 #include "interrupt.h"
 #include "test_folder.h"
 
-enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100, PATIENCE_SECONDS = 60 };
+enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100, PATIENCE_SECONDS = 600 };
 
 static HdError error;
 

@@ -10,7 +10,7 @@
 #include "stages.h"
 
 /* A stage that waits for another one for ever fails by this. */
-enum { ITEMS = 200, ROOM = 7, PATIENCE_SECONDS = 60 };
+enum { ITEMS = 200, ROOM = 7, PATIENCE_SECONDS = 600 };
 
 typedef struct Probe {
     HdStages *stages;
