@@ -314,6 +314,18 @@ expect_end() {
     fi
 }
 
+works() {
+    pgrep -P "$pid" -f '^[^ ]*hedron(_[a-z_]+ | render )' >/dev/null || is_gone "$pid"
+}
+
+# interrupt_at_work BENCH...: Ctrl-C while a program that it measures runs.
+interrupt_at_work() {
+    start "$@"
+    wait_until "$patience" works || fail 'it measures nothing'
+    kill -INT -- "-$pid" 2>/dev/null || fail 'it was over before the signal'
+    expect_end 130
+}
+
 # expect_python EXPECTED STATEMENTS...: what they print.
 expect_python() {
     local expected=$1 found

@@ -152,7 +152,7 @@ if command -v gnuplot >"$logs/which"; then
 fi
 
 # ---- Ctrl-C leaves what was measured
-expect_exit 130 timeout --preserve-status -s INT 1 "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 

@@ -129,7 +129,7 @@ if [[ ! -s out/speed.md ]]; then
 fi
 
 # ---- Ctrl-C leaves what was measured
-expect_exit 130 timeout --preserve-status -s INT 2 "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value '[false, true]' '[r["complete"], all(row["reason"] for row in r["rows"] if row["key"] == "pairs")]'
 

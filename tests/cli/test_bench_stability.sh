@@ -157,7 +157,7 @@ expect_exit 1 "$bench" --hedron alone/hedron --out out --parts sums
 expect_stdout_contains 'alone/bench/hedron_stability_methods: ./dev build builds it'
 
 # ---- Ctrl-C leaves what was measured
-expect_exit 130 timeout --preserve-status -s INT 1 "$bench" --hedron "$hedron" --out out
+interrupt_at_work "$bench" --hedron "$hedron" --out out
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 

@@ -139,7 +139,7 @@ expect_stdout_contains 'alone/tests/leak_hunt/hedron_leak_hunt: ./dev build buil
 expect_value true 'all(row["reason"] for row in r["rows"])'
 
 # ---- Ctrl-C leaves what was measured
-expect_exit 130 timeout --preserve-status -s INT 1 "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 
