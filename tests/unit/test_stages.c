@@ -76,12 +76,15 @@ static void list_stages(HdStage list[4], Probe probes[4]) {
     list[3] = stage_of(&probes[3], 7);
 }
 
+static const HdTaker anybody = {.wants = NULL};
+
 /* Gives items until all are given or one failed; returns how many. */
-static int give_items(HdStages *stages, const Probe *last, int room, int count) {
-    int given = 0;
-    while (given < count && hd_stages_wait(stages)) {
-        assert_true(given - atomic_load(&last->ended) < room);
-        hd_stages_give(stages);
+static int give_items(HdStages *stages, const Probe *last, int room) {
+    int given = 0, item;
+    while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
+        assert_int_equal(item, given);
+        assert_true(item - atomic_load(&last->ended) < room);
+        hd_stages_give(stages, item);
         given++;
     }
     return given;
@@ -99,8 +102,8 @@ static void run_all(int room) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, room, &error), HD_OK);
-    assert_int_equal(give_items(stages, &probes[3], room, ITEMS), ITEMS);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, room, &error), HD_OK);
+    assert_int_equal(give_items(stages, &probes[3], room), ITEMS);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     for (int i = 0; i < 4; i++) {
         assert_int_equal(first_not_done(&probes[i]), ITEMS);
@@ -123,7 +126,7 @@ static void no_items_are_no_work(void **state) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     assert_int_equal(probes[0].begun, 0);
 }
@@ -140,9 +143,10 @@ static void a_failure_leaves_the_items_before_it(void **state) {
         HdStages *stages;
         list_stages(list, probes);
         probes[stage].fails_at = item;
-        assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
-        assert_true(give_items(stages, &probes[3], ROOM, ITEMS) <= item + ROOM);
-        assert_false(hd_stages_wait(stages));
+        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+        assert_true(give_items(stages, &probes[3], ROOM) <= item + ROOM);
+        assert_false(hd_stages_wait(stages, item));
+        assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
         assert_int_equal(hd_stages_end(stages, &error), HD_FAILED);
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
@@ -162,8 +166,8 @@ static void the_first_item_that_failed_counts(void **state) {
     list_stages(list, probes);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
-    give_items(stages, &probes[3], ROOM, ITEMS);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+    give_items(stages, &probes[3], ROOM);
     assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "item 3 failed");
     assert_int_equal(first_not_done(&probes[3]), 3);
@@ -186,10 +190,10 @@ static void threads_of_a_stage_work_side_by_side(void **state) {
     (void)state;
     const HdStage stage = {.work = gather, .threads = 3};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, 3, &error), HD_OK);
     for (int i = 0; i < 3; i++) {
-        assert_true(hd_stages_wait(stages));
-        hd_stages_give(stages);
+        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
+        hd_stages_give(stages, i);
     }
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
 }
@@ -209,10 +213,10 @@ static void giving_overlaps_with_the_work(void **state) {
     atomic_int given = 0;
     const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 2, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, 2, &error), HD_OK);
     for (int i = 0; i < 20; i++) {
-        assert_true(hd_stages_wait(stages));
-        hd_stages_give(stages);
+        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
+        hd_stages_give(stages, i);
         atomic_fetch_add(&given, 1);
     }
     atomic_fetch_add(&given, 1);
