@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
 
@@ -28,6 +30,7 @@ static HdFrameList frames;
 static int makers[FRAMES]; /* who traced the frame; -1: it was not stored */
 static int dropped_ones[MOST_FAILURES];
 static char dropped_why[512];
+static int the_cpu; /* which device is one; the others are GPUs */
 
 typedef bool Happened(void);
 
@@ -85,6 +88,7 @@ static int begin(void **state) {
     memset(&fake, 0, sizeof fake);
     memset(history.events, 0, sizeof history.events);
     history.failed = history.dropped = history.stored = 0;
+    the_cpu = -1;
     script = NULL;
     fake.event = follow_script;
     for (int i = 0; i < FRAMES; i++) {
@@ -131,6 +135,7 @@ static HdStatus render(const char *output, int count) {
     for (int i = 0; i < count; i++) {
         HdDevice device = fake_device();
         device.index = i;
+        device.is_cpu = i == the_cpu;
         assert_int_equal(hd_renderer_open(&renderers[i], &device, &options, &error), HD_OK);
     }
     HdStatus status = hd_sequence_render(&sequence, &error);
@@ -242,6 +247,29 @@ static void a_fast_device_does_not_wait_for_a_slow_one(void **state) {
     expect_first_frames(FRAMES);
 }
 
+static bool second_collects(void) {
+    return history.events[1][FAKE_COLLECT] > 0;
+}
+
+/* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
+ */
+static HdStatus await_estimate(FakePoint point, int index, int count, HdError *failure) {
+    (void)failure;
+    if (point == FAKE_COLLECT && index == 0 && count == 1)
+        wait_until(second_collects);
+    return HD_OK;
+}
+
+static void a_cpu_beside_gpus_estimates_its_pace(void **state) {
+    (void)state;
+    the_cpu = 1;
+    script = await_estimate;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    assert_int_equal(history.dropped, 0);
+    expect_first_frames(FRAMES);
+}
+
 /* ---- a device that fails ---- */
 
 static FakePoint failing_point;
@@ -284,10 +312,6 @@ static void others_trace_what_a_failed_device_had(void **state) {
         end(NULL);
     }
     begin(NULL);
-}
-
-static bool second_collects(void) {
-    return history.events[1][FAKE_COLLECT] > 0;
 }
 
 static bool first_has_the_rest(void) {
@@ -432,6 +456,54 @@ static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
     assert_int_equal(count_entries("run"), 6);
 }
 
+/* ---- the system refuses threads ---- */
+
+static int threads_allowed = -1; /* negative: any number */
+static int threads_refused;
+
+/* In place of the system's. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
+                   void *argument) {
+    typedef int Create(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+    Create *create;
+    void *symbol = dlsym(RTLD_NEXT, "pthread_create");
+    memcpy(&create, &symbol, sizeof create);
+    if (threads_allowed == 0) {
+        threads_refused++;
+        return EAGAIN;
+    }
+    if (threads_allowed > 0)
+        threads_allowed--;
+    return create(thread, attributes, start, argument);
+}
+
+/* With fewer and fewer threads: first devices are missed, then all of them, then the store's. */
+static void devices_without_a_thread_are_dropped(void **state) {
+    (void)state;
+    enum { ENOUGH = 1000 };
+    threads_allowed = ENOUGH;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    const int needed = ENOUGH - threads_allowed;
+    for (int missing = 1; missing <= 3; missing++) {
+        end(NULL);
+        begin(NULL);
+        threads_allowed = needed - missing;
+        threads_refused = 0;
+        HdStatus status = render("run/%d.data", 2);
+        threads_allowed = -1;
+        assert_int_equal(status, missing == 1 ? HD_OK : HD_FAILED);
+        assert_int_equal(history.dropped, missing < 3 ? 1 : 0);
+        if (missing < 3)
+            expect_contains(dropped_why, "cannot start a thread for the device: ");
+        if (missing == 1)
+            expect_first_frames(FRAMES);
+        if (missing == 2)
+            expect_contains(error.message, "no device is left, for the last one failed: ");
+        if (missing == 3)
+            expect_contains(error.message, "for the outputs: ");
+    }
+}
+
 /* ---- a signal, which the program remembers for ever ---- */
 
 static bool is_signalled(void) {
@@ -467,6 +539,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(devices_share_the_frames, begin, end),
         cmocka_unit_test_setup_teardown(surveyed_frames_are_shared_too, begin, end),
         cmocka_unit_test_setup_teardown(a_fast_device_does_not_wait_for_a_slow_one, begin, end),
+        cmocka_unit_test_setup_teardown(a_cpu_beside_gpus_estimates_its_pace, begin, end),
         cmocka_unit_test_setup_teardown(others_trace_what_a_failed_device_had, begin, end),
         cmocka_unit_test_setup_teardown(a_device_that_has_done_its_part_is_still_there, begin, end),
         cmocka_unit_test_setup_teardown(all_devices_failing_is_an_error, begin, end),
@@ -475,6 +548,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(frames_before_one_that_cannot_be_are_made, begin, end),
         cmocka_unit_test_setup_teardown(a_picture_that_cannot_be_stored_ends_it_for_all, begin,
                                         end),
+        cmocka_unit_test_setup_teardown(devices_without_a_thread_are_dropped, begin, end),
         cmocka_unit_test_setup_teardown(a_signal_ends_it_for_all, begin, end),
     };
     hd_interrupt_install();
