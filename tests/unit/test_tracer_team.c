@@ -8,11 +8,12 @@
 #include "camera.h"
 #include "fake_backend.h"
 #include "interrupt.h"
+#include "processors.h"
 #include "self_test_scenes.h"
 #include "sequence.h"
 #include "test_folder.h"
 
-enum { DEVICES = 3, FRAMES = 24, PATIENCE_SECONDS = 600, POINTS = 4, MOST_FAILURES = DEVICES };
+enum { DEVICES = 3, FRAMES = 48, PATIENCE_SECONDS = 600, POINTS = 4, MOST_FAILURES = DEVICES };
 
 /* What happened so far. Devices that must take part wait for each other here. */
 static struct {
@@ -337,6 +338,35 @@ static void a_device_that_has_done_its_part_is_still_there(void **state) {
     expect_first_frames(8);
 }
 
+/* What the store has room for beside the second device's first frame. */
+static int room_beside(void) {
+    enum { MOST_ENCODERS = 16, SPARE = 12 };
+    int processors = hd_processor_count();
+    return (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE - 1;
+}
+
+static bool store_is_full(void) {
+    return history.events[0][FAKE_COLLECT] == room_beside();
+}
+
+static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *failure) {
+    if (point != FAKE_COLLECT || count > 1)
+        return HD_OK;
+    wait_until(index == 0 ? second_collects : store_is_full);
+    return index == 0 ? HD_OK : fail_here(failure);
+}
+
+/* A device must not hold a later frame that waits for the one that it is to make now. */
+static void a_failure_while_the_store_is_full_stops_nobody(void **state) {
+    (void)state;
+    script = fail_when_full;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    assert_int_equal(history.dropped, 1);
+    assert_int_equal(count_made_by(0), FRAMES);
+    expect_first_frames(FRAMES);
+}
+
 /* The others go on first. */
 static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *failure) {
     if (point != failing_point || count < failing_count)
@@ -542,6 +572,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_cpu_beside_gpus_estimates_its_pace, begin, end),
         cmocka_unit_test_setup_teardown(others_trace_what_a_failed_device_had, begin, end),
         cmocka_unit_test_setup_teardown(a_device_that_has_done_its_part_is_still_there, begin, end),
+        cmocka_unit_test_setup_teardown(a_failure_while_the_store_is_full_stops_nobody, begin, end),
         cmocka_unit_test_setup_teardown(all_devices_failing_is_an_error, begin, end),
         cmocka_unit_test_setup_teardown(a_device_alone_that_fails_is_an_error, begin, end),
         cmocka_unit_test_setup_teardown(a_frame_that_cannot_be_ends_it_for_all, begin, end),
