@@ -21,6 +21,7 @@ struct HdRenderer {
     HdDevice device;
     HdRenderOptions options;
     bool has_scene;
+    bool has_failed;
     int in_flight;
     struct {
         int width, height, floats;
@@ -86,6 +87,13 @@ static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError 
     if (status != HD_OK)
         hd_error_prefix(error, backend->name);
     return status;
+}
+
+/* And that it is not the fault of what was asked for. */
+static HdStatus note_failure(HdRenderer *renderer, HdStatus status, HdError *error) {
+    if (status != HD_OK && status != HD_INTERRUPTED)
+        renderer->has_failed = true;
+    return name_backend(renderer->backend, status, error);
 }
 
 HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
@@ -206,7 +214,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     if (status == HD_OK)
         status = test_new_kernels(renderer, tables, error);
     renderer->has_scene = status == HD_OK;
-    return name_backend(renderer->backend, status, error);
+    return note_failure(renderer, status, error);
 }
 
 /* Kernels count work items and the values of a picture in int, whole blocks at a time. */
@@ -258,7 +266,7 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
         return status;
     status = renderer->backend->submit(renderer->state, tables, wish, error);
     if (status != HD_OK)
-        return name_backend(renderer->backend, status, error);
+        return note_failure(renderer, status, error);
     int place = renderer->in_flight++;
     renderer->flights[place].width = tables->width;
     renderer->flights[place].height = tables->height;
@@ -279,7 +287,11 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
         renderer->flights[i] = renderer->flights[i + 1];
-    return name_backend(renderer->backend, status, error);
+    return note_failure(renderer, status, error);
+}
+
+bool hd_renderer_has_failed(const HdRenderer *renderer) {
+    return renderer->has_failed;
 }
 
 void hd_renderer_drop(HdRenderer *renderer) {
@@ -305,7 +317,11 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
     if (status != HD_OK)
         return status;
     status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
-    return name_backend(renderer->backend, status, error);
+    return note_failure(renderer, status, error);
+}
+
+const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
+    return &renderer->device;
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {

@@ -165,6 +165,10 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
    (interrupt.h). */
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
 
+/* Whether the backend failed in any of the functions above: that another device may do better,
+   while other errors are due to what was asked for. */
+bool hd_renderer_has_failed(const HdRenderer *renderer);
+
 /* Waits until the device is done with the frames under way, and forgets them. */
 void hd_renderer_drop(HdRenderer *renderer);
 
@@ -175,6 +179,9 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
 /* The same with a backend's own renderer, whose arguments were checked. */
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error);
+
+/* Lives as long as the renderer. */
+const HdDevice *hd_renderer_device(const HdRenderer *renderer);
 
 /* How many lanes the renderer's kernels have: what scenes are compiled for. */
 int hd_renderer_lanes(const HdRenderer *renderer);

@@ -270,12 +270,19 @@ static HdStatus open_wanted(Search *search, HdRenderer **renderer, HdDevice *dev
                                        : open_any(search, renderer, device, job, reason, error);
 }
 
+bool hd_wish_is_for_several(const HdDeviceWish *wish) {
+    return wish->device != NULL &&
+           (strcmp(wish->device, "all") == 0 || strchr(wish->device, ',') != NULL);
+}
+
 HdStatus hd_open_device(HdRenderer **renderer, HdDevice *device, const HdDeviceWish *wish,
                         const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
                         HdError *error) {
     HdDeviceWish split = *wish;
     *renderer = NULL;
     reason->note[0] = reason->why[0] = '\0';
+    if (hd_wish_is_for_several(wish))
+        return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected one device", wish->device);
     HdStatus status = split_name(&split, error);
     if (status != HD_OK)
         return status;

@@ -17,6 +17,9 @@ typedef struct HdDeviceWish {
     HdDeviceKind kind;
 } HdDeviceWish;
 
+/* Whether the device is "all" or a list (device_team.h). */
+bool hd_wish_is_for_several(const HdDeviceWish *wish);
+
 typedef struct HdDeviceReason {
     char note[4096]; /* worth telling unasked; empty: nothing is */
     char why[8192];  /* why this device, and why others were passed over */
@@ -30,7 +33,7 @@ typedef struct HdDeviceReason {
    plain C does in less than HD_AUTO_SMALL_SECONDS is its own unless a GPU is preferred; no
    driver is asked then. Where a GPU was preferred, no backend was named and there is none, the
    reason has a note that says so in a sentence. HD_UNAVAILABLE with every reason where nothing
-   fits. */
+   fits; HD_BAD_INPUT where several devices are asked for. */
 HdStatus hd_open_device(HdRenderer **renderer, HdDevice *device, const HdDeviceWish *wish,
                         const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
                         HdError *error);

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "backend.h"
 #include "clock.h"
 #include "parcel.h"
 #include "processors.h"
@@ -13,12 +14,15 @@ enum {
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
     /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
-    SPARE_FRAMES = 4
+    SPARE_FRAMES = 4,
+    /* For each tracer beside the first: frames that others finish before it has finished one. */
+    FRAMES_OF_A_TRACER = 8
 };
-static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way */
+static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for each tracer */
 
 typedef struct Place {
     HdParcel *parcel;
+    int tracer;
     HdFrameTimes times;
     HdSpan films[HD_MAX_OUTPUTS]; /* by output */
 } Place;
@@ -33,7 +37,6 @@ struct HdFrameStore {
     HdStages *stages;
     Place *places; /* a frame's is its place in the list modulo their number */
     int place_count;
-    int given;
     int stored;
     Film films[HD_MAX_OUTPUTS];
     HdStage list[HD_MAX_STAGES];
@@ -114,6 +117,7 @@ static HdStatus publish(void *context, int item, HdError *error) {
     place->times.film = span_of_films(store, place);
     HdStoredFrame stored = {
         .number = store->plan.frames->frames[item],
+        .tracer = place->tracer,
         .done = item + 1,
         .frame = hd_parcel_frame(place->parcel),
         .times = place->times,
@@ -147,6 +151,11 @@ static int least(int a, int b) {
     return a < b ? a : b;
 }
 
+/* More than there are for the encoders. */
+static int spare_count(const HdFrameStorePlan *plan) {
+    return SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->tracers - 1);
+}
+
 /* Where tracing has all processors too, they share them; elsewhere none of them idles. */
 static int encoder_count(const HdFrameStorePlan *plan) {
     bool has_pictures =
@@ -166,8 +175,9 @@ static void list_stages(HdFrameStore *store) {
 }
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    int wanted = least(encoder_count(plan) + SPARE_FRAMES, plan->frames->count);
-    size_t fitting = MAX_BYTES / hd_parcel_bytes(plan->outputs, plan->width, plan->height);
+    int wanted = least(encoder_count(plan) + spare_count(plan), plan->frames->count);
+    size_t fitting = MAX_BYTES * (size_t)plan->tracers /
+                     hd_parcel_bytes(plan->outputs, plan->width, plan->height);
     if (fitting < 1)
         return 1;
     return fitting < (size_t)wanted ? (int)fitting : wanted;
@@ -203,7 +213,7 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     HdStatus status = create_places(store, error);
     if (status == HD_OK)
         status = hd_stages_start(&store->stages, store->list, store->stage_count,
-                                 store->place_count, error);
+                                 plan->frames->count, store->place_count, error);
     if (status == HD_OK)
         *out = store;
     else
@@ -211,19 +221,49 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     return status;
 }
 
-HdFrame *hd_frame_store_next(HdFrameStore *store, HdFrameTimes **times) {
-    static const HdSpan nothing = {.began = -1.0};
-    if (!hd_stages_wait(store->stages))
-        return NULL;
-    Place *place = place_of(store, store->given);
-    place->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing};
-    *times = &place->times;
-    return hd_parcel_frame(place->parcel);
+/* A tracer alone begins frames before there is room for them. One of several may be given an
+   earlier frame than those it has begun, which others wait for: it begins what it can finish. */
+int hd_frame_store_take(HdFrameStore *store, bool (*wants)(void *context, int left), void *context,
+                        bool waits) {
+    const HdTaker taker = {
+        .wants = wants,
+        .context = context,
+        .ahead = store->plan.tracers == 1 ? HD_FRAMES_IN_FLIGHT : 0,
+    };
+    return hd_stages_take(store->stages, &taker, waits);
 }
 
-void hd_frame_store_give(HdFrameStore *store) {
-    store->given++;
-    hd_stages_give(store->stages);
+bool hd_frame_store_wait(HdFrameStore *store, int place) {
+    return hd_stages_wait(store->stages, place);
+}
+
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **times) {
+    static const HdSpan nothing = {.began = -1.0};
+    Place *found = place_of(store, place);
+    found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing};
+    *times = &found->times;
+    return hd_parcel_frame(found->parcel);
+}
+
+void hd_frame_store_give(HdFrameStore *store, int place, int tracer) {
+    place_of(store, place)->tracer = tracer;
+    hd_stages_give(store->stages, place);
+}
+
+void hd_frame_store_give_back(HdFrameStore *store, int place) {
+    hd_stages_give_back(store->stages, place);
+}
+
+void hd_frame_store_ask_again(HdFrameStore *store) {
+    hd_stages_ask_again(store->stages);
+}
+
+void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error) {
+    hd_stages_fail(store->stages, place, error);
+}
+
+void hd_frame_store_stop(HdFrameStore *store) {
+    hd_stages_stop(store->stages);
 }
 
 HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error) {

@@ -4,6 +4,8 @@
 #ifndef HD_FRAME_STORE_H
 #define HD_FRAME_STORE_H
 
+#include <stdbool.h>
+
 #include "frame.h"
 #include "frame_list.h"
 #include "outputs.h"
@@ -27,7 +29,8 @@ typedef struct HdFrameTimes {
 /* What is known once a frame is stored. */
 typedef struct HdStoredFrame {
     int number;
-    int done; /* frames stored so far, this one included */
+    int tracer; /* who traced it */
+    int done;   /* frames stored so far, this one included */
     const HdFrame *frame;
     HdFrameTimes times;
 } HdStoredFrame;
@@ -36,6 +39,7 @@ typedef struct HdFrameStorePlan {
     HdOutputs *outputs;
     const HdFrameList *frames;
     int width, height;
+    int tracers;  /* how many trace frames, 1 or more */
     double start; /* of the run, by hd_monotonic_seconds */
     /* Called after each frame is stored, in their order, on a thread of the store. Must return
        HD_OK to go on. */
@@ -48,16 +52,37 @@ typedef struct HdFrameStore HdFrameStore;
 /* What the plan points to must live on. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
-/* Waits for room for the next frame of the list, which the caller then fills, its times up to
-   `copy` included. NULL after a failure: then no more frames are wanted. */
-HdFrame *hd_frame_store_next(HdFrameStore *store, HdFrameTimes **times);
+/* Takes the first frame of the list that nobody has traced or is tracing: its place in the list.
+   The caller must give it, or give it back. `wants` says whether a tracer wants one (HdTaker);
+   NULL: it does. Negative where there is none for it now; with `waits`, where there will be none.
+ */
+int hd_frame_store_take(HdFrameStore *store, bool (*wants)(void *context, int left), void *context,
+                        bool waits);
 
-/* Takes the frame that was filled. */
-void hd_frame_store_give(HdFrameStore *store);
+/* Waits for room for a frame that was taken. False where it is not wanted any more. */
+bool hd_frame_store_wait(HdFrameStore *store, int place);
 
-/* Waits until the frames are stored that were given, those after one that failed excepted; frees
-   `store`. Tells how many were stored: they are the first ones, and no later one has left
-   pictures. */
+/* A frame that has room, to be filled by who took it, its times up to `copy` included. */
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **times);
+
+/* Gives a frame to the store that was filled. */
+void hd_frame_store_give(HdFrameStore *store, int place, int tracer);
+
+/* Gives a frame back that was taken and cannot be traced, so that another tracer takes it. */
+void hd_frame_store_give_back(HdFrameStore *store, int place);
+
+/* Asks tracers that wait whether they want a frame now. */
+void hd_frame_store_ask_again(HdFrameStore *store);
+
+/* A frame that was taken cannot be had: the error of the whole run, if no earlier one fails. */
+void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error);
+
+/* No tracer gets another frame. */
+void hd_frame_store_stop(HdFrameStore *store);
+
+/* Waits until the frames are stored that were given, those after one that failed or was not given
+   excepted; frees `store`. Tells how many were stored: they are the first ones, and no later one
+   has left pictures. */
 HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error);
 
 #endif

@@ -58,7 +58,11 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "render only so many pixels from column X and row Y on"},
     {HD_OPTION_BACKEND, "--backend", NULL, "NAME", "auto c opencl cuda", false, 0, 0, MEASURING,
      "auto, c, opencl or cuda (default auto: the best one found)"},
-    {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, MEASURING,
+    {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, RENDERING,
+     "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
+     "several "
+     "that share the frames: all, or a list such as cuda:0,cuda:1,c:0"},
+    {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, HD_COMMAND_TUNE,
      "number of the device as listed by 'hedron devices', also as c:0, or part of its name"},
     {HD_OPTION_LANES, "--lanes", NULL, "N", "1 4 8 16", false, 0, 0, MEASURING,
      "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)"},

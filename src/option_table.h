@@ -59,7 +59,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 39 };
+enum { HD_OPTION_SPEC_COUNT = 40 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

@@ -2,41 +2,67 @@
 #define _POSIX_C_SOURCE 200809L
 #include "rendering.h"
 
+#include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
+#include "device_team.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
 #include "statistics.h"
+
+enum { RENDERER_LINE = 512 };
 
 typedef struct Run {
     const HdRendering *rendering;
     const HdOptions *options;
     HdProgress progress;
     HdStatistics statistics; /* stream NULL: not wanted */
-    HdDevice device;
-    HdRenderer *renderer;
-    char renderer_line[512];
-    uint64_t rays;  /* of all frames so far */
-    double missing; /* steps of 255 at most, of the worst frame so far */
+    HdDeviceTeam team;
+    char (*renderer_lines)[RENDERER_LINE]; /* of each device */
+    pthread_mutex_t telling;               /* one thread at a time; of the progress too */
+    int done;                              /* frames so far */
+    uint64_t rays;                         /* of all frames so far */
+    double missing;                        /* steps of 255 at most, of the worst frame so far */
 } Run;
 
-static void scene_uploaded(void *context, const HdSceneTables *tables) {
+static void scene_uploaded(void *context, int number, const HdSceneTables *tables) {
     Run *run = context;
-    hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
-    if (run->options->verbose)
-        hd_note_renderer(&run->device, run->renderer_line, hd_renderer_kernels_note(run->renderer),
-                         tables);
-    hd_progress_update(&run->progress, 0);
+    HdRenderer *renderer = run->team.renderers[number];
+    hd_renderer_describe(renderer, run->renderer_lines[number], RENDERER_LINE);
+    pthread_mutex_lock(&run->telling);
+    if (run->options->verbose) {
+        hd_progress_end(&run->progress);
+        hd_note_renderer(&run->team.devices[number], run->renderer_lines[number],
+                         hd_renderer_kernels_note(renderer), tables);
+    }
+    hd_progress_update(&run->progress, run->done);
+    pthread_mutex_unlock(&run->telling);
+}
+
+static void device_dropped(void *context, int number, const HdError *error) {
+    Run *run = context;
+    pthread_mutex_lock(&run->telling);
+    hd_progress_end(&run->progress);
+    hd_note_dropped(&run->team.devices[number], error->message);
+    pthread_mutex_unlock(&run->telling);
+}
+
+static void tell_progress(Run *run, int done) {
+    pthread_mutex_lock(&run->telling);
+    run->done = done;
+    hd_progress_update(&run->progress, done);
+    pthread_mutex_unlock(&run->telling);
 }
 
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
     Run *run = context;
     HdRunFacts facts = {
         .scene = run->rendering->scene,
-        .device = &run->device,
-        .renderer = run->renderer_line,
+        .device = &run->team.devices[stored->tracer],
+        .renderer = run->renderer_lines[stored->tracer],
     };
     HdStatus status = HD_OK;
     if (run->rendering->stored != NULL)
@@ -47,18 +73,18 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
     if (status == HD_OK)
-        hd_progress_update(&run->progress, stored->done);
+        tell_progress(run, stored->done);
     return status;
 }
 
-static void note_device(const Run *run, const char *why) {
+static void note_device(const Run *run, const HdDevice *device, const char *why) {
     HdLaunch launch;
-    hd_note_device(&run->device, why);
-    if (hd_launch_recall(&launch, &run->device, &run->options->render, run->rendering->scene))
+    hd_note_device(device, why);
+    if (hd_launch_recall(&launch, device, &run->options->render, run->rendering->scene))
         hd_note_launch(&launch);
 }
 
-static HdStatus open_device(Run *run, HdError *error) {
+static HdStatus open_devices(Run *run, HdError *error) {
     const HdOptions *options = run->options;
     HdDeviceReason reason;
     HdDeviceWish wish = {
@@ -75,8 +101,7 @@ static HdStatus open_device(Run *run, HdError *error) {
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
         hd_progress_prepare(&run->progress, "preparing the device");
-    HdStatus status =
-        hd_open_device(&run->renderer, &run->device, &wish, &options->render, &job, &reason, error);
+    HdStatus status = hd_open_devices(&run->team, &wish, &options->render, &job, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after 0 of %d frames", job.frame_count);
@@ -84,8 +109,8 @@ static HdStatus open_device(Run *run, HdError *error) {
         return status;
     if (reason.note[0] != '\0' && !options->quiet)
         fprintf(stderr, "hedron: %s\n", reason.note);
-    if (options->verbose)
-        note_device(run, reason.why);
+    for (int i = 0; i < run->team.count && options->verbose; i++)
+        note_device(run, &run->team.devices[i], reason.why);
     return HD_OK;
 }
 
@@ -98,6 +123,13 @@ static void announce_interrupt(const Run *run) {
                               : "hedron: stopping; press Ctrl-C again to stop now\n");
 }
 
+static HdStatus prepare_to_tell(Run *run, HdError *error) {
+    run->renderer_lines = calloc((size_t)run->team.count, sizeof *run->renderer_lines);
+    if (run->renderer_lines == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to tell of the devices");
+    return HD_OK;
+}
+
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
@@ -105,14 +137,17 @@ static HdStatus render_all(Run *run, HdError *error) {
         .frames = rendering->frames,
         .precision = run->options->render.precision,
         .outputs = &rendering->outputs,
+        .renderers = run->team.renderers,
+        .renderer_count = run->team.count,
         .uploaded = scene_uploaded,
+        .dropped = device_dropped,
         .stored = frame_stored,
         .context = run,
     };
-    if (run->device.backend != &hd_backend_c && !run->options->verbose)
+    if (run->team.devices[0].backend != &hd_backend_c && !run->options->verbose)
         hd_progress_prepare(&run->progress, "building kernels");
     announce_interrupt(run);
-    HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
+    HdStatus status = hd_sequence_render(&sequence, error);
     hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
     if (status == HD_OK)
@@ -129,21 +164,24 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
         rendering->frames->count);
-    HdStatus status = open_device(run, error);
+    HdStatus status = open_devices(run, error);
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
+    if (status == HD_OK)
+        status = prepare_to_tell(run, error);
     if (status == HD_OK)
         status = render_all(run, error);
     if (run->statistics.stream != NULL) {
         HdStatus closed = hd_statistics_close(&run->statistics, status == HD_OK ? error : &ignored);
         status = status == HD_OK ? closed : status;
     }
-    hd_renderer_close(run->renderer);
+    hd_close_devices(&run->team);
+    free(run->renderer_lines);
     return status;
 }
 
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
-    Run run = {.rendering = rendering, .options = options};
+    Run run = {.rendering = rendering, .options = options, .telling = PTHREAD_MUTEX_INITIALIZER};
     const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
     HdStatus status = hd_outputs_check(&rendering->outputs, rendering->frames->count, error);
     if (status == HD_OK && options->statistics != NULL)

@@ -19,7 +19,7 @@ typedef struct HdRendering {
 } HdRendering;
 
 /* Renders the frames and stores them. The outputs are checked against the number of frames first,
-   then a device is chosen by the options and `device_kind` and opened. Progress goes to standard
+   then devices are chosen by the options and `device_kind` and opened. Progress goes to standard
    error, and so does a sentence if a GPU was preferred and none was found, and what --verbose asks
    for; with --quiet nothing does. */
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error);

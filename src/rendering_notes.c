@@ -81,6 +81,12 @@ void hd_note_renderer(const HdDevice *device, const char *renderer, const char *
         fprintf(stderr, "build     %s\n", kernels);
 }
 
+void hd_note_dropped(const HdDevice *device, const char *why) {
+    fprintf(stderr,
+            "hedron: %s:%d (%s) failed, so other devices trace its frames from here on: %s\n",
+            device->backend->name, device->index, device->name, why);
+}
+
 void hd_note_missing(const HdScene *scene, double missing) {
     if (scene->max_error > 0.0 && missing > scene->max_error)
         fprintf(stderr,

@@ -18,6 +18,9 @@ void hd_note_launch(const HdLaunch *launch);
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
                       const HdSceneTables *tables);
 
+/* A device is left out of the rest of a run. Told even where nothing else is. */
+void hd_note_dropped(const HdDevice *device, const char *why);
+
 /* Where more may be missing from a picture than the scene allows. `missing`: in steps of 255. */
 void hd_note_missing(const HdScene *scene, double missing);
 

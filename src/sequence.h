@@ -8,24 +8,31 @@
 #include "frame_store.h"
 #include "outputs.h"
 #include "scene.h"
+#include "tracer_pace.h"
 
 typedef struct HdSequence {
     const HdScene *scene;
     const HdFrameList *frames;
     HdPrecision precision;
-    const HdOutputPlan *outputs; /* one that hd_outputs_check accepted */
-    /* Called once the scene is on the device, before the first frame. */
-    void (*uploaded)(void *context, const HdSceneTables *tables);
+    const HdOutputPlan *outputs;  /* one that hd_outputs_check accepted */
+    HdRenderer *const *renderers; /* open */
+    int renderer_count;           /* 1 to HD_MOST_TRACERS */
+    /* Called once the scene is on a renderer, before its first frame. With several renderers both
+       this and the next function are called on other threads. */
+    void (*uploaded)(void *context, int renderer, const HdSceneTables *tables);
+    /* One of several renderers failed: others make its frames. */
+    void (*dropped)(void *context, int renderer, const HdError *error);
     /* Called after each frame is stored, in their order, but on another thread, while later frames
        are rendered. Must return HD_OK to go on. */
     HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);
     void *context;
 } HdSequence;
 
-/* Renders with an open renderer. The error is that of the first frame that failed; the frames
-   before it are stored, those after it are not, though they may have been rendered. HD_INTERRUPTED
-   after SIGINT, SIGTERM or SIGHUP: pictures that were finished stay, and so do films that were; the
-   others are dropped. */
-HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error);
+/* Renders with one renderer, or with several together: which one renders a frame makes no
+   difference to its bytes. A renderer that fails ends the sequence only if it is the last one. The
+   error is that of the first frame that failed; the frames before it are stored, those after it are
+   not, though they may have been rendered. HD_INTERRUPTED after SIGINT, SIGTERM or SIGHUP: pictures
+   that were finished stay, and so do films that were; the others are dropped. */
+HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error);
 
 #endif

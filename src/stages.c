@@ -13,36 +13,81 @@ typedef struct Worker {
     pthread_t thread;
 } Worker;
 
+/* Of an item under way. */
+typedef struct Slot {
+    bool given;
+    unsigned taken, done; /* by stage */
+} Slot;
+
 struct HdStages {
     pthread_mutex_t mutex;
-    pthread_cond_t room_made;
+    pthread_cond_t room_made; /* or something else that takers wait for */
     pthread_cond_t work_made[HD_MAX_STAGES];
     HdStage list[HD_MAX_STAGES];
-    int next[HD_MAX_STAGES]; /* the item that the stage takes next */
+    int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
     int count;
     int room;
-    unsigned *done; /* by item modulo room: the stages that are done with it */
-    int given;      /* items so far */
-    int gone;       /* items that went through all stages, and so did those before them */
-    int limit;      /* the first item that failed; INT_MAX: none */
-    bool ended;     /* no more items come */
+    Slot *slots;     /* by item modulo room */
+    bool *is_back;   /* by item: taken and given back */
+    int item_count;  /* at the end only those before the first that was not given */
+    int first_fresh; /* the first item that was never taken */
+    int back_count;
+    int gone;  /* items that went through all stages, and so did those before them */
+    int limit; /* the first item that failed; INT_MAX: none */
+    bool stopped;
+    bool ended; /* no more items come */
     HdStatus status;
     HdError error;
     Worker *workers;
     int worker_count;
 };
 
-/* For a stage that has something left. */
-static bool can_take(const HdStages *stages, int stage) {
-    int item = stages->next[stage];
-    unsigned after = stages->list[stage].after;
-    return item < stages->given && (stages->done[item % stages->room] & after) == after;
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static Slot *slot_of(const HdStages *stages, int item) {
+    return &stages->slots[item % stages->room];
+}
+
+/* The end of the items that are wanted. */
+static int wanted_end(const HdStages *stages) {
+    return least(stages->item_count, stages->limit);
+}
+
+static int first_not_given(const HdStages *stages) {
+    int item = stages->gone, end = stages->gone + stages->room;
+    while (item < end && slot_of(stages, item)->given)
+        item++;
+    return item;
+}
+
+/* What the stage can take: the next item, or with several threads, which keep no order, the first
+   of those that are there. Negative: none. */
+static int find_work(const HdStages *stages, int stage) {
+    const HdStage *what = &stages->list[stage];
+    int first = stages->next[stage];
+    int end = least(stages->gone + stages->room, wanted_end(stages));
+    for (int item = first; item < (what->threads == 1 ? least(end, first + 1) : end); item++) {
+        const Slot *slot = slot_of(stages, item);
+        if (slot->given && (slot->taken >> stage & 1) == 0 &&
+            (slot->done & what->after) == what->after)
+            return item;
+    }
+    return -1;
+}
+
+static void take_work(HdStages *stages, int stage, int item) {
+    int end = stages->gone + stages->room;
+    slot_of(stages, item)->taken |= 1u << stage;
+    while (stages->next[stage] < end &&
+           (slot_of(stages, stages->next[stage])->taken >> stage & 1) != 0)
+        stages->next[stage]++;
 }
 
 /* Nothing is left for the stage, now or later. */
 static bool is_over(const HdStages *stages, int stage) {
-    int item = stages->next[stage];
-    return item >= stages->limit || (stages->ended && item >= stages->given);
+    return stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
 }
 
 static void wake_all(HdStages *stages) {
@@ -52,22 +97,23 @@ static void wake_all(HdStages *stages) {
 }
 
 /* Of several failures that of the earliest item counts, for an earlier one may still come. */
-static void note_failure(HdStages *stages, int item, HdStatus status, const HdError *error) {
+static void note_failure(HdStages *stages, int item, const HdError *error) {
     if (item >= stages->limit)
         return;
     stages->limit = item;
-    stages->status = status;
+    stages->status = error->status;
     stages->error = *error;
     wake_all(stages);
 }
 
 static void note_success(HdStages *stages, int stage, int item) {
     const unsigned all = (1u << stages->count) - 1;
-    stages->done[item % stages->room] |= 1u << stage;
+    slot_of(stages, item)->done |= 1u << stage;
     for (int i = stage + 1; i < stages->count; i++)
         if ((stages->list[i].after >> stage & 1) != 0)
             pthread_cond_broadcast(&stages->work_made[i]);
-    while (stages->gone < stages->given && stages->done[stages->gone % stages->room] == all) {
+    while (slot_of(stages, stages->gone)->done == all) {
+        *slot_of(stages, stages->gone) = (Slot){0};
         stages->gone++;
         pthread_cond_broadcast(&stages->room_made);
     }
@@ -80,33 +126,36 @@ static void *worker_main(void *argument) {
     HdError error;
     pthread_mutex_lock(&stages->mutex);
     while (!is_over(stages, worker->stage)) {
-        if (!can_take(stages, worker->stage)) {
+        int item = find_work(stages, worker->stage);
+        if (item < 0) {
             pthread_cond_wait(&stages->work_made[worker->stage], &stages->mutex);
             continue;
         }
-        int item = stages->next[worker->stage]++;
+        take_work(stages, worker->stage, item);
         pthread_mutex_unlock(&stages->mutex);
         HdStatus status = stage->work(stage->context, item, &error);
         pthread_mutex_lock(&stages->mutex);
         if (status == HD_OK)
             note_success(stages, worker->stage, item);
         else
-            note_failure(stages, item, status, &error);
+            note_failure(stages, item, &error);
     }
     pthread_mutex_unlock(&stages->mutex);
     return NULL;
 }
 
-static HdStages *create(const HdStage *list, int count, int room) {
+static HdStages *create(const HdStage *list, int count, int item_count, int room) {
     int threads = list[0].threads;
     for (int i = 1; i < count; i++)
         threads += list[i].threads;
     HdStages *stages = calloc(1, sizeof *stages);
     if (stages == NULL)
         return NULL;
-    stages->done = calloc((size_t)room, sizeof *stages->done);
+    stages->slots = calloc((size_t)room, sizeof *stages->slots);
+    stages->is_back = calloc((size_t)item_count + 1, sizeof *stages->is_back);
     stages->workers = calloc((size_t)threads, sizeof *stages->workers);
     stages->count = count;
+    stages->item_count = item_count;
     stages->room = room;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
@@ -123,13 +172,15 @@ static void destroy(HdStages *stages) {
     pthread_cond_destroy(&stages->room_made);
     pthread_mutex_destroy(&stages->mutex);
     free(stages->workers);
-    free(stages->done);
+    free(stages->slots);
+    free(stages->is_back);
     free(stages);
 }
 
 static void join_all(HdStages *stages) {
     pthread_mutex_lock(&stages->mutex);
     stages->ended = true;
+    stages->item_count = first_not_given(stages);
     wake_all(stages);
     pthread_mutex_unlock(&stages->mutex);
     for (int i = 0; i < stages->worker_count; i++)
@@ -146,11 +197,13 @@ static int start_worker(HdStages *stages, int stage) {
     return reason;
 }
 
-HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int room, HdError *error) {
-    HdStages *stages = create(list, count, room);
+HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count, int room,
+                         HdError *error) {
+    HdStages *stages = create(list, count, item_count, room);
     int reason = 0;
     *out = NULL;
-    if (stages == NULL || stages->done == NULL || stages->workers == NULL) {
+    if (stages == NULL || stages->slots == NULL || stages->is_back == NULL ||
+        stages->workers == NULL) {
         if (stages != NULL)
             destroy(stages);
         return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
@@ -169,22 +222,93 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int roo
                    strerror(reason));
 }
 
-bool hd_stages_wait(HdStages *stages) {
-    pthread_mutex_lock(&stages->mutex);
-    while (stages->limit == INT_MAX && stages->given - stages->gone >= stages->room)
-        pthread_cond_wait(&stages->room_made, &stages->mutex);
-    bool good = stages->limit == INT_MAX;
-    pthread_mutex_unlock(&stages->mutex);
-    return good;
+/* The first item that is there to be taken. */
+static int first_to_take(const HdStages *stages) {
+    for (int item = stages->gone; stages->back_count > 0 && item < stages->first_fresh; item++)
+        if (stages->is_back[item])
+            return item;
+    return stages->first_fresh;
 }
 
-void hd_stages_give(HdStages *stages) {
+static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
+    int end = wanted_end(stages);
+    int fresh = end > stages->first_fresh ? end - stages->first_fresh : 0;
+    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
+        return false;
+    return taker->wants == NULL ||
+           taker->wants(taker->context, least(fresh + stages->back_count, stages->room));
+}
+
+static int take(HdStages *stages, int item) {
+    if (item == stages->first_fresh) {
+        stages->first_fresh++;
+    } else {
+        stages->is_back[item] = false;
+        stages->back_count--;
+    }
+    return item;
+}
+
+int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
+    int taken = -1;
     pthread_mutex_lock(&stages->mutex);
-    stages->done[stages->given % stages->room] = 0;
-    stages->given++;
+    while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
+        int item = first_to_take(stages);
+        if (can_take(stages, taker, item)) {
+            taken = take(stages, item);
+            break;
+        }
+        if (!waits)
+            break;
+        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    }
+    pthread_mutex_unlock(&stages->mutex);
+    return taken;
+}
+
+bool hd_stages_wait(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->room)
+        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    bool is_wanted = !stages->stopped && item < stages->limit;
+    pthread_mutex_unlock(&stages->mutex);
+    return is_wanted;
+}
+
+void hd_stages_give(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    *slot_of(stages, item) = (Slot){.given = true};
     for (int i = 0; i < stages->count; i++)
         if (stages->list[i].after == 0)
             pthread_cond_broadcast(&stages->work_made[i]);
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_give_back(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    stages->is_back[item] = true;
+    stages->back_count++;
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_ask_again(HdStages *stages) {
+    pthread_mutex_lock(&stages->mutex);
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_fail(HdStages *stages, int item, const HdError *error) {
+    pthread_mutex_lock(&stages->mutex);
+    note_failure(stages, item, error);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_stop(HdStages *stages) {
+    pthread_mutex_lock(&stages->mutex);
+    stages->stopped = true;
+    pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
 }
 

@@ -110,15 +110,15 @@ static json_t *describe_begins(const HdFrameTimes *times) {
 static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
     return json_pack(
-        "{s:i, s:s, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}", "frame",
-        stored->number, "backend", facts->device->backend->name, "device",
-        hd_json_device_text(facts->device->name), "renderer", hd_json_device_text(facts->renderer),
-        "width", frame->width, "height", frame->height, "samples", facts->scene->samples_per_side,
-        "depth", facts->scene->depth, "seconds", describe_seconds(&stored->times), "began",
-        describe_begins(&stored->times), "rays", "primary", (json_int_t)frame->primary_rays,
-        "mirrored", (json_int_t)frame->mirrored_rays, "transmitted",
-        (json_int_t)frame->transmitted_rays, "shadow_tests", (json_int_t)frame->shadow_tests,
-        "clamps", (json_int_t)frame->clamps);
+        "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
+        "frame", stored->number, "backend", facts->device->backend->name, "index",
+        facts->device->index, "device", hd_json_device_text(facts->device->name), "renderer",
+        hd_json_device_text(facts->renderer), "width", frame->width, "height", frame->height,
+        "samples", facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
+        describe_seconds(&stored->times), "began", describe_begins(&stored->times), "rays",
+        "primary", (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
+        "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
+        (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
 }
 
 /* Of surveyed scenes only. */

@@ -11,7 +11,7 @@
 #include "scene.h"
 #include "sequence.h"
 
-/* What is the same for every frame of a run. */
+/* What is the same for every frame that a device traced. */
 typedef struct HdRunFacts {
     const HdScene *scene;
     const HdDevice *device;

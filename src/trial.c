@@ -76,8 +76,8 @@ HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJ
 
 /* Starts with few samples, for thousands of lights make each one slow, and takes more until the
    time can be believed. */
-static HdStatus estimate(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                         double enough, double *frame_seconds, HdError *error) {
+HdStatus hd_trial_estimate_on(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
+                              double enough, double *frame_seconds, HdError *error) {
     const double first_samples = 4096.0, believed_seconds = 0.02;
     const HdScene *scene = job->scene;
     double samples =
@@ -111,7 +111,8 @@ HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, dou
         status = hd_trial_open(&renderer, &device, options, &plain_job, error);
     if (status != HD_OK)
         return status;
-    status = estimate(renderer, options->precision, &plain_job, enough, frame_seconds, error);
+    status = hd_trial_estimate_on(renderer, options->precision, &plain_job, enough, frame_seconds,
+                                  error);
     hd_renderer_close(renderer);
     return status;
 }

@@ -29,9 +29,13 @@ typedef struct HdTrialTime {
 HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
                           double share, int times, HdTrialTime *time, HdError *error);
 
-/* About how many seconds plain C takes for a whole frame. Measures no longer than it must to know,
-   some hundredths of a second, and stops early where `frame_count` of them take less than
-   `enough` seconds. */
+/* About how many seconds a renderer takes for a whole frame, on which the job's scene is. Measures
+   no longer than it must to know, some hundredths of a second, and stops early where `frame_count`
+   of them take less than `enough` seconds. */
+HdStatus hd_trial_estimate_on(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
+                              double enough, double *frame_seconds, HdError *error);
+
+/* The same of plain C. */
 HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, double enough,
                            double *frame_seconds, HdError *error);
 

@@ -30,7 +30,7 @@ if (($(wc -l <new/stats.jsonl) != 3)); then
 fi
 expect_json new/stats.jsonl 'map(.frame)' '[3,4,5]'
 expect_json new/stats.jsonl '.[0] | keys_unsorted' \
-    '["frame","backend","device","renderer","width","height","samples","depth","seconds","began","rays","shadow_tests","clamps"]'
+    '["frame","backend","index","device","renderer","width","height","samples","depth","seconds","began","rays","shadow_tests","clamps"]'
 expect_json new/stats.jsonl '.[0].seconds | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
 expect_json new/stats.jsonl '.[0].began | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
 # A frame's stages follow one another, and frames are traced one after the other.

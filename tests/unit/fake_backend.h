@@ -4,11 +4,14 @@
 #ifndef HD_TEST_FAKE_BACKEND_H
 #define HD_TEST_FAKE_BACKEND_H
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "expect.h"
 #include "kernel_cache.h"
+
+typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 
 static struct {
     bool is_missing;           /* open fails */
@@ -24,7 +27,10 @@ static struct {
     double (*trace_seconds)(const HdRenderOptions *options);
     /* Opening fails where it says so; NULL: never. */
     bool (*refuses)(const HdRenderOptions *options);
-    int opened, compiled, loaded, rendered;
+    /* Called at each of these points, with the device's number, on the thread that is there; may
+       wait, or let the device fail. NULL: nothing happens. */
+    HdStatus (*event)(FakePoint point, int index, HdError *error);
+    atomic_int opened, compiled, loaded, rendered;
 } fake;
 
 typedef struct FakeRenderer {
@@ -40,6 +46,10 @@ static HdStatus fake_enumerate(HdDevice *devices, int capacity, int *count, HdEr
     return hd_backend_c.enumerate(devices, capacity, count, error);
 }
 
+static HdStatus fake_event(FakePoint point, int index, HdError *error) {
+    return fake.event != NULL ? fake.event(point, index, error) : HD_OK;
+}
+
 static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
                           HdError *error) {
     fake.opened++;
@@ -47,6 +57,9 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
         return hd_fail(error, HD_UNAVAILABLE, "it is missing");
     if (fake.refuses != NULL && fake.refuses(options))
         return hd_fail(error, HD_UNAVAILABLE, "it refuses");
+    HdStatus status = fake_event(FAKE_OPEN, device->index, error);
+    if (status != HD_OK)
+        return status;
     FakeRenderer *opened = calloc(1, sizeof *opened);
     assert_non_null(opened);
     opened->index = device->index;
@@ -95,13 +108,15 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
         hd_kernel_shape_set_needs(&renderer->shape, &needs);
         fake_build(renderer);
     }
-    return hd_backend_c.upload(renderer->c, tables, error);
+    HdStatus status = fake_event(FAKE_UPLOAD, renderer->index, error);
+    return status != HD_OK ? status : hd_backend_c.upload(renderer->c, tables, error);
 }
 
 static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
                             HdError *error) {
     FakeRenderer *renderer = state;
-    return hd_backend_c.submit(renderer->c, tables, wish, error);
+    HdStatus status = fake_event(FAKE_SUBMIT, renderer->index, error);
+    return status != HD_OK ? status : hd_backend_c.submit(renderer->c, tables, wish, error);
 }
 
 static void fake_drop(void *state) {
@@ -115,7 +130,13 @@ static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
     fake.rendered++;
     if (renderer->index == fake.slow_index)
         nanosleep(&pause, NULL);
+    HdError failure;
+    HdStatus event = fake_event(FAKE_COLLECT, renderer->index, &failure);
     HdStatus status = hd_backend_c.collect(renderer->c, frame, error);
+    if (event != HD_OK) {
+        *error = failure;
+        return event;
+    }
     if (fake.fails)
         return hd_fail(error, HD_FAILED, "it fails");
     if (status == HD_OK && fake.trace_seconds != NULL)

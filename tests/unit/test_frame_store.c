@@ -23,7 +23,8 @@ static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError 
     Listener *listener = context;
     char name[64];
     snprintf(name, sizeof name, "run/%d.data", stored->number);
-    if (stored->number != FIRST + listener->calls || stored->done != listener->calls + 1)
+    if (stored->number != FIRST + listener->calls || stored->tracer != listener->calls % 3 ||
+        stored->done != listener->calls + 1)
         listener->in_order = false;
     if (access(name, R_OK) != 0 || stored->frame->width != WIDTH)
         listener->was_there = false;
@@ -45,22 +46,26 @@ static HdStatus store_frames(Listener *listener, const char *second_output, int 
     HdFrameStorePlan store_plan = {.frames = &frames,
                                    .width = WIDTH,
                                    .height = HEIGHT,
+                                   .tracers = 1,
                                    .start = hd_monotonic_seconds(),
                                    .stored = note_stored,
                                    .context = listener};
     HdFrameStore *store;
-    HdFrame *frame;
     HdFrameTimes *times;
+    int place;
     for (int i = 0; i < FRAMES; i++)
         numbers[i] = FIRST + i;
     *listener = (Listener){.fails_at = listener->fails_at, .in_order = true, .was_there = true};
     assert_int_equal(hd_outputs_open(&store_plan.outputs, &plan, WIDTH, HEIGHT, &error), HD_OK);
     assert_int_equal(hd_frame_store_start(&store, &store_plan, &error), HD_OK);
-    for (int i = 0; i < FRAMES && (frame = hd_frame_store_next(store, &times)) != NULL; i++) {
+    while ((place = hd_frame_store_take(store, NULL, NULL, true)) >= 0) {
+        if (!hd_frame_store_wait(store, place))
+            continue;
+        HdFrame *frame = hd_frame_store_frame(store, place, &times);
         for (int value = 0; value < WIDTH * HEIGHT * 3; value++)
-            frame->rgb[value] = (float)i / FRAMES;
+            frame->rgb[value] = (float)place / FRAMES;
         times->trace = (HdSpan){hd_monotonic_seconds() - store_plan.start, 0.0};
-        hd_frame_store_give(store);
+        hd_frame_store_give(store, place, place % 3);
     }
     HdStatus status = hd_frame_store_end(store, stored, &error);
     HdError ignored;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -76,12 +77,25 @@ static void list_stages(HdStage list[4], Probe probes[4]) {
     list[3] = stage_of(&probes[3], 7);
 }
 
+static const HdTaker anybody = {.wants = NULL};
+
+static int give_items_from(HdStages *stages, int first) {
+    int given = first, item;
+    while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
+        assert_int_equal(item, given);
+        hd_stages_give(stages, item);
+        given++;
+    }
+    return given;
+}
+
 /* Gives items until all are given or one failed; returns how many. */
-static int give_items(HdStages *stages, const Probe *last, int room, int count) {
-    int given = 0;
-    while (given < count && hd_stages_wait(stages)) {
-        assert_true(given - atomic_load(&last->ended) < room);
-        hd_stages_give(stages);
+static int give_items(HdStages *stages, const Probe *last, int room) {
+    int given = 0, item;
+    while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
+        assert_int_equal(item, given);
+        assert_true(item - atomic_load(&last->ended) < room);
+        hd_stages_give(stages, item);
         given++;
     }
     return given;
@@ -99,8 +113,8 @@ static void run_all(int room) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, room, &error), HD_OK);
-    assert_int_equal(give_items(stages, &probes[3], room, ITEMS), ITEMS);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, room, &error), HD_OK);
+    assert_int_equal(give_items(stages, &probes[3], room), ITEMS);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     for (int i = 0; i < 4; i++) {
         assert_int_equal(first_not_done(&probes[i]), ITEMS);
@@ -123,7 +137,7 @@ static void no_items_are_no_work(void **state) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     assert_int_equal(probes[0].begun, 0);
 }
@@ -140,9 +154,10 @@ static void a_failure_leaves_the_items_before_it(void **state) {
         HdStages *stages;
         list_stages(list, probes);
         probes[stage].fails_at = item;
-        assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
-        assert_true(give_items(stages, &probes[3], ROOM, ITEMS) <= item + ROOM);
-        assert_false(hd_stages_wait(stages));
+        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+        assert_true(give_items(stages, &probes[3], ROOM) <= item + ROOM);
+        assert_false(hd_stages_wait(stages, item));
+        assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
         assert_int_equal(hd_stages_end(stages, &error), HD_FAILED);
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
@@ -162,8 +177,8 @@ static void the_first_item_that_failed_counts(void **state) {
     list_stages(list, probes);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    assert_int_equal(hd_stages_start(&stages, list, 4, ROOM, &error), HD_OK);
-    give_items(stages, &probes[3], ROOM, ITEMS);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+    give_items(stages, &probes[3], ROOM);
     assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "item 3 failed");
     assert_int_equal(first_not_done(&probes[3]), 3);
@@ -186,10 +201,10 @@ static void threads_of_a_stage_work_side_by_side(void **state) {
     (void)state;
     const HdStage stage = {.work = gather, .threads = 3};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, 3, &error), HD_OK);
     for (int i = 0; i < 3; i++) {
-        assert_true(hd_stages_wait(stages));
-        hd_stages_give(stages);
+        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
+        hd_stages_give(stages, i);
     }
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
 }
@@ -209,14 +224,211 @@ static void giving_overlaps_with_the_work(void **state) {
     atomic_int given = 0;
     const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 2, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, 2, &error), HD_OK);
     for (int i = 0; i < 20; i++) {
-        assert_true(hd_stages_wait(stages));
-        hd_stages_give(stages);
+        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
+        hd_stages_give(stages, i);
         atomic_fetch_add(&given, 1);
     }
     atomic_fetch_add(&given, 1);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+}
+
+/* ---- several takers ---- */
+
+static HdStages *start_probes(Probe probes[4], int room) {
+    HdStage list[4];
+    HdStages *stages;
+    list_stages(list, probes);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, room, &error), HD_OK);
+    return stages;
+}
+
+static void take_in_order(HdStages *stages, int first, int count) {
+    for (int i = first; i < first + count; i++)
+        assert_int_equal(hd_stages_take(stages, &anybody, false), i);
+}
+
+/* The third stage has several threads and keeps no order: it does not wait for the first item. */
+static void items_are_given_in_any_order(void **state) {
+    (void)state;
+    static Probe probes[4];
+    HdStages *stages = start_probes(probes, ROOM);
+    take_in_order(stages, 0, 4);
+    for (int i = 3; i > 0; i--)
+        hd_stages_give(stages, i);
+    while (!(probes[2].done[1] && probes[2].done[2] && probes[2].done[3]))
+        nap(1);
+    assert_int_equal(probes[0].begun + probes[1].begun + probes[3].begun, 0);
+    hd_stages_give(stages, 0);
+    assert_int_equal(give_items_from(stages, 4), ITEMS);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(first_not_done(&probes[i]), ITEMS);
+        assert_int_equal(probes[i].wrong, 0);
+    }
+}
+
+static void what_is_given_back_comes_first(void **state) {
+    (void)state;
+    static Probe probes[4];
+    HdStages *stages = start_probes(probes, ROOM);
+    take_in_order(stages, 0, 5);
+    hd_stages_give_back(stages, 3);
+    hd_stages_give_back(stages, 1);
+    take_in_order(stages, 1, 1);
+    take_in_order(stages, 3, 1);
+    take_in_order(stages, 5, 1);
+    for (int i = 0; i < 6; i++)
+        hd_stages_give(stages, i);
+    assert_int_equal(give_items_from(stages, 6), ITEMS);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(probes[3].ended, ITEMS);
+}
+
+static void nobody_takes_what_has_no_room(void **state) {
+    (void)state;
+    static Probe probes[4];
+    const HdTaker alone = {.ahead = 2};
+    HdStages *stages = start_probes(probes, ROOM);
+    take_in_order(stages, 0, ROOM);
+    assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
+    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM);
+    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 1);
+    assert_int_equal(hd_stages_take(stages, &alone, false), -1);
+    hd_stages_give(stages, 0);
+    assert_true(hd_stages_wait(stages, ROOM)); /* once the first one is gone */
+    assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 2);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(probes[3].ended, 1);
+}
+
+static bool likes_what_is_left(void *context, int left) {
+    int *liked = context;
+    return left == *liked;
+}
+
+static void takers_choose_by_what_is_left(void **state) {
+    (void)state;
+    static Probe probes[4];
+    int liked = ROOM;
+    const HdTaker chooser = {.wants = likes_what_is_left, .context = &liked};
+    HdStages *stages = start_probes(probes, ROOM);
+    assert_int_equal(hd_stages_take(stages, &chooser, false), 0);
+    liked = 1;
+    assert_int_equal(hd_stages_take(stages, &chooser, false), -1);
+    hd_stages_give(stages, 0);
+    for (int i = 1; i < ITEMS - 2; i++) {
+        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
+        hd_stages_give(stages, i);
+    }
+    assert_int_equal(hd_stages_take(stages, &anybody, true), ITEMS - 2);
+    assert_int_equal(hd_stages_take(stages, &chooser, true), ITEMS - 1);
+    hd_stages_give_back(stages, ITEMS - 2);
+    hd_stages_give_back(stages, ITEMS - 1);
+    liked = 2;
+    assert_int_equal(hd_stages_take(stages, &chooser, false), ITEMS - 2);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(probes[3].ended, ITEMS - 2);
+}
+
+typedef struct Waiting {
+    HdStages *stages;
+    atomic_int wants, asked;
+    int item;
+    pthread_t thread;
+} Waiting;
+
+static bool wants_now(void *context, int left) {
+    Waiting *waiting = context;
+    (void)left;
+    atomic_fetch_add(&waiting->asked, 1);
+    return atomic_load(&waiting->wants);
+}
+
+static void *wait_for_item(void *context) {
+    Waiting *waiting = context;
+    const HdTaker taker = {.wants = wants_now, .context = waiting};
+    waiting->item = hd_stages_take(waiting->stages, &taker, true);
+    return NULL;
+}
+
+/* Starts somebody who waits, and wants nothing yet. */
+static void start_waiting(Waiting *waiting, HdStages *stages) {
+    *waiting = (Waiting){.stages = stages, .item = -2};
+    assert_int_equal(pthread_create(&waiting->thread, NULL, wait_for_item, waiting), 0);
+    while (atomic_load(&waiting->asked) == 0)
+        nap(1);
+}
+
+static void expect_waiting_gets(Waiting *waiting, int item) {
+    assert_int_equal(pthread_join(waiting->thread, NULL), 0);
+    assert_int_equal(waiting->item, item);
+}
+
+static void takers_that_wait_are_asked_again(void **state) {
+    (void)state;
+    static Probe probes[4];
+    Waiting waiting;
+    HdStages *stages = start_probes(probes, ROOM);
+    start_waiting(&waiting, stages);
+    atomic_store(&waiting.wants, 1);
+    hd_stages_ask_again(stages);
+    expect_waiting_gets(&waiting, 0);
+    /* Something is given back. */
+    start_waiting(&waiting, stages);
+    atomic_store(&waiting.wants, 1);
+    hd_stages_give_back(stages, 0);
+    expect_waiting_gets(&waiting, 0);
+    /* Nothing will come any more. */
+    start_waiting(&waiting, stages);
+    hd_stages_stop(stages);
+    expect_waiting_gets(&waiting, -1);
+    assert_false(hd_stages_wait(stages, 0));
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(probes[0].begun, 0);
+}
+
+/* Items before the one that failed are still wanted, and nobody leaves before they are given. */
+static void what_comes_before_a_failure_is_wanted(void **state) {
+    (void)state;
+    static Probe probes[4];
+    Waiting waiting;
+    HdError failure;
+    HdStages *stages = start_probes(probes, ROOM);
+    take_in_order(stages, 0, 5);
+    hd_fail(&failure, HD_BAD_INPUT, "item 3 cannot be");
+    hd_stages_fail(stages, 3, &failure);
+    hd_fail(&failure, HD_FAILED, "nor can item 4");
+    hd_stages_fail(stages, 4, &failure);
+    assert_false(hd_stages_wait(stages, 3));
+    assert_true(hd_stages_wait(stages, 2));
+    assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
+    hd_stages_give(stages, 0);
+    hd_stages_give(stages, 2);
+    hd_stages_give_back(stages, 4);
+    hd_stages_give_back(stages, 1);
+    start_waiting(&waiting, stages);
+    take_in_order(stages, 1, 1);
+    hd_stages_give(stages, 1);
+    expect_waiting_gets(&waiting, -1);
+    assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
+    assert_string_equal(error.message, "item 3 cannot be");
+    assert_int_equal(probes[3].ended, 3);
+    assert_int_equal(first_not_done(&probes[3]), 3);
+}
+
+static void a_gap_ends_it(void **state) {
+    (void)state;
+    static Probe probes[4];
+    HdStages *stages = start_probes(probes, ROOM);
+    take_in_order(stages, 0, 5);
+    for (int i = 0; i < 5; i++)
+        if (i != 2)
+            hd_stages_give(stages, i);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(probes[3].ended, 2);
+    assert_int_equal(probes[0].ended, 2);
 }
 
 int main(void) {
@@ -227,6 +439,13 @@ int main(void) {
         cmocka_unit_test(the_first_item_that_failed_counts),
         cmocka_unit_test(threads_of_a_stage_work_side_by_side),
         cmocka_unit_test(giving_overlaps_with_the_work),
+        cmocka_unit_test(items_are_given_in_any_order),
+        cmocka_unit_test(what_is_given_back_comes_first),
+        cmocka_unit_test(nobody_takes_what_has_no_room),
+        cmocka_unit_test(takers_choose_by_what_is_left),
+        cmocka_unit_test(takers_that_wait_are_asked_again),
+        cmocka_unit_test(what_comes_before_a_failure_is_wanted),
+        cmocka_unit_test(a_gap_ends_it),
     };
     alarm(PATIENCE_SECONDS);
     return cmocka_run_group_tests(tests, NULL, NULL);

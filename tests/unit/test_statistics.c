@@ -36,7 +36,7 @@ static const HdStoredFrame stored = {
 static json_t *read_line_about(const char *device_name) {
     HdStatistics statistics;
     HdError error;
-    HdDevice device = {.backend = &hd_backend_c};
+    HdDevice device = {.backend = &hd_backend_c, .index = 3};
     HdRunFacts facts = {.scene = &scene, .device = &device, .renderer = "4 lanes"};
     snprintf(device.name, sizeof device.name, "%s", device_name);
     assert_int_equal(hd_statistics_open(&statistics, "new/folder/stats.jsonl", &error), HD_OK);
@@ -97,10 +97,11 @@ static void a_line_has_everything(void **state) {
     (void)state;
     json_t *line = read_line_about("A \"quoted\" \\ name\twith a tab");
     assert_non_null(line);
-    assert_int_equal(json_object_size(line), 13);
+    assert_int_equal(json_object_size(line), 14);
     check_numbers(line);
     check_begins(line);
     assert_string_equal(json_string_value(json_object_get(line, "backend")), "c");
+    assert_int_equal(whole(line, "index"), 3);
     assert_string_equal(json_string_value(json_object_get(line, "device")),
                         "A \"quoted\" \\ name\twith a tab");
     assert_string_equal(json_string_value(json_object_get(line, "renderer")), "4 lanes");
