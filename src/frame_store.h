@@ -7,6 +7,7 @@
 #include "frame.h"
 #include "frame_list.h"
 #include "outputs.h"
+#include "resume.h"
 
 /* When something was done, in seconds. */
 typedef struct HdSpan {
@@ -29,12 +30,14 @@ typedef struct HdStoredFrame {
     int number;
     int done; /* frames stored so far, this one included */
     const HdFrame *frame;
+    bool was_finished; /* before the run: of `frame` only the size is worth something */
     HdFrameTimes times;
 } HdStoredFrame;
 
 typedef struct HdFrameStorePlan {
     HdOutputs *outputs;
     const HdFrameList *frames;
+    const HdResume *resume; /* which of them are finished; NULL: none */
     int width, height;
     double start; /* of the run, by hd_monotonic_seconds */
     /* Called after each frame is stored, in their order, on a thread of the store. Must return
@@ -48,16 +51,17 @@ typedef struct HdFrameStore HdFrameStore;
 /* What the plan points to must live on. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
-/* Waits for room for the next frame of the list, which the caller then fills, its times up to
-   `copy` included. NULL after a failure: then no more frames are wanted. */
+/* Waits for room for the next frame of the list that is not finished, which the caller then fills,
+   its times up to `copy` included; finished ones before it are read back for films. NULL after a
+   failure: then no more frames are wanted. */
 HdFrame *hd_frame_store_next(HdFrameStore *store, HdFrameTimes **times);
 
 /* Takes the frame that was filled. */
 void hd_frame_store_give(HdFrameStore *store);
 
-/* Waits until the frames are stored that were given, those after one that failed excepted; frees
-   `store`. Tells how many were stored: they are the first ones, and no later one has left
-   pictures. */
+/* Takes the finished frames that come next, and waits until the frames are
+   stored that were given, those after one that failed excepted; frees `store`. Tells how many were
+   stored: they are the first ones, and no later one has left pictures. */
 HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error);
 
 #endif

@@ -36,6 +36,9 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times"},
     {HD_OPTION_FRAMES, "--frames", NULL, "LIST", NULL, false, 0, 0, MEASURING,
      "render these frames only, for example 0-9,20"},
+    {HD_OPTION_AGAIN, "--again", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
+     "the same pixels, are left as they are"},
     {HD_OPTION_SIZE, "--size", NULL, "WxH", NULL, false, 0, 0, MEASURING,
      "size of the picture in pixels"},
     {HD_OPTION_SAMPLES, "--samples", NULL, "N", NULL, false, 1, HD_MAX_SAMPLES_PER_SIDE, MEASURING,

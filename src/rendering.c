@@ -5,15 +5,20 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "frame_fingerprint.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
+#include "stale_files.h"
 #include "statistics.h"
 
 typedef struct Run {
     const HdRendering *rendering;
     const HdOptions *options;
+    HdOutputPlan outputs; /* with marks */
+    HdResume resume;
     HdProgress progress;
+    int rendered;            /* frames so far */
     HdStatistics statistics; /* stream NULL: not wanted */
     HdDevice device;
     HdRenderer *renderer;
@@ -43,11 +48,14 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
+    if (stored->was_finished)
+        return status;
+    run->rendered++;
     run->rays += hd_frame_rays(stored->frame);
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
     if (status == HD_OK)
-        hd_progress_update(&run->progress, stored->done);
+        hd_progress_update(&run->progress, run->rendered);
     return status;
 }
 
@@ -69,8 +77,8 @@ static HdStatus open_device(Run *run, HdError *error) {
     HdScene plain = *run->rendering->scene; /* what it owns stays with the other */
     HdJob job = {
         .scene = &plain,
-        .first_frame = run->rendering->frames->frames[0],
-        .frame_count = run->rendering->frames->count,
+        .first_frame = run->resume.missing.frames[0],
+        .frame_count = run->resume.missing.count,
     };
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
@@ -79,7 +87,7 @@ static HdStatus open_device(Run *run, HdError *error) {
         hd_open_device(&run->renderer, &run->device, &wish, &options->render, &job, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
-        return hd_fail(error, status, "interrupted after 0 of %d frames", job.frame_count);
+        return hd_fail(error, status, "interrupted after 0 of %d frames", run->resume.all->count);
     if (status != HD_OK)
         return status;
     if (reason.note[0] != '\0' && !options->quiet)
@@ -102,20 +110,21 @@ static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
         .scene = rendering->scene,
-        .frames = rendering->frames,
+        .frames = &run->resume.missing,
+        .resume = &run->resume,
         .precision = run->options->render.precision,
-        .outputs = &rendering->outputs,
+        .outputs = &run->outputs,
         .uploaded = scene_uploaded,
         .stored = frame_stored,
         .context = run,
     };
-    if (run->device.backend != &hd_backend_c && !run->options->verbose)
+    if (run->renderer != NULL && run->device.backend != &hd_backend_c && !run->options->verbose)
         hd_progress_prepare(&run->progress, "building kernels");
     announce_interrupt(run);
     HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
     hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
-    if (status == HD_OK)
+    if (status == HD_OK && run->renderer != NULL)
         hd_progress_tell_end(&run->progress, run->rays);
     if (status == HD_OK && !run->options->quiet)
         hd_note_missing(rendering->scene, run->missing);
@@ -128,8 +137,8 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     HdError ignored;
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
-        rendering->frames->count);
-    HdStatus status = open_device(run, error);
+        run->resume.missing.count);
+    HdStatus status = run->resume.missing.count > 0 ? open_device(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
     if (status == HD_OK)
@@ -140,6 +149,24 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     }
     hd_renderer_close(run->renderer);
     return status;
+}
+
+/* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
+static void mark_outputs(Run *run) {
+    const HdRendering *rendering = run->rendering;
+    const HdRenderOptions *render = &run->options->render;
+    run->outputs = rendering->outputs;
+    run->outputs.resumes = rendering->resumes;
+    run->outputs.is_marked = render->math == HD_MATH_STRICT && hd_outputs_have_png(&run->outputs);
+    if (run->outputs.is_marked)
+        run->outputs.fingerprint =
+            hd_run_fingerprint(rendering->file, render->precision, &run->outputs.style.picture);
+}
+
+static void tell_finished(const Run *run) {
+    if (run->resume.finished_count > 0 && !run->options->quiet)
+        fprintf(stderr, "hedron: %d of %d frames were finished already\n",
+                run->resume.finished_count, run->resume.all->count);
 }
 
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
@@ -155,5 +182,13 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
         hd_note_scene(rendering->name, rendering->scene);
         hd_note_outputs(&rendering->outputs, rendering->frames->count);
     }
-    return render_with_statistics(&run, error);
+    hd_stale_files_remove(&rendering->outputs, rendering->frames);
+    mark_outputs(&run);
+    status = hd_resume_find(&run.resume, &run.outputs, rendering->frames, error);
+    if (status != HD_OK)
+        return status;
+    tell_finished(&run);
+    status = render_with_statistics(&run, error);
+    hd_resume_free(&run.resume);
+    return status;
 }

@@ -125,7 +125,8 @@ static HdStatus refine_frames(Run *run, HdError *error) {
 }
 
 static void drop_rest(Run *run) {
-    hd_renderer_drop(run->renderer);
+    if (run->renderer != NULL)
+        hd_renderer_drop(run->renderer);
     for (; run->collected < run->submitted; run->collected++)
         hd_frame_tables_free(&flight_of(run, run->collected)->tables);
 }
@@ -151,7 +152,8 @@ static HdStatus render_and_store(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdFrameStorePlan plan = {
         .outputs = run->outputs,
-        .frames = sequence->frames,
+        .frames = sequence->resume->all,
+        .resume = sequence->resume,
         .width = sequence->scene->width,
         .height = sequence->scene->height,
         .start = run->start,
@@ -171,11 +173,11 @@ static HdStatus render_and_store(Run *run, HdError *error) {
     }
     if (status == HD_INTERRUPTED)
         return hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", stored,
-                       sequence->frames->count);
+                       sequence->resume->all->count);
     return status;
 }
 
-static HdStatus prepare(Run *run, HdError *error) {
+static HdStatus prepare_device(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdScene *scene = sequence->scene;
     HdSceneTables tables;
@@ -192,9 +194,15 @@ static HdStatus prepare(Run *run, HdError *error) {
                                       run->wish.curve, error);
     if (status == HD_OK)
         status = hd_outputs_probe(sequence->outputs, sequence->frames->frames[0], error);
+    return status;
+}
+
+static HdStatus prepare(Run *run, HdError *error) {
+    const HdSequence *sequence = run->sequence;
+    HdStatus status = sequence->frames->count > 0 ? prepare_device(run, error) : HD_OK;
     if (status == HD_OK)
-        status =
-            hd_outputs_open(&run->outputs, sequence->outputs, scene->width, scene->height, error);
+        status = hd_outputs_open(&run->outputs, sequence->outputs, sequence->scene->width,
+                                 sequence->scene->height, error);
     return status;
 }
 

@@ -11,7 +11,8 @@
 
 typedef struct HdSequence {
     const HdScene *scene;
-    const HdFrameList *frames;
+    const HdFrameList *frames; /* to be rendered: what is missing */
+    const HdResume *resume;    /* all frames of the run, and which of them are finished */
     HdPrecision precision;
     const HdOutputPlan *outputs; /* one that hd_outputs_check accepted */
     /* Called once the scene is on the device, before the first frame. */
@@ -22,10 +23,10 @@ typedef struct HdSequence {
     void *context;
 } HdSequence;
 
-/* Renders with an open renderer. The error is that of the first frame that failed; the frames
-   before it are stored, those after it are not, though they may have been rendered. HD_INTERRUPTED
-   after SIGINT, SIGTERM or SIGHUP: pictures that were finished stay, and so do films that were; the
-   others are dropped. */
+/* Renders what is missing with an open renderer, NULL where nothing is, and makes films of all. The
+   error is that of the first frame that failed; the frames before it are stored, those after it are
+   not, though they may have been rendered. HD_INTERRUPTED after SIGINT, SIGTERM or SIGHUP: pictures
+   that were finished stay, and so do films that were; the others are dropped. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdRenderer *renderer, HdError *error);
 
 #endif
