@@ -25,7 +25,7 @@ static void add_array(uint64_t *hash, const void *array, int count, size_t size)
     add_integer(hash, array != NULL);
     add_integer(hash, count);
     if (array != NULL)
-        add(hash, array, (size_t)count * size);
+        *hash = hd_hash_words(*hash, array, (size_t)count * size);
 }
 
 /* What the table says */

@@ -81,17 +81,18 @@ for i in {0..9}; do
 done
 
 # ---- whatever decides a pixel is in the fingerprint, and names are not
-render 10 scene.json -o 'out/%d.png' --depth 3
-render 0 scene.json -o 'out/%d.png' --depth 3
-render 10 scene.json -o 'out/%d.png'
-render 10 scene.json -o 'out/%d.png' --set 'materials.plain.diffuse=0.25'
-render 10 scene.json -o 'out/%d.png' --set output.curve=linear
-render 10 scene.json -o 'out/%d.png' --set output.bits=16
-render 10 scene.json -o 'out/%d.png' --precision double
-render 10 scene.json -o 'out/%d.png' --crop 8x8+3+2
-render 10 scene.json -o 'out/%d.png' --geometry triangles
-render 10 scene.json -o 'out/%d.png' --aa adaptive
-render 10 scene.json -o 'out/%d.png'
+for variant in '--depth 3' '--set materials.plain.diffuse=0.25' '--set output.curve=linear' \
+    '--set output.bits=16' '--precision double' '--crop 8x8+3+2' '--geometry triangles' '--accel brute' \
+    '--aa adaptive' '--max-error 9' '--set camera.frames=41'; do
+    rm -r out
+    cp -r first out
+    # shellcheck disable=SC2086 # an option and its value
+    render 10 scene.json -o 'out/%d.png' $variant
+    # shellcheck disable=SC2086
+    render 0 scene.json -o 'out/%d.png' $variant
+done
+rm -r out
+cp -r first out
 cp floor.data other.data
 sed 's/floor\.data/other.data/' scene.json >other.json
 render 0 other.json -o 'out/%d.png' --set output.frames_per_second=25
