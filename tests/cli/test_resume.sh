@@ -144,6 +144,44 @@ if ((has_ffmpeg)); then
     expect_same_film fresh.mkv deep.mkv
 fi
 
+# ---- held by an FFmpeg that takes nothing, and then killed or interrupted
+has_temporary() {
+    compgen -G 'held/*.tmp-*' >"$logs/which"
+}
+
+if ((has_ffmpeg)); then
+    mkdir "$work/tools"
+    printf '#!%s\necho $$ >"%s/leader.new"; mv "%s/leader.new" "%s/leader"; exec sleep 600\n' \
+        "$(command -v bash)" "$work" "$work" "$work" >"$work/tools/ffmpeg"
+    chmod +x "$work/tools/ffmpeg"
+    held=("$hedron" render --backend c --quiet --size 400x300 --samples 1 --depth 0 --frames 0-9 -o 'held/%d.png')
+
+    start env PATH="$work/tools:$PATH" "${held[@]}" -o held/film.mkv
+    if ! wait_until 120 has_temporary || ! wait_until 120 test -e "$work/leader"; then
+        fail 'no frame was begun'
+        show_logs
+    fi
+    kill -KILL "$pid" "$(<"$work/leader")"
+    expect_end 137 60
+    if ! has_temporary || [[ -e held/0.png ]]; then
+        fail 'the first frame has its name before the film has it, or nothing is left of it'
+    fi
+    expect_exit 0 "${held[@]}" -o held/film.mkv
+    expect_files held {0..9}.png film.mkv
+
+    # The film of finished frames.
+    rm "$work/leader"
+    start env PATH="$work/tools:$PATH" "${held[@]}" -o held/other.mkv
+    if ! wait_until 120 test -e "$work/leader"; then
+        fail 'no film was begun'
+    fi
+    kill -INT "$pid"
+    expect_end 130 60
+    expect_sentence
+    expect_stderr_contains interrupted
+    expect_files held {0..9}.png film.mkv
+fi
+
 # ---- killed again and again
 start_sequence() {
     local films=()
