@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE /* flock */
 #define _POSIX_C_SOURCE 200809L
 
 #include "atomic_file.h"
@@ -6,12 +7,13 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "leftovers.h"
 
-enum { MAX_ATTEMPTS = 1000 };
+enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
 
 static HdStatus check_target(const char *path, HdError *error) {
     struct stat found;
@@ -34,8 +36,8 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
                                HdError *error) {
     const char *slash = strrchr(path, '/');
     int folder_length = slash == NULL ? 0 : (int)(slash - path) + 1;
-    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.200s.tmp-%ld-%d", folder_length, path,
-                          path + folder_length, (long)getpid(), attempt);
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder_length, path,
+                          MAX_NAME, path + folder_length, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
@@ -60,6 +62,38 @@ static HdStatus check_length(const char *path, HdError *error) {
     return HD_OK;
 }
 
+bool hd_temporary_belongs(const char *name, const char *final_name) {
+    size_t length = strlen(final_name);
+    long process;
+    int attempt, used = 0;
+    if (length > MAX_NAME)
+        length = MAX_NAME;
+    if (strncmp(name, final_name, length) != 0)
+        return false;
+    name += length;
+    return sscanf(name, ".tmp-%ld-%d%n", &process, &attempt, &used) == 2 && name[used] == '\0';
+}
+
+/* Between its making and its locking the file looks like one that was left behind. Where a file
+   system has no locks, none can be held, and nothing is removed. */
+static bool lock(int descriptor) {
+    struct stat found;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return false;
+    return fstat(descriptor, &found) != 0 || found.st_nlink > 0;
+}
+
+void hd_temporary_remove_stale(const char *temporary) {
+    struct stat found;
+    int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0)
+        return;
+    if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) &&
+        flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+        unlink(temporary);
+    close(descriptor);
+}
+
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
@@ -73,11 +107,13 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         if (status != HD_OK)
             break;
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (*descriptor >= 0) {
+        if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
             return HD_OK;
         }
-        if (errno != EEXIST)
+        if (*descriptor >= 0)
+            close(*descriptor);
+        else if (errno != EEXIST)
             return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path,
                            temporary, strerror(errno));
     }
@@ -109,11 +145,14 @@ HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *erro
     if (status != HD_OK)
         return status;
     memcpy(file->path, path, strlen(path) + 1);
-    file->stream = fdopen(descriptor, "wb");
+    file->lock = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    file->stream = file->lock >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (file->stream != NULL)
         return HD_OK;
     int reason = errno;
     close(descriptor);
+    if (file->lock >= 0)
+        close(file->lock);
     hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
@@ -124,14 +163,20 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
     if (fclose(file->stream) != 0)
         reason = errno;
     file->stream = NULL;
+    HdStatus status = HD_OK;
     if (reason == 0)
-        return hd_temporary_publish(file->temporary, file->path, error);
-    hd_temporary_remove(file->temporary);
-    return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
+        status = hd_temporary_publish(file->temporary, file->path, error);
+    else
+        hd_temporary_remove(file->temporary);
+    close(file->lock);
+    return reason == 0
+               ? status
+               : hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {
     fclose(file->stream);
     file->stream = NULL;
     hd_temporary_remove(file->temporary);
+    close(file->lock);
 }

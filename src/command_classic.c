@@ -33,6 +33,7 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
     HdRendering rendering = {
         .name = "standard input",
         .scene = &file->scene,
+        .file = file,
         .frames = &frames,
         .outputs = {.names = {file->output.path}, .count = 1, .style = file->output.style},
         .device_kind = options->mode == HD_CLASSIC_CPU ? HD_ONLY_CPU : HD_PREFER_GPU,

@@ -47,9 +47,11 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
     HdRendering rendering = {
         .name = hd_scene_name(options),
         .scene = &file->scene,
+        .file = file,
         .frames = &frames,
         .outputs = plan_outputs(options, &file->output, frames.count),
         .device_kind = HD_WANT_ANY,
+        .resumes = !options->again,
         .tells_progress = true,
     };
     status = hd_render(&rendering, options, error);

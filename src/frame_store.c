@@ -57,10 +57,17 @@ static void end(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
+static bool was_finished(const HdFrameStore *store, int item) {
+    return store->plan.resume != NULL && store->plan.resume->is_finished[item];
+}
+
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
-    (void)error;
+    if (was_finished(store, item)) /* which nobody traced */
+        return hd_resume_load(hd_outputs_plan(store->plan.outputs),
+                              store->plan.frames->frames[item], hd_parcel_frame(place->parcel),
+                              error);
     if (hd_parcel_frame(place->parcel)->is_encoded)
         return HD_OK;
     place->times.convert = begin(store);
@@ -82,6 +89,8 @@ static HdStatus add_to_film(void *context, int item, HdError *error) {
 static HdStatus write_pictures(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
+    if (was_finished(store, item))
+        return HD_OK;
     place->times.store = begin(store);
     HdStatus status = hd_parcel_write(place->parcel, store->plan.frames->frames[item], error);
     end(store, &place->times.store);
@@ -120,6 +129,7 @@ static HdStatus publish(void *context, int item, HdError *error) {
         .tracer = place->tracer,
         .done = item + 1,
         .frame = hd_parcel_frame(place->parcel),
+        .was_finished = was_finished(store, item),
         .times = place->times,
     };
     return store->plan.stored(store->plan.context, &stored, error);
@@ -129,22 +139,6 @@ static HdStatus publish(void *context, int item, HdError *error) {
 static unsigned add_stage(HdFrameStore *store, HdStage stage) {
     store->list[store->stage_count] = stage;
     return 1u << store->stage_count++;
-}
-
-static void add_films(HdFrameStore *store) {
-    unsigned converted = 0;
-    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (hd_outputs_film(store->plan.outputs, i) == NULL)
-            continue;
-        if (converted == 0)
-            converted =
-                add_stage(store, (HdStage){.work = convert, .context = store, .threads = 1});
-        store->films[i] = (Film){.store = store, .index = i};
-        add_stage(store, (HdStage){.work = add_to_film,
-                                   .context = &store->films[i],
-                                   .threads = 1,
-                                   .after = converted});
-    }
 }
 
 static int least(int a, int b) {
@@ -163,6 +157,29 @@ static int encoder_count(const HdFrameStorePlan *plan) {
     if (!has_pictures)
         return 0;
     return least(least(hd_processor_count(), MAX_ENCODERS), plan->frames->count);
+}
+
+/* Reading frames back takes longer than converting them. */
+static int converter_count(const HdFrameStorePlan *plan) {
+    bool reads = plan->resume != NULL && plan->resume->finished_count > 0;
+    return reads ? encoder_count(plan) : 1;
+}
+
+static void add_films(HdFrameStore *store) {
+    const int converters = converter_count(&store->plan);
+    unsigned converted = 0;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
+        if (hd_outputs_film(store->plan.outputs, i) == NULL)
+            continue;
+        if (converted == 0)
+            converted = add_stage(
+                store, (HdStage){.work = convert, .context = store, .threads = converters});
+        store->films[i] = (Film){.store = store, .index = i};
+        add_stage(store, (HdStage){.work = add_to_film,
+                                   .context = &store->films[i],
+                                   .threads = 1,
+                                   .after = converted});
+    }
 }
 
 static void list_stages(HdFrameStore *store) {
@@ -212,8 +229,9 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     list_stages(store);
     HdStatus status = create_places(store, error);
     if (status == HD_OK)
-        status = hd_stages_start(&store->stages, store->list, store->stage_count,
-                                 plan->frames->count, store->place_count, error);
+        status = hd_stages_start(
+            &store->stages, store->list, store->stage_count, plan->frames->count,
+            plan->resume != NULL ? plan->resume->is_finished : NULL, store->place_count, error);
     if (status == HD_OK)
         *out = store;
     else

@@ -9,6 +9,7 @@
 #include "frame.h"
 #include "frame_list.h"
 #include "outputs.h"
+#include "resume.h"
 
 /* When something was done, in seconds. */
 typedef struct HdSpan {
@@ -29,15 +30,18 @@ typedef struct HdFrameTimes {
 /* What is known once a frame is stored. */
 typedef struct HdStoredFrame {
     int number;
-    int tracer; /* who traced it */
+    int tracer; /* who traced it, if it was not finished */
     int done;   /* frames stored so far, this one included */
     const HdFrame *frame;
+    bool was_finished; /* before the run: of `frame` only the size is worth something */
     HdFrameTimes times;
 } HdStoredFrame;
 
 typedef struct HdFrameStorePlan {
     HdOutputs *outputs;
     const HdFrameList *frames;
+    const HdResume *resume; /* which of them are finished: the store takes these by itself, and
+                               reads them back for films; NULL: none */
     int width, height;
     int tracers;  /* how many trace frames, 1 or more */
     double start; /* of the run, by hd_monotonic_seconds */
@@ -52,7 +56,8 @@ typedef struct HdFrameStore HdFrameStore;
 /* What the plan points to must live on. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
-/* Takes the first frame of the list that nobody has traced or is tracing: its place in the list.
+/* Takes the first frame of the list that is not finished and that nobody has traced or is tracing:
+   its place in the list.
    The caller must give it, or give it back. `wants` says whether a tracer wants one (HdTaker);
    NULL: it does. Negative where there is none for it now; with `waits`, where there will be none.
  */
@@ -80,9 +85,9 @@ void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error);
 /* No tracer gets another frame. */
 void hd_frame_store_stop(HdFrameStore *store);
 
-/* Waits until the frames are stored that were given, those after one that failed or was not given
-   excepted; frees `store`. Tells how many were stored: they are the first ones, and no later one
-   has left pictures. */
+/* Waits until the frames are stored that were given or finished, those after one that failed or was
+   not given excepted; frees `store`. Tells how many were stored: they are the first ones, and no
+   later one has left pictures. */
 HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error);
 
 #endif

@@ -12,4 +12,8 @@
 /* Goes on from `hash`, at first HD_HASH_START. */
 uint64_t hd_hash_bytes(uint64_t hash, const void *data, size_t size);
 
+/* For much data: eight bytes at a time, which is several times as fast. It is no FNV and gives
+   another number. */
+uint64_t hd_hash_words(uint64_t hash, const void *data, size_t size);
+
 #endif

@@ -23,6 +23,7 @@ static const uint8_t no_error[3] = {0, 0, 0}, no_number[3] = {0, 255, 255};
 /* Everything that must outlive a jump out of libpng lives here. */
 struct HdHeatMap {
     HdAtomicFile file;
+    HdPngSink sink;
     png_structp png;
     png_infop info;
     int width, height;
@@ -44,9 +45,10 @@ void hd_heat_colour(double error, uint8_t rgb[3]) {
 }
 
 static bool try_head(HdHeatMap *map) {
+    map->sink.stream = map->file.stream;
     if (setjmp(png_jmpbuf(map->png)) != 0)
         return false;
-    hd_png_begin_rgb(map->png, map->info, map->file.stream, map->width, map->height, 8);
+    hd_png_begin_rgb(map->png, map->info, &map->sink, map->width, map->height, 8);
     png_set_sRGB(map->png, map->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(map->png, map->info);
     return true;

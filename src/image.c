@@ -63,7 +63,7 @@ static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *e
 }
 
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
-                            const char *path, HdError *error) {
+                            const uint64_t *fingerprint, const char *path, HdError *error) {
     HdOutputKind kind = hd_output_kind(path);
     HdStatus status = check_picture(frame, path, error);
     if (status == HD_OK)
@@ -71,7 +71,7 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPi
     if (status != HD_OK)
         return status;
     if (kind == HD_OUTPUT_PNG)
-        status = hd_image_png_write(frame, style, file->stream, path, error);
+        status = hd_image_png_write(frame, style, fingerprint, file->stream, path, error);
     else if (kind == HD_OUTPUT_PFM)
         status = hd_image_pfm_write(frame, file->stream, path, error);
     else
@@ -84,7 +84,7 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPi
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error) {
     HdAtomicFile file;
-    HdStatus status = hd_picture_prepare(&file, frame, style, path, error);
+    HdStatus status = hd_picture_prepare(&file, frame, style, NULL, path, error);
     return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
 }
 

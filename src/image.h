@@ -41,10 +41,11 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
 
-/* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. On
-   failure nothing is left of `file`. */
+/* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. A PNG
+   gets the mark of `fingerprint` (picture_mark.h); NULL: none. On failure nothing is left of
+   `file`. */
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
-                            const char *path, HdError *error);
+                            const uint64_t *fingerprint, const char *path, HdError *error);
 
 /* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
    values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */

@@ -22,9 +22,15 @@ void hd_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgb
 /* Write to an open stream, a row at a time; `path` is for messages. */
 HdStatus hd_image_data_write(const HdFrame *frame, HdCurve curve, FILE *stream, const char *path,
                              HdError *error);
-HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style, FILE *stream,
-                            const char *path, HdError *error);
+HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style,
+                            const uint64_t *fingerprint, FILE *stream, const char *path,
+                            HdError *error);
 HdStatus hd_image_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error);
+
+/* Reads an RGB picture of 8 bits and the frame's size back into `rgba`, and says so (is_encoded).
+   `name` is for messages. */
+HdStatus hd_image_png_load(HdFrame *frame, const unsigned char *bytes, size_t size,
+                           const char *name, HdError *error);
 
 /* True where the bytes begin with PNG's signature. */
 bool hd_image_is_png(const unsigned char *bytes, size_t size);

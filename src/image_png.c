@@ -3,10 +3,12 @@
 
 #include "image_files.h"
 
+#include <errno.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture_mark.h"
 #include "png_setup.h"
 
 enum { SIGNATURE_SIZE = 8, SIZE_OFFSET = 16, SIZE_END = 24 };
@@ -18,7 +20,7 @@ typedef struct PngJob {
     const unsigned char *bytes; /* the part not read yet */
     size_t size;
     unsigned bits; /* of the rows that were read */
-    FILE *stream;
+    HdPngSink sink;
     char message[HD_PNG_MESSAGE_SIZE];
 } PngJob;
 
@@ -113,6 +115,44 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     return HD_OK;
 }
 
+/* Runs under setjmp. The alpha of each pixel is 255. */
+static void read_rgba(PngJob *job, HdFrame *frame) {
+    const size_t row_size = (size_t)frame->width * 4;
+    png_set_read_fn(job->png, job, read_bytes);
+    hd_png_limit_reading(job->png);
+    png_read_info(job->png, job->info);
+    png_set_filler(job->png, 255, PNG_FILLER_AFTER);
+    png_read_update_info(job->png, job->info);
+    if (png_get_image_width(job->png, job->info) != (png_uint_32)frame->width ||
+        png_get_image_height(job->png, job->info) != (png_uint_32)frame->height ||
+        png_get_rowbytes(job->png, job->info) != row_size)
+        png_error(job->png, "unexpected size or kind of picture");
+    for (int y = 0; y < frame->height; y++)
+        png_read_row(job->png, frame->rgba + row_size * (size_t)y, NULL);
+    png_read_end(job->png, NULL);
+}
+
+static bool try_reading_rgba(PngJob *job, HdFrame *frame) {
+    if (setjmp(png_jmpbuf(job->png)) != 0)
+        return false;
+    read_rgba(job, frame);
+    return true;
+}
+
+HdStatus hd_image_png_load(HdFrame *frame, const unsigned char *bytes, size_t size,
+                           const char *name, HdError *error) {
+    PngJob job = {.bytes = bytes, .size = size, .message = "out of memory"};
+    job.png = hd_png_create_reader(job.message);
+    if (job.png != NULL)
+        job.info = png_create_info_struct(job.png);
+    bool done = job.info != NULL && try_reading_rgba(&job, frame);
+    png_destroy_read_struct(&job.png, &job.info, NULL);
+    if (!done)
+        return hd_fail(error, HD_FAILED, "cannot read %s as PNG: %s", name, job.message);
+    frame->is_encoded = true;
+    return HD_OK;
+}
+
 /* A row of the file; PNG is big endian. With 16 bits the codes are made in the row itself. */
 static void encode_row(const HdPictureStyle *style, const float *rgb, size_t values,
                        uint16_t *row) {
@@ -136,10 +176,22 @@ static void copy_row(const uint8_t *rgba, size_t pixels, uint8_t *row) {
 }
 
 /* Runs under setjmp. */
+static void write_end(PngJob *job, const uint64_t *fingerprint) {
+    unsigned char end[HD_PICTURE_END_SIZE];
+    if (fingerprint == NULL) {
+        png_write_end(job->png, NULL);
+        return;
+    }
+    hd_picture_end(*fingerprint, job->sink.hash, end);
+    if (fwrite(end, 1, sizeof end, job->sink.stream) != sizeof end)
+        png_error(job->png, strerror(errno));
+}
+
+/* Runs under setjmp. */
 static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
-                       uint16_t *row) {
+                       const uint64_t *fingerprint, uint16_t *row) {
     const size_t width = (size_t)frame->width, values = width * 3;
-    hd_png_begin_rgb(job->png, job->info, job->stream, frame->width, frame->height, style->bits);
+    hd_png_begin_rgb(job->png, job->info, &job->sink, frame->width, frame->height, style->bits);
     if (style->curve == HD_CURVE_SRGB)
         png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(job->png, job->info);
@@ -150,26 +202,27 @@ static void write_rows(PngJob *job, const HdFrame *frame, const HdPictureStyle *
             encode_row(style, frame->rgb + values * (size_t)y, values, row);
         png_write_row(job->png, (png_const_bytep)row);
     }
-    png_write_end(job->png, NULL);
+    write_end(job, fingerprint);
 }
 
 static bool try_writing(PngJob *job, const HdFrame *frame, const HdPictureStyle *style,
-                        uint16_t *row) {
+                        const uint64_t *fingerprint, uint16_t *row) {
     if (setjmp(png_jmpbuf(job->png)) != 0)
         return false;
-    write_rows(job, frame, style, row);
+    write_rows(job, frame, style, fingerprint, row);
     return true;
 }
 
-HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style, FILE *stream,
-                            const char *path, HdError *error) {
-    PngJob job = {.stream = stream, .message = "out of memory"};
+HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style,
+                            const uint64_t *fingerprint, FILE *stream, const char *path,
+                            HdError *error) {
+    PngJob job = {.sink = {.stream = stream}, .message = "out of memory"};
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row != NULL)
         job.png = hd_png_create_writer(job.message);
     if (job.png != NULL)
         job.info = png_create_info_struct(job.png);
-    bool done = job.info != NULL && try_writing(&job, frame, style, row);
+    bool done = job.info != NULL && try_writing(&job, frame, style, fingerprint, row);
     png_destroy_write_struct(&job.png, &job.info);
     free(row);
     if (!done)

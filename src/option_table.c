@@ -36,6 +36,9 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times"},
     {HD_OPTION_FRAMES, "--frames", NULL, "LIST", NULL, false, 0, 0, MEASURING,
      "render these frames only, for example 0-9,20"},
+    {HD_OPTION_AGAIN, "--again", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
+     "the same pixels, are left as they are"},
     {HD_OPTION_SIZE, "--size", NULL, "WxH", NULL, false, 0, 0, MEASURING,
      "size of the picture in pixels"},
     {HD_OPTION_SAMPLES, "--samples", NULL, "N", NULL, false, 1, HD_MAX_SAMPLES_PER_SIDE, MEASURING,
@@ -60,8 +63,7 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "auto, c, opencl or cuda (default auto: the best one found)"},
     {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, RENDERING,
      "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
-     "several "
-     "that share the frames: all, or a list such as cuda:0,cuda:1,c:0"},
+     "several that share the frames: all, or a list such as cuda:0,cuda:1,c:0"},
     {HD_OPTION_DEVICE, "--device", NULL, "DEVICE", NULL, false, 0, 0, HD_COMMAND_TUNE,
      "number of the device as listed by 'hedron devices', also as c:0, or part of its name"},
     {HD_OPTION_LANES, "--lanes", NULL, "N", "1 4 8 16", false, 0, 0, MEASURING,

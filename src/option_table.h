@@ -14,6 +14,7 @@ typedef enum HdOptionId {
     HD_OPTION_OUTPUT,
     HD_OPTION_SET,
     HD_OPTION_FRAMES,
+    HD_OPTION_AGAIN,
     HD_OPTION_SIZE,
     HD_OPTION_SAMPLES,
     HD_OPTION_DEPTH,
@@ -59,7 +60,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 40 };
+enum { HD_OPTION_SPEC_COUNT = 41 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

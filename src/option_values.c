@@ -288,6 +288,8 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         return apply_choice(options, spec, value, error);
     case HD_OPTION_STATS:
         return parse_text(spec, value, "a file or -", &options->statistics, error);
+    case HD_OPTION_AGAIN:
+        return set_flag(&options->again, NULL, error);
     case HD_OPTION_VERBOSE:
         return set_flag(&options->verbose, &options->quiet, error);
     case HD_OPTION_QUIET:

@@ -37,6 +37,7 @@ typedef struct HdOptions {
     const char *device;     /* number or part of a name; NULL: not given */
     const char *frames;     /* NULL: not given */
     const char *statistics; /* a file, "-": standard output; NULL: not given */
+    bool again;             /* finished frames are rendered again */
     bool verbose, quiet;    /* not both */
     bool json;              /* of 'devices', 'tune' and 'compare' */
     bool schema;            /* of 'check' */

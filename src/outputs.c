@@ -112,6 +112,13 @@ static HdStatus probe_picture(const char *name, int number, HdError *error) {
     return HD_OK;
 }
 
+bool hd_outputs_have_png(const HdOutputPlan *plan) {
+    for (int i = 0; i < plan->count; i++)
+        if (hd_output_kind(plan->names[i]) == HD_OUTPUT_PNG)
+            return true;
+    return false;
+}
+
 static bool needs_radiance(const char *name, int bits) {
     HdOutputKind kind = hd_output_kind(name);
     return kind == HD_OUTPUT_PFM || (kind == HD_OUTPUT_PNG && bits > 8);

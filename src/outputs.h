@@ -3,6 +3,9 @@
 #ifndef HD_OUTPUTS_H
 #define HD_OUTPUTS_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "error.h"
 #include "frame.h"
 #include "image.h"
@@ -21,6 +24,9 @@ typedef struct HdOutputPlan {
     const char *names[HD_MAX_OUTPUTS]; /* films, patterns of sequences, or pictures' names */
     int count;
     HdOutputStyle style;
+    bool is_marked;       /* PNG pictures get a mark (picture_mark.h) */
+    uint64_t fingerprint; /* of the run (frame_fingerprint.h), where they do */
+    bool resumes;         /* frames whose marked pictures are there are finished (resume.h) */
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */
@@ -34,6 +40,9 @@ HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *er
    that it stands for. */
 HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
 HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdError *error);
+
+/* Whether some of the outputs are PNG pictures. */
+bool hd_outputs_have_png(const HdOutputPlan *plan);
 
 /* What a frame must hold for all outputs of the plan. */
 HdFrameWish hd_outputs_wish(const HdOutputPlan *plan);

@@ -6,6 +6,7 @@
 #include "atomic_file.h"
 #include "image.h"
 #include "paths.h"
+#include "picture_mark.h"
 #include "video.h"
 
 struct HdParcel {
@@ -73,11 +74,13 @@ HdStatus hd_parcel_film(HdParcel *parcel, int index, HdError *error) {
 
 static HdStatus write_picture(HdParcel *parcel, int index, int number, HdError *error) {
     const HdOutputPlan *plan = hd_outputs_plan(parcel->outputs);
+    const uint64_t fingerprint = hd_picture_fingerprint(plan->fingerprint, number);
     HdAtomicFile *file = &parcel->files[index];
     char path[HD_MAX_PATH];
     HdStatus status = hd_output_file(plan->names[index], number, path, error);
     if (status == HD_OK)
-        status = hd_picture_prepare(file, &parcel->frame, &plan->style.picture, path, error);
+        status = hd_picture_prepare(file, &parcel->frame, &plan->style.picture,
+                                    plan->is_marked ? &fingerprint : NULL, path, error);
     if (status != HD_OK)
         file->stream = NULL;
     return status;

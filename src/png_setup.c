@@ -8,6 +8,7 @@
 
 #include <zlib.h>
 
+#include "hash.h"
 #include "scene_limits.h"
 
 /* Far above what a picture needs, far below what would hurt. */
@@ -47,8 +48,10 @@ void hd_png_convert_to_rgb(png_structp png) {
 }
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t count) {
-    if (fwrite(bytes, 1, count, png_get_io_ptr(png)) != count)
+    HdPngSink *sink = png_get_io_ptr(png);
+    if (fwrite(bytes, 1, count, sink->stream) != count)
         png_error(png, strerror(errno));
+    sink->hash = hd_hash_bytes(sink->hash, bytes, count);
 }
 
 static void flush_nothing(png_structp png) {
@@ -57,9 +60,10 @@ static void flush_nothing(png_structp png) {
 
 /* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
    nothing else is both faster and smaller than level 1. */
-void hd_png_begin_rgb(png_structp png, png_infop info, FILE *stream, int width, int height,
+void hd_png_begin_rgb(png_structp png, png_infop info, HdPngSink *sink, int width, int height,
                       int bits) {
-    png_set_write_fn(png, stream, write_bytes, flush_nothing);
+    sink->hash = HD_HASH_START;
+    png_set_write_fn(png, sink, write_bytes, flush_nothing);
     png_set_compression_strategy(png, Z_RLE);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, bits, PNG_COLOR_TYPE_RGB,

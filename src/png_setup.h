@@ -3,6 +3,7 @@
 #ifndef HD_PNG_SETUP_H
 #define HD_PNG_SETUP_H
 
+#include <stdint.h>
 #include <stdio.h>
 
 #include <png.h>
@@ -21,9 +22,15 @@ void hd_png_limit_reading(png_structp png);
 /* Every kind of PNG becomes RGB, with 16 bits where it has as many, otherwise with 8. */
 void hd_png_convert_to_rgb(png_structp png);
 
-/* Writes to `stream` and prepares the head of an RGB picture of `bits` bits that is not interlaced.
-   Speed comes before size. */
-void hd_png_begin_rgb(png_structp png, png_infop info, FILE *stream, int width, int height,
+/* Where a picture is written to. */
+typedef struct HdPngSink {
+    FILE *stream;
+    uint64_t hash; /* of the bytes so far (hash.h) */
+} HdPngSink;
+
+/* Writes to `sink`, which has to live as long, and prepares the head of an RGB picture of `bits`
+   bits that is not interlaced. Speed comes before size. */
+void hd_png_begin_rgb(png_structp png, png_infop info, HdPngSink *sink, int width, int height,
                       int bits);
 
 #endif

@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include "device_team.h"
+#include "frame_fingerprint.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
+#include "stale_files.h"
 #include "statistics.h"
 
 enum { RENDERER_LINE = 512 };
@@ -18,12 +20,14 @@ enum { RENDERER_LINE = 512 };
 typedef struct Run {
     const HdRendering *rendering;
     const HdOptions *options;
+    HdOutputPlan outputs; /* with marks */
+    HdResume resume;
     HdProgress progress;
     HdStatistics statistics; /* stream NULL: not wanted */
     HdDeviceTeam team;
     char (*renderer_lines)[RENDERER_LINE]; /* of each device */
     pthread_mutex_t telling;               /* one thread at a time; of the progress too */
-    int done;                              /* frames so far */
+    int rendered;                          /* frames so far */
     uint64_t rays;                         /* of all frames so far */
     double missing;                        /* steps of 255 at most, of the worst frame so far */
 } Run;
@@ -38,7 +42,7 @@ static void scene_uploaded(void *context, int number, const HdSceneTables *table
         hd_note_renderer(&run->team.devices[number], run->renderer_lines[number],
                          hd_renderer_kernels_note(renderer), tables);
     }
-    hd_progress_update(&run->progress, run->done);
+    hd_progress_update(&run->progress, run->rendered);
     pthread_mutex_unlock(&run->telling);
 }
 
@@ -50,10 +54,10 @@ static void device_dropped(void *context, int number, const HdError *error) {
     pthread_mutex_unlock(&run->telling);
 }
 
-static void tell_progress(Run *run, int done) {
+static void tell_progress(Run *run, int rendered) {
     pthread_mutex_lock(&run->telling);
-    run->done = done;
-    hd_progress_update(&run->progress, done);
+    run->rendered = rendered;
+    hd_progress_update(&run->progress, rendered);
     pthread_mutex_unlock(&run->telling);
 }
 
@@ -69,11 +73,13 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
+    if (stored->was_finished)
+        return status;
     run->rays += hd_frame_rays(stored->frame);
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
     if (status == HD_OK)
-        tell_progress(run, stored->done);
+        tell_progress(run, run->rendered + 1);
     return status;
 }
 
@@ -95,8 +101,8 @@ static HdStatus open_devices(Run *run, HdError *error) {
     HdScene plain = *run->rendering->scene; /* what it owns stays with the other */
     HdJob job = {
         .scene = &plain,
-        .first_frame = run->rendering->frames->frames[0],
-        .frame_count = run->rendering->frames->count,
+        .first_frame = run->resume.missing.frames[0],
+        .frame_count = run->resume.missing.count,
     };
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
@@ -104,7 +110,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
     HdStatus status = hd_open_devices(&run->team, &wish, &options->render, &job, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
-        return hd_fail(error, status, "interrupted after 0 of %d frames", job.frame_count);
+        return hd_fail(error, status, "interrupted after 0 of %d frames", run->resume.all->count);
     if (status != HD_OK)
         return status;
     if (reason.note[0] != '\0' && !options->quiet)
@@ -124,7 +130,8 @@ static void announce_interrupt(const Run *run) {
 }
 
 static HdStatus prepare_to_tell(Run *run, HdError *error) {
-    run->renderer_lines = calloc((size_t)run->team.count, sizeof *run->renderer_lines);
+    size_t count = run->team.count > 0 ? (size_t)run->team.count : 1;
+    run->renderer_lines = calloc(count, sizeof *run->renderer_lines);
     if (run->renderer_lines == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to tell of the devices");
     return HD_OK;
@@ -135,8 +142,9 @@ static HdStatus render_all(Run *run, HdError *error) {
     HdSequence sequence = {
         .scene = rendering->scene,
         .frames = rendering->frames,
+        .resume = &run->resume,
         .precision = run->options->render.precision,
-        .outputs = &rendering->outputs,
+        .outputs = &run->outputs,
         .renderers = run->team.renderers,
         .renderer_count = run->team.count,
         .uploaded = scene_uploaded,
@@ -144,13 +152,14 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    if (run->team.devices[0].backend != &hd_backend_c && !run->options->verbose)
+    if (run->team.count > 0 && run->team.devices[0].backend != &hd_backend_c &&
+        !run->options->verbose)
         hd_progress_prepare(&run->progress, "building kernels");
     announce_interrupt(run);
     HdStatus status = hd_sequence_render(&sequence, error);
     hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
-    if (status == HD_OK)
+    if (status == HD_OK && run->team.count > 0)
         hd_progress_tell_end(&run->progress, run->rays);
     if (status == HD_OK && !run->options->quiet)
         hd_note_missing(rendering->scene, run->missing);
@@ -163,8 +172,8 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     HdError ignored;
     run->progress = hd_progress_start(
         run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
-        rendering->frames->count);
-    HdStatus status = open_devices(run, error);
+        run->resume.missing.count);
+    HdStatus status = run->resume.missing.count > 0 ? open_devices(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
     if (status == HD_OK)
@@ -180,6 +189,24 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
     return status;
 }
 
+/* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
+static void mark_outputs(Run *run) {
+    const HdRendering *rendering = run->rendering;
+    const HdRenderOptions *render = &run->options->render;
+    run->outputs = rendering->outputs;
+    run->outputs.resumes = rendering->resumes;
+    run->outputs.is_marked = render->math == HD_MATH_STRICT && hd_outputs_have_png(&run->outputs);
+    if (run->outputs.is_marked)
+        run->outputs.fingerprint =
+            hd_run_fingerprint(rendering->file, render->precision, &run->outputs.style.picture);
+}
+
+static void tell_finished(const Run *run) {
+    if (run->resume.finished_count > 0 && !run->options->quiet)
+        fprintf(stderr, "hedron: %d of %d frames were finished already\n",
+                run->resume.finished_count, run->resume.all->count);
+}
+
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
     Run run = {.rendering = rendering, .options = options, .telling = PTHREAD_MUTEX_INITIALIZER};
     const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
@@ -193,5 +220,13 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
         hd_note_scene(rendering->name, rendering->scene);
         hd_note_outputs(&rendering->outputs, rendering->frames->count);
     }
-    return render_with_statistics(&run, error);
+    hd_stale_files_remove(&rendering->outputs, rendering->frames);
+    mark_outputs(&run);
+    status = hd_resume_find(&run.resume, &run.outputs, rendering->frames, error);
+    if (status != HD_OK)
+        return status;
+    tell_finished(&run);
+    status = render_with_statistics(&run, error);
+    hd_resume_free(&run.resume);
+    return status;
 }

@@ -30,6 +30,11 @@ static HdStatus upload(Run *run, int renderer, HdError *error) {
     return hd_scene_upload(run->upload, sequence->renderers[renderer], uploaded, &uploading, error);
 }
 
+/* What has to be rendered. */
+static const HdFrameList *missing_frames(const HdSequence *sequence) {
+    return sequence->resume != NULL ? &sequence->resume->missing : sequence->frames;
+}
+
 /* ---- several renderers ---- */
 
 static bool has_gpu(const HdSequence *sequence) {
@@ -46,8 +51,8 @@ static HdStatus prepare_member(void *context, int renderer, double *seconds, HdE
     HdRenderer *own = sequence->renderers[renderer];
     const HdJob job = {
         .scene = sequence->scene,
-        .first_frame = sequence->frames->frames[0],
-        .frame_count = sequence->frames->count,
+        .first_frame = missing_frames(sequence)->frames[0],
+        .frame_count = missing_frames(sequence)->count,
     };
     HdStatus status = upload(run, renderer, error);
     if (status != HD_OK || hd_scene_is_surveyed(sequence->scene) || !has_gpu(sequence) ||
@@ -91,9 +96,10 @@ static HdStatus trace_and_store(Run *run, HdError *error) {
     const HdFrameStorePlan plan = {
         .outputs = run->outputs,
         .frames = sequence->frames,
+        .resume = sequence->resume,
         .width = sequence->scene->width,
         .height = sequence->scene->height,
-        .tracers = sequence->renderer_count,
+        .tracers = sequence->renderer_count > 0 ? sequence->renderer_count : 1,
         .start = run->job.start,
         .stored = sequence->stored,
         .context = sequence->context,
@@ -103,7 +109,10 @@ static HdStatus trace_and_store(Run *run, HdError *error) {
     HdStatus status = hd_frame_store_start(&run->job.store, &plan, error);
     if (status != HD_OK)
         return status;
-    status = sequence->renderer_count > 1 ? trace_together(run, error) : trace_alone(run, error);
+    if (sequence->renderer_count == 1)
+        status = trace_alone(run, error);
+    else if (sequence->renderer_count > 1)
+        status = trace_together(run, error);
     HdStatus store_status = hd_frame_store_end(run->job.store, &stored, &store_error);
     if (store_status != HD_OK) {
         status = store_status;
@@ -117,7 +126,7 @@ static HdStatus trace_and_store(Run *run, HdError *error) {
 
 /* One renderer gets its scene before there are outputs; several get theirs while frames are traced.
  */
-static HdStatus prepare(Run *run, HdError *error) {
+static HdStatus prepare_devices(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdScene *scene = sequence->scene;
     HdStatus status = hd_scene_upload_create(&run->upload, scene, sequence->precision,
@@ -125,10 +134,16 @@ static HdStatus prepare(Run *run, HdError *error) {
     if (status == HD_OK && sequence->renderer_count == 1)
         status = upload(run, 0, error);
     if (status == HD_OK)
-        status = hd_outputs_probe(sequence->outputs, sequence->frames->frames[0], error);
+        status = hd_outputs_probe(sequence->outputs, missing_frames(sequence)->frames[0], error);
+    return status;
+}
+
+static HdStatus prepare(Run *run, HdError *error) {
+    const HdSequence *sequence = run->sequence;
+    HdStatus status = sequence->renderer_count > 0 ? prepare_devices(run, error) : HD_OK;
     if (status == HD_OK)
-        status =
-            hd_outputs_open(&run->outputs, sequence->outputs, scene->width, scene->height, error);
+        status = hd_outputs_open(&run->outputs, sequence->outputs, sequence->scene->width,
+                                 sequence->scene->height, error);
     return status;
 }
 

@@ -13,10 +13,11 @@
 typedef struct HdSequence {
     const HdScene *scene;
     const HdFrameList *frames;
+    const HdResume *resume; /* which of them are finished; NULL: none */
     HdPrecision precision;
     const HdOutputPlan *outputs;  /* one that hd_outputs_check accepted */
     HdRenderer *const *renderers; /* open */
-    int renderer_count;           /* 1 to HD_MOST_TRACERS */
+    int renderer_count;           /* 1 to HD_MOST_TRACERS; may be 0 where nothing is missing */
     /* Called once the scene is on a renderer, before its first frame. With several renderers both
        this and the next function are called on other threads. */
     void (*uploaded)(void *context, int renderer, const HdSceneTables *tables);
@@ -28,11 +29,12 @@ typedef struct HdSequence {
     void *context;
 } HdSequence;
 
-/* Renders with one renderer, or with several together: which one renders a frame makes no
-   difference to its bytes. A renderer that fails ends the sequence only if it is the last one. The
-   error is that of the first frame that failed; the frames before it are stored, those after it are
-   not, though they may have been rendered. HD_INTERRUPTED after SIGINT, SIGTERM or SIGHUP: pictures
-   that were finished stay, and so do films that were; the others are dropped. */
+/* Renders what is missing with one renderer, or with several together, and makes films of all:
+   which renderer makes a frame makes no difference to its bytes. A renderer that fails ends the
+   sequence only if it is the last one. The error is that of the first frame that failed; the frames
+   before it are stored, those after it are not, though they may have been rendered. HD_INTERRUPTED
+   after SIGINT, SIGTERM or SIGHUP: pictures that were finished stay, and so do films that were; the
+   others are dropped. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error);
 
 #endif

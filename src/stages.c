@@ -27,10 +27,11 @@ struct HdStages {
     int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
     int count;
     int room;
-    Slot *slots;     /* by item modulo room */
-    bool *is_back;   /* by item: taken and given back */
-    int item_count;  /* at the end only those before the first that was not given */
-    int first_fresh; /* the first item that was never taken */
+    Slot *slots;          /* by item modulo room */
+    bool *is_back;        /* by item: taken and given back */
+    const bool *is_ready; /* by item: given from the start; NULL: none */
+    int item_count;       /* at the end only those before the first that was not given */
+    int first_fresh;      /* the first item that was never taken */
     int back_count;
     int gone;  /* items that went through all stages, and so did those before them */
     int limit; /* the first item that failed; INT_MAX: none */
@@ -50,6 +51,10 @@ static Slot *slot_of(const HdStages *stages, int item) {
     return &stages->slots[item % stages->room];
 }
 
+static bool is_ready(const HdStages *stages, int item) {
+    return stages->is_ready != NULL && item < stages->item_count && stages->is_ready[item];
+}
+
 /* The end of the items that are wanted. */
 static int wanted_end(const HdStages *stages) {
     return least(stages->item_count, stages->limit);
@@ -57,7 +62,7 @@ static int wanted_end(const HdStages *stages) {
 
 static int first_not_given(const HdStages *stages) {
     int item = stages->gone, end = stages->gone + stages->room;
-    while (item < end && slot_of(stages, item)->given)
+    while (is_ready(stages, item) || (item < end && slot_of(stages, item)->given))
         item++;
     return item;
 }
@@ -70,7 +75,7 @@ static int find_work(const HdStages *stages, int stage) {
     int end = least(stages->gone + stages->room, wanted_end(stages));
     for (int item = first; item < (what->threads == 1 ? least(end, first + 1) : end); item++) {
         const Slot *slot = slot_of(stages, item);
-        if (slot->given && (slot->taken >> stage & 1) == 0 &&
+        if ((slot->given || is_ready(stages, item)) && (slot->taken >> stage & 1) == 0 &&
             (slot->done & what->after) == what->after)
             return item;
     }
@@ -106,6 +111,12 @@ static void note_failure(HdStages *stages, int item, const HdError *error) {
     wake_all(stages);
 }
 
+static void wake_first_stages(HdStages *stages) {
+    for (int i = 0; i < stages->count; i++)
+        if (stages->list[i].after == 0)
+            pthread_cond_broadcast(&stages->work_made[i]);
+}
+
 static void note_success(HdStages *stages, int stage, int item) {
     const unsigned all = (1u << stages->count) - 1;
     slot_of(stages, item)->done |= 1u << stage;
@@ -116,6 +127,8 @@ static void note_success(HdStages *stages, int stage, int item) {
         *slot_of(stages, stages->gone) = (Slot){0};
         stages->gone++;
         pthread_cond_broadcast(&stages->room_made);
+        if (is_ready(stages, stages->gone + stages->room - 1))
+            wake_first_stages(stages);
     }
 }
 
@@ -144,7 +157,13 @@ static void *worker_main(void *argument) {
     return NULL;
 }
 
-static HdStages *create(const HdStage *list, int count, int item_count, int room) {
+static void skip_ready(HdStages *stages) {
+    while (is_ready(stages, stages->first_fresh))
+        stages->first_fresh++;
+}
+
+static HdStages *create(const HdStage *list, int count, int item_count, const bool *is_ready,
+                        int room) {
     int threads = list[0].threads;
     for (int i = 1; i < count; i++)
         threads += list[i].threads;
@@ -156,6 +175,8 @@ static HdStages *create(const HdStage *list, int count, int item_count, int room
     stages->workers = calloc((size_t)threads, sizeof *stages->workers);
     stages->count = count;
     stages->item_count = item_count;
+    stages->is_ready = is_ready;
+    skip_ready(stages);
     stages->room = room;
     stages->limit = INT_MAX;
     memcpy(stages->list, list, (size_t)count * sizeof *list);
@@ -197,9 +218,9 @@ static int start_worker(HdStages *stages, int stage) {
     return reason;
 }
 
-HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count, int room,
-                         HdError *error) {
-    HdStages *stages = create(list, count, item_count, room);
+HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
+                         const bool *is_ready, int room, HdError *error) {
+    HdStages *stages = create(list, count, item_count, is_ready, room);
     int reason = 0;
     *out = NULL;
     if (stages == NULL || stages->slots == NULL || stages->is_back == NULL ||
@@ -230,18 +251,27 @@ static int first_to_take(const HdStages *stages) {
     return stages->first_fresh;
 }
 
+/* Items that were never taken; no more than there is room for need be counted. */
+static int count_fresh(const HdStages *stages) {
+    int count = 0, end = wanted_end(stages);
+    for (int item = stages->first_fresh; item < end && count < stages->room; item++)
+        count += !is_ready(stages, item);
+    return count;
+}
+
 static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
     int end = wanted_end(stages);
-    int fresh = end > stages->first_fresh ? end - stages->first_fresh : 0;
     if (item >= end || item >= stages->gone + stages->room + taker->ahead)
         return false;
     return taker->wants == NULL ||
-           taker->wants(taker->context, least(fresh + stages->back_count, stages->room));
+           taker->wants(taker->context,
+                        least(count_fresh(stages) + stages->back_count, stages->room));
 }
 
 static int take(HdStages *stages, int item) {
     if (item == stages->first_fresh) {
         stages->first_fresh++;
+        skip_ready(stages);
     } else {
         stages->is_back[item] = false;
         stages->back_count--;
@@ -278,9 +308,7 @@ bool hd_stages_wait(HdStages *stages, int item) {
 void hd_stages_give(HdStages *stages, int item) {
     pthread_mutex_lock(&stages->mutex);
     *slot_of(stages, item) = (Slot){.given = true};
-    for (int i = 0; i < stages->count; i++)
-        if (stages->list[i].after == 0)
-            pthread_cond_broadcast(&stages->work_made[i]);
+    wake_first_stages(stages);
     pthread_cond_broadcast(&stages->room_made);
     pthread_mutex_unlock(&stages->mutex);
 }

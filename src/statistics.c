@@ -129,10 +129,15 @@ static bool add_bound(json_t *line, const HdFrame *frame) {
                                          frame->mean_bound)) == 0;
 }
 
+/* Nothing was traced for it. */
+static json_t *describe_finished(const HdStoredFrame *stored) {
+    return json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1);
+}
+
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
                            const HdStoredFrame *stored, HdError *error) {
-    json_t *line = describe_frame(facts, stored);
-    if (line != NULL && !add_bound(line, stored->frame)) {
+    json_t *line = stored->was_finished ? describe_finished(stored) : describe_frame(facts, stored);
+    if (line != NULL && !stored->was_finished && !add_bound(line, stored->frame)) {
         json_decref(line);
         line = NULL;
     }

@@ -20,6 +20,7 @@ struct HdVideo {
     long frames;
     char path[HD_MAX_PATH];
     char temporary[HD_MAX_PATH]; /* empty: there is no file */
+    int lock;                    /* of that file; -1: there is none */
     char ffprobe[HD_MAX_PATH];
 };
 
@@ -117,16 +118,18 @@ static void remove_file(HdVideo *video) {
     if (video->temporary[0] != '\0')
         hd_temporary_remove(video->temporary);
     video->temporary[0] = '\0';
+    if (video->lock >= 0)
+        close(video->lock);
+    video->lock = -1;
 }
 
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
 static HdStatus reserve_file(HdVideo *video, HdError *error) {
-    int descriptor = -1;
-    HdStatus status = hd_temporary_create(video->path, video->temporary, &descriptor, error);
-    if (status == HD_OK)
-        close(descriptor);
-    else
+    HdStatus status = hd_temporary_create(video->path, video->temporary, &video->lock, error);
+    if (status != HD_OK) {
         video->temporary[0] = '\0';
+        video->lock = -1;
+    }
     return status;
 }
 
@@ -159,7 +162,7 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
         return hd_fail(error, HD_FAILED, "not enough memory to make the film %s", path);
     film->width = width;
     film->height = height;
-    film->ffmpeg.input = film->ffmpeg.output = -1;
+    film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
     status = open_film(film, path, frames_per_second, error);
     if (status == HD_OK)
         *video = film;

@@ -42,7 +42,7 @@ if has_opencl; then
     pair=("${no_nvidia[@]}" "${frames[@]}" --device 'c:0,opencl:0')
     expect_exit 0 "${pair[@]}" -o together/%d.png --verbose --stats stats.jsonl
     for line in 'device +c 0, .*: named by --device.*' 'device +opencl 0, .*: named by --device.*' \
-        'renderer +.* threads?, mega' 'renderer +.* compute units?, mega'; do
+        'renderer +.* threads?, (mega|wavefront).*' 'renderer +.* compute units?, (mega|wavefront).*'; do
         if (($(grep -c -x -E "$line" "$logs/stderr") != 1)); then
             fail "no line of --verbose is $line"
             show_logs

@@ -41,8 +41,8 @@ to_full "$hedron" render --help
 to_full "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o picture.data --stats -
 to_full "$hedron" devices
 to_full "$hedron" devices --json
-to_full "$hedron" tune --backend c "${small[@]}"
-to_full "$hedron" tune --backend c "${small[@]}" --json
+to_full env HEDRON_CACHE=off "$hedron" tune --backend c "${small[@]}"
+to_full env HEDRON_CACHE=off "$hedron" tune --backend c "${small[@]}" --json
 to_full "$hedron" help man
 to_full "$hedron" help completion
 to_full "$hedron" convert

@@ -113,7 +113,7 @@ static void run_all(int room) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, room, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, room, &error), HD_OK);
     assert_int_equal(give_items(stages, &probes[3], room), ITEMS);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     for (int i = 0; i < 4; i++) {
@@ -131,13 +131,54 @@ static void every_item_goes_through_every_stage(void **state) {
     run_all(ITEMS);
 }
 
+/* Every third item, and many at the end, are there without anybody who makes them. */
+static void what_is_ready_needs_nobody(void **state) {
+    static Probe probes[4];
+    static bool ready[ITEMS];
+    HdStage list[4];
+    HdStages *stages;
+    (void)state;
+    for (int i = 0; i < ITEMS; i++)
+        ready[i] = i % 3 == 0 || i > ITEMS / 2;
+    for (int room = 1; room <= ITEMS; room += ITEMS - 1) {
+        int item, before = -1;
+        list_stages(list, probes);
+        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, room, &error), HD_OK);
+        while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
+            assert_true(item > before && !ready[item]);
+            assert_true(hd_stages_wait(stages, item));
+            hd_stages_give(stages, item);
+            before = item;
+        }
+        assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+        for (int i = 0; i < 4; i++) {
+            assert_int_equal(first_not_done(&probes[i]), ITEMS);
+            assert_int_equal(probes[i].wrong, 0);
+        }
+    }
+}
+
+/* Nobody takes anything, for nothing is missing. */
+static void all_may_be_ready(void **state) {
+    static Probe probes[4];
+    static bool ready[ITEMS];
+    HdStage list[4];
+    HdStages *stages;
+    (void)state;
+    memset(ready, true, sizeof ready);
+    list_stages(list, probes);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, ROOM, &error), HD_OK);
+    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+    assert_int_equal(first_not_done(&probes[3]), ITEMS);
+}
+
 static void no_items_are_no_work(void **state) {
     (void)state;
     static Probe probes[4];
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     assert_int_equal(probes[0].begun, 0);
 }
@@ -154,7 +195,7 @@ static void a_failure_leaves_the_items_before_it(void **state) {
         HdStages *stages;
         list_stages(list, probes);
         probes[stage].fails_at = item;
-        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
         assert_true(give_items(stages, &probes[3], ROOM) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
         assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
@@ -177,7 +218,7 @@ static void the_first_item_that_failed_counts(void **state) {
     list_stages(list, probes);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ROOM, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
     give_items(stages, &probes[3], ROOM);
     assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "item 3 failed");
@@ -201,7 +242,7 @@ static void threads_of_a_stage_work_side_by_side(void **state) {
     (void)state;
     const HdStage stage = {.work = gather, .threads = 3};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, 3, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, NULL, 3, &error), HD_OK);
     for (int i = 0; i < 3; i++) {
         assert_int_equal(hd_stages_take(stages, &anybody, true), i);
         hd_stages_give(stages, i);
@@ -224,7 +265,7 @@ static void giving_overlaps_with_the_work(void **state) {
     atomic_int given = 0;
     const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
     HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, 2, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, NULL, 2, &error), HD_OK);
     for (int i = 0; i < 20; i++) {
         assert_int_equal(hd_stages_take(stages, &anybody, true), i);
         hd_stages_give(stages, i);
@@ -240,7 +281,7 @@ static HdStages *start_probes(Probe probes[4], int room) {
     HdStage list[4];
     HdStages *stages;
     list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, room, &error), HD_OK);
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, room, &error), HD_OK);
     return stages;
 }
 
@@ -434,6 +475,8 @@ static void a_gap_ends_it(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_item_goes_through_every_stage),
+        cmocka_unit_test(what_is_ready_needs_nobody),
+        cmocka_unit_test(all_may_be_ready),
         cmocka_unit_test(no_items_are_no_work),
         cmocka_unit_test(a_failure_leaves_the_items_before_it),
         cmocka_unit_test(the_first_item_that_failed_counts),

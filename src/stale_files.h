@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* Temporary files of earlier runs that were killed. */
+#ifndef HD_STALE_FILES_H
+#define HD_STALE_FILES_H
+
+#include "frame_list.h"
+#include "outputs.h"
+
+/* Removes the temporary files (atomic_file.h) of these frames' outputs whose writer is gone. Those
+   of a living process stay, wherever it runs, for it has them locked. What cannot be looked at or
+   removed stays too. */
+void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames);
+
+#endif
