@@ -290,9 +290,9 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
 
 /* ---- memory ---- */
 
-static HdStatus resize(Renderer *renderer, HdCudaMemory *memory, size_t bytes, const char *what,
-                       HdError *error) {
-    return hd_cuda_resize(&renderer->flights.owner, memory, bytes, what, error);
+static HdStatus reserve(Renderer *renderer, HdCudaMemory *memory, size_t bytes, const char *what,
+                        HdError *error) {
+    return hd_cuda_reserve(&renderer->flights.owner, memory, bytes, what, error);
 }
 
 /* Copies in the order of the launches. Only from memory that the device reads by itself does the
@@ -307,7 +307,7 @@ static HdStatus copy(Renderer *renderer, const HdCudaMemory *memory, const void 
 static HdStatus copy_table(Renderer *renderer, HdCudaMemory *memory, const void *data, size_t bytes,
                            const char *what, HdError *error) {
     size_t room = bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : bytes;
-    HdStatus status = resize(renderer, memory, room, what, error);
+    HdStatus status = reserve(renderer, memory, room, what, error);
     if (status != HD_OK || bytes == 0)
         return status;
     return copy(renderer, memory, data, bytes, error);
@@ -460,8 +460,8 @@ static HdStatus prepare(Renderer *renderer, const HdCudaFlight *flight, const Hd
         from += table->bytes;
     }
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
-                        "counts of the work items", error);
+        status = reserve(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
+                         "counts of the work items", error);
     return status;
 }
 
@@ -488,19 +488,19 @@ static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
     static const unsigned none[HD_MIN_TABLE_BYTES / sizeof(unsigned)] = {0};
     const HdWavePlan *plan = &renderer->plan;
     HdStatus status =
-        resize(renderer, &renderer->queue_reals, plan->real_bytes, "rays of the queue", error);
+        reserve(renderer, &renderer->queue_reals, plan->real_bytes, "rays of the queue", error);
+    if (status == HD_OK)
+        status = reserve(renderer, &renderer->queue_ints, plan->int_bytes, "numbers of the queue",
+                         error);
     if (status == HD_OK)
         status =
-            resize(renderer, &renderer->queue_ints, plan->int_bytes, "numbers of the queue", error);
+            reserve(renderer, &renderer->queue_sums, plan->sum_bytes, "sums of the samples", error);
     if (status == HD_OK)
         status =
-            resize(renderer, &renderer->queue_sums, plan->sum_bytes, "sums of the samples", error);
+            reserve(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
     if (status == HD_OK)
-        status =
-            resize(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
-    if (status == HD_OK)
-        status = hd_cuda_resize_host(&renderer->flights.owner, &renderer->taken, sizeof none,
-                                     "counter of the queue", error);
+        status = hd_cuda_reserve_host(&renderer->flights.owner, &renderer->taken, sizeof none,
+                                      "counter of the queue", error);
     if (status == HD_OK)
         status = copy(renderer, &renderer->queue_taken, none, sizeof none, error);
     return status;
@@ -672,8 +672,8 @@ static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *erro
     if (renderer->thresholds.pointer && renderer->curve == curve)
         return HD_OK;
     hd_curve_thresholds8(curve, thresholds);
-    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds,
-                             "thresholds of the curve", error);
+    HdStatus status = reserve(renderer, &renderer->thresholds, sizeof thresholds,
+                              "thresholds of the curve", error);
     if (status == HD_OK)
         status = copy(renderer, &renderer->thresholds, thresholds, sizeof thresholds, error);
     if (status == HD_OK)

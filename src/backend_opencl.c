@@ -166,16 +166,16 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
 
 /* ---- buffers ---- */
 
-static HdStatus resize(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes, cl_mem_flags flags,
-                       const char *what, HdError *error) {
-    return hd_opencl_resize(&renderer->flights.owner, buffer, bytes, flags, what, error);
+static HdStatus reserve(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes,
+                        cl_mem_flags flags, const char *what, HdError *error) {
+    return hd_opencl_reserve(&renderer->flights.owner, buffer, bytes, flags, what, error);
 }
 
 /* The table must live until the queue is through with it. */
 static HdStatus copy_table(Renderer *renderer, HdOpenclBuffer *buffer, const HdTable *table,
                            const char *what, HdError *error) {
     size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
-    HdStatus status = resize(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
+    HdStatus status = reserve(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
     if (status != HD_OK || table->bytes == 0)
         return status;
     cl_int code = clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_FALSE, 0, table->bytes,
@@ -264,12 +264,12 @@ typedef struct BufferNeed {
     const char *what;
 } BufferNeed;
 
-static HdStatus resize_all(Renderer *renderer, const BufferNeed *needs, size_t count,
-                           HdError *error) {
+static HdStatus reserve_all(Renderer *renderer, const BufferNeed *needs, size_t count,
+                            HdError *error) {
     HdStatus status = HD_OK;
     for (size_t i = 0; status == HD_OK && i < count; i++)
-        status = resize(renderer, needs[i].buffer, needs[i].bytes, CL_MEM_READ_WRITE, needs[i].what,
-                        error);
+        status = reserve(renderer, needs[i].buffer, needs[i].bytes, CL_MEM_READ_WRITE,
+                         needs[i].what, error);
     return status;
 }
 
@@ -285,8 +285,8 @@ static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
             status = set_buffer(renderer->program.render, HD_SCENE_TABLE_COUNT + i, buffer, error);
     }
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
-                        CL_MEM_READ_WRITE, "counts of the work items", error);
+        status = reserve(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
+                         CL_MEM_READ_WRITE, "counts of the work items", error);
     if (status == HD_OK)
         status = set_buffer(sum, 0, &renderer->counts, error);
     if (status == HD_OK)
@@ -308,7 +308,7 @@ static HdStatus prepare_waves(Renderer *renderer, int workers, HdError *error) {
         {&renderer->queue_sums, plan->sum_bytes * (size_t)workers, "sums of the samples"},
         {&renderer->queue_taken, HD_MIN_TABLE_BYTES, "counter of the queue"},
     };
-    HdStatus status = resize_all(renderer, needs, sizeof needs / sizeof *needs, error);
+    HdStatus status = reserve_all(renderer, needs, sizeof needs / sizeof *needs, error);
     for (int i = 0; status == HD_OK && i < 3; i++)
         status = set_buffer(render, WAVE_ARGUMENT_REALS + i, needs[i].buffer, error);
     if (status == HD_OK)
@@ -496,8 +496,8 @@ static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *erro
     int32_t thresholds[256];
     if (renderer->thresholds.memory && renderer->curve == curve)
         return HD_OK;
-    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds, CL_MEM_READ_ONLY,
-                             "thresholds of the curve", error);
+    HdStatus status = reserve(renderer, &renderer->thresholds, sizeof thresholds, CL_MEM_READ_ONLY,
+                              "thresholds of the curve", error);
     if (status != HD_OK)
         return status;
     hd_curve_thresholds8(curve, thresholds);

@@ -90,28 +90,28 @@ HdStatus hd_cuda_flight_begin(HdCudaFlights *flights, const HdFrameTables *table
     flight->samples = tables->samples;
     flight->floats = tables->floats;
     *out = flight;
-    HdStatus status = hd_cuda_resize(owner, &flight->pixels,
-                                     sizeof(float) * (size_t)flight->floats * pixel_count(flight),
-                                     "pixels", error);
+    HdStatus status = hd_cuda_reserve(owner, &flight->pixels,
+                                      sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+                                      "pixels", error);
     if (status == HD_OK)
-        status = hd_cuda_resize(owner, &flight->sums, SUM_BYTES, "sums of the counts", error);
+        status = hd_cuda_reserve(owner, &flight->sums, SUM_BYTES, "sums of the counts", error);
     if (status == HD_OK && encodes)
-        status =
-            hd_cuda_resize(owner, &flight->image, 4 * pixel_count(flight), "encoded pixels", error);
+        status = hd_cuda_reserve(owner, &flight->image, 4 * pixel_count(flight), "encoded pixels",
+                                 error);
     if (status == HD_OK)
-        status = hd_cuda_resize_host(owner, &flight->tables, bytes_of_tables(tables),
-                                     "tables of the frame", error);
+        status = hd_cuda_reserve_host(owner, &flight->tables, bytes_of_tables(tables),
+                                      "tables of the frame", error);
     if (status == HD_OK)
-        status = hd_cuda_resize_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
-                                     "pixels on their way to the host", error);
+        status = hd_cuda_reserve_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
+                                      "pixels on their way to the host", error);
     return status;
 }
 
 static HdStatus read(HdCudaFlights *flights, HdCudaFlight *flight, const HdCudaMemory *from,
-                     size_t offset, HdError *error) {
+                     size_t bytes, size_t offset, HdError *error) {
     void *to = (char *)flight->copy.data + offset;
     return CALL(flights, copy_to_host_async, cuMemcpyDtoHAsync,
-                (to, from->pointer, from->bytes, flights->stream), error);
+                (to, from->pointer, bytes, flights->stream), error);
 }
 
 HdStatus hd_cuda_flight_send(HdCudaFlights *flights, HdCudaFlight *flight, HdError *error) {
@@ -119,9 +119,9 @@ HdStatus hd_cuda_flight_send(HdCudaFlights *flights, HdCudaFlight *flight, HdErr
     HdStatus status = CALL(flights, stream_wait_event, cuStreamWaitEvent,
                            (flights->stream, flight->ready, 0), error);
     if (status == HD_OK)
-        status = read(flights, flight, &flight->sums, 0, error);
+        status = read(flights, flight, &flight->sums, SUM_BYTES, 0, error);
     if (status == HD_OK)
-        status = read(flights, flight, picture, SUM_BYTES, error);
+        status = read(flights, flight, picture, picture_bytes(flight), SUM_BYTES, error);
     if (status == HD_OK)
         status =
             CALL(flights, event_record, cuEventRecord, (flight->copied, flights->stream), error);

@@ -8,9 +8,9 @@ HdStatus hd_cuda_check(const HdCudaDriver *driver, HdCuResult code, const char *
     return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
 }
 
-HdStatus hd_cuda_resize(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes,
-                        const char *what, HdError *error) {
-    if (memory->pointer && memory->bytes == bytes)
+HdStatus hd_cuda_reserve(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes,
+                         const char *what, HdError *error) {
+    if (memory->pointer && memory->bytes >= bytes)
         return HD_OK;
     hd_cuda_release(owner, memory);
     HdCuPointer pointer = 0;
@@ -38,9 +38,9 @@ void hd_cuda_release(const HdCudaOwner *owner, HdCudaMemory *memory) {
     *memory = (HdCudaMemory){0};
 }
 
-HdStatus hd_cuda_resize_host(const HdCudaOwner *owner, HdCudaHostMemory *memory, size_t bytes,
-                             const char *what, HdError *error) {
-    if (memory->data && memory->bytes == bytes)
+HdStatus hd_cuda_reserve_host(const HdCudaOwner *owner, HdCudaHostMemory *memory, size_t bytes,
+                              const char *what, HdError *error) {
+    if (memory->data && memory->bytes >= bytes)
         return HD_OK;
     hd_cuda_release_host(owner, memory);
     void *data = NULL;

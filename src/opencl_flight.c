@@ -50,18 +50,18 @@ HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *t
     flight->floats = tables->floats;
     flight->submitted = hd_monotonic_seconds();
     *out = flight;
-    HdStatus status = hd_opencl_resize(owner, &flight->pixels,
-                                       sizeof(float) * (size_t)flight->floats * pixel_count(flight),
-                                       CL_MEM_READ_WRITE, "pixels", error);
+    HdStatus status = hd_opencl_reserve(
+        owner, &flight->pixels, sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+        CL_MEM_READ_WRITE, "pixels", error);
     if (status == HD_OK)
-        status = hd_opencl_resize(owner, &flight->sums, SUM_BYTES, CL_MEM_READ_WRITE,
-                                  "sums of the counts", error);
+        status = hd_opencl_reserve(owner, &flight->sums, SUM_BYTES, CL_MEM_READ_WRITE,
+                                   "sums of the counts", error);
     if (status == HD_OK && encodes)
-        status = hd_opencl_resize(owner, &flight->image, 4 * pixel_count(flight), CL_MEM_READ_WRITE,
-                                  "encoded pixels", error);
+        status = hd_opencl_reserve(owner, &flight->image, 4 * pixel_count(flight),
+                                   CL_MEM_READ_WRITE, "encoded pixels", error);
     if (status == HD_OK)
-        status = hd_opencl_resize_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
-                                       flights->queue, error);
+        status = hd_opencl_reserve_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
+                                        flights->queue, error);
     return status;
 }
 
@@ -79,17 +79,18 @@ void hd_opencl_flight_cancel(HdOpenclFlight *flight) {
 }
 
 static HdStatus read(HdOpenclFlights *flights, HdOpenclFlight *flight, const HdOpenclBuffer *from,
-                     size_t offset, cl_event *done, HdError *error) {
-    cl_int code = clEnqueueReadBuffer(flights->queue, from->memory, CL_FALSE, 0, from->bytes,
+                     size_t bytes, size_t offset, cl_event *done, HdError *error) {
+    cl_int code = clEnqueueReadBuffer(flights->queue, from->memory, CL_FALSE, 0, bytes,
                                       (char *)flight->copy.data + offset, 1, &flight->ready, done);
     return code == CL_SUCCESS ? HD_OK : hd_opencl_fail(error, "clEnqueueReadBuffer", code);
 }
 
 HdStatus hd_opencl_flight_send(HdOpenclFlights *flights, HdOpenclFlight *flight, HdError *error) {
     const HdOpenclBuffer *picture = flight->encodes ? &flight->image : &flight->pixels;
-    HdStatus status = read(flights, flight, &flight->sums, 0, NULL, error);
+    HdStatus status = read(flights, flight, &flight->sums, SUM_BYTES, 0, NULL, error);
     if (status == HD_OK)
-        status = read(flights, flight, picture, SUM_BYTES, &flight->copied, error);
+        status = read(flights, flight, picture, picture_bytes(flight), SUM_BYTES, &flight->copied,
+                      error);
     cl_int code = clFlush(flights->queue);
     if (status == HD_OK && code != CL_SUCCESS)
         status = hd_opencl_fail(error, "clFlush", code);

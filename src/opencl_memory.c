@@ -22,9 +22,9 @@ HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const ch
                    owner->name, memory, function, hd_opencl_error_name(code), hd_room_advice);
 }
 
-HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
-                          cl_mem_flags flags, const char *what, HdError *error) {
-    if (buffer->memory && buffer->bytes == bytes)
+HdStatus hd_opencl_reserve(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
+                           cl_mem_flags flags, const char *what, HdError *error) {
+    if (buffer->memory && buffer->bytes >= bytes)
         return HD_OK;
     hd_opencl_release(buffer);
     if (bytes > owner->device->max_allocation) {
@@ -48,14 +48,14 @@ void hd_opencl_release(HdOpenclBuffer *buffer) {
     *buffer = (HdOpenclBuffer){0};
 }
 
-HdStatus hd_opencl_resize_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory, size_t bytes,
-                               cl_command_queue queue, HdError *error) {
-    if (memory->data && memory->buffer.bytes == bytes)
+HdStatus hd_opencl_reserve_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory,
+                                size_t bytes, cl_command_queue queue, HdError *error) {
+    if (memory->data && memory->buffer.bytes >= bytes)
         return HD_OK;
     hd_opencl_release_host(memory, queue);
     HdStatus status =
-        hd_opencl_resize(owner, &memory->buffer, bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                         "pixels on their way to the host", error);
+        hd_opencl_reserve(owner, &memory->buffer, bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                          "pixels on their way to the host", error);
     if (status != HD_OK)
         return status;
     cl_int code;
