@@ -45,8 +45,8 @@ typedef struct Renderer {
     HdKernelCache kernels;
     HdKernelShape shape; /* of the program, if there is one */
     HdPipeline pipeline;
-    size_t local_size; /* fixed: some drivers compile anew for each */
-    int launch_items;
+    size_t local_size;  /* fixed: some drivers compile anew for each */
+    int launch_work;    /* of a launch; 0: by measurement */
     int block, grid;    /* as asked for; 0: what suits the device */
     bool has_groups;    /* of threads that work together, as GPUs have them */
     size_t queue_bytes; /* of the wavefront, for a worker or for the device */
@@ -101,8 +101,7 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
         renderer->shape.register_limit =
             hd_register_limit(&renderer->shape, device->nvidia_arch, options->registers);
     renderer->local_size = has_groups ? (size_t)renderer->shape.group_size : 1;
-    renderer->launch_items =
-        has_groups ? hd_gpu_launch_items(device->compute_units) : HD_MAX_LAUNCH_ITEMS;
+    renderer->launch_work = options->test.launch_work;
     renderer->queue_bytes = has_groups ? hd_wave_budget(device->memory) : CPU_QUEUE_BYTES;
     if (options->test.queue_bytes > 0)
         renderer->queue_bytes = options->test.queue_bytes;
@@ -241,6 +240,9 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
                          .memory = (double)renderer->device.memory,
                          .at_once = (double)renderer->device.max_allocation};
     renderer->depth = tables->depth;
+    renderer->flights.size = renderer->launch_work > 0
+                                 ? hd_launch_size_fixed(renderer->launch_work)
+                                 : hd_launch_size_start(renderer->device.compute_units);
     HdStatus status = hd_check_room(tables, &room, error);
     if (status == HD_OK)
         status = build(renderer, &needs, error);
@@ -332,44 +334,67 @@ static HdStatus launch_groups(Renderer *renderer, cl_kernel kernel, int groups, 
 }
 
 /* As many groups as the items need, but no more than the grid may have. */
-static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int items_per_group,
-                       cl_event *event, HdError *error) {
+static int group_count(const Renderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
-    if (renderer->has_groups && renderer->grid > 0 && groups > renderer->grid)
-        groups = renderer->grid;
+    bool is_limited = renderer->has_groups && renderer->grid > 0;
+    return is_limited && groups > renderer->grid ? renderer->grid : groups;
+}
+
+/* A work item for each of the items. */
+static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, cl_event *event,
+                       HdError *error) {
+    int groups = group_count(renderer, items, (int)renderer->local_size);
     return launch_groups(renderer, kernel, groups, event, error);
 }
 
-/* Launches are queued one by one, so that a signal ends the frame between two of them. */
-static HdStatus wait_between(const Renderer *renderer, HdError *error) {
+/* Launches are queued one by one, so that a signal ends the frame between two of them, and so that
+   each tells how large the next one may be. */
+static HdStatus wait_between(Renderer *renderer, HdOpenclFlight *flight, HdError *error) {
     HdStatus status = check(clFinish(renderer->queue), "clFinish", error);
+    if (status == HD_OK)
+        hd_opencl_flight_time_launch(&renderer->flights, flight);
     if (status == HD_OK && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     return status;
 }
 
-/* All functions that launch set the event of the flight's first launch. */
+/* A launch of the tracing kernel, the flight's first or a later one, with so much work. */
+static HdStatus launch_timed(Renderer *renderer, HdOpenclFlight *flight, int groups, double work,
+                             HdError *error) {
+    flight->work = work;
+    HdStatus status =
+        launch_groups(renderer, renderer->program.render, groups, &flight->launch, error);
+    if (status != HD_OK || flight->first)
+        return status;
+    status = check(clRetainEvent(flight->launch), "clRetainEvent", error);
+    flight->first = status == HD_OK ? flight->launch : NULL;
+    return status;
+}
+
+/* CPUs drive no display: there a frame is one launch. */
 static HdStatus launch_mega(Renderer *renderer, HdOpenclFlight *flight, int items, HdError *error) {
     cl_kernel render = renderer->program.render;
     int group_size = (int)renderer->local_size;
     int parts = renderer->has_groups ? hd_gpu_sample_parts(flight->samples, group_size) : 1;
-    int count;
+    int per_group = group_size / parts;
+    int count, samples = flight->samples;
     HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
     if (status == HD_OK)
         status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
-        status = first > 0 ? wait_between(renderer, error) : HD_OK;
-        if (status != HD_OK)
-            break;
-        count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
-        status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
+        status = first > 0 ? wait_between(renderer, flight, error) : HD_OK;
+        count = items - first;
+        if (renderer->has_groups)
+            count = hd_launch_size_items(&renderer->flights.size, count, samples, per_group);
+        if (status == HD_OK)
+            status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
         if (status == HD_OK)
             status = set_int(render, ARGUMENT_ITEM_COUNT, count, error);
         if (status == HD_OK)
-            status = launch(renderer, render, count, group_size / parts,
-                            first == 0 ? &flight->first : NULL, error);
+            status = launch_timed(renderer, flight, group_count(renderer, count, per_group),
+                                  (double)count * samples, error);
     }
     return status;
 }
@@ -387,14 +412,13 @@ static HdStatus launch_workers(Renderer *renderer, HdOpenclFlight *flight, int i
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 2, &renderer->counts, error);
-    return status == HD_OK ? launch_groups(renderer, render, workers, &flight->first, error)
-                           : status;
+    return status == HD_OK ? launch_timed(renderer, flight, workers, 0.0, error) : status;
 }
 
 typedef struct WaveLaunches {
     Renderer *renderer;
+    HdOpenclFlight *flight;
     int groups; /* at most */
-    cl_event *first_event;
 } WaveLaunches;
 
 static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
@@ -412,12 +436,13 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     if (step->is_first || groups > launches->groups)
         groups = launches->groups;
     if (status == HD_OK)
-        status = launch_groups(renderer, render, groups,
-                               step->is_first ? launches->first_event : NULL, error);
+        status = launch_timed(renderer, launches->flight, groups, step->count, error);
     if (status == HD_OK)
         status = check(clEnqueueReadBuffer(renderer->queue, renderer->queue_taken.memory, CL_TRUE,
                                            0, sizeof *taken, taken, 0, NULL, NULL),
                        "clEnqueueReadBuffer", error);
+    if (status == HD_OK)
+        hd_opencl_flight_time_launch(&renderer->flights, launches->flight);
     return status;
 }
 
@@ -429,7 +454,7 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     if (status == HD_OK)
         status = set_int(store, 5, item_count, error);
     if (status == HD_OK)
-        status = launch(renderer, store, item_count, (int)renderer->local_size, NULL, error);
+        status = launch(renderer, store, item_count, NULL, error);
     return status;
 }
 
@@ -462,8 +487,11 @@ static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, 
 /* The wavefront of devices with groups of threads. */
 static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int items, int groups,
                              HdError *error) {
-    WaveLaunches launches = {renderer, groups, &flight->first};
-    HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
+    WaveLaunches launches = {renderer, flight, groups};
+    HdWaveDevice device = {.context = &launches,
+                           .trace = trace_step,
+                           .store = store_batch,
+                           .size = &renderer->flights.size};
     HdWaveFrame frame = {
         .items = items,
         .samples_per_item = flight->samples,
@@ -477,6 +505,7 @@ static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int ite
 static HdStatus trace(Renderer *renderer, HdOpenclFlight *flight, int items, int count_slots,
                       HdError *error) {
     HdStatus status;
+    hd_launch_size_begin_frame(&renderer->flights.size);
     if (!renderer->shape.wavefront)
         status = launch_mega(renderer, flight, items, error);
     else if (renderer->has_groups)
@@ -522,7 +551,7 @@ static HdStatus encode(Renderer *renderer, HdOpenclFlight *flight, HdCurve curve
     if (status == HD_OK)
         status = set_buffer(kernel, 3, &flight->image, error);
     if (status == HD_OK)
-        status = launch(renderer, kernel, pixels, (int)renderer->local_size, &flight->ready, error);
+        status = launch(renderer, kernel, pixels, &flight->ready, error);
     return status;
 }
 
@@ -589,6 +618,12 @@ static HdStatus opencl_collect(void *state, HdFrame *frame, HdError *error) {
     return hd_opencl_flight_collect(&renderer->flights, frame, error);
 }
 
+/* What the launches on a CPU take does no harm. */
+static double opencl_longest_launch(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->has_groups ? renderer->flights.longest_launch : -1.0;
+}
+
 static void opencl_drop(void *state) {
     Renderer *renderer = state;
     clFinish(renderer->queue);
@@ -630,6 +665,7 @@ const HdBackend hd_backend_opencl = {
     .upload = opencl_upload,
     .submit = opencl_submit,
     .collect = opencl_collect,
+    .longest_launch = opencl_longest_launch,
     .drop = opencl_drop,
     .kernels = opencl_kernels,
     .be_cautious = opencl_be_cautious,

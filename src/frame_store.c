@@ -216,7 +216,7 @@ HdFrame *hd_frame_store_next(HdFrameStore *store, HdFrameTimes **times) {
     if (!hd_stages_wait(store->stages))
         return NULL;
     Place *place = place_of(store, store->given);
-    place->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing};
+    place->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &place->times;
     return hd_parcel_frame(place->parcel);
 }

@@ -48,6 +48,7 @@ HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *t
     flight->height = tables->height;
     flight->samples = tables->samples;
     flight->floats = tables->floats;
+    flight->longest_launch = -1.0;
     flight->submitted = hd_monotonic_seconds();
     *out = flight;
     HdStatus status = hd_opencl_reserve(
@@ -74,6 +75,7 @@ static void release_event(cl_event *event) {
 void hd_opencl_flight_cancel(HdOpenclFlight *flight) {
     release_event(&flight->first);
     release_event(&flight->last);
+    release_event(&flight->launch);
     release_event(&flight->ready);
     release_event(&flight->copied);
 }
@@ -101,16 +103,31 @@ HdStatus hd_opencl_flight_send(HdOpenclFlights *flights, HdOpenclFlight *flight,
     return status;
 }
 
-/* From the start of the first to the end of the last; without a profile what the host sees: frames
-   are traced one after the other. */
-static double trace_seconds(const HdOpenclFlights *flights, const HdOpenclFlight *flight) {
+/* From the start of the first to the end of the last; 0 without a profile. */
+static double profiled_seconds(cl_event first, cl_event last) {
     cl_ulong start = 0, end = 0;
-    bool has_start = clGetEventProfilingInfo(flight->first, CL_PROFILING_COMMAND_START,
-                                             sizeof start, &start, NULL) == CL_SUCCESS;
-    bool has_end = clGetEventProfilingInfo(flight->last, CL_PROFILING_COMMAND_END, sizeof end, &end,
+    bool has_start = clGetEventProfilingInfo(first, CL_PROFILING_COMMAND_START, sizeof start,
+                                             &start, NULL) == CL_SUCCESS;
+    bool has_end = clGetEventProfilingInfo(last, CL_PROFILING_COMMAND_END, sizeof end, &end,
                                            NULL) == CL_SUCCESS;
-    if (has_start && has_end && end > start)
-        return 1e-9 * (double)(end - start);
+    return has_start && has_end && end > start ? 1e-9 * (double)(end - start) : 0.0;
+}
+
+void hd_opencl_flight_time_launch(HdOpenclFlights *flights, HdOpenclFlight *flight) {
+    double seconds = profiled_seconds(flight->launch, flight->launch);
+    release_event(&flight->launch);
+    if (!(seconds > 0.0))
+        return;
+    hd_launch_size_note(&flights->size, flight->work, seconds);
+    if (seconds > flight->longest_launch)
+        flight->longest_launch = seconds;
+}
+
+/* Without a profile what the host sees: frames are traced one after the other. */
+static double trace_seconds(const HdOpenclFlights *flights, const HdOpenclFlight *flight) {
+    double seconds = profiled_seconds(flight->first, flight->last);
+    if (seconds > 0.0)
+        return seconds;
     double from = flight->submitted > flights->collected ? flight->submitted : flights->collected;
     return hd_monotonic_seconds() - from;
 }
@@ -123,6 +140,9 @@ HdStatus hd_opencl_flight_collect(HdOpenclFlights *flights, HdFrame *frame, HdEr
         status = hd_opencl_fail(error, "clWaitForEvents", code);
     if (status == HD_OK) {
         frame->trace_seconds = trace_seconds(flights, flight);
+        if (flight->launch)
+            hd_opencl_flight_time_launch(flights, flight);
+        flights->longest_launch = flight->longest_launch;
         frame->is_encoded = flight->encodes;
         memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
                (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));

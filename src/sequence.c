@@ -87,6 +87,7 @@ static HdStatus collect_oldest(Run *run, HdError *error) {
     if (status != HD_OK)
         return status;
     note_times(run, flight, waited_from, frame->trace_seconds, times);
+    times->longest_launch = hd_renderer_take_longest_launch(run->renderer);
     hd_frame_store_give(run->store);
     return HD_OK;
 }
@@ -112,7 +113,8 @@ static HdStatus refine_next(Run *run, HdError *error) {
     run->collected++;
     *times = (HdFrameTimes){.prepare = {began, prepared - began},
                             .trace = {prepared, frame->trace_seconds},
-                            .copy = {-1.0, 0.0}};
+                            .copy = {-1.0, 0.0},
+                            .longest_launch = hd_renderer_take_longest_launch(run->renderer)};
     hd_frame_store_give(run->store);
     return HD_OK;
 }

@@ -10,6 +10,7 @@
 
 #include "compiled_scene.h"
 #include "error.h"
+#include "launch_size.h"
 
 enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
 
@@ -55,6 +56,7 @@ typedef struct HdWaveDevice {
     HdStatus (*trace)(void *context, const HdWaveStep *step, unsigned *taken, HdError *error);
     /* Stores the pixels of a finished batch. */
     HdStatus (*store)(void *context, int first_item, int item_count, HdError *error);
+    const HdLaunchSize *size; /* of the steps, in rays; the device may change it meanwhile */
 } HdWaveDevice;
 
 typedef struct HdWaveFrame {

@@ -3,6 +3,8 @@
    for it. So memory that is used again too early shows. Kernels leave a colour that tells the view,
    or convert pixels as the true one does. FAKE_CUDA_EAGER carries everything out at once. Memory
    that is freed while something is queued, and what is left at the end, is told on standard error.
+   Events tell a time that passes only while pictures are rendered: FAKE_CUDA_PIXEL_NS nanoseconds
+   for each pixel.
    FAKE_CUDA_FAILS names a function that fails from its third call on. */
 #include <stdbool.h>
 #include <stdint.h>
@@ -22,6 +24,10 @@ enum {
 
 typedef enum Kernel { KERNEL_OTHER = 1, KERNEL_RENDER, KERNEL_ENCODE } Kernel;
 
+typedef struct Event {
+    double time; /* ms, of the last record that was carried out */
+} Event;
+
 typedef struct Operation {
     enum { COPY, LAUNCH, RECORD, WAIT } kind;
     const void *stream;
@@ -31,9 +37,10 @@ typedef struct Operation {
     size_t bytes;
     Kernel kernel; /* LAUNCH */
     uint64_t arguments[MAX_ARGUMENTS];
-    const void *event; /* RECORD, WAIT */
+    Event *event; /* RECORD, WAIT */
 } Operation;
 
+static double now; /* ms */
 static Operation queue[MAX_OPERATIONS];
 static int queued, allocations;
 
@@ -72,6 +79,8 @@ static void render(const Operation *launch) {
     float *pixels = pointer(launch->arguments[AFTER_TABLES + 3]), colour = colour_of(view);
     if (end > view->width * view->height)
         end = view->width * view->height;
+    if (getenv("FAKE_CUDA_PIXEL_NS") != NULL && end > first)
+        now += 1e-6 * atof(getenv("FAKE_CUDA_PIXEL_NS")) * (end - first);
     for (int i = 3 * first; i < 3 * end; i++)
         pixels[i] = colour;
 }
@@ -99,6 +108,8 @@ static void carry_out(Operation *operation) {
     operation->done = true;
     if (operation->kind == COPY)
         memcpy(operation->to, operation->from, operation->bytes);
+    else if (operation->kind == RECORD)
+        operation->event->time = now;
     else if (operation->kind == WAIT)
         run_to_event(operation->event, (int)(operation - queue));
     else if (operation->kind == LAUNCH && operation->kernel == KERNEL_RENDER)
@@ -189,7 +200,9 @@ HdCuResult cuStreamDestroy_v2(HdCuStream stream) {
 
 HdCuResult cuEventCreate(HdCuEvent *event, unsigned int flags) {
     (void)flags;
-    return create((void **)event);
+    *event = calloc(1, sizeof(Event));
+    allocations++;
+    return *event != NULL ? HD_CU_SUCCESS : HD_CU_ERROR_OUT_OF_MEMORY;
 }
 
 HdCuResult cuEventDestroy_v2(HdCuEvent event) {
@@ -246,18 +259,26 @@ HdCuResult cuLaunchKernel(HdCuFunction function, unsigned int grid_x, unsigned i
 }
 
 HdCuResult cuEventRecord(HdCuEvent event, HdCuStream stream) {
-    return put((Operation){.kind = RECORD, .stream = stream, .event = event});
+    return put((Operation){.kind = RECORD, .stream = stream, .event = (Event *)(void *)event});
 }
 
 HdCuResult cuStreamWaitEvent(HdCuStream stream, HdCuEvent event, unsigned int flags) {
     (void)flags;
     FAIL_IF_ASKED(cuStreamWaitEvent);
-    return put((Operation){.kind = WAIT, .stream = stream, .event = event});
+    return put((Operation){.kind = WAIT, .stream = stream, .event = (Event *)(void *)event});
 }
 
 HdCuResult cuEventSynchronize(HdCuEvent event) {
     FAIL_IF_ASKED(cuEventSynchronize);
     run_to_event(event, queued);
+    return HD_CU_SUCCESS;
+}
+
+/* At least what the true one can tell apart. */
+HdCuResult cuEventElapsedTime(float *milliseconds, HdCuEvent start, HdCuEvent end) {
+    FAIL_IF_ASKED(cuEventElapsedTime);
+    double passed = ((Event *)(void *)end)->time - ((Event *)(void *)start)->time;
+    *milliseconds = passed > 0.0005 ? (float)passed : 0.0005F;
     return HD_CU_SUCCESS;
 }
 

@@ -78,6 +78,9 @@ static HdStatus store(void *context, int first_item, int item_count, HdError *er
     return HD_OK;
 }
 
+/* What one launch may have. */
+static int launch_rays = HD_MOST_LAUNCH_WORK;
+
 /* Runs a frame; returns the number of rays traced. */
 static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t *steps) {
     HdError error;
@@ -90,9 +93,10 @@ static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t
     };
     HdWavePlan plan = hd_wave_plan(&needs);
     assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    HdLaunchSize size = hd_launch_size_fixed(launch_rays);
     Account account = {.plan = &plan, .frame = frame, .children = children};
     account.waits = calloc((size_t)plan.queue_stride, 1);
-    HdWaveDevice device = {.context = &account, .trace = trace, .store = store};
+    HdWaveDevice device = {.context = &account, .trace = trace, .store = store, .size = &size};
     assert_int_equal(hd_wave_run(&plan, frame, &device, &error), HD_OK);
     assert_int_equal(account.next_item, frame->items);
     free(account.waits);
@@ -126,6 +130,26 @@ static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
             run(budgets[b], &frame, 2, NULL);
             run(budgets[b], &frame, 1, NULL);
         }
+}
+
+static void launches_of_any_size_trace_all_rays(void **state) {
+    static const int sizes[] = {1, 5, 32, 40, 150};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        launch_rays = sizes[i];
+        all_rays_are_traced_in_any_memory(state);
+        groups_that_do_not_fit_evenly_never_overlap(state);
+    }
+    launch_rays = HD_MOST_LAUNCH_WORK;
+}
+
+static void launches_have_at_most_their_size(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    int64_t steps;
+    launch_rays = 64;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 4 * 6);
+    launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
 static void enough_memory_takes_a_step_a_level(void **state) {
@@ -183,6 +207,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_rays_are_traced_in_any_memory),
         cmocka_unit_test(groups_that_do_not_fit_evenly_never_overlap),
+        cmocka_unit_test(launches_of_any_size_trace_all_rays),
+        cmocka_unit_test(launches_have_at_most_their_size),
         cmocka_unit_test(enough_memory_takes_a_step_a_level),
         cmocka_unit_test(plans_keep_to_their_budget),
         cmocka_unit_test(launches_have_the_groups_that_they_need),
