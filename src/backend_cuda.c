@@ -46,6 +46,7 @@ typedef struct Renderer {
     int grid;           /* as asked for; 0: what suits the device */
     int depth;          /* of the scene */
     size_t queue_bytes; /* what the wavefront may use; 0: what suits the device */
+    bool queue_is_cut;  /* the device refused more */
     HdWavePlan plan;
     HdCudaMemory queue_reals, queue_ints, queue_sums, queue_taken;
     HdCudaHostMemory taken; /* what the host reads of it */
@@ -207,6 +208,12 @@ static void release(const Renderer *renderer, HdCudaMemory *memory) {
     hd_cuda_release(&owner, memory);
 }
 
+static void release_queue(Renderer *renderer) {
+    release(renderer, &renderer->queue_reals);
+    release(renderer, &renderer->queue_ints);
+    release(renderer, &renderer->queue_sums);
+}
+
 static void unload_module(Renderer *renderer) {
     if (renderer->module)
         renderer->driver.module_unload(renderer->module);
@@ -220,9 +227,7 @@ static void release_all(Renderer *renderer) {
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         release(renderer, &renderer->frame[i]);
     release(renderer, &renderer->counts);
-    release(renderer, &renderer->queue_reals);
-    release(renderer, &renderer->queue_ints);
-    release(renderer, &renderer->queue_sums);
+    release_queue(renderer);
     release(renderer, &renderer->queue_taken);
     release(renderer, &renderer->thresholds);
     hd_cuda_release_host(&owner, &renderer->taken);
@@ -460,6 +465,27 @@ static HdStatus prepare(Renderer *renderer, const HdCudaFlight *flight, const Hd
     return status;
 }
 
+/* Takes memory for what the needs come to; where the device has too little left, for less. */
+static HdStatus reserve_queue(Renderer *renderer, HdWaveNeeds *needs, HdError *error) {
+    const HdCudaOwner *owner = &renderer->flights.owner;
+    for (;;) {
+        HdWavePlan plan = renderer->plan = hd_wave_plan(needs);
+        size_t bytes = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+        HdCuResult code = hd_cuda_try(owner, &renderer->queue_reals, plan.real_bytes);
+        if (code == HD_CU_SUCCESS)
+            code = hd_cuda_try(owner, &renderer->queue_ints, plan.int_bytes);
+        if (code == HD_CU_SUCCESS)
+            code = hd_cuda_try(owner, &renderer->queue_sums, plan.sum_bytes);
+        if (code == HD_CU_SUCCESS)
+            return HD_OK;
+        release_queue(renderer);
+        if (code != HD_CU_ERROR_OUT_OF_MEMORY || !hd_wave_halve(needs))
+            return hd_cuda_refuse(owner, bytes, "rays of the queue", code, error);
+        renderer->queue_bytes = needs->bytes;
+        renderer->queue_is_cut = true;
+    }
+}
+
 static HdStatus plan_waves(Renderer *renderer, int items, int samples_per_item, HdError *error) {
     HdStatus status = HD_OK;
     if (renderer->queue_bytes == 0) {
@@ -475,24 +501,13 @@ static HdStatus plan_waves(Renderer *renderer, int items, int samples_per_item, 
         .samples_at_once = samples_per_item,
         .samples = hd_wave_samples(items, samples_per_item),
     };
-    renderer->plan = hd_wave_plan(&needs);
-    return status;
+    return status == HD_OK ? reserve_queue(renderer, &needs, error) : status;
 }
 
 static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
     static const unsigned none[HD_MIN_TABLE_BYTES / sizeof(unsigned)] = {0};
-    const HdWavePlan *plan = &renderer->plan;
     HdStatus status =
-        reserve(renderer, &renderer->queue_reals, plan->real_bytes, "rays of the queue", error);
-    if (status == HD_OK)
-        status = reserve(renderer, &renderer->queue_ints, plan->int_bytes, "numbers of the queue",
-                         error);
-    if (status == HD_OK)
-        status =
-            reserve(renderer, &renderer->queue_sums, plan->sum_bytes, "sums of the samples", error);
-    if (status == HD_OK)
-        status =
-            reserve(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
+        reserve(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
     if (status == HD_OK)
         status = hd_cuda_reserve_host(&renderer->flights.owner, &renderer->taken, sizeof none,
                                       "counter of the queue", error);
@@ -797,9 +812,11 @@ static void cuda_describe(const void *state, char *text, int capacity) {
                           renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
                           renderer->shape.group_size, hd_pipeline_name(renderer->pipeline));
     if (renderer->module && length > 0 && length < capacity)
-        snprintf(text + length, (size_t)(capacity - length),
-                 ", %d registers and %d bytes of local memory a thread, %s", renderer->registers,
-                 renderer->local_bytes, renderer->kernels.maker);
+        length += snprintf(text + length, (size_t)(capacity - length),
+                           ", %d registers and %d bytes of local memory a thread, %s",
+                           renderer->registers, renderer->local_bytes, renderer->kernels.maker);
+    if (renderer->queue_is_cut && length > 0 && length < capacity)
+        hd_wave_tell_cut(renderer->queue_bytes, text + length, capacity - length);
 }
 
 const HdBackend hd_backend_cuda = {

@@ -50,6 +50,7 @@ typedef struct Renderer {
     int block, grid;    /* as asked for; 0: what suits the device */
     bool has_groups;    /* of threads that work together, as GPUs have them */
     size_t queue_bytes; /* of the wavefront, for a worker or for the device */
+    bool queue_is_cut;  /* the device refused more */
     HdWavePlan plan;
     int depth;
     cl_context context;
@@ -122,6 +123,12 @@ static HdStatus create_queue(Renderer *renderer, HdError *error) {
     return hd_opencl_flights_open(&renderer->flights, &owner, error);
 }
 
+static void release_queue(Renderer *renderer) {
+    hd_opencl_release(&renderer->queue_reals);
+    hd_opencl_release(&renderer->queue_ints);
+    hd_opencl_release(&renderer->queue_sums);
+}
+
 static void opencl_close(void *state) {
     Renderer *renderer = state;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
@@ -129,9 +136,7 @@ static void opencl_close(void *state) {
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         hd_opencl_release(&renderer->frame[i]);
     hd_opencl_release(&renderer->counts);
-    hd_opencl_release(&renderer->queue_reals);
-    hd_opencl_release(&renderer->queue_ints);
-    hd_opencl_release(&renderer->queue_sums);
+    release_queue(renderer);
     hd_opencl_release(&renderer->queue_taken);
     hd_opencl_release(&renderer->thresholds);
     hd_opencl_flights_close(&renderer->flights);
@@ -260,21 +265,6 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
 
 /* ---- render ---- */
 
-typedef struct BufferNeed {
-    HdOpenclBuffer *buffer;
-    size_t bytes;
-    const char *what;
-} BufferNeed;
-
-static HdStatus reserve_all(Renderer *renderer, const BufferNeed *needs, size_t count,
-                            HdError *error) {
-    HdStatus status = HD_OK;
-    for (size_t i = 0; status == HD_OK && i < count; i++)
-        status = reserve(renderer, needs[i].buffer, needs[i].bytes, CL_MEM_READ_WRITE,
-                         needs[i].what, error);
-    return status;
-}
-
 /* `count_slots` parts of the frame are counted one by one. */
 static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
                         const HdFrameTables *tables, int count_slots, HdError *error) {
@@ -300,19 +290,15 @@ static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
     return status;
 }
 
-/* The queues of `workers`, which have one each. */
-static HdStatus prepare_waves(Renderer *renderer, int workers, HdError *error) {
+static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
     const HdWavePlan *plan = &renderer->plan;
+    const HdOpenclBuffer *parts[] = {&renderer->queue_reals, &renderer->queue_ints,
+                                     &renderer->queue_sums};
     cl_kernel render = renderer->program.render;
-    const BufferNeed needs[] = {
-        {&renderer->queue_reals, plan->real_bytes * (size_t)workers, "rays of the queue"},
-        {&renderer->queue_ints, plan->int_bytes * (size_t)workers, "numbers of the queue"},
-        {&renderer->queue_sums, plan->sum_bytes * (size_t)workers, "sums of the samples"},
-        {&renderer->queue_taken, HD_MIN_TABLE_BYTES, "counter of the queue"},
-    };
-    HdStatus status = reserve_all(renderer, needs, sizeof needs / sizeof *needs, error);
+    HdStatus status = reserve(renderer, &renderer->queue_taken, HD_MIN_TABLE_BYTES,
+                              CL_MEM_READ_WRITE, "counter of the queue", error);
     for (int i = 0; status == HD_OK && i < 3; i++)
-        status = set_buffer(render, WAVE_ARGUMENT_REALS + i, needs[i].buffer, error);
+        status = set_buffer(render, WAVE_ARGUMENT_REALS + i, parts[i], error);
     if (status == HD_OK)
         status = set_int(render, WAVE_ARGUMENT_QUEUE_STRIDE, plan->queue_stride, error);
     if (status == HD_OK)
@@ -399,20 +385,26 @@ static HdStatus launch_mega(Renderer *renderer, HdOpenclFlight *flight, int item
     return status;
 }
 
+/* Of the wavefront, with a queue each. */
+static int worker_count(const Renderer *renderer, int items) {
+    int workers = renderer->has_groups ? 1 : renderer->device.compute_units * WORKERS_PER_UNIT;
+    return workers < items ? workers : items;
+}
+
 /* The wavefront of CPUs. */
 static HdStatus launch_workers(Renderer *renderer, HdOpenclFlight *flight, int items,
                                HdError *error) {
     cl_kernel render = renderer->program.render;
-    int workers = renderer->device.compute_units * WORKERS_PER_UNIT;
-    workers = workers < items ? workers : items;
-    HdStatus status = prepare_waves(renderer, workers, error);
+    HdStatus status = prepare_waves(renderer, error);
     if (status == HD_OK)
         status = set_int(render, WAVE_ARGUMENT_OWN, items, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 2, &renderer->counts, error);
-    return status == HD_OK ? launch_timed(renderer, flight, workers, 0.0, error) : status;
+    return status == HD_OK
+               ? launch_timed(renderer, flight, worker_count(renderer, items), 0.0, error)
+               : status;
 }
 
 typedef struct WaveLaunches {
@@ -462,7 +454,7 @@ static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, 
     static const unsigned none = 0;
     cl_kernel render = renderer->program.render, store = renderer->program.store;
     const int own = WAVE_ARGUMENT_OWN + 7; /* after the numbers of a step */
-    HdStatus status = prepare_waves(renderer, 1, error);
+    HdStatus status = prepare_waves(renderer, error);
     if (status == HD_OK)
         status = check(clEnqueueWriteBuffer(renderer->queue, renderer->queue_taken.memory, CL_FALSE,
                                             0, sizeof none, &none, 0, NULL, NULL),
@@ -557,7 +549,46 @@ static HdStatus encode(Renderer *renderer, HdOpenclFlight *flight, HdCurve curve
 
 /* ---- frames ---- */
 
-static void plan_waves(Renderer *renderer, int items, int samples) {
+/* Drivers may take memory only when it is touched first. */
+static cl_int reserve_and_touch(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes) {
+    static const char nothing[HD_MIN_TABLE_BYTES];
+    cl_int code = CL_SUCCESS;
+    if (buffer->memory && buffer->bytes >= bytes)
+        return code;
+    hd_opencl_release(buffer);
+    if (bytes > renderer->device.max_allocation)
+        return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    buffer->memory = clCreateBuffer(renderer->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+    buffer->bytes = bytes;
+    if (code != CL_SUCCESS)
+        return code;
+    return clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_TRUE, 0, sizeof nothing,
+                                nothing, 0, NULL, NULL);
+}
+
+/* Takes memory for what the needs of each of the workers come to; where the device has too little
+   left, for less. */
+static HdStatus reserve_queue(Renderer *renderer, HdWaveNeeds *needs, int workers, HdError *error) {
+    for (;;) {
+        HdWavePlan plan = renderer->plan = hd_wave_plan(needs);
+        size_t all = (size_t)workers, bytes = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+        cl_int code = reserve_and_touch(renderer, &renderer->queue_reals, plan.real_bytes * all);
+        if (code == CL_SUCCESS)
+            code = reserve_and_touch(renderer, &renderer->queue_ints, plan.int_bytes * all);
+        if (code == CL_SUCCESS)
+            code = reserve_and_touch(renderer, &renderer->queue_sums, plan.sum_bytes * all);
+        if (code == CL_SUCCESS)
+            return HD_OK;
+        release_queue(renderer);
+        if (!hd_opencl_is_lack_of_memory(code) || !hd_wave_halve(needs))
+            return hd_opencl_check_room(&renderer->flights.owner, bytes * all, "rays of the queue",
+                                        "clCreateBuffer", code, error);
+        renderer->queue_bytes = needs->bytes;
+        renderer->queue_is_cut = true;
+    }
+}
+
+static HdStatus plan_waves(Renderer *renderer, int items, int samples, HdError *error) {
     const HdKernelShape *shape = &renderer->shape;
     int per_item = shape->pixels_per_item * samples;
     HdWaveNeeds needs = {
@@ -568,7 +599,7 @@ static void plan_waves(Renderer *renderer, int items, int samples) {
         .samples_at_once = renderer->has_groups ? per_item : HD_WAVE_BUNDLE,
         .samples = renderer->has_groups ? hd_wave_samples(items, per_item) : per_item,
     };
-    renderer->plan = hd_wave_plan(&needs);
+    return reserve_queue(renderer, &needs, worker_count(renderer, items), error);
 }
 
 /* Queues all that the frame needs, up to its copies. */
@@ -577,11 +608,13 @@ static HdStatus launch_frame(Renderer *renderer, HdOpenclFlight *flight,
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
     int count_slots = items;
+    HdStatus status = HD_OK;
     if (renderer->shape.wavefront)
-        plan_waves(renderer, items, tables->samples);
+        status = plan_waves(renderer, items, tables->samples, error);
     if (renderer->shape.wavefront && renderer->has_groups)
         count_slots = hd_wave_groups(&renderer->plan, (int)renderer->local_size, renderer->grid);
-    HdStatus status = prepare(renderer, flight, tables, count_slots, error);
+    if (status == HD_OK)
+        status = prepare(renderer, flight, tables, count_slots, error);
     if (status == HD_OK)
         status = trace(renderer, flight, items, count_slots, error);
     if (status == HD_OK && flight->encodes)
@@ -648,7 +681,7 @@ static bool opencl_be_cautious(void *state) {
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
-    snprintf(
+    int length = snprintf(
         text, (size_t)capacity,
         "%d lane%s of %s, work groups of %zu, %d pixel%s for each work item, %d compute units, "
         "%s",
@@ -656,6 +689,8 @@ static void opencl_describe(const void *state, char *text, int capacity) {
         shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", renderer->local_size,
         shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s",
         renderer->device.compute_units, hd_pipeline_name(renderer->pipeline));
+    if (renderer->queue_is_cut && length > 0 && length < capacity)
+        hd_wave_tell_cut(renderer->queue_bytes, text + length, capacity - length);
 }
 
 const HdBackend hd_backend_opencl = {

@@ -32,6 +32,13 @@ HdStatus hd_cuda_check(const HdCudaDriver *driver, HdCuResult code, const char *
    as long as a small frame. `what` is for messages: "pixels". */
 HdStatus hd_cuda_reserve(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes,
                          const char *what, HdError *error);
+
+/* The same with what the driver says of it, HD_CU_ERROR_OUT_OF_MEMORY for one, and the message to
+   that. */
+HdCuResult hd_cuda_try(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes);
+HdStatus hd_cuda_refuse(const HdCudaOwner *owner, size_t bytes, const char *what, HdCuResult code,
+                        HdError *error);
+
 void hd_cuda_release(const HdCudaOwner *owner, HdCudaMemory *memory);
 
 /* The same with memory of the host. */

@@ -3,7 +3,7 @@
 
 #include "device_room.h"
 
-static bool is_lack_of_memory(cl_int code) {
+bool hd_opencl_is_lack_of_memory(cl_int code) {
     return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
            code == CL_OUT_OF_HOST_MEMORY;
 }
@@ -13,7 +13,7 @@ HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const ch
     char need[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
     if (code == CL_SUCCESS)
         return HD_OK;
-    if (!is_lack_of_memory(code))
+    if (!hd_opencl_is_lack_of_memory(code))
         return hd_opencl_fail(error, function, code);
     hd_byte_text((double)bytes, need);
     hd_byte_text((double)owner->device->memory, memory);

@@ -22,6 +22,10 @@ typedef struct HdOpenclBuffer {
    small frame. `what` is for messages: "pixels". */
 HdStatus hd_opencl_reserve(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
                            cl_mem_flags flags, const char *what, HdError *error);
+
+/* True for what a driver says where memory is lacking. */
+bool hd_opencl_is_lack_of_memory(cl_int code);
+
 void hd_opencl_release(HdOpenclBuffer *buffer);
 
 /* Turns the result of a function that makes a buffer, or first touches it, into a status; where

@@ -3,6 +3,7 @@
 #include "rendering.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "interrupt.h"
@@ -98,6 +99,14 @@ static void announce_interrupt(const Run *run) {
                               : "hedron: stopping; press Ctrl-C again to stop now\n");
 }
 
+/* What a renderer says of itself may change with its first frame. */
+static void note_changes(const Run *run) {
+    char line[sizeof run->renderer_line];
+    hd_renderer_describe(run->renderer, line, sizeof line);
+    if (run->renderer_line[0] != '\0' && strcmp(line, run->renderer_line) != 0)
+        hd_note_renderer_line(line);
+}
+
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
@@ -117,6 +126,8 @@ static HdStatus render_all(Run *run, HdError *error) {
     hd_progress_end(&run->progress);
     if (status == HD_OK)
         hd_progress_tell_end(&run->progress, run->rays);
+    if (run->options->verbose)
+        note_changes(run);
     if (status == HD_OK && !run->options->quiet)
         hd_note_missing(rendering->scene, run->missing);
     return status;

@@ -3,9 +3,11 @@
 
 #include <limits.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "../kernels/common/scene_tables.h"
 #include "../kernels/common/wave_stack.h"
+#include "device_room.h"
 #include "interrupt.h"
 #include "scene_limits.h"
 
@@ -59,6 +61,21 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     plan.int_bytes = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
     plan.sum_bytes = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
     return plan;
+}
+
+bool hd_wave_halve(HdWaveNeeds *needs) {
+    if (needs->bytes <= HD_WAVE_LEAST_BYTES)
+        return false;
+    needs->bytes /= 2;
+    if (needs->bytes < HD_WAVE_LEAST_BYTES)
+        needs->bytes = HD_WAVE_LEAST_BYTES;
+    return true;
+}
+
+void hd_wave_tell_cut(size_t bytes, char *text, int capacity) {
+    char room[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)bytes, room);
+    snprintf(text, (size_t)capacity, ", the queue cut to %s, for more memory was refused", room);
 }
 
 typedef struct Run {

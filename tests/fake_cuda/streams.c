@@ -5,7 +5,9 @@
    that is freed while something is queued, and what is left at the end, is told on standard error.
    Events tell a time that passes only while pictures are rendered: FAKE_CUDA_PIXEL_NS nanoseconds
    for each pixel.
-   FAKE_CUDA_FAILS names a function that fails from its third call on. */
+   FAKE_CUDA_FAILS names a function that fails from its call number FAKE_CUDA_FAILS_AT on, else from
+   its third one, with the error FAKE_CUDA_ERROR, else a lack of memory. No more than
+   FAKE_CUDA_LARGEST bytes are given at once. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -44,16 +46,22 @@ static double now; /* ms */
 static Operation queue[MAX_OPERATIONS];
 static int queued, allocations;
 
+static int number(const char *variable, int otherwise) {
+    const char *value = getenv(variable);
+    return value != NULL ? atoi(value) : otherwise;
+}
+
 static bool fails(const char *function) {
     static int calls;
     const char *failing = getenv("FAKE_CUDA_FAILS");
-    return failing != NULL && strcmp(failing, function) == 0 && ++calls >= FIRST_FAILING;
+    return failing != NULL && strcmp(failing, function) == 0 &&
+           ++calls >= number("FAKE_CUDA_FAILS_AT", FIRST_FAILING);
 }
 
 #define FAIL_IF_ASKED(function)                                                                    \
     do {                                                                                           \
         if (fails(#function))                                                                      \
-            return HD_CU_ERROR_OUT_OF_MEMORY;                                                      \
+            return (HdCuResult)number("FAKE_CUDA_ERROR", HD_CU_ERROR_OUT_OF_MEMORY);               \
     } while (0)
 
 static void *pointer(uint64_t argument) {
@@ -166,7 +174,10 @@ static HdCuResult destroy(void *handle) {
 }
 
 HdCuResult cuMemAlloc_v2(HdCuPointer *memory, size_t bytes) {
+    const char *most = getenv("FAKE_CUDA_LARGEST");
     FAIL_IF_ASKED(cuMemAlloc);
+    if (most != NULL && bytes > (size_t)atoll(most))
+        return HD_CU_ERROR_OUT_OF_MEMORY;
     void *data = calloc(1, bytes);
     allocations++;
     *memory = (HdCuPointer)(uintptr_t)data;
@@ -274,11 +285,11 @@ HdCuResult cuEventSynchronize(HdCuEvent event) {
     return HD_CU_SUCCESS;
 }
 
-/* At least what the true one can tell apart. */
+/* Something takes a millisecond where no time passed. */
 HdCuResult cuEventElapsedTime(float *milliseconds, HdCuEvent start, HdCuEvent end) {
     FAIL_IF_ASKED(cuEventElapsedTime);
     double passed = ((Event *)(void *)end)->time - ((Event *)(void *)start)->time;
-    *milliseconds = passed > 0.0005 ? (float)passed : 0.0005F;
+    *milliseconds = passed > 0.0 ? (float)passed : 1.0F;
     return HD_CU_SUCCESS;
 }
 

@@ -182,6 +182,35 @@ static void plans_keep_to_their_budget(void **state) {
         }
 }
 
+/* A device that refuses memory is asked for less, until it is as little as the least. */
+static void a_refused_queue_is_halved(void **state) {
+    (void)state;
+    HdWaveNeeds needs = {
+        .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
+    size_t before = hd_wave_plan(&needs).real_bytes;
+    static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        assert_true(hd_wave_halve(&needs));
+        assert_int_equal(needs.bytes, expected[i]);
+        assert_true(hd_wave_plan(&needs).real_bytes < before);
+        before = hd_wave_plan(&needs).real_bytes;
+    }
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
+    needs.bytes = 1;
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, 1);
+}
+
+static void a_cut_queue_is_told(void **state) {
+    (void)state;
+    char text[128];
+    hd_wave_tell_cut(33554432, text, sizeof text);
+    assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
+    hd_wave_tell_cut(33554432, text, 8);
+    assert_string_equal(text, ", the q");
+}
+
 static void launches_have_the_groups_that_they_need(void **state) {
     (void)state;
     HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
@@ -211,6 +240,8 @@ int main(void) {
         cmocka_unit_test(launches_have_at_most_their_size),
         cmocka_unit_test(enough_memory_takes_a_step_a_level),
         cmocka_unit_test(plans_keep_to_their_budget),
+        cmocka_unit_test(a_refused_queue_is_halved),
+        cmocka_unit_test(a_cut_queue_is_told),
         cmocka_unit_test(launches_have_the_groups_that_they_need),
         cmocka_unit_test(a_signal_ends_the_frame),
     };
