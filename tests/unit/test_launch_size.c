@@ -93,6 +93,26 @@ static void costly_parts_are_remembered(void **state) {
     assert_true(frame.launches < 4.0 * frame.seconds / HD_LAUNCH_AIM_SECONDS);
 }
 
+static void after_a_slow_launch_sizes_rise_by_a_quarter_a_frame(void **state) {
+    (void)state;
+    HdLaunchSize size = hd_launch_size_start(100);
+    hd_launch_size_begin_frame(&size);
+    hd_launch_size_note(&size, size.limit, 0.16);
+    int slow = size.limit;
+    assert_int_equal(slow, 100 * 2048 / 4);
+    hd_launch_size_note(&size, size.limit, 0.0);
+    assert_int_equal(size.limit, slow);
+    hd_launch_size_begin_frame(&size); /* after the frame that had it, as large as then */
+    hd_launch_size_note(&size, size.limit, 0.0);
+    assert_int_equal(size.limit, slow);
+    for (double risen = 1.25 * slow; risen < 10.0 * slow; risen *= 1.25) {
+        hd_launch_size_begin_frame(&size);
+        hd_launch_size_note(&size, size.limit, 0.0);
+        hd_launch_size_note(&size, size.limit, 0.0);
+        assert_in_range(size.limit, (int)(0.999 * risen), (int)(1.001 * risen));
+    }
+}
+
 static void one_slow_launch_is_forgotten_again(void **state) {
     (void)state;
     HdLaunchSize size = hd_launch_size_start(100);
@@ -158,6 +178,7 @@ int main(void) {
         cmocka_unit_test(long_frames_are_cut_below_the_limit),
         cmocka_unit_test(launches_at_most_double),
         cmocka_unit_test(costly_parts_are_remembered),
+        cmocka_unit_test(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame),
         cmocka_unit_test(one_slow_launch_is_forgotten_again),
         cmocka_unit_test(small_launches_tell_little),
         cmocka_unit_test(items_come_in_equal_parts_of_whole_groups),
