@@ -22,6 +22,7 @@ struct HdRenderer {
     HdRenderOptions options;
     bool has_scene;
     bool has_failed;
+    double longest_launch; /* seconds; negative: none is known */
     int in_flight;
     struct {
         int width, height, floats;
@@ -110,6 +111,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     if (!opened)
         return hd_fail(error, HD_FAILED, "out of memory");
     opened->backend = device->backend;
+    opened->longest_launch = -1.0;
     opened->device = *device;
     opened->options = *options;
     opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
@@ -275,6 +277,20 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
     return HD_OK;
 }
 
+static void note_longest_launch(HdRenderer *renderer) {
+    const HdBackend *backend = renderer->backend;
+    double seconds =
+        backend->longest_launch != NULL ? backend->longest_launch(renderer->state) : -1.0;
+    if (seconds > renderer->longest_launch)
+        renderer->longest_launch = seconds;
+}
+
+double hd_renderer_take_longest_launch(HdRenderer *renderer) {
+    double seconds = renderer->longest_launch;
+    renderer->longest_launch = -1.0;
+    return seconds;
+}
+
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
     if (renderer->in_flight == 0)
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
@@ -284,6 +300,8 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     if (status != HD_OK)
         return status;
     status = renderer->backend->collect(renderer->state, frame, error);
+    if (status == HD_OK)
+        note_longest_launch(renderer);
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
         renderer->flights[i] = renderer->flights[i + 1];
@@ -317,6 +335,8 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
     if (status != HD_OK)
         return status;
     status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
+    if (status == HD_OK)
+        note_longest_launch(renderer);
     return note_failure(renderer, status, error);
 }
 

@@ -49,6 +49,7 @@ typedef struct HdRenderOptions {
         bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
                                device */
+        int launch_work;    /* of each launch on a GPU, in samples or rays; 0: by measurement */
     } test;                 /* no option of the command line sets these */
 } HdRenderOptions;
 
@@ -103,6 +104,10 @@ struct HdBackend {
        wished for at its submission, is_encoded, the counts and trace_seconds of `frame`.
        HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth nothing. */
     HdStatus (*collect)(void *renderer, HdFrame *frame, HdError *error);
+
+    /* The seconds of the longest launch of the frame collected last; negative: not known. NULL
+       instead of a function where the device drives no display. */
+    double (*longest_launch)(const void *renderer);
 
     /* Waits until the device is done with all frames under way, and forgets them. */
     void (*drop)(void *renderer);
@@ -168,6 +173,10 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
 /* Whether the backend failed in any of the functions above: that another device may do better,
    while other errors are due to what was asked for. */
 bool hd_renderer_has_failed(const HdRenderer *renderer);
+
+/* The seconds of the longest launch of the frames that were collected since the last call, or since
+   the renderer was opened. Negative: not known, or nothing that would hold a display up. */
+double hd_renderer_take_longest_launch(HdRenderer *renderer);
 
 /* Waits until the device is done with the frames under way, and forgets them. */
 void hd_renderer_drop(HdRenderer *renderer);

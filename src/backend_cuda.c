@@ -23,9 +23,10 @@ typedef struct Renderer {
     HdCudaDriver driver;
     char name[256];
     HdCuDevice device;
-    int arch; /* 61 stands for sm_61 */
-    int launch_items;
-    HdNvrtc nvrtc; /* once kernels were compiled */
+    int arch;        /* 61 stands for sm_61 */
+    int units;       /* multiprocessors */
+    int launch_work; /* of a launch; 0: by measurement */
+    HdNvrtc nvrtc;   /* once kernels were compiled */
     HdKernelCache kernels;
     HdCudaCode code;     /* of the module */
     HdKernelShape shape; /* of the module, if there is one */
@@ -35,7 +36,6 @@ typedef struct Renderer {
     HdCuFunction sum, encode;   /* hedron_sum_counts, hedron_encode */
     int registers, local_bytes; /* of `render` */
     HdCuStream stream;          /* of everything but the copies to the host */
-    HdCuEvent between;          /* launches of a frame */
     HdCudaMemory scene[HD_SCENE_TABLE_COUNT];
     HdCudaMemory frame[HD_FRAME_TABLE_COUNT];
     HdCudaMemory counts;
@@ -46,6 +46,7 @@ typedef struct Renderer {
     int grid;           /* as asked for; 0: what suits the device */
     int depth;          /* of the scene */
     size_t queue_bytes; /* what the wavefront may use; 0: what suits the device */
+    bool queue_is_cut;  /* the device refused more */
     HdWavePlan plan;
     HdCudaMemory queue_reals, queue_ints, queue_sums, queue_taken;
     HdCudaHostMemory taken; /* what the host reads of it */
@@ -164,11 +165,9 @@ static HdStatus open_device(Renderer *renderer, int index, HdError *error) {
     status = CALL(renderer, device_get, cuDeviceGet, (&renderer->device, index), error);
     if (status == HD_OK)
         status = query_arch(&renderer->driver, renderer->device, &renderer->arch, error);
-    int units = 0;
     if (status == HD_OK)
         status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_MULTIPROCESSOR_COUNT,
-                       &units, error);
-    renderer->launch_items = hd_gpu_launch_items(units);
+                       &renderer->units, error);
     return status;
 }
 
@@ -198,10 +197,6 @@ static HdStatus create_streams(Renderer *renderer, HdError *error) {
     if (status != HD_OK)
         return status;
     status = hd_cuda_create_stream(&renderer->driver, &renderer->stream, error);
-    if (status == HD_OK) /* to wait for it must not cost a core */
-        status = CALL(renderer, event_create, cuEventCreate,
-                      (&renderer->between, HD_CU_EVENT_BLOCKING_SYNC | HD_CU_EVENT_DISABLE_TIMING),
-                      error);
     if (status == HD_OK)
         status = hd_cuda_flights_open(&renderer->flights, &owner, error);
     leave(renderer);
@@ -211,6 +206,12 @@ static HdStatus create_streams(Renderer *renderer, HdError *error) {
 static void release(const Renderer *renderer, HdCudaMemory *memory) {
     HdCudaOwner owner = {&renderer->driver, renderer->name};
     hd_cuda_release(&owner, memory);
+}
+
+static void release_queue(Renderer *renderer) {
+    release(renderer, &renderer->queue_reals);
+    release(renderer, &renderer->queue_ints);
+    release(renderer, &renderer->queue_sums);
 }
 
 static void unload_module(Renderer *renderer) {
@@ -226,17 +227,13 @@ static void release_all(Renderer *renderer) {
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         release(renderer, &renderer->frame[i]);
     release(renderer, &renderer->counts);
-    release(renderer, &renderer->queue_reals);
-    release(renderer, &renderer->queue_ints);
-    release(renderer, &renderer->queue_sums);
+    release_queue(renderer);
     release(renderer, &renderer->queue_taken);
     release(renderer, &renderer->thresholds);
     hd_cuda_release_host(&owner, &renderer->taken);
     if (renderer->flights.owner.driver != NULL)
         hd_cuda_flights_close(&renderer->flights);
     unload_module(renderer);
-    if (renderer->between)
-        renderer->driver.event_destroy(renderer->between);
     if (renderer->stream)
         renderer->driver.stream_destroy(renderer->stream);
 }
@@ -273,6 +270,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     renderer->pipeline = options->pipeline;
     renderer->grid = options->grid;
     renderer->queue_bytes = options->test.queue_bytes;
+    renderer->launch_work = options->test.launch_work;
     HdStatus status = open_device(renderer, device->index, error);
     renderer->shape.register_limit =
         hd_register_limit(&renderer->shape, renderer->arch, options->registers);
@@ -290,9 +288,9 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
 
 /* ---- memory ---- */
 
-static HdStatus resize(Renderer *renderer, HdCudaMemory *memory, size_t bytes, const char *what,
-                       HdError *error) {
-    return hd_cuda_resize(&renderer->flights.owner, memory, bytes, what, error);
+static HdStatus reserve(Renderer *renderer, HdCudaMemory *memory, size_t bytes, const char *what,
+                        HdError *error) {
+    return hd_cuda_reserve(&renderer->flights.owner, memory, bytes, what, error);
 }
 
 /* Copies in the order of the launches. Only from memory that the device reads by itself does the
@@ -307,7 +305,7 @@ static HdStatus copy(Renderer *renderer, const HdCudaMemory *memory, const void 
 static HdStatus copy_table(Renderer *renderer, HdCudaMemory *memory, const void *data, size_t bytes,
                            const char *what, HdError *error) {
     size_t room = bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : bytes;
-    HdStatus status = resize(renderer, memory, room, what, error);
+    HdStatus status = reserve(renderer, memory, room, what, error);
     if (status != HD_OK || bytes == 0)
         return status;
     return copy(renderer, memory, data, bytes, error);
@@ -425,6 +423,8 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     renderer->depth = tables->depth;
+    renderer->flights.size = renderer->launch_work > 0 ? hd_launch_size_fixed(renderer->launch_work)
+                                                       : hd_launch_size_start(renderer->units);
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
@@ -460,9 +460,30 @@ static HdStatus prepare(Renderer *renderer, const HdCudaFlight *flight, const Hd
         from += table->bytes;
     }
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
-                        "counts of the work items", error);
+        status = reserve(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
+                         "counts of the work items", error);
     return status;
+}
+
+/* Takes memory for what the needs come to; where the device has too little left, for less. */
+static HdStatus reserve_queue(Renderer *renderer, HdWaveNeeds *needs, HdError *error) {
+    const HdCudaOwner *owner = &renderer->flights.owner;
+    for (;;) {
+        HdWavePlan plan = renderer->plan = hd_wave_plan(needs);
+        size_t bytes = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+        HdCuResult code = hd_cuda_try(owner, &renderer->queue_reals, plan.real_bytes);
+        if (code == HD_CU_SUCCESS)
+            code = hd_cuda_try(owner, &renderer->queue_ints, plan.int_bytes);
+        if (code == HD_CU_SUCCESS)
+            code = hd_cuda_try(owner, &renderer->queue_sums, plan.sum_bytes);
+        if (code == HD_CU_SUCCESS)
+            return HD_OK;
+        release_queue(renderer);
+        if (code != HD_CU_ERROR_OUT_OF_MEMORY || !hd_wave_halve(needs))
+            return hd_cuda_refuse(owner, bytes, "rays of the queue", code, error);
+        renderer->queue_bytes = needs->bytes;
+        renderer->queue_is_cut = true;
+    }
 }
 
 static HdStatus plan_waves(Renderer *renderer, int items, int samples_per_item, HdError *error) {
@@ -480,27 +501,16 @@ static HdStatus plan_waves(Renderer *renderer, int items, int samples_per_item, 
         .samples_at_once = samples_per_item,
         .samples = hd_wave_samples(items, samples_per_item),
     };
-    renderer->plan = hd_wave_plan(&needs);
-    return status;
+    return status == HD_OK ? reserve_queue(renderer, &needs, error) : status;
 }
 
 static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
     static const unsigned none[HD_MIN_TABLE_BYTES / sizeof(unsigned)] = {0};
-    const HdWavePlan *plan = &renderer->plan;
     HdStatus status =
-        resize(renderer, &renderer->queue_reals, plan->real_bytes, "rays of the queue", error);
+        reserve(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
     if (status == HD_OK)
-        status =
-            resize(renderer, &renderer->queue_ints, plan->int_bytes, "numbers of the queue", error);
-    if (status == HD_OK)
-        status =
-            resize(renderer, &renderer->queue_sums, plan->sum_bytes, "sums of the samples", error);
-    if (status == HD_OK)
-        status =
-            resize(renderer, &renderer->queue_taken, sizeof none, "counter of the queue", error);
-    if (status == HD_OK)
-        status = hd_cuda_resize_host(&renderer->flights.owner, &renderer->taken, sizeof none,
-                                     "counter of the queue", error);
+        status = hd_cuda_reserve_host(&renderer->flights.owner, &renderer->taken, sizeof none,
+                                      "counter of the queue", error);
     if (status == HD_OK)
         status = copy(renderer, &renderer->queue_taken, none, sizeof none, error);
     return status;
@@ -528,11 +538,22 @@ static HdStatus record(const Renderer *renderer, HdCuEvent event, HdError *error
     return CALL(renderer, event_record, cuEventRecord, (event, renderer->stream), error);
 }
 
-/* Launches are queued one by one, so that a signal ends the frame between two of them. */
-static HdStatus wait_between(const Renderer *renderer, HdError *error) {
-    HdStatus status = record(renderer, renderer->between, error);
+/* Call before a launch of so much work; the event `start` was recorded before the first one. */
+static HdStatus begin_launch(const Renderer *renderer, HdCudaFlight *flight, bool is_first,
+                             double work, HdError *error) {
+    flight->began = is_first ? flight->start : flight->before;
+    flight->work = work;
+    return is_first ? HD_OK : record(renderer, flight->before, error);
+}
+
+/* Launches are queued one by one, so that a signal ends the frame between two of them, and so that
+   each tells how large the next one may be. */
+static HdStatus wait_between(Renderer *renderer, HdCudaFlight *flight, HdError *error) {
+    HdStatus status = record(renderer, flight->between, error);
     if (status == HD_OK)
-        status = CALL(renderer, event_synchronize, cuEventSynchronize, (renderer->between), error);
+        status = CALL(renderer, event_synchronize, cuEventSynchronize, (flight->between), error);
+    if (status == HD_OK)
+        status = hd_cuda_flight_time_launch(&renderer->flights, flight, flight->between, error);
     if (status == HD_OK && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     return status;
@@ -552,7 +573,8 @@ enum { MOST_ARGUMENTS = HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 };
 
 static HdStatus launch_mega(Renderer *renderer, HdCudaFlight *flight, int items, HdError *error) {
     int block = renderer->shape.group_size;
-    int first, count, parts = hd_gpu_sample_parts(flight->samples, block);
+    int first, count, samples = flight->samples, parts = hd_gpu_sample_parts(samples, block);
+    const HdLaunchSize *size = &renderer->flights.size;
     void *arguments[MOST_ARGUMENTS];
     int n = table_arguments(renderer, arguments);
     arguments[n++] = &first;
@@ -562,11 +584,12 @@ static HdStatus launch_mega(Renderer *renderer, HdCudaFlight *flight, int items,
     arguments[n++] = &renderer->counts.pointer;
     HdStatus status = HD_OK;
     for (first = 0; status == HD_OK && first < items; first += count) {
-        status = first > 0 ? wait_between(renderer, error) : HD_OK;
-        if (status != HD_OK)
-            break;
-        count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
-        status = launch(renderer, renderer->render, count, block / parts, arguments, error);
+        status = first > 0 ? wait_between(renderer, flight, error) : HD_OK;
+        count = hd_launch_size_items(size, items - first, samples, block / parts);
+        if (status == HD_OK)
+            status = begin_launch(renderer, flight, first == 0, (double)count * samples, error);
+        if (status == HD_OK)
+            status = launch(renderer, renderer->render, count, block / parts, arguments, error);
     }
     return status;
 }
@@ -604,7 +627,11 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     int blocks = (step->count + block - 1) / block;
     if (step->is_first || blocks > launches->blocks)
         blocks = launches->blocks;
-    HdStatus status = launch_blocks(renderer, renderer->render, blocks, arguments, error);
+    HdStatus status = begin_launch(renderer, launches->flight, step->is_first, step->count, error);
+    if (status == HD_OK)
+        status = launch_blocks(renderer, renderer->render, blocks, arguments, error);
+    if (status == HD_OK)
+        status = record(renderer, launches->flight->between, error);
     if (status == HD_OK)
         status = CALL(
             renderer, copy_to_host_async, cuMemcpyDtoHAsync,
@@ -612,6 +639,9 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
             error);
     if (status == HD_OK)
         status = wait_for_stream(renderer, error);
+    if (status == HD_OK)
+        status = hd_cuda_flight_time_launch(&renderer->flights, launches->flight,
+                                            launches->flight->between, error);
     if (status == HD_OK)
         memcpy(taken, renderer->taken.data, sizeof *taken);
     return status;
@@ -635,7 +665,10 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
 static HdStatus launch_waves(Renderer *renderer, HdCudaFlight *flight, int items, int blocks,
                              HdError *error) {
     WaveLaunches launches = {renderer, flight, blocks};
-    HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
+    HdWaveDevice device = {.context = &launches,
+                           .trace = trace_step,
+                           .store = store_batch,
+                           .size = &renderer->flights.size};
     HdWaveFrame frame = {
         .items = items,
         .samples_per_item = flight->samples,
@@ -656,6 +689,7 @@ static HdStatus launch_sum(Renderer *renderer, HdCudaFlight *flight, int count_s
 static HdStatus trace(Renderer *renderer, HdCudaFlight *flight, int items, int count_slots,
                       HdError *error) {
     HdStatus status = record(renderer, flight->start, error);
+    hd_launch_size_begin_frame(&renderer->flights.size);
     if (status == HD_OK)
         status = renderer->shape.wavefront
                      ? launch_waves(renderer, flight, items, count_slots, error)
@@ -672,8 +706,8 @@ static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *erro
     if (renderer->thresholds.pointer && renderer->curve == curve)
         return HD_OK;
     hd_curve_thresholds8(curve, thresholds);
-    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds,
-                             "thresholds of the curve", error);
+    HdStatus status = reserve(renderer, &renderer->thresholds, sizeof thresholds,
+                              "thresholds of the curve", error);
     if (status == HD_OK)
         status = copy(renderer, &renderer->thresholds, thresholds, sizeof thresholds, error);
     if (status == HD_OK)
@@ -747,6 +781,11 @@ static HdStatus cuda_collect(void *state, HdFrame *frame, HdError *error) {
     return status;
 }
 
+static double cuda_longest_launch(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->flights.longest_launch;
+}
+
 static void cuda_drop(void *state) {
     Renderer *renderer = state;
     HdError ignored;
@@ -773,9 +812,11 @@ static void cuda_describe(const void *state, char *text, int capacity) {
                           renderer->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
                           renderer->shape.group_size, hd_pipeline_name(renderer->pipeline));
     if (renderer->module && length > 0 && length < capacity)
-        snprintf(text + length, (size_t)(capacity - length),
-                 ", %d registers and %d bytes of local memory a thread, %s", renderer->registers,
-                 renderer->local_bytes, renderer->kernels.maker);
+        length += snprintf(text + length, (size_t)(capacity - length),
+                           ", %d registers and %d bytes of local memory a thread, %s",
+                           renderer->registers, renderer->local_bytes, renderer->kernels.maker);
+    if (renderer->queue_is_cut && length > 0 && length < capacity)
+        hd_wave_tell_cut(renderer->queue_bytes, text + length, capacity - length);
 }
 
 const HdBackend hd_backend_cuda = {
@@ -785,6 +826,7 @@ const HdBackend hd_backend_cuda = {
     .upload = cuda_upload,
     .submit = cuda_submit,
     .collect = cuda_collect,
+    .longest_launch = cuda_longest_launch,
     .drop = cuda_drop,
     .kernels = cuda_kernels,
     .be_cautious = cuda_be_cautious,

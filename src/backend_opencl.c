@@ -45,11 +45,12 @@ typedef struct Renderer {
     HdKernelCache kernels;
     HdKernelShape shape; /* of the program, if there is one */
     HdPipeline pipeline;
-    size_t local_size; /* fixed: some drivers compile anew for each */
-    int launch_items;
+    size_t local_size;  /* fixed: some drivers compile anew for each */
+    int launch_work;    /* of a launch; 0: by measurement */
     int block, grid;    /* as asked for; 0: what suits the device */
     bool has_groups;    /* of threads that work together, as GPUs have them */
     size_t queue_bytes; /* of the wavefront, for a worker or for the device */
+    bool queue_is_cut;  /* the device refused more */
     HdWavePlan plan;
     int depth;
     cl_context context;
@@ -101,8 +102,7 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
         renderer->shape.register_limit =
             hd_register_limit(&renderer->shape, device->nvidia_arch, options->registers);
     renderer->local_size = has_groups ? (size_t)renderer->shape.group_size : 1;
-    renderer->launch_items =
-        has_groups ? hd_gpu_launch_items(device->compute_units) : HD_MAX_LAUNCH_ITEMS;
+    renderer->launch_work = options->test.launch_work;
     renderer->queue_bytes = has_groups ? hd_wave_budget(device->memory) : CPU_QUEUE_BYTES;
     if (options->test.queue_bytes > 0)
         renderer->queue_bytes = options->test.queue_bytes;
@@ -123,6 +123,12 @@ static HdStatus create_queue(Renderer *renderer, HdError *error) {
     return hd_opencl_flights_open(&renderer->flights, &owner, error);
 }
 
+static void release_queue(Renderer *renderer) {
+    hd_opencl_release(&renderer->queue_reals);
+    hd_opencl_release(&renderer->queue_ints);
+    hd_opencl_release(&renderer->queue_sums);
+}
+
 static void opencl_close(void *state) {
     Renderer *renderer = state;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
@@ -130,9 +136,7 @@ static void opencl_close(void *state) {
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         hd_opencl_release(&renderer->frame[i]);
     hd_opencl_release(&renderer->counts);
-    hd_opencl_release(&renderer->queue_reals);
-    hd_opencl_release(&renderer->queue_ints);
-    hd_opencl_release(&renderer->queue_sums);
+    release_queue(renderer);
     hd_opencl_release(&renderer->queue_taken);
     hd_opencl_release(&renderer->thresholds);
     hd_opencl_flights_close(&renderer->flights);
@@ -166,16 +170,16 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
 
 /* ---- buffers ---- */
 
-static HdStatus resize(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes, cl_mem_flags flags,
-                       const char *what, HdError *error) {
-    return hd_opencl_resize(&renderer->flights.owner, buffer, bytes, flags, what, error);
+static HdStatus reserve(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes,
+                        cl_mem_flags flags, const char *what, HdError *error) {
+    return hd_opencl_reserve(&renderer->flights.owner, buffer, bytes, flags, what, error);
 }
 
 /* The table must live until the queue is through with it. */
 static HdStatus copy_table(Renderer *renderer, HdOpenclBuffer *buffer, const HdTable *table,
                            const char *what, HdError *error) {
     size_t bytes = table->bytes < HD_MIN_TABLE_BYTES ? HD_MIN_TABLE_BYTES : table->bytes;
-    HdStatus status = resize(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
+    HdStatus status = reserve(renderer, buffer, bytes, CL_MEM_READ_ONLY, what, error);
     if (status != HD_OK || table->bytes == 0)
         return status;
     cl_int code = clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_FALSE, 0, table->bytes,
@@ -241,6 +245,9 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
                          .memory = (double)renderer->device.memory,
                          .at_once = (double)renderer->device.max_allocation};
     renderer->depth = tables->depth;
+    renderer->flights.size = renderer->launch_work > 0
+                                 ? hd_launch_size_fixed(renderer->launch_work)
+                                 : hd_launch_size_start(renderer->device.compute_units);
     HdStatus status = hd_check_room(tables, &room, error);
     if (status == HD_OK)
         status = build(renderer, &needs, error);
@@ -258,21 +265,6 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
 
 /* ---- render ---- */
 
-typedef struct BufferNeed {
-    HdOpenclBuffer *buffer;
-    size_t bytes;
-    const char *what;
-} BufferNeed;
-
-static HdStatus resize_all(Renderer *renderer, const BufferNeed *needs, size_t count,
-                           HdError *error) {
-    HdStatus status = HD_OK;
-    for (size_t i = 0; status == HD_OK && i < count; i++)
-        status = resize(renderer, needs[i].buffer, needs[i].bytes, CL_MEM_READ_WRITE, needs[i].what,
-                        error);
-    return status;
-}
-
 /* `count_slots` parts of the frame are counted one by one. */
 static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
                         const HdFrameTables *tables, int count_slots, HdError *error) {
@@ -285,8 +277,8 @@ static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
             status = set_buffer(renderer->program.render, HD_SCENE_TABLE_COUNT + i, buffer, error);
     }
     if (status == HD_OK)
-        status = resize(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
-                        CL_MEM_READ_WRITE, "counts of the work items", error);
+        status = reserve(renderer, &renderer->counts, sizeof(HdRayCounts) * (size_t)count_slots,
+                         CL_MEM_READ_WRITE, "counts of the work items", error);
     if (status == HD_OK)
         status = set_buffer(sum, 0, &renderer->counts, error);
     if (status == HD_OK)
@@ -298,19 +290,15 @@ static HdStatus prepare(Renderer *renderer, const HdOpenclFlight *flight,
     return status;
 }
 
-/* The queues of `workers`, which have one each. */
-static HdStatus prepare_waves(Renderer *renderer, int workers, HdError *error) {
+static HdStatus prepare_waves(Renderer *renderer, HdError *error) {
     const HdWavePlan *plan = &renderer->plan;
+    const HdOpenclBuffer *parts[] = {&renderer->queue_reals, &renderer->queue_ints,
+                                     &renderer->queue_sums};
     cl_kernel render = renderer->program.render;
-    const BufferNeed needs[] = {
-        {&renderer->queue_reals, plan->real_bytes * (size_t)workers, "rays of the queue"},
-        {&renderer->queue_ints, plan->int_bytes * (size_t)workers, "numbers of the queue"},
-        {&renderer->queue_sums, plan->sum_bytes * (size_t)workers, "sums of the samples"},
-        {&renderer->queue_taken, HD_MIN_TABLE_BYTES, "counter of the queue"},
-    };
-    HdStatus status = resize_all(renderer, needs, sizeof needs / sizeof *needs, error);
+    HdStatus status = reserve(renderer, &renderer->queue_taken, HD_MIN_TABLE_BYTES,
+                              CL_MEM_READ_WRITE, "counter of the queue", error);
     for (int i = 0; status == HD_OK && i < 3; i++)
-        status = set_buffer(render, WAVE_ARGUMENT_REALS + i, needs[i].buffer, error);
+        status = set_buffer(render, WAVE_ARGUMENT_REALS + i, parts[i], error);
     if (status == HD_OK)
         status = set_int(render, WAVE_ARGUMENT_QUEUE_STRIDE, plan->queue_stride, error);
     if (status == HD_OK)
@@ -332,69 +320,97 @@ static HdStatus launch_groups(Renderer *renderer, cl_kernel kernel, int groups, 
 }
 
 /* As many groups as the items need, but no more than the grid may have. */
-static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, int items_per_group,
-                       cl_event *event, HdError *error) {
+static int group_count(const Renderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
-    if (renderer->has_groups && renderer->grid > 0 && groups > renderer->grid)
-        groups = renderer->grid;
+    bool is_limited = renderer->has_groups && renderer->grid > 0;
+    return is_limited && groups > renderer->grid ? renderer->grid : groups;
+}
+
+/* A work item for each of the items. */
+static HdStatus launch(Renderer *renderer, cl_kernel kernel, int items, cl_event *event,
+                       HdError *error) {
+    int groups = group_count(renderer, items, (int)renderer->local_size);
     return launch_groups(renderer, kernel, groups, event, error);
 }
 
-/* Launches are queued one by one, so that a signal ends the frame between two of them. */
-static HdStatus wait_between(const Renderer *renderer, HdError *error) {
+/* Launches are queued one by one, so that a signal ends the frame between two of them, and so that
+   each tells how large the next one may be. */
+static HdStatus wait_between(Renderer *renderer, HdOpenclFlight *flight, HdError *error) {
     HdStatus status = check(clFinish(renderer->queue), "clFinish", error);
+    if (status == HD_OK)
+        hd_opencl_flight_time_launch(&renderer->flights, flight);
     if (status == HD_OK && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     return status;
 }
 
-/* All functions that launch set the event of the flight's first launch. */
+/* A launch of the tracing kernel, the flight's first or a later one, with so much work. */
+static HdStatus launch_timed(Renderer *renderer, HdOpenclFlight *flight, int groups, double work,
+                             HdError *error) {
+    flight->work = work;
+    HdStatus status =
+        launch_groups(renderer, renderer->program.render, groups, &flight->launch, error);
+    if (status != HD_OK || flight->first)
+        return status;
+    status = check(clRetainEvent(flight->launch), "clRetainEvent", error);
+    flight->first = status == HD_OK ? flight->launch : NULL;
+    return status;
+}
+
+/* CPUs drive no display: there a frame is one launch. */
 static HdStatus launch_mega(Renderer *renderer, HdOpenclFlight *flight, int items, HdError *error) {
     cl_kernel render = renderer->program.render;
     int group_size = (int)renderer->local_size;
     int parts = renderer->has_groups ? hd_gpu_sample_parts(flight->samples, group_size) : 1;
-    int count;
+    int per_group = group_size / parts;
+    int count, samples = flight->samples;
     HdStatus status = set_buffer(render, ARGUMENT_PIXELS, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, ARGUMENT_COUNTS, &renderer->counts, error);
     if (status == HD_OK)
         status = set_int(render, ARGUMENT_PARTS, parts, error);
     for (int first = 0; status == HD_OK && first < items; first += count) {
-        status = first > 0 ? wait_between(renderer, error) : HD_OK;
-        if (status != HD_OK)
-            break;
-        count = items - first < renderer->launch_items ? items - first : renderer->launch_items;
-        status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
+        status = first > 0 ? wait_between(renderer, flight, error) : HD_OK;
+        count = items - first;
+        if (renderer->has_groups)
+            count = hd_launch_size_items(&renderer->flights.size, count, samples, per_group);
+        if (status == HD_OK)
+            status = set_int(render, ARGUMENT_FIRST_ITEM, first, error);
         if (status == HD_OK)
             status = set_int(render, ARGUMENT_ITEM_COUNT, count, error);
         if (status == HD_OK)
-            status = launch(renderer, render, count, group_size / parts,
-                            first == 0 ? &flight->first : NULL, error);
+            status = launch_timed(renderer, flight, group_count(renderer, count, per_group),
+                                  (double)count * samples, error);
     }
     return status;
+}
+
+/* Of the wavefront, with a queue each. */
+static int worker_count(const Renderer *renderer, int items) {
+    int workers = renderer->has_groups ? 1 : renderer->device.compute_units * WORKERS_PER_UNIT;
+    return workers < items ? workers : items;
 }
 
 /* The wavefront of CPUs. */
 static HdStatus launch_workers(Renderer *renderer, HdOpenclFlight *flight, int items,
                                HdError *error) {
     cl_kernel render = renderer->program.render;
-    int workers = renderer->device.compute_units * WORKERS_PER_UNIT;
-    workers = workers < items ? workers : items;
-    HdStatus status = prepare_waves(renderer, workers, error);
+    HdStatus status = prepare_waves(renderer, error);
     if (status == HD_OK)
         status = set_int(render, WAVE_ARGUMENT_OWN, items, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 1, &flight->pixels, error);
     if (status == HD_OK)
         status = set_buffer(render, WAVE_ARGUMENT_OWN + 2, &renderer->counts, error);
-    return status == HD_OK ? launch_groups(renderer, render, workers, &flight->first, error)
-                           : status;
+    return status == HD_OK
+               ? launch_timed(renderer, flight, worker_count(renderer, items), 0.0, error)
+               : status;
 }
 
 typedef struct WaveLaunches {
     Renderer *renderer;
+    HdOpenclFlight *flight;
     int groups; /* at most */
-    cl_event *first_event;
 } WaveLaunches;
 
 static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
@@ -412,12 +428,13 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     if (step->is_first || groups > launches->groups)
         groups = launches->groups;
     if (status == HD_OK)
-        status = launch_groups(renderer, render, groups,
-                               step->is_first ? launches->first_event : NULL, error);
+        status = launch_timed(renderer, launches->flight, groups, step->count, error);
     if (status == HD_OK)
         status = check(clEnqueueReadBuffer(renderer->queue, renderer->queue_taken.memory, CL_TRUE,
                                            0, sizeof *taken, taken, 0, NULL, NULL),
                        "clEnqueueReadBuffer", error);
+    if (status == HD_OK)
+        hd_opencl_flight_time_launch(&renderer->flights, launches->flight);
     return status;
 }
 
@@ -429,7 +446,7 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     if (status == HD_OK)
         status = set_int(store, 5, item_count, error);
     if (status == HD_OK)
-        status = launch(renderer, store, item_count, (int)renderer->local_size, NULL, error);
+        status = launch(renderer, store, item_count, NULL, error);
     return status;
 }
 
@@ -437,7 +454,7 @@ static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, 
     static const unsigned none = 0;
     cl_kernel render = renderer->program.render, store = renderer->program.store;
     const int own = WAVE_ARGUMENT_OWN + 7; /* after the numbers of a step */
-    HdStatus status = prepare_waves(renderer, 1, error);
+    HdStatus status = prepare_waves(renderer, error);
     if (status == HD_OK)
         status = check(clEnqueueWriteBuffer(renderer->queue, renderer->queue_taken.memory, CL_FALSE,
                                             0, sizeof none, &none, 0, NULL, NULL),
@@ -462,8 +479,11 @@ static HdStatus prepare_steps(Renderer *renderer, const HdOpenclFlight *flight, 
 /* The wavefront of devices with groups of threads. */
 static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int items, int groups,
                              HdError *error) {
-    WaveLaunches launches = {renderer, groups, &flight->first};
-    HdWaveDevice device = {.context = &launches, .trace = trace_step, .store = store_batch};
+    WaveLaunches launches = {renderer, flight, groups};
+    HdWaveDevice device = {.context = &launches,
+                           .trace = trace_step,
+                           .store = store_batch,
+                           .size = &renderer->flights.size};
     HdWaveFrame frame = {
         .items = items,
         .samples_per_item = flight->samples,
@@ -477,6 +497,7 @@ static HdStatus launch_steps(Renderer *renderer, HdOpenclFlight *flight, int ite
 static HdStatus trace(Renderer *renderer, HdOpenclFlight *flight, int items, int count_slots,
                       HdError *error) {
     HdStatus status;
+    hd_launch_size_begin_frame(&renderer->flights.size);
     if (!renderer->shape.wavefront)
         status = launch_mega(renderer, flight, items, error);
     else if (renderer->has_groups)
@@ -496,8 +517,8 @@ static HdStatus copy_thresholds(Renderer *renderer, HdCurve curve, HdError *erro
     int32_t thresholds[256];
     if (renderer->thresholds.memory && renderer->curve == curve)
         return HD_OK;
-    HdStatus status = resize(renderer, &renderer->thresholds, sizeof thresholds, CL_MEM_READ_ONLY,
-                             "thresholds of the curve", error);
+    HdStatus status = reserve(renderer, &renderer->thresholds, sizeof thresholds, CL_MEM_READ_ONLY,
+                              "thresholds of the curve", error);
     if (status != HD_OK)
         return status;
     hd_curve_thresholds8(curve, thresholds);
@@ -522,13 +543,52 @@ static HdStatus encode(Renderer *renderer, HdOpenclFlight *flight, HdCurve curve
     if (status == HD_OK)
         status = set_buffer(kernel, 3, &flight->image, error);
     if (status == HD_OK)
-        status = launch(renderer, kernel, pixels, (int)renderer->local_size, &flight->ready, error);
+        status = launch(renderer, kernel, pixels, &flight->ready, error);
     return status;
 }
 
 /* ---- frames ---- */
 
-static void plan_waves(Renderer *renderer, int items, int samples) {
+/* Drivers may take memory only when it is touched first. */
+static cl_int reserve_and_touch(Renderer *renderer, HdOpenclBuffer *buffer, size_t bytes) {
+    static const char nothing[HD_MIN_TABLE_BYTES];
+    cl_int code = CL_SUCCESS;
+    if (buffer->memory && buffer->bytes >= bytes)
+        return code;
+    hd_opencl_release(buffer);
+    if (bytes > renderer->device.max_allocation)
+        return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    buffer->memory = clCreateBuffer(renderer->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+    buffer->bytes = bytes;
+    if (code != CL_SUCCESS)
+        return code;
+    return clEnqueueWriteBuffer(renderer->queue, buffer->memory, CL_TRUE, 0, sizeof nothing,
+                                nothing, 0, NULL, NULL);
+}
+
+/* Takes memory for what the needs of each of the workers come to; where the device has too little
+   left, for less. */
+static HdStatus reserve_queue(Renderer *renderer, HdWaveNeeds *needs, int workers, HdError *error) {
+    for (;;) {
+        HdWavePlan plan = renderer->plan = hd_wave_plan(needs);
+        size_t all = (size_t)workers, bytes = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+        cl_int code = reserve_and_touch(renderer, &renderer->queue_reals, plan.real_bytes * all);
+        if (code == CL_SUCCESS)
+            code = reserve_and_touch(renderer, &renderer->queue_ints, plan.int_bytes * all);
+        if (code == CL_SUCCESS)
+            code = reserve_and_touch(renderer, &renderer->queue_sums, plan.sum_bytes * all);
+        if (code == CL_SUCCESS)
+            return HD_OK;
+        release_queue(renderer);
+        if (!hd_opencl_is_lack_of_memory(code) || !hd_wave_halve(needs))
+            return hd_opencl_check_room(&renderer->flights.owner, bytes * all, "rays of the queue",
+                                        "clCreateBuffer", code, error);
+        renderer->queue_bytes = needs->bytes;
+        renderer->queue_is_cut = true;
+    }
+}
+
+static HdStatus plan_waves(Renderer *renderer, int items, int samples, HdError *error) {
     const HdKernelShape *shape = &renderer->shape;
     int per_item = shape->pixels_per_item * samples;
     HdWaveNeeds needs = {
@@ -539,7 +599,7 @@ static void plan_waves(Renderer *renderer, int items, int samples) {
         .samples_at_once = renderer->has_groups ? per_item : HD_WAVE_BUNDLE,
         .samples = renderer->has_groups ? hd_wave_samples(items, per_item) : per_item,
     };
-    renderer->plan = hd_wave_plan(&needs);
+    return reserve_queue(renderer, &needs, worker_count(renderer, items), error);
 }
 
 /* Queues all that the frame needs, up to its copies. */
@@ -548,11 +608,13 @@ static HdStatus launch_frame(Renderer *renderer, HdOpenclFlight *flight,
     int items =
         hd_kernel_item_count(tables->width, tables->height, renderer->shape.pixels_per_item);
     int count_slots = items;
+    HdStatus status = HD_OK;
     if (renderer->shape.wavefront)
-        plan_waves(renderer, items, tables->samples);
+        status = plan_waves(renderer, items, tables->samples, error);
     if (renderer->shape.wavefront && renderer->has_groups)
         count_slots = hd_wave_groups(&renderer->plan, (int)renderer->local_size, renderer->grid);
-    HdStatus status = prepare(renderer, flight, tables, count_slots, error);
+    if (status == HD_OK)
+        status = prepare(renderer, flight, tables, count_slots, error);
     if (status == HD_OK)
         status = trace(renderer, flight, items, count_slots, error);
     if (status == HD_OK && flight->encodes)
@@ -589,6 +651,12 @@ static HdStatus opencl_collect(void *state, HdFrame *frame, HdError *error) {
     return hd_opencl_flight_collect(&renderer->flights, frame, error);
 }
 
+/* What the launches on a CPU take does no harm. */
+static double opencl_longest_launch(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->has_groups ? renderer->flights.longest_launch : -1.0;
+}
+
 static void opencl_drop(void *state) {
     Renderer *renderer = state;
     clFinish(renderer->queue);
@@ -613,7 +681,7 @@ static bool opencl_be_cautious(void *state) {
 static void opencl_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdKernelShape *shape = &renderer->shape;
-    snprintf(
+    int length = snprintf(
         text, (size_t)capacity,
         "%d lane%s of %s, work groups of %zu, %d pixel%s for each work item, %d compute units, "
         "%s",
@@ -621,6 +689,8 @@ static void opencl_describe(const void *state, char *text, int capacity) {
         shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", renderer->local_size,
         shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s",
         renderer->device.compute_units, hd_pipeline_name(renderer->pipeline));
+    if (renderer->queue_is_cut && length > 0 && length < capacity)
+        hd_wave_tell_cut(renderer->queue_bytes, text + length, capacity - length);
 }
 
 const HdBackend hd_backend_opencl = {
@@ -630,6 +700,7 @@ const HdBackend hd_backend_opencl = {
     .upload = opencl_upload,
     .submit = opencl_submit,
     .collect = opencl_collect,
+    .longest_launch = opencl_longest_launch,
     .drop = opencl_drop,
     .kernels = opencl_kernels,
     .be_cautious = opencl_be_cautious,

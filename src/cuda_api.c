@@ -45,13 +45,36 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
+/* What the error means for the device; ends a message. */
+static const char *consequence(HdCuResult code) {
+    switch (code) {
+    case HD_CU_ERROR_LAUNCH_TIMEOUT:
+        return "; the driver ended a kernel that ran for too long, and the device is lost to this "
+               "process";
+    case HD_CU_ERROR_DEVICE_UNAVAILABLE:
+    case HD_CU_ERROR_ECC_UNCORRECTABLE:
+    case HD_CU_ERROR_NVLINK_UNCORRECTABLE:
+    case HD_CU_ERROR_ILLEGAL_ADDRESS:
+    case HD_CU_ERROR_CONTEXT_IS_DESTROYED:
+    case HD_CU_ERROR_HARDWARE_STACK_ERROR:
+    case HD_CU_ERROR_ILLEGAL_INSTRUCTION:
+    case HD_CU_ERROR_MISALIGNED_ADDRESS:
+    case HD_CU_ERROR_INVALID_ADDRESS_SPACE:
+    case HD_CU_ERROR_INVALID_PC:
+    case HD_CU_ERROR_LAUNCH_FAILED:
+        return "; the device is lost to this process";
+    default:
+        return "";
+    }
+}
+
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error) {
     const char *text = NULL;
     if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%u: %s)", function,
-                   hd_cuda_error_name(driver, code), code, text);
+    return hd_fail(error, HD_FAILED, "%s failed with %s (%u: %s)%s", function,
+                   hd_cuda_error_name(driver, code), code, text, consequence(code));
 }
 
 const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {

@@ -24,6 +24,18 @@ typedef struct CUevent_st *HdCuEvent;
 enum {
     HD_CU_SUCCESS = 0,
     HD_CU_ERROR_OUT_OF_MEMORY = 2,
+    HD_CU_ERROR_DEVICE_UNAVAILABLE = 46,
+    HD_CU_ERROR_ECC_UNCORRECTABLE = 214,
+    HD_CU_ERROR_NVLINK_UNCORRECTABLE = 220,
+    HD_CU_ERROR_ILLEGAL_ADDRESS = 700,
+    HD_CU_ERROR_LAUNCH_TIMEOUT = 702,
+    HD_CU_ERROR_CONTEXT_IS_DESTROYED = 709,
+    HD_CU_ERROR_HARDWARE_STACK_ERROR = 714,
+    HD_CU_ERROR_ILLEGAL_INSTRUCTION = 715,
+    HD_CU_ERROR_MISALIGNED_ADDRESS = 716,
+    HD_CU_ERROR_INVALID_ADDRESS_SPACE = 717,
+    HD_CU_ERROR_INVALID_PC = 718,
+    HD_CU_ERROR_LAUNCH_FAILED = 719,
     HD_CU_DEVICE_CLOCK_KHZ = 13,
     HD_CU_DEVICE_MULTIPROCESSOR_COUNT = 16,
     HD_CU_DEVICE_CAPABILITY_MAJOR = 75,
@@ -93,7 +105,8 @@ typedef struct HdCudaDriver {
    library stays loaded. */
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
 
-/* Fails with the names of the function and of the error. */
+/* Fails with the names of the function and of the error, and says so where it means that the device
+   is lost: no call of this process will succeed on it. */
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error);
 

@@ -26,8 +26,12 @@ static HdStatus open_flight(HdCudaFlights *flights, HdCudaFlight *flight, HdErro
     if (status == HD_OK)
         status = create_event(flights, &flight->end, 0, error);
     if (status == HD_OK)
-        status = create_event(flights, &flight->ready, HD_CU_EVENT_DISABLE_TIMING, error);
+        status = create_event(flights, &flight->before, 0, error);
     if (status == HD_OK) /* to wait for it must not cost a core */
+        status = create_event(flights, &flight->between, HD_CU_EVENT_BLOCKING_SYNC, error);
+    if (status == HD_OK)
+        status = create_event(flights, &flight->ready, HD_CU_EVENT_DISABLE_TIMING, error);
+    if (status == HD_OK)
         status = create_event(flights, &flight->copied,
                               HD_CU_EVENT_BLOCKING_SYNC | HD_CU_EVENT_DISABLE_TIMING, error);
     return status;
@@ -43,8 +47,9 @@ HdStatus hd_cuda_flights_open(HdCudaFlights *flights, const HdCudaOwner *owner, 
 
 static void close_flight(const HdCudaFlights *flights, HdCudaFlight *flight) {
     const HdCudaOwner *owner = &flights->owner;
-    enum { EVENTS = 4 };
-    HdCuEvent events[EVENTS] = {flight->start, flight->end, flight->ready, flight->copied};
+    enum { EVENTS = 6 };
+    HdCuEvent events[EVENTS] = {flight->start,   flight->end,   flight->before,
+                                flight->between, flight->ready, flight->copied};
     hd_cuda_release(owner, &flight->pixels);
     hd_cuda_release(owner, &flight->sums);
     hd_cuda_release(owner, &flight->image);
@@ -89,29 +94,46 @@ HdStatus hd_cuda_flight_begin(HdCudaFlights *flights, const HdFrameTables *table
     flight->height = tables->height;
     flight->samples = tables->samples;
     flight->floats = tables->floats;
+    flight->began = NULL;
+    flight->longest_launch = 0.0;
     *out = flight;
-    HdStatus status = hd_cuda_resize(owner, &flight->pixels,
-                                     sizeof(float) * (size_t)flight->floats * pixel_count(flight),
-                                     "pixels", error);
+    HdStatus status = hd_cuda_reserve(owner, &flight->pixels,
+                                      sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+                                      "pixels", error);
     if (status == HD_OK)
-        status = hd_cuda_resize(owner, &flight->sums, SUM_BYTES, "sums of the counts", error);
+        status = hd_cuda_reserve(owner, &flight->sums, SUM_BYTES, "sums of the counts", error);
     if (status == HD_OK && encodes)
-        status =
-            hd_cuda_resize(owner, &flight->image, 4 * pixel_count(flight), "encoded pixels", error);
+        status = hd_cuda_reserve(owner, &flight->image, 4 * pixel_count(flight), "encoded pixels",
+                                 error);
     if (status == HD_OK)
-        status = hd_cuda_resize_host(owner, &flight->tables, bytes_of_tables(tables),
-                                     "tables of the frame", error);
+        status = hd_cuda_reserve_host(owner, &flight->tables, bytes_of_tables(tables),
+                                      "tables of the frame", error);
     if (status == HD_OK)
-        status = hd_cuda_resize_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
-                                     "pixels on their way to the host", error);
+        status = hd_cuda_reserve_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
+                                      "pixels on their way to the host", error);
     return status;
 }
 
+HdStatus hd_cuda_flight_time_launch(HdCudaFlights *flights, HdCudaFlight *flight, HdCuEvent end,
+                                    HdError *error) {
+    float milliseconds = 0.0f;
+    HdStatus status = CALL(flights, event_elapsed, cuEventElapsedTime,
+                           (&milliseconds, flight->began, end), error);
+    if (status != HD_OK)
+        return status;
+    double seconds = 1e-3 * (double)milliseconds;
+    hd_launch_size_note(&flights->size, flight->work, seconds);
+    if (seconds > flight->longest_launch)
+        flight->longest_launch = seconds;
+    flight->began = NULL;
+    return HD_OK;
+}
+
 static HdStatus read(HdCudaFlights *flights, HdCudaFlight *flight, const HdCudaMemory *from,
-                     size_t offset, HdError *error) {
+                     size_t bytes, size_t offset, HdError *error) {
     void *to = (char *)flight->copy.data + offset;
     return CALL(flights, copy_to_host_async, cuMemcpyDtoHAsync,
-                (to, from->pointer, from->bytes, flights->stream), error);
+                (to, from->pointer, bytes, flights->stream), error);
 }
 
 HdStatus hd_cuda_flight_send(HdCudaFlights *flights, HdCudaFlight *flight, HdError *error) {
@@ -119,9 +141,9 @@ HdStatus hd_cuda_flight_send(HdCudaFlights *flights, HdCudaFlight *flight, HdErr
     HdStatus status = CALL(flights, stream_wait_event, cuStreamWaitEvent,
                            (flights->stream, flight->ready, 0), error);
     if (status == HD_OK)
-        status = read(flights, flight, &flight->sums, 0, error);
+        status = read(flights, flight, &flight->sums, SUM_BYTES, 0, error);
     if (status == HD_OK)
-        status = read(flights, flight, picture, SUM_BYTES, error);
+        status = read(flights, flight, picture, picture_bytes(flight), SUM_BYTES, error);
     if (status == HD_OK)
         status =
             CALL(flights, event_record, cuEventRecord, (flight->copied, flights->stream), error);
@@ -139,8 +161,11 @@ HdStatus hd_cuda_flight_collect(HdCudaFlights *flights, HdFrame *frame, HdError 
     if (status == HD_OK)
         status = CALL(flights, event_elapsed, cuEventElapsedTime,
                       (&milliseconds, flight->start, flight->end), error);
+    if (status == HD_OK && flight->began)
+        status = hd_cuda_flight_time_launch(flights, flight, flight->end, error);
     if (status != HD_OK)
         return status;
+    flights->longest_launch = flight->longest_launch;
     frame->trace_seconds = 1e-3 * (double)milliseconds;
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,

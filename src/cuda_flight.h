@@ -6,6 +6,7 @@
 
 #include "backend.h"
 #include "cuda_memory.h"
+#include "launch_size.h"
 
 typedef struct HdCudaFlight {
     HdCudaMemory pixels, sums; /* radiance, and HD_SUM_WORKERS sums of the counts */
@@ -14,8 +15,14 @@ typedef struct HdCudaFlight {
     bool encodes;
     int width, height, samples, floats; /* as of the frame's tables */
     HdCuEvent start, end;               /* of the tracing, for the caller to record */
-    HdCuEvent ready;       /* after it the results can be copied; for the caller as well */
-    HdCudaHostMemory copy; /* the sums, then the pixels or the image */
+    HdCuEvent before, between; /* launches after the first one, and after one that is waited for;
+                                  likewise */
+    HdCuEvent began;           /* which of them was recorded before the launch that is not timed
+                                  yet; NULL: all are */
+    double work;               /* of that launch */
+    double longest_launch;     /* seconds, of those that are timed */
+    HdCuEvent ready;           /* after it the results can be copied; for the caller as well */
+    HdCudaHostMemory copy;     /* the sums, then the pixels or the image */
     HdCuEvent copied;
 } HdCudaFlight;
 
@@ -24,6 +31,8 @@ typedef struct HdCudaFlights {
     HdCuStream stream; /* of the copies, so that kernels of the next frame run beside them */
     HdCudaFlight flights[HD_FRAMES_IN_FLIGHT];
     int oldest, count;
+    HdLaunchSize size;     /* of the tracing kernel's launches */
+    double longest_launch; /* seconds, of the flight collected last */
 } HdCudaFlights;
 
 /* A stream that waits for no other one by itself. */
@@ -37,6 +46,11 @@ void hd_cuda_flights_close(HdCudaFlights *flights); /* none is under way */
 /* The next flight, with room for the frame; the kernels are then queued and its events recorded. */
 HdStatus hd_cuda_flight_begin(HdCudaFlights *flights, const HdFrameTables *tables, bool encodes,
                               HdCudaFlight **flight, HdError *error);
+
+/* Learns from a launch that is over, between its event `began` and `end`, what the size of the next
+   ones should be. */
+HdStatus hd_cuda_flight_time_launch(HdCudaFlights *flights, HdCudaFlight *flight, HdCuEvent end,
+                                    HdError *error);
 
 /* Queues the copies, all kernels being queued: the flight is under way. */
 HdStatus hd_cuda_flight_send(HdCudaFlights *flights, HdCudaFlight *flight, HdError *error);

@@ -8,17 +8,21 @@ HdStatus hd_cuda_check(const HdCudaDriver *driver, HdCuResult code, const char *
     return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
 }
 
-HdStatus hd_cuda_resize(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes,
-                        const char *what, HdError *error) {
-    if (memory->pointer && memory->bytes == bytes)
-        return HD_OK;
+HdCuResult hd_cuda_try(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes) {
+    if (memory->pointer && memory->bytes >= bytes)
+        return HD_CU_SUCCESS;
     hd_cuda_release(owner, memory);
     HdCuPointer pointer = 0;
     HdCuResult code = owner->driver->memory_alloc(&pointer, bytes);
-    if (code == HD_CU_SUCCESS) {
+    if (code == HD_CU_SUCCESS)
         *memory = (HdCudaMemory){pointer, bytes};
-        return HD_OK;
-    }
+    return code;
+}
+
+HdStatus hd_cuda_refuse(const HdCudaOwner *owner, size_t bytes, const char *what, HdCuResult code,
+                        HdError *error) {
+    if (code != HD_CU_ERROR_OUT_OF_MEMORY)
+        return hd_cuda_fail(owner->driver, "cuMemAlloc", code, error);
     size_t available = 0, total = 0;
     owner->driver->memory_info(&available, &total);
     char need[HD_BYTE_TEXT_SIZE], is_free[HD_BYTE_TEXT_SIZE], all[HD_BYTE_TEXT_SIZE];
@@ -30,6 +34,12 @@ HdStatus hd_cuda_resize(const HdCudaOwner *owner, HdCudaMemory *memory, size_t b
         need, owner->name, is_free, all, hd_cuda_error_name(owner->driver, code), hd_room_advice);
 }
 
+HdStatus hd_cuda_reserve(const HdCudaOwner *owner, HdCudaMemory *memory, size_t bytes,
+                         const char *what, HdError *error) {
+    HdCuResult code = hd_cuda_try(owner, memory, bytes);
+    return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_refuse(owner, bytes, what, code, error);
+}
+
 void hd_cuda_release(const HdCudaOwner *owner, HdCudaMemory *memory) {
     if (memory->pointer) {
         owner->driver->context_synchronize();
@@ -38,9 +48,9 @@ void hd_cuda_release(const HdCudaOwner *owner, HdCudaMemory *memory) {
     *memory = (HdCudaMemory){0};
 }
 
-HdStatus hd_cuda_resize_host(const HdCudaOwner *owner, HdCudaHostMemory *memory, size_t bytes,
-                             const char *what, HdError *error) {
-    if (memory->data && memory->bytes == bytes)
+HdStatus hd_cuda_reserve_host(const HdCudaOwner *owner, HdCudaHostMemory *memory, size_t bytes,
+                              const char *what, HdError *error) {
+    if (memory->data && memory->bytes >= bytes)
         return HD_OK;
     hd_cuda_release_host(owner, memory);
     void *data = NULL;

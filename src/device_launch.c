@@ -13,11 +13,3 @@ int hd_gpu_sample_parts(int samples, int group_size) {
         parts--;
     return parts;
 }
-
-int hd_gpu_launch_items(int compute_units) {
-    enum { ITEMS_PER_UNIT = 1 << 14, MIN_ITEMS = 1 << 16 };
-    if (compute_units >= HD_MAX_LAUNCH_ITEMS / ITEMS_PER_UNIT)
-        return HD_MAX_LAUNCH_ITEMS;
-    int items = compute_units * ITEMS_PER_UNIT;
-    return items < MIN_ITEMS ? MIN_ITEMS : items;
-}

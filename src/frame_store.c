@@ -258,7 +258,7 @@ bool hd_frame_store_wait(HdFrameStore *store, int place) {
 HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **times) {
     static const HdSpan nothing = {.began = -1.0};
     Place *found = place_of(store, place);
-    found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing};
+    found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
     return hd_parcel_frame(found->parcel);
 }

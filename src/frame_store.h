@@ -25,6 +25,7 @@ typedef struct HdFrameTimes {
     HdSpan convert; /* to 8 bits, where a film needs it and the device has not done it */
     HdSpan store;   /* encoding and writing pictures */
     HdSpan film;    /* handing it to FFmpeg: from the first film's begin to the last one's end */
+    double longest_launch; /* seconds, of a GPU's kernel; negative: not known, or on no GPU */
 } HdFrameTimes;
 
 /* What is known once a frame is stored. */

@@ -18,4 +18,15 @@ static inline void *hd_grown(void *array, size_t element, int count, int *room) 
     return grown;
 }
 
+/* The array, with room for `count` elements, which are lost where it must grow; `room` is what it
+   has room for. NULL where there is no memory, or none was asked for yet. */
+static inline void *hd_reserved(void *array, size_t element, int count, int *room) {
+    if (count <= *room)
+        return array;
+    free(array);
+    array = calloc((size_t)count, element);
+    *room = array != NULL ? count : 0;
+    return array;
+}
+
 #endif

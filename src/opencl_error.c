@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "opencl_error.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #define CODES(X)                                                                                   \
     X(CL_DEVICE_NOT_FOUND)                                                                         \
@@ -78,7 +80,17 @@ const char *hd_opencl_error_name(cl_int code) {
     }
 }
 
+/* Drivers report what became of a kernel to those who wait for it. */
+static bool is_loss(const char *function, cl_int code) {
+    bool waits = strcmp(function, "clFinish") == 0 || strcmp(function, "clWaitForEvents") == 0 ||
+                 strcmp(function, "clEnqueueReadBuffer") == 0;
+    return code == CL_DEVICE_NOT_AVAILABLE ||
+           (waits && (code == CL_OUT_OF_RESOURCES || code == CL_INVALID_COMMAND_QUEUE ||
+                      code == CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST));
+}
+
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code) {
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%d)", function, hd_opencl_error_name(code),
-                   (int)code);
+    return hd_fail(error, HD_FAILED, "%s failed with %s (%d)%s", function,
+                   hd_opencl_error_name(code), (int)code,
+                   is_loss(function, code) ? "; the device is lost to this process" : "");
 }

@@ -48,20 +48,21 @@ HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *t
     flight->height = tables->height;
     flight->samples = tables->samples;
     flight->floats = tables->floats;
+    flight->longest_launch = -1.0;
     flight->submitted = hd_monotonic_seconds();
     *out = flight;
-    HdStatus status = hd_opencl_resize(owner, &flight->pixels,
-                                       sizeof(float) * (size_t)flight->floats * pixel_count(flight),
-                                       CL_MEM_READ_WRITE, "pixels", error);
+    HdStatus status = hd_opencl_reserve(
+        owner, &flight->pixels, sizeof(float) * (size_t)flight->floats * pixel_count(flight),
+        CL_MEM_READ_WRITE, "pixels", error);
     if (status == HD_OK)
-        status = hd_opencl_resize(owner, &flight->sums, SUM_BYTES, CL_MEM_READ_WRITE,
-                                  "sums of the counts", error);
+        status = hd_opencl_reserve(owner, &flight->sums, SUM_BYTES, CL_MEM_READ_WRITE,
+                                   "sums of the counts", error);
     if (status == HD_OK && encodes)
-        status = hd_opencl_resize(owner, &flight->image, 4 * pixel_count(flight), CL_MEM_READ_WRITE,
-                                  "encoded pixels", error);
+        status = hd_opencl_reserve(owner, &flight->image, 4 * pixel_count(flight),
+                                   CL_MEM_READ_WRITE, "encoded pixels", error);
     if (status == HD_OK)
-        status = hd_opencl_resize_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
-                                       flights->queue, error);
+        status = hd_opencl_reserve_host(owner, &flight->copy, SUM_BYTES + picture_bytes(flight),
+                                        flights->queue, error);
     return status;
 }
 
@@ -74,22 +75,24 @@ static void release_event(cl_event *event) {
 void hd_opencl_flight_cancel(HdOpenclFlight *flight) {
     release_event(&flight->first);
     release_event(&flight->last);
+    release_event(&flight->launch);
     release_event(&flight->ready);
     release_event(&flight->copied);
 }
 
 static HdStatus read(HdOpenclFlights *flights, HdOpenclFlight *flight, const HdOpenclBuffer *from,
-                     size_t offset, cl_event *done, HdError *error) {
-    cl_int code = clEnqueueReadBuffer(flights->queue, from->memory, CL_FALSE, 0, from->bytes,
+                     size_t bytes, size_t offset, cl_event *done, HdError *error) {
+    cl_int code = clEnqueueReadBuffer(flights->queue, from->memory, CL_FALSE, 0, bytes,
                                       (char *)flight->copy.data + offset, 1, &flight->ready, done);
     return code == CL_SUCCESS ? HD_OK : hd_opencl_fail(error, "clEnqueueReadBuffer", code);
 }
 
 HdStatus hd_opencl_flight_send(HdOpenclFlights *flights, HdOpenclFlight *flight, HdError *error) {
     const HdOpenclBuffer *picture = flight->encodes ? &flight->image : &flight->pixels;
-    HdStatus status = read(flights, flight, &flight->sums, 0, NULL, error);
+    HdStatus status = read(flights, flight, &flight->sums, SUM_BYTES, 0, NULL, error);
     if (status == HD_OK)
-        status = read(flights, flight, picture, SUM_BYTES, &flight->copied, error);
+        status = read(flights, flight, picture, picture_bytes(flight), SUM_BYTES, &flight->copied,
+                      error);
     cl_int code = clFlush(flights->queue);
     if (status == HD_OK && code != CL_SUCCESS)
         status = hd_opencl_fail(error, "clFlush", code);
@@ -100,16 +103,31 @@ HdStatus hd_opencl_flight_send(HdOpenclFlights *flights, HdOpenclFlight *flight,
     return status;
 }
 
-/* From the start of the first to the end of the last; without a profile what the host sees: frames
-   are traced one after the other. */
-static double trace_seconds(const HdOpenclFlights *flights, const HdOpenclFlight *flight) {
+/* From the start of the first to the end of the last; 0 without a profile. */
+static double profiled_seconds(cl_event first, cl_event last) {
     cl_ulong start = 0, end = 0;
-    bool has_start = clGetEventProfilingInfo(flight->first, CL_PROFILING_COMMAND_START,
-                                             sizeof start, &start, NULL) == CL_SUCCESS;
-    bool has_end = clGetEventProfilingInfo(flight->last, CL_PROFILING_COMMAND_END, sizeof end, &end,
+    bool has_start = clGetEventProfilingInfo(first, CL_PROFILING_COMMAND_START, sizeof start,
+                                             &start, NULL) == CL_SUCCESS;
+    bool has_end = clGetEventProfilingInfo(last, CL_PROFILING_COMMAND_END, sizeof end, &end,
                                            NULL) == CL_SUCCESS;
-    if (has_start && has_end && end > start)
-        return 1e-9 * (double)(end - start);
+    return has_start && has_end && end > start ? 1e-9 * (double)(end - start) : 0.0;
+}
+
+void hd_opencl_flight_time_launch(HdOpenclFlights *flights, HdOpenclFlight *flight) {
+    double seconds = profiled_seconds(flight->launch, flight->launch);
+    release_event(&flight->launch);
+    if (!(seconds > 0.0))
+        return;
+    hd_launch_size_note(&flights->size, flight->work, seconds);
+    if (seconds > flight->longest_launch)
+        flight->longest_launch = seconds;
+}
+
+/* Without a profile what the host sees: frames are traced one after the other. */
+static double trace_seconds(const HdOpenclFlights *flights, const HdOpenclFlight *flight) {
+    double seconds = profiled_seconds(flight->first, flight->last);
+    if (seconds > 0.0)
+        return seconds;
     double from = flight->submitted > flights->collected ? flight->submitted : flights->collected;
     return hd_monotonic_seconds() - from;
 }
@@ -122,6 +140,9 @@ HdStatus hd_opencl_flight_collect(HdOpenclFlights *flights, HdFrame *frame, HdEr
         status = hd_opencl_fail(error, "clWaitForEvents", code);
     if (status == HD_OK) {
         frame->trace_seconds = trace_seconds(flights, flight);
+        if (flight->launch)
+            hd_opencl_flight_time_launch(flights, flight);
+        flights->longest_launch = flight->longest_launch;
         frame->is_encoded = flight->encodes;
         memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
                (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));

@@ -5,6 +5,7 @@
 #define HD_OPENCL_FLIGHT_H
 
 #include "frame.h"
+#include "launch_size.h"
 #include "opencl_memory.h"
 
 typedef struct HdOpenclFlight {
@@ -14,8 +15,11 @@ typedef struct HdOpenclFlight {
     int width, height, samples, floats; /* as of the frame's tables */
     double submitted;                   /* by hd_monotonic_seconds */
     cl_event first, last;               /* of the tracing; the flight's own */
-    cl_event ready;                     /* after it the results can be copied; the flight's own */
-    HdOpenclHostMemory copy;            /* the sums, then the pixels or the image */
+    cl_event launch;         /* that is not timed yet, if there is one; the flight's own */
+    double work;             /* of it */
+    double longest_launch;   /* seconds, of those that are timed; negative: there is none */
+    cl_event ready;          /* after it the results can be copied; the flight's own */
+    HdOpenclHostMemory copy; /* the sums, then the pixels or the image */
     cl_event copied;
 } HdOpenclFlight;
 
@@ -24,7 +28,9 @@ typedef struct HdOpenclFlights {
     cl_command_queue queue; /* of the copies, so that kernels of the next frame run beside them */
     HdOpenclFlight flights[HD_FRAMES_IN_FLIGHT];
     int oldest, count;
-    double collected; /* when the last one was */
+    double collected;      /* when the last one was */
+    HdLaunchSize size;     /* of the tracing kernel's launches */
+    double longest_launch; /* seconds, of the flight collected last; negative: not known */
 } HdOpenclFlights;
 
 /* The owner's context must live on. After a failure there is nothing to close. */
@@ -35,6 +41,10 @@ void hd_opencl_flights_close(HdOpenclFlights *flights); /* none is under way */
 /* The next flight, with room for the frame, for kernels to be queued and its events to be set. */
 HdStatus hd_opencl_flight_begin(HdOpenclFlights *flights, const HdFrameTables *tables, bool encodes,
                                 HdOpenclFlight **flight, HdError *error);
+
+/* Learns from the flight's launch, which is over, what the size of the next ones should be; nothing
+   where there is no profile. */
+void hd_opencl_flight_time_launch(HdOpenclFlights *flights, HdOpenclFlight *flight);
 
 /* Queues the copies, all kernels being queued: the flight is under way. */
 HdStatus hd_opencl_flight_send(HdOpenclFlights *flights, HdOpenclFlight *flight, HdError *error);

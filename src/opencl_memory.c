@@ -3,7 +3,7 @@
 
 #include "device_room.h"
 
-static bool is_lack_of_memory(cl_int code) {
+bool hd_opencl_is_lack_of_memory(cl_int code) {
     return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
            code == CL_OUT_OF_HOST_MEMORY;
 }
@@ -13,7 +13,7 @@ HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const ch
     char need[HD_BYTE_TEXT_SIZE], memory[HD_BYTE_TEXT_SIZE];
     if (code == CL_SUCCESS)
         return HD_OK;
-    if (!is_lack_of_memory(code))
+    if (!hd_opencl_is_lack_of_memory(code))
         return hd_opencl_fail(error, function, code);
     hd_byte_text((double)bytes, need);
     hd_byte_text((double)owner->device->memory, memory);
@@ -22,9 +22,9 @@ HdStatus hd_opencl_check_room(const HdOpenclOwner *owner, size_t bytes, const ch
                    owner->name, memory, function, hd_opencl_error_name(code), hd_room_advice);
 }
 
-HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
-                          cl_mem_flags flags, const char *what, HdError *error) {
-    if (buffer->memory && buffer->bytes == bytes)
+HdStatus hd_opencl_reserve(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
+                           cl_mem_flags flags, const char *what, HdError *error) {
+    if (buffer->memory && buffer->bytes >= bytes)
         return HD_OK;
     hd_opencl_release(buffer);
     if (bytes > owner->device->max_allocation) {
@@ -48,14 +48,14 @@ void hd_opencl_release(HdOpenclBuffer *buffer) {
     *buffer = (HdOpenclBuffer){0};
 }
 
-HdStatus hd_opencl_resize_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory, size_t bytes,
-                               cl_command_queue queue, HdError *error) {
-    if (memory->data && memory->buffer.bytes == bytes)
+HdStatus hd_opencl_reserve_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory,
+                                size_t bytes, cl_command_queue queue, HdError *error) {
+    if (memory->data && memory->buffer.bytes >= bytes)
         return HD_OK;
     hd_opencl_release_host(memory, queue);
     HdStatus status =
-        hd_opencl_resize(owner, &memory->buffer, bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                         "pixels on their way to the host", error);
+        hd_opencl_reserve(owner, &memory->buffer, bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                          "pixels on their way to the host", error);
     if (status != HD_OK)
         return status;
     cl_int code;

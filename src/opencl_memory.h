@@ -17,10 +17,15 @@ typedef struct HdOpenclBuffer {
     size_t bytes;
 } HdOpenclBuffer;
 
-/* Makes it a buffer of `bytes`, unless it is one; its contents are lost if not. What is queued may
-   still use the old one. `what` is for messages: "pixels". */
-HdStatus hd_opencl_resize(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
-                          cl_mem_flags flags, const char *what, HdError *error);
+/* Makes it a buffer of at least `bytes`, unless it is one; its contents are lost if not. What is
+   queued may still use the old one. It never shrinks, for to take memory anew takes as long as a
+   small frame. `what` is for messages: "pixels". */
+HdStatus hd_opencl_reserve(const HdOpenclOwner *owner, HdOpenclBuffer *buffer, size_t bytes,
+                           cl_mem_flags flags, const char *what, HdError *error);
+
+/* True for what a driver says where memory is lacking. */
+bool hd_opencl_is_lack_of_memory(cl_int code);
+
 void hd_opencl_release(HdOpenclBuffer *buffer);
 
 /* Turns the result of a function that makes a buffer, or first touches it, into a status; where
@@ -35,8 +40,8 @@ typedef struct HdOpenclHostMemory {
 } HdOpenclHostMemory;
 
 /* As above, but waits for the queue. No copy to the old memory may be under way. */
-HdStatus hd_opencl_resize_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory, size_t bytes,
-                               cl_command_queue queue, HdError *error);
+HdStatus hd_opencl_reserve_host(const HdOpenclOwner *owner, HdOpenclHostMemory *memory,
+                                size_t bytes, cl_command_queue queue, HdError *error);
 void hd_opencl_release_host(HdOpenclHostMemory *memory, cl_command_queue queue);
 
 #endif

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chunked_work.h"
 #include "clock.h"
+#include "growth.h"
+#include "processors.h"
 #include "survey_pass.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
@@ -32,29 +35,34 @@ typedef struct Pixel {
     int samples;
     Codes codes;       /* of the mean */
     Codes least, most; /* of the means of the samples' quarters */
+    bool is_uneven;    /* these differ much */
 } Pixel;
 
 struct HdRefinement {
+    HdThreadPool *threads;
     HdSurveyor surveyor;
     HdSampleSet samples;
     HdCurve curve;
     int width, height;
     int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
     Pixel *pixels;
-    int *chosen; /* pixels of the pass */
+    int *chosen;   /* pixels of the pass */
+    double *steps; /* of 255, that a pixel may miss */
     HdSurveyRequest *requests;
     HdSurvey *surveys;
-    int request_capacity;
+    int request_room, survey_room;
 };
 
 void hd_refinement_free(HdRefinement *r) {
     if (r == NULL)
         return;
+    hd_thread_pool_destroy(r->threads);
     hd_surveyor_free(&r->surveyor);
     hd_sample_set_free(&r->samples);
     free(r->order);
     free(r->pixels);
     free(r->chosen);
+    free(r->steps);
     free(r->requests);
     free(r->surveys);
     free(r);
@@ -71,16 +79,10 @@ static void order_pixels(HdRefinement *r) {
 }
 
 static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
-    if (count == 0 || count <= r->request_capacity)
-        return HD_OK;
-    free(r->requests);
-    free(r->surveys);
-    r->request_capacity = 0;
-    r->requests = calloc((size_t)count, sizeof *r->requests);
-    r->surveys = calloc((size_t)count, sizeof *r->surveys);
+    r->requests = hd_reserved(r->requests, sizeof *r->requests, count, &r->request_room);
+    r->surveys = hd_reserved(r->surveys, sizeof *r->surveys, count, &r->survey_room);
     if (r->requests == NULL || r->surveys == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for surveys of %d pixels", count);
-    r->request_capacity = count;
     return HD_OK;
 }
 
@@ -96,15 +98,19 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     HdStatus status = scene->sampling == HD_SAMPLING_REFERENCE
                           ? hd_sample_set_dense(&r->samples, scene->samples_per_side, error)
                           : hd_sample_set_grid(&r->samples, scene->samples_per_side, error);
+    if (status == HD_OK)
+        status = hd_thread_pool_create(&r->threads, hd_processor_count(), error);
     r->surveyor = (HdSurveyor){.scene = scene,
                                .precision = precision,
                                .renderer = renderer,
                                .samples = &r->samples,
-                               .budget = hd_error_budget(curve)};
+                               .budget = hd_error_budget(curve),
+                               .threads = r->threads};
     r->order = calloc(pixels, sizeof *r->order);
     r->pixels = calloc(pixels, sizeof *r->pixels);
     r->chosen = calloc(pixels, sizeof *r->chosen);
-    if (status == HD_OK && !(r->order && r->pixels && r->chosen))
+    r->steps = calloc(pixels, sizeof *r->steps);
+    if (status == HD_OK && !(r->order && r->pixels && r->chosen && r->steps))
         status = hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
     if (status != HD_OK || r->order == NULL) {
         hd_refinement_free(r);
@@ -116,6 +122,20 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
 }
 
 /* ---- what is known of a pixel ---- */
+
+static double error_aimed_at(const HdRefinement *r) {
+    double limit = r->surveyor.scene->max_error;
+    return limit > 0.0 ? limit : USUAL_ERROR;
+}
+
+static int greatest_difference(const Codes *a, const Codes *b) {
+    int greatest = 0;
+    for (int channel = 0; channel < 3; channel++) {
+        int difference = abs(a->rgb[channel] - b->rgb[channel]);
+        greatest = difference > greatest ? difference : greatest;
+    }
+    return greatest;
+}
 
 static Codes encode(const HdRefinement *r, const float rgb[3]) {
     Codes codes;
@@ -155,15 +175,8 @@ static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *sur
     pixel->bound = (float)(bound / total);
     pixel->samples = (int)total;
     pixel->codes = encode(r, pixel->mean);
-}
-
-static int greatest_difference(const Codes *a, const Codes *b) {
-    int greatest = 0;
-    for (int channel = 0; channel < 3; channel++) {
-        int difference = abs(a->rgb[channel] - b->rgb[channel]);
-        greatest = difference > greatest ? difference : greatest;
-    }
-    return greatest;
+    pixel->is_uneven =
+        greatest_difference(&pixel->least, &pixel->most) > QUARTER_CONTRAST * error_aimed_at(r);
 }
 
 /* ---- passes ---- */
@@ -173,88 +186,113 @@ static int pack(int x, int y) {
     return (int)((uint32_t)y << 16 | (uint32_t)x);
 }
 
+/* The chosen pixels' samples from number `from` on, in parts of `each`. */
+typedef struct Pass {
+    HdRefinement *refinement;
+    int from, parts, each;
+} Pass;
+
+static void request_samples(void *context, int first, int end) {
+    const Pass *pass = context;
+    const HdRefinement *r = pass->refinement;
+    HdSurveyRequest *request = &r->requests[(size_t)first * (size_t)pass->parts];
+    for (int i = first; i < end; i++) {
+        int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
+        for (int p = 0; p < pass->parts; p++)
+            *request++ = (HdSurveyRequest){pack(x, y), pass->from + p * pass->each};
+    }
+}
+
+static void add_samples(void *context, int first, int end) {
+    const Pass *pass = context;
+    const HdRefinement *r = pass->refinement;
+    for (int i = first; i < end; i++)
+        add_surveys(r, &r->pixels[r->chosen[i]], &r->surveys[(size_t)i * (size_t)pass->parts],
+                    pass->parts, pass->each);
+}
+
 /* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. */
 static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
                               int samples, int parts, HdError *error) {
-    int each = (samples - from) / parts, made = 0;
+    Pass pass = {r, from, parts, (samples - from) / parts};
+    if (count == 0)
+        return HD_OK;
     if (count > INT_MAX / parts)
         return hd_fail(error, HD_FAILED, "%d pixels are too many for adaptive sampling", count);
     HdStatus status = reserve_requests(r, count * parts, error);
     if (status != HD_OK)
         return status;
-    for (int i = 0; i < count; i++) {
-        int x = r->chosen[i] % r->width, y = r->chosen[i] / r->width;
-        for (int p = 0; p < parts; p++)
-            r->requests[made++] = (HdSurveyRequest){pack(x, y), from + p * each};
-    }
-    status = hd_survey_pass(&r->surveyor, camera, r->requests, made, each, r->surveys, error);
-    for (int i = 0; status == HD_OK && i < count; i++)
-        add_surveys(r, &r->pixels[r->chosen[i]], &r->surveys[i * parts], parts, each);
+    hd_chunks_run(r->threads, count, request_samples, &pass);
+    status = hd_survey_pass(&r->surveyor, camera, r->requests, count * parts, pass.each, r->surveys,
+                            error);
+    if (status == HD_OK)
+        hd_chunks_run(r->threads, count, add_samples, &pass);
     return status;
 }
 
-static double error_aimed_at(const HdRefinement *r) {
-    double limit = r->surveyor.scene->max_error;
-    return limit > 0.0 ? limit : USUAL_ERROR;
-}
+/* What pixels are chosen by. */
+typedef struct Choice Choice;
+typedef bool Judge(const Choice *choice, const Pixel *pixel, const Pixel *neighbour);
+struct Choice {
+    const HdRefinement *refinement;
+    int samples; /* that pixels have */
+    Judge *judge;
+    int likeness; /* steps of 255 by which neighbours may differ */
+};
 
-typedef bool Judge(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour);
-
-static bool any_neighbour(const HdRefinement *r, int number, Judge *judge) {
+static bool any_neighbour(const Choice *choice, int number) {
+    const HdRefinement *r = choice->refinement;
+    const Pixel *pixel = &r->pixels[number];
     int x = number % r->width, y = number / r->width;
-    for (int dy = -1; dy <= 1; dy++)
-        for (int dx = -1; dx <= 1; dx++) {
-            int column = x + dx, row = y + dy;
-            if (column < 0 || row < 0 || column >= r->width || row >= r->height)
-                continue;
-            if (judge(r, &r->pixels[number], &r->pixels[row * r->width + column]))
+    int left = x > 0 ? -1 : 0, right = x + 1 < r->width ? 1 : 0;
+    int above = y > 0 ? -1 : 0, below = y + 1 < r->height ? 1 : 0;
+    for (int dy = above; dy <= below; dy++)
+        for (int dx = left; dx <= right; dx++)
+            if (choice->judge(choice, pixel, pixel + dy * r->width + dx))
                 return true;
-        }
     return false;
 }
 
-static bool sees_another(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour) {
-    return pixel->identity != neighbour->identity ||
-           greatest_difference(&pixel->codes, &neighbour->codes) >
-               FIRST_CONTRAST * error_aimed_at(r);
+static bool differs(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    return greatest_difference(&pixel->codes, &neighbour->codes) > choice->likeness;
 }
 
-static bool is_uneven(const HdRefinement *r, const Pixel *pixel) {
-    return greatest_difference(&pixel->least, &pixel->most) > QUARTER_CONTRAST * error_aimed_at(r);
+static bool sees_another(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    return pixel->identity != neighbour->identity || differs(choice, pixel, neighbour);
 }
 
-static bool has_uneven_neighbour(const HdRefinement *r, const Pixel *pixel,
-                                 const Pixel *neighbour) {
+static bool has_uneven_neighbour(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    (void)choice;
     (void)pixel;
-    return is_uneven(r, neighbour);
+    return neighbour->is_uneven;
 }
 
-static bool differs_much(const HdRefinement *r, const Pixel *pixel, const Pixel *neighbour) {
-    return greatest_difference(&pixel->codes, &neighbour->codes) >
-           NEIGHBOUR_CONTRAST * error_aimed_at(r);
+static bool is_uneven_or_differs(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    return pixel->is_uneven || differs(choice, pixel, neighbour);
+}
+
+static int choose_pixels(void *context, int first, int end, int *chosen) {
+    const Choice *choice = context;
+    const HdRefinement *r = choice->refinement;
+    int count = 0;
+    for (int i = first; i < end; i++) {
+        int number = r->order[i];
+        if (r->pixels[number].samples == choice->samples && any_neighbour(choice, number))
+            chosen[count++] = number;
+    }
+    return count;
 }
 
 /* Chooses the pixels of so many samples that `judge` finds a reason for; returns their number. */
-static int choose(HdRefinement *r, int samples, Judge *judge) {
-    int pixels = r->width * r->height, count = 0;
-    for (int i = 0; i < pixels; i++) {
-        int number = r->order[i];
-        if (r->pixels[number].samples == samples && any_neighbour(r, number, judge))
-            r->chosen[count++] = number;
-    }
-    return count;
+static int choose(HdRefinement *r, int samples, Judge *judge, double contrast) {
+    double likeness = contrast * error_aimed_at(r);
+    Choice choice = {r, samples, judge, likeness < 255.0 ? (int)likeness : 255};
+    return hd_chunks_choose(r->threads, r->width * r->height, choose_pixels, &choice, r->chosen);
 }
 
-static int choose_uneven(HdRefinement *r, int samples) {
-    int pixels = r->width * r->height, count = 0;
-    for (int i = 0; i < pixels; i++) {
-        int number = r->order[i];
-        const Pixel *pixel = &r->pixels[number];
-        if (pixel->samples == samples &&
-            (is_uneven(r, pixel) || any_neighbour(r, number, differs_much)))
-            r->chosen[count++] = number;
-    }
-    return count;
+static int choose_first(HdRefinement *r, int samples) {
+    return samples == 1 ? choose(r, 1, sees_another, FIRST_CONTRAST)
+                        : choose(r, samples, is_uneven_or_differs, NEIGHBOUR_CONTRAST);
 }
 
 static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
@@ -284,7 +322,7 @@ static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count
     int parts = part_count(level - samples);
     HdStatus status = sample_chosen(r, camera, count, samples, level, parts, error);
     for (int spread = 0; status == HD_OK && count > 0 && spread < MOST_SPREADS; spread++) {
-        count = choose(r, samples, has_uneven_neighbour);
+        count = choose(r, samples, has_uneven_neighbour, 0.0);
         status = sample_chosen(r, camera, count, samples, level, parts, error);
     }
     return status;
@@ -294,7 +332,7 @@ static HdStatus refine(HdRefinement *r, const HdCamera *camera, HdError *error) 
     HdStatus status = sample_all(r, camera, 1, error);
     for (int samples = 1; status == HD_OK && samples < r->samples.count;) {
         int level = next_level(r, samples);
-        int count = samples == 1 ? choose(r, 1, sees_another) : choose_uneven(r, samples);
+        int count = choose_first(r, samples);
         status = refine_chosen(r, camera, count, samples, level, error);
         samples = level;
     }
@@ -303,18 +341,33 @@ static HdStatus refine(HdRefinement *r, const HdCamera *camera, HdError *error) 
 
 /* ---- the frame ---- */
 
-static void fill_frame(const HdRefinement *r, HdFrame *frame) {
-    size_t pixels = (size_t)r->width * (size_t)r->height;
-    double largest = 0.0, sum = 0.0;
-    for (size_t i = 0; i < pixels; i++) {
+typedef struct Filling {
+    const HdRefinement *refinement;
+    HdFrame *frame;
+} Filling;
+
+static void fill_pixels(void *context, int first, int end) {
+    const Filling *filling = context;
+    const HdRefinement *r = filling->refinement;
+    for (int i = first; i < end; i++) {
         const Pixel *pixel = &r->pixels[i];
         const float *rgb = pixel->mean;
         float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
         double darkest = (double)(least < rgb[2] ? least : rgb[2]);
-        double steps = hd_error_budget_steps(&r->surveyor.budget, (double)pixel->bound, darkest);
-        memcpy(frame->rgb + 3 * i, rgb, sizeof pixel->mean);
-        largest = steps > largest ? steps : largest;
-        sum += steps;
+        r->steps[i] = hd_error_budget_steps(&r->surveyor.budget, (double)pixel->bound, darkest);
+        memcpy(filling->frame->rgb + 3 * (size_t)i, rgb, sizeof pixel->mean);
+    }
+}
+
+/* The mean is added up in the pixels' order, so that it does not depend on the threads. */
+static void fill_frame(const HdRefinement *r, HdFrame *frame) {
+    int pixels = r->width * r->height;
+    Filling filling = {r, frame};
+    double largest = 0.0, sum = 0.0;
+    hd_chunks_run(r->threads, pixels, fill_pixels, &filling);
+    for (int i = 0; i < pixels; i++) {
+        largest = r->steps[i] > largest ? r->steps[i] : largest;
+        sum += r->steps[i];
     }
     frame->has_bound = true;
     frame->largest_bound = largest;

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "device_team.h"
@@ -137,6 +138,16 @@ static HdStatus prepare_to_tell(Run *run, HdError *error) {
     return HD_OK;
 }
 
+/* What a renderer says of itself may change with its first frame. */
+static void note_changes(const Run *run) {
+    for (int i = 0; i < run->team.count; i++) {
+        char line[RENDERER_LINE];
+        hd_renderer_describe(run->team.renderers[i], line, sizeof line);
+        if (run->renderer_lines[i][0] != '\0' && strcmp(line, run->renderer_lines[i]) != 0)
+            hd_note_renderer_line(line);
+    }
+}
+
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
@@ -161,6 +172,8 @@ static HdStatus render_all(Run *run, HdError *error) {
     hd_progress_end(&run->progress);
     if (status == HD_OK && run->team.count > 0)
         hd_progress_tell_end(&run->progress, run->rays);
+    if (run->options->verbose)
+        note_changes(run);
     if (status == HD_OK && !run->options->quiet)
         hd_note_missing(rendering->scene, run->missing);
     return status;

@@ -69,11 +69,15 @@ void hd_note_launch(const HdLaunch *launch) {
     fprintf(stderr, "launch    %s: the best for this kind of scene, by 'hedron tune'\n", line);
 }
 
+void hd_note_renderer_line(const char *renderer) {
+    fprintf(stderr, "renderer  %s\n", renderer);
+}
+
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
                       const HdSceneTables *tables) {
     char line[256];
     HdKernelNeeds needs = hd_kernel_needs(tables);
-    fprintf(stderr, "renderer  %s\n", renderer);
+    hd_note_renderer_line(renderer);
     hd_kernel_needs_describe(&needs, line, sizeof line);
     fprintf(stderr, "kernels   %d planes; %s\n", tables->plane_count,
             device->backend == &hd_backend_c ? "compiled ahead, for scenes of any size" : line);

@@ -14,6 +14,8 @@ void hd_note_device(const HdDevice *device, const char *why);
 /* What 'hedron tune' found the best. */
 void hd_note_launch(const HdLaunch *launch);
 
+void hd_note_renderer_line(const char *renderer);
+
 /* `renderer` is hd_renderer_describe's line, `kernels` hd_renderer_kernels_note's. */
 void hd_note_renderer(const HdDevice *device, const char *renderer, const char *kernels,
                       const HdSceneTables *tables);

@@ -106,17 +106,23 @@ static json_t *describe_begins(const HdFrameTimes *times) {
                      describe_begin(&times->store), "film", describe_begin(&times->film));
 }
 
+/* Of GPUs only. */
+static json_t *describe_launch(const HdFrameTimes *times) {
+    return times->longest_launch < 0.0 ? json_null() : json_real(1e3 * times->longest_launch);
+}
+
 /* json_pack gives up as a whole where a part is missing. */
 static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
     const HdFrame *frame = stored->frame;
     return json_pack(
-        "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
+        "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
         "frame", stored->number, "backend", facts->device->backend->name, "index",
         facts->device->index, "device", hd_json_device_text(facts->device->name), "renderer",
         hd_json_device_text(facts->renderer), "width", frame->width, "height", frame->height,
         "samples", facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
-        describe_seconds(&stored->times), "began", describe_begins(&stored->times), "rays",
-        "primary", (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
+        describe_seconds(&stored->times), "began", describe_begins(&stored->times),
+        "longest_launch_ms", describe_launch(&stored->times), "rays", "primary",
+        (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
         "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
         (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
 }

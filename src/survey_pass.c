@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chunked_work.h"
 #include "clock.h"
+#include "growth.h"
 #include "radiance_bound.h"
 
 /* Entries of one submission, at most; lists are worked off in parts. */
@@ -29,9 +31,10 @@ enum { MOST_ENTRIES = HD_LISTED_WIDTH << 15 };
 
 void hd_surveyor_free(HdSurveyor *surveyor) {
     free(surveyor->entries);
+    free(surveyor->open);
     hd_frame_free(&surveyor->frame);
-    surveyor->entries = NULL;
-    surveyor->capacity = 0;
+    surveyor->entries = surveyor->open = NULL;
+    surveyor->entry_room = surveyor->open_room = surveyor->frame_rows = 0;
 }
 
 int hd_survey_depth(const HdScene *scene) {
@@ -40,19 +43,25 @@ int hd_survey_depth(const HdScene *scene) {
     return hd_depth_for_bound(scene, limit * LAST_CUTOFF);
 }
 
-static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
-    if (count <= surveyor->capacity)
+static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {
+    if (rows <= surveyor->frame_rows)
         return HD_OK;
-    hd_surveyor_free(surveyor);
-    surveyor->entries = calloc((size_t)count, 2 * sizeof *surveyor->entries);
-    if (surveyor->entries == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
-    HdStatus status = hd_frame_create_with(&surveyor->frame, HD_LISTED_WIDTH,
-                                           (count + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH,
-                                           HD_SURVEY_FLOATS, error);
-    if (status == HD_OK)
-        surveyor->capacity = count;
+    hd_frame_free(&surveyor->frame);
+    HdStatus status =
+        hd_frame_create_with(&surveyor->frame, HD_LISTED_WIDTH, rows, HD_SURVEY_FLOATS, error);
+    surveyor->frame_rows = status == HD_OK ? rows : 0;
     return status;
+}
+
+static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
+    int at_once = count < MOST_ENTRIES ? count : MOST_ENTRIES;
+    surveyor->entries = hd_reserved(surveyor->entries, 2 * sizeof *surveyor->entries, at_once,
+                                    &surveyor->entry_room);
+    surveyor->open =
+        hd_reserved(surveyor->open, sizeof *surveyor->open, count, &surveyor->open_room);
+    if (surveyor->entries == NULL || surveyor->open == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
+    return reserve_frame(surveyor, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
 }
 
 static void add_counts(HdSurveyor *surveyor, int count, int samples, double seconds) {
@@ -87,11 +96,6 @@ static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, 
     return status;
 }
 
-static void list_entry(HdSurveyor *surveyor, int place, const HdSurveyRequest *request) {
-    surveyor->entries[2 * place] = request->pixel;
-    surveyor->entries[2 * place + 1] = request->first;
-}
-
 static float darkest(const float rgb[3]) {
     float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
     return least < rgb[2] ? least : rgb[2];
@@ -104,29 +108,59 @@ static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
                hd_error_budget_radiance(&surveyor->budget, limit, (double)darkest(survey->rgb));
 }
 
-/* Of the requests numbered `open`, in place: those that are not within the limit stay. */
+/* Requests of one submission. */
+typedef struct Part {
+    HdSurveyor *surveyor;
+    const HdSurveyRequest *requests;
+    HdSurvey *surveys;
+    const int *open; /* numbers of the requests */
+    bool is_first;   /* of several passes */
+} Part;
+
+static void list_entries(void *context, int first, int end) {
+    const Part *part = context;
+    for (int i = first; i < end; i++) {
+        const HdSurveyRequest *request = &part->requests[part->open[i]];
+        part->surveyor->entries[2 * (size_t)i] = request->pixel;
+        part->surveyor->entries[2 * (size_t)i + 1] = request->first;
+    }
+}
+
+/* Chooses the requests that are not within the limit. */
+static int take_surveys(void *context, int first, int end, int *still_open) {
+    const Part *part = context;
+    const float *values = part->surveyor->frame.rgb;
+    int left = 0;
+    for (int i = first; i < end; i++) {
+        int number = part->open[i];
+        HdSurvey *survey = &part->surveys[number];
+        float before = survey->bound;
+        memcpy(survey, values + HD_SURVEY_FLOATS * (size_t)i, sizeof *survey);
+        bool goes_on = part->is_first || survey->bound < PROGRESS * before;
+        if (goes_on && !is_within(part->surveyor, survey))
+            still_open[left++] = number;
+    }
+    return left;
+}
+
+/* Of the requests that are open, in place: those that are not within the limit stay. */
 static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
-                            const HdSurveyRequest *requests, int *open, int *open_count,
-                            int samples, double cutoff, bool is_first, HdSurvey *surveys,
-                            HdError *error) {
+                            const HdSurveyRequest *requests, int *open_count, int samples,
+                            double cutoff, bool is_first, HdSurvey *surveys, HdError *error) {
     int left = 0;
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
         int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
+        int *open = surveyor->open + from;
+        Part part = {surveyor, requests, surveys, open, is_first};
         double start = hd_monotonic_seconds();
-        for (int i = 0; i < count; i++)
-            list_entry(surveyor, i, &requests[open[from + i]]);
+        hd_chunks_run(surveyor->threads, count, list_entries, &part);
         HdStatus status = submit(surveyor, camera, count, samples, cutoff, error);
         if (status != HD_OK)
             return status;
         add_counts(surveyor, count, samples, hd_monotonic_seconds() - start);
-        for (int i = 0; i < count; i++) {
-            HdSurvey *survey = &surveys[open[from + i]];
-            float before = survey->bound;
-            memcpy(survey, surveyor->frame.rgb + HD_SURVEY_FLOATS * (size_t)i, sizeof *survey);
-            bool goes_on = is_first || survey->bound < PROGRESS * before;
-            if (goes_on && !is_within(surveyor, survey))
-                open[left++] = open[from + i];
-        }
+        int open_still = hd_chunks_choose(surveyor->threads, count, take_surveys, &part, open);
+        memmove(surveyor->open + left, open, sizeof *open * (size_t)open_still);
+        left += open_still;
     }
     *open_count = left;
     return HD_OK;
@@ -139,7 +173,7 @@ static double rays_so_far(const HdSurveyor *surveyor) {
 
 /* Passes with smaller and smaller cut-offs, until none of the `count` requests is open. */
 static HdStatus close_requests(HdSurveyor *surveyor, const HdCamera *camera,
-                               const HdSurveyRequest *requests, int *open, int count, int samples,
+                               const HdSurveyRequest *requests, int count, int samples,
                                HdSurvey *surveys, HdError *error) {
     double limit = surveyor->scene->max_error;
     double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
@@ -148,8 +182,8 @@ static HdStatus close_requests(HdSurveyor *surveyor, const HdCamera *camera,
     bool is_first = true;
     while (count > 0) {
         double before = rays_so_far(surveyor), tried = (double)count * samples;
-        HdStatus status = survey_open(surveyor, camera, requests, open, &count, samples, cutoff,
-                                      is_first, surveys, error);
+        HdStatus status = survey_open(surveyor, camera, requests, &count, samples, cutoff, is_first,
+                                      surveys, error);
         if (status != HD_OK)
             return status;
         if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
@@ -165,15 +199,10 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
                         HdError *error) {
     if (count == 0)
         return HD_OK;
-    HdStatus status = reserve(surveyor, count < MOST_ENTRIES ? count : MOST_ENTRIES, error);
+    HdStatus status = reserve(surveyor, count, error);
     if (status != HD_OK)
         return status;
-    int *open = calloc((size_t)count, sizeof *open);
-    if (open == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
     for (int i = 0; i < count; i++)
-        open[i] = i;
-    status = close_requests(surveyor, camera, requests, open, count, samples, surveys, error);
-    free(open);
-    return status;
+        surveyor->open[i] = i;
+    return close_requests(surveyor, camera, requests, count, samples, surveys, error);
 }

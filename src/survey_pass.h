@@ -7,6 +7,7 @@
 #include "backend.h"
 #include "error_budget.h"
 #include "sample_set.h"
+#include "thread_pool.h"
 
 /* Samples of a pixel that follow each other in the set: their means. */
 typedef struct HdSurvey {
@@ -26,10 +27,12 @@ typedef struct HdSurveyor {
     HdRenderer *renderer; /* no frame is under way */
     const HdSampleSet *samples;
     HdErrorBudget budget;
-    HdFrame sums; /* counts and time of all passes so far; without pixels */
-    int *entries; /* the surveyor's own from here on */
-    int capacity;
+    HdThreadPool *threads; /* for the host's work */
+    HdFrame sums;          /* counts and time of all passes so far; without pixels */
+    int *entries, *open;   /* the surveyor's own from here on */
+    int entry_room, open_room;
     HdFrame frame;
+    int frame_rows; /* that it has room for */
 } HdSurveyor;
 
 /* Gives up what the surveyor owns itself. */

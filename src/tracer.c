@@ -111,6 +111,8 @@ static HdStatus fill_oldest(HdTracer *tracer, HdError *error) {
     HdFrame *frame = hd_frame_store_frame(tracer->job->store, flight->place, &times);
     HdStatus status = tracer->refinement != NULL ? refine(tracer, flight, frame, times, error)
                                                  : collect(tracer, flight, frame, times, error);
+    if (status == HD_OK)
+        times->longest_launch = hd_renderer_take_longest_launch(tracer->renderer);
     return status == HD_OK && hd_interrupt_signal() != 0 ? HD_INTERRUPTED : status;
 }
 

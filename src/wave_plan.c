@@ -3,9 +3,11 @@
 
 #include <limits.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "../kernels/common/scene_tables.h"
 #include "../kernels/common/wave_stack.h"
+#include "device_room.h"
 #include "interrupt.h"
 #include "scene_limits.h"
 
@@ -61,6 +63,21 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     return plan;
 }
 
+bool hd_wave_halve(HdWaveNeeds *needs) {
+    if (needs->bytes <= HD_WAVE_LEAST_BYTES)
+        return false;
+    needs->bytes /= 2;
+    if (needs->bytes < HD_WAVE_LEAST_BYTES)
+        needs->bytes = HD_WAVE_LEAST_BYTES;
+    return true;
+}
+
+void hd_wave_tell_cut(size_t bytes, char *text, int capacity) {
+    char room[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)bytes, room);
+    snprintf(text, (size_t)capacity, ", the queue cut to %s, for more memory was refused", room);
+}
+
 typedef struct Run {
     const HdWavePlan *plan;
     const HdWaveFrame *frame;
@@ -69,15 +86,29 @@ typedef struct Run {
     bool has_begun;
 } Run;
 
+/* Takes as many rays as there is room for, at most what one launch may have; the others of the
+   segment wait on. */
+static WaveTake take_rays(const Run *run, WaveSegment *stack, int *top) {
+    int grain = run->frame->grain, number = *top;
+    WaveTake take = wave_take(stack, top, run->frame->depth, run->plan->queue_stride, grain);
+    int rest = take.count - hd_launch_size_items(run->device->size, take.count, 1, grain);
+    if (rest > 0) {
+        *top = number;
+        stack[number].waiting += rest;
+        take.first += rest;
+        take.count -= rest;
+    }
+    return take;
+}
+
 static HdStatus trace_batch(Run *run, int first_item, int samples, HdError *error) {
-    const HdWaveFrame *frame = run->frame;
     WaveSegment stack[WAVE_STACK_SIZE(HD_MAX_DEPTH)];
     int top = -1;
     wave_put(stack, &top, 0, 0, samples);
     while (top >= 0) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
-        WaveTake take = wave_take(stack, &top, frame->depth, run->plan->queue_stride, frame->grain);
+        WaveTake take = take_rays(run, stack, &top);
         HdWaveStep step = {
             .first_item = first_item,
             .level = take.level,

@@ -10,6 +10,7 @@
 
 #include "compiled_scene.h"
 #include "error.h"
+#include "launch_size.h"
 
 enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
 
@@ -33,6 +34,14 @@ size_t hd_wave_budget(uint64_t device_memory);
 
 HdWavePlan hd_wave_plan(const HdWaveNeeds *needs);
 
+/* Halves the bytes that a queue may use, for a device that refused it; false where these are
+   HD_WAVE_LEAST_BYTES already. */
+enum { HD_WAVE_LEAST_BYTES = 1 << 20 };
+bool hd_wave_halve(HdWaveNeeds *needs);
+
+/* For the line about a renderer: that the queue was cut to so many bytes. */
+void hd_wave_tell_cut(size_t bytes, char *text, int capacity);
+
 /* The samples of so many items, or as many of them as can be counted. */
 int hd_wave_samples(int items, int samples_per_item);
 
@@ -55,6 +64,7 @@ typedef struct HdWaveDevice {
     HdStatus (*trace)(void *context, const HdWaveStep *step, unsigned *taken, HdError *error);
     /* Stores the pixels of a finished batch. */
     HdStatus (*store)(void *context, int first_item, int item_count, HdError *error);
+    const HdLaunchSize *size; /* of the steps, in rays; the device may change it meanwhile */
 } HdWaveDevice;
 
 typedef struct HdWaveFrame {

@@ -102,6 +102,45 @@ expect_exit 0 "${frames[@]}" --pipeline wavefront -o waves/%d.data
 expect_silent_stderr
 rm -r waves
 
+# ---- launches: as long as the frame where that is short; cut where it is long; the bytes are the same
+large=("$hedron" render --size 512x512 --samples 16 --depth 2 --frames 0-3 --backend cuda --math fast --quiet)
+if command -v jq >"$logs/which"; then
+    # expect_launches FILTER: what holds of each frame's line but the first, which nothing is known before.
+    expect_launches() {
+        if ! jq -e -s ".[1:] | all(.[]; $1)" stats.jsonl >"$logs/jq"; then
+            fail "not all frames have $1: $(jq -c '[.longest_launch_ms, .seconds.trace]' stats.jsonl | tr '\n' ' ')"
+        fi
+    }
+    expect_exit 0 "${large[@]}" -o whole/%d.data
+    FAKE_CUDA_PIXEL_NS=20 expect_exit 0 "${large[@]}" --frames 0-9 -o short/%d.data --stats stats.jsonl
+    sed -i '1,6d' stats.jsonl
+    expect_launches '.longest_launch_ms > 5 and (.longest_launch_ms - 1000 * .seconds.trace | fabs) < 0.001'
+    FAKE_CUDA_PIXEL_NS=10000 expect_exit 0 "${large[@]}" -o cut/%d.data --stats stats.jsonl
+    expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .seconds.trace > 2'
+    for i in 0 1 2 3; do
+        expect_same "cut/$i.data" "whole/$i.data"
+        expect_same "short/$i.data" "whole/$i.data"
+    done
+    rm -r whole short cut stats.jsonl
+fi
+
+# ---- a device that refuses memory: the wavefront gets along with less, and says so
+waves=("$hedron" render --size 512x512 --samples 4 --frames 0-1 --backend cuda --math fast --pipeline wavefront -o waves/%d.data)
+expect_exit 0 env FAKE_CUDA_MEMORY=9000000000 "${waves[@]}" --verbose
+if grep -q 'the queue cut' "$logs/stderr"; then
+    fail 'the queue was cut, though nothing was refused'
+fi
+expect_exit 0 env FAKE_CUDA_MEMORY=9000000000 FAKE_CUDA_LARGEST=30000000 "${waves[@]}" --verbose
+expect_stderr_contains 'the queue cut to 33.6 MB, for more memory was refused'
+expect_exit 0 env FAKE_CUDA_MEMORY=9000000000 FAKE_CUDA_LARGEST=30000000 "${waves[@]}" --quiet
+expect_silent_stderr
+rm -r waves
+
+# ---- a device that is lost
+expect_refusal 1 env FAKE_CUDA_FAILS=cuEventSynchronize FAKE_CUDA_ERROR=719 "${frames[@]}" -o failed/%d.data
+expect_stderr_contains 'cuEventSynchronize failed with CUDA_ERROR_FAKE (719: CUDA_ERROR_FAKE); the device is lost to this process'
+rm -rf failed
+
 # ---- whatever fails, nothing is left behind
 for function in cuMemAlloc cuMemHostAlloc cuMemcpyHtoDAsync cuMemcpyDtoHAsync cuLaunchKernel cuStreamWaitEvent cuEventSynchronize; do
     expect_refusal 1 env FAKE_CUDA_FAILS=$function "${frames[@]}" -o failed/%d.data
@@ -129,6 +168,12 @@ expect_stderr_contains 'has 500 bytes; fewer triangles, a device with more memor
 expect_exit 0 env FAKE_CUDA_MEMORY=1000 HEDRON_CACHE=off "${mesh[@]}" --backend cuda
 expect_silent_stderr
 rm mesh.data
+
+# ---- less memory than the least that the wavefront asks for
+expect_refusal 1 env FAKE_CUDA_MEMORY=9000000000 FAKE_CUDA_LARGEST=500000 "${mesh[@]}" --backend cuda \
+    --pipeline wavefront --samples 8 --depth 10
+expect_stderr_contains 'the rays of the queue need 1.0'
+expect_stderr_contains 'Fake device 0 has 9.00 GB free of its 9.00 GB (cuMemAlloc: CUDA_ERROR'
 
 # ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
 long=("$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)

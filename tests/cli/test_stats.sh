@@ -30,7 +30,7 @@ if (($(wc -l <new/stats.jsonl) != 3)); then
 fi
 expect_json new/stats.jsonl 'map(.frame)' '[3,4,5]'
 expect_json new/stats.jsonl '.[0] | keys_unsorted' \
-    '["frame","backend","index","device","renderer","width","height","samples","depth","seconds","began","rays","shadow_tests","clamps"]'
+    '["frame","backend","index","device","renderer","width","height","samples","depth","seconds","began","longest_launch_ms","rays","shadow_tests","clamps"]'
 expect_json new/stats.jsonl '.[0].seconds | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
 expect_json new/stats.jsonl '.[0].began | keys_unsorted' '["prepare","trace","copy","convert","store","film"]'
 # A frame's stages follow one another, and frames are traced one after the other.
@@ -45,6 +45,8 @@ expect_json new/stats.jsonl 'all(.[]; .seconds | all(.[]; . >= 0) and .trace > 0
 expect_json new/stats.jsonl 'all(.[]; .seconds.convert == 0 and .seconds.film == 0)' true
 expect_json new/stats.jsonl 'all(.[]; .began.convert == null and .began.film == null)' true
 expect_json new/stats.jsonl 'all(.[]; .renderer | test("lane"))' true
+# Plain C has no launches.
+expect_json new/stats.jsonl 'map(.longest_launch_ms) | unique' '[null]'
 # Another run writes the file anew.
 expect_exit 0 "${render[@]}" --frames 7 -o a.data --stats new/stats.jsonl
 expect_json new/stats.jsonl 'map(.frame)' '[7]'

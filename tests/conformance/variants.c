@@ -19,17 +19,21 @@ const Variant variants[] = {
     {FOR_PLAIN_C, false, {WAVEFRONT, .threads = 1, .test.queue_bytes = LEAST}},
 
     {FOR_GPUS, true, {WAVEFRONT}},
-    {FOR_GPUS, true, {WAVEFRONT, .block = 96, .test.queue_bytes = LITTLE}},
+    {FOR_GPUS, true, {WAVEFRONT, .block = 96, .test = {.queue_bytes = LITTLE, .launch_work = 500}}},
     {FOR_GPUS, false, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
-    {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1}},
+    {FOR_GPUS, false, {MEGA, .block = 96, .grid = 1, .test.launch_work = 999}},
     {FOR_CUDA, false, {MEGA, .block = 1024, .grid = 2}},
     {FOR_GPUS, true, {WAVEFRONT, .block = 32, .grid = 24, .test.queue_bytes = LEAST}},
 
-    {FOR_CPUS_AS_GPUS, false, {MEGA, .block = 96, .grid = 3, .test.groups = true}},
+    {FOR_CPUS_AS_GPUS,
+     false,
+     {MEGA, .block = 96, .grid = 3, .test = {.groups = true, .launch_work = 999}}},
     {FOR_CPUS_AS_GPUS,
      false,
      {WAVEFRONT, .block = 96, .grid = 3, .test = {.groups = true, .queue_bytes = LEAST}}},
-    {FOR_CPUS_AS_GPUS, false, {UNCOMPACTED, .test = {.groups = true, .queue_bytes = LITTLE}}},
+    {FOR_CPUS_AS_GPUS,
+     false,
+     {UNCOMPACTED, .test = {.groups = true, .queue_bytes = LITTLE, .launch_work = 200}}},
 };
 const int variant_count = sizeof variants / sizeof *variants;
 

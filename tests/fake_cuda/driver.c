@@ -82,10 +82,3 @@ HdCuResult cuMemGetInfo_v2(size_t *available, size_t *total) {
     *available = *total = memory != NULL ? (size_t)atoll(memory) : 0;
     return HD_CU_SUCCESS;
 }
-
-HdCuResult cuEventElapsedTime(float *milliseconds, HdCuEvent start, HdCuEvent end) {
-    (void)start;
-    (void)end;
-    *milliseconds = 1.0f;
-    return HD_CU_SUCCESS;
-}

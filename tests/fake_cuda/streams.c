@@ -3,7 +3,11 @@
    for it. So memory that is used again too early shows. Kernels leave a colour that tells the view,
    or convert pixels as the true one does. FAKE_CUDA_EAGER carries everything out at once. Memory
    that is freed while something is queued, and what is left at the end, is told on standard error.
-   FAKE_CUDA_FAILS names a function that fails from its third call on. */
+   Events tell a time that passes only while pictures are rendered: FAKE_CUDA_PIXEL_NS nanoseconds
+   for each pixel.
+   FAKE_CUDA_FAILS names a function that fails from its call number FAKE_CUDA_FAILS_AT on, else from
+   its third one, with the error FAKE_CUDA_ERROR, else a lack of memory. No more than
+   FAKE_CUDA_LARGEST bytes are given at once. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -22,6 +26,10 @@ enum {
 
 typedef enum Kernel { KERNEL_OTHER = 1, KERNEL_RENDER, KERNEL_ENCODE } Kernel;
 
+typedef struct Event {
+    double time; /* ms, of the last record that was carried out */
+} Event;
+
 typedef struct Operation {
     enum { COPY, LAUNCH, RECORD, WAIT } kind;
     const void *stream;
@@ -31,22 +39,29 @@ typedef struct Operation {
     size_t bytes;
     Kernel kernel; /* LAUNCH */
     uint64_t arguments[MAX_ARGUMENTS];
-    const void *event; /* RECORD, WAIT */
+    Event *event; /* RECORD, WAIT */
 } Operation;
 
+static double now; /* ms */
 static Operation queue[MAX_OPERATIONS];
 static int queued, allocations;
+
+static int number(const char *variable, int otherwise) {
+    const char *value = getenv(variable);
+    return value != NULL ? atoi(value) : otherwise;
+}
 
 static bool fails(const char *function) {
     static int calls;
     const char *failing = getenv("FAKE_CUDA_FAILS");
-    return failing != NULL && strcmp(failing, function) == 0 && ++calls >= FIRST_FAILING;
+    return failing != NULL && strcmp(failing, function) == 0 &&
+           ++calls >= number("FAKE_CUDA_FAILS_AT", FIRST_FAILING);
 }
 
 #define FAIL_IF_ASKED(function)                                                                    \
     do {                                                                                           \
         if (fails(#function))                                                                      \
-            return HD_CU_ERROR_OUT_OF_MEMORY;                                                      \
+            return (HdCuResult)number("FAKE_CUDA_ERROR", HD_CU_ERROR_OUT_OF_MEMORY);               \
     } while (0)
 
 static void *pointer(uint64_t argument) {
@@ -72,6 +87,8 @@ static void render(const Operation *launch) {
     float *pixels = pointer(launch->arguments[AFTER_TABLES + 3]), colour = colour_of(view);
     if (end > view->width * view->height)
         end = view->width * view->height;
+    if (getenv("FAKE_CUDA_PIXEL_NS") != NULL && end > first)
+        now += 1e-6 * atof(getenv("FAKE_CUDA_PIXEL_NS")) * (end - first);
     for (int i = 3 * first; i < 3 * end; i++)
         pixels[i] = colour;
 }
@@ -99,6 +116,8 @@ static void carry_out(Operation *operation) {
     operation->done = true;
     if (operation->kind == COPY)
         memcpy(operation->to, operation->from, operation->bytes);
+    else if (operation->kind == RECORD)
+        operation->event->time = now;
     else if (operation->kind == WAIT)
         run_to_event(operation->event, (int)(operation - queue));
     else if (operation->kind == LAUNCH && operation->kernel == KERNEL_RENDER)
@@ -155,7 +174,10 @@ static HdCuResult destroy(void *handle) {
 }
 
 HdCuResult cuMemAlloc_v2(HdCuPointer *memory, size_t bytes) {
+    const char *most = getenv("FAKE_CUDA_LARGEST");
     FAIL_IF_ASKED(cuMemAlloc);
+    if (most != NULL && bytes > (size_t)atoll(most))
+        return HD_CU_ERROR_OUT_OF_MEMORY;
     void *data = calloc(1, bytes);
     allocations++;
     *memory = (HdCuPointer)(uintptr_t)data;
@@ -189,7 +211,9 @@ HdCuResult cuStreamDestroy_v2(HdCuStream stream) {
 
 HdCuResult cuEventCreate(HdCuEvent *event, unsigned int flags) {
     (void)flags;
-    return create((void **)event);
+    *event = calloc(1, sizeof(Event));
+    allocations++;
+    return *event != NULL ? HD_CU_SUCCESS : HD_CU_ERROR_OUT_OF_MEMORY;
 }
 
 HdCuResult cuEventDestroy_v2(HdCuEvent event) {
@@ -246,18 +270,26 @@ HdCuResult cuLaunchKernel(HdCuFunction function, unsigned int grid_x, unsigned i
 }
 
 HdCuResult cuEventRecord(HdCuEvent event, HdCuStream stream) {
-    return put((Operation){.kind = RECORD, .stream = stream, .event = event});
+    return put((Operation){.kind = RECORD, .stream = stream, .event = (Event *)(void *)event});
 }
 
 HdCuResult cuStreamWaitEvent(HdCuStream stream, HdCuEvent event, unsigned int flags) {
     (void)flags;
     FAIL_IF_ASKED(cuStreamWaitEvent);
-    return put((Operation){.kind = WAIT, .stream = stream, .event = event});
+    return put((Operation){.kind = WAIT, .stream = stream, .event = (Event *)(void *)event});
 }
 
 HdCuResult cuEventSynchronize(HdCuEvent event) {
     FAIL_IF_ASKED(cuEventSynchronize);
     run_to_event(event, queued);
+    return HD_CU_SUCCESS;
+}
+
+/* Something takes a millisecond where no time passed. */
+HdCuResult cuEventElapsedTime(float *milliseconds, HdCuEvent start, HdCuEvent end) {
+    FAIL_IF_ASKED(cuEventElapsedTime);
+    double passed = ((Event *)(void *)end)->time - ((Event *)(void *)start)->time;
+    *milliseconds = passed > 0.0 ? (float)passed : 1.0F;
     return HD_CU_SUCCESS;
 }
 

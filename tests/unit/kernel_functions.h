@@ -638,6 +638,118 @@ static void pictures_repeat_or_end(void **state) {
     CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(500.0), 1.0);
 }
 
+/* ---- what is left out of surveyed scenes ---- */
+
+enum { CHANNELS = 3, DEAD_LANE = 1 };
+static const real channel_bounds[CHANNELS] = {R(1.0), R(2.0), R(4.0)};
+
+typedef struct Ends {
+    Header header;
+    View view;
+    vmask alive; /* all lanes but DEAD_LANE */
+    Sample sample;
+} Ends;
+
+/* All numbers are sums of few powers of two, so that nothing is rounded. */
+static Ends ends_below(real bound_cutoff) {
+    Ends ends = {.sample = empty_sample()};
+    ends.header.surveyed = 1;
+    ends.header.exposure = R(2.0);
+    ends.view.to_fixed = R(65536.0);
+    ends.view.depth = 5;
+    ends.view.bound_cutoff = bound_cutoff;
+    ends.alive = ~eq_int(lane_numbers(), splat_int(DEAD_LANE));
+    return ends;
+}
+
+/* (lane + 1) / 4 in one channel. */
+static Vec3 weights_of(int channel) {
+    Vec3 weight = vec3_zero();
+    vreal ramped = ramp(R(0.25), R(0.25));
+    weight.x = channel == 0 ? ramped : weight.x;
+    weight.y = channel == 1 ? ramped : weight.y;
+    weight.z = channel == 2 ? ramped : weight.z;
+    return weight;
+}
+
+static bool has_lane(vmask m, int lane) {
+    vint picked = pick_int(m, splat_int(1), splat_int(0));
+    return lane_int(&picked, lane) != 0;
+}
+
+/* What is over is added to the sum; the other lanes that were alive go on. */
+static void expect_end(const Ends *ends, vmask going_on, int lane, double bound, bool is_over) {
+    bool was_alive = lane != DEAD_LANE;
+    int64_t added = was_alive && is_over ? (int64_t)(bound * 16384.0 + 1.0) : 0;
+    assert_int_equal(lane_fix(&ends->sample.bound, lane), added);
+    assert_int_equal(has_lane(going_on, lane), was_alive && !is_over);
+}
+
+#define NO_TABLE(type, name) const type *name = NULL;
+#define ONLY_TABLES_OF(ends)                                                                       \
+    HD_SCENE_TABLES(NO_TABLE) HD_FRAME_TABLES(NO_TABLE) header = &(ends)->header;                  \
+    view = &(ends)->view
+
+static vmask end_rays_of(Ends *ends, int level, int channel) {
+    ONLY_TABLES_OF(ends);
+    for (int i = 0; i < CHANNELS; i++)
+        ends->header.radiance_bound[i] = channel_bounds[i];
+    Ray ray = eye_ray(vec3_zero(), ends->alive);
+    ray.weight = weights_of(channel);
+    end_rays(SCENE_ARGUMENTS level, &ray, &ends->sample);
+    return ray.alive;
+}
+
+/* By the greatest radiance there is, times the exposure; a bound that is the limit is not below it.
+ */
+static void rays_that_end_are_bounded(void **state) {
+    (void)state;
+    for (int channel = 0; channel < CHANNELS; channel++) {
+        double each =
+            0.5 * (double)channel_bounds[channel]; /* of a lane, more than the one before */
+        Ends ends = ends_below((real)(3.0 * each));
+        vmask going_on = end_rays_of(&ends, 2, channel);
+        for (int lane = 0; lane < HD_LANES; lane++)
+            expect_end(&ends, going_on, lane, each * (lane + 1), lane + 1 < 3);
+        ends = ends_below((real)each);
+        going_on = end_rays_of(&ends, ends.view.depth, channel);
+        for (int lane = 0; lane < HD_LANES; lane++)
+            expect_end(&ends, going_on, lane, each * (lane + 1), true);
+        ends = ends_below(R(0.0));
+        ends.view.cutoff = R(0.5);
+        going_on = end_rays_of(&ends, 2, channel);
+        for (int lane = 0; lane < HD_LANES; lane++)
+            expect_end(&ends, going_on, lane, each * (lane + 1), lane == 0);
+    }
+}
+
+/* Lights in both of the surface's sides where it is lit from behind: in every second lane. */
+static void lights_that_are_left_out_are_bounded(void **state) {
+    (void)state;
+    static const double colours[CHANNELS] = {0.5, 0.25, 1.0};
+    for (int channel = 0; channel < CHANNELS; channel++) {
+        double arriving = 0.5 * (double)channel_bounds[channel];
+        double limit = 4.0 * arriving * (0.75 * colours[channel] + 0.25);
+        Ends ends = ends_below((real)limit);
+        ONLY_TABLES_OF(&ends);
+        for (int i = 0; i < CHANNELS; i++)
+            ends.header.light_bound[i] = channel_bounds[i];
+        LaneMaterial material = no_material();
+        material.colour = vec3_splat(R(0.5), R(0.25), R(1.0));
+        material.diffuse = splat(R(0.5));
+        material.specular = splat(R(0.25));
+        material.transmission = splat(R(0.5));
+        material.lit_from_behind = eq_int(lane_numbers() & 1, splat_int(1));
+        vmask lit =
+            end_lights(SCENE_ARGUMENTS ends.alive, weights_of(channel), &material, &ends.sample);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            double diffuse = lane % 2 == 1 ? 0.75 : 0.5;
+            double bound = arriving * (lane + 1) * (diffuse * colours[channel] + 0.25);
+            expect_end(&ends, lit, lane, bound, bound < limit);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masks_tell_lanes_apart),
@@ -661,6 +773,8 @@ int main(void) {
         cmocka_unit_test(rays_enter_a_closed_mesh_as_often_as_they_leave),
         cmocka_unit_test(what_filters_light_adds_up),
         cmocka_unit_test(pictures_repeat_or_end),
+        cmocka_unit_test(rays_that_end_are_bounded),
+        cmocka_unit_test(lights_that_are_left_out_are_bounded),
         cmocka_unit_test(every_pixel_has_one_place),
         cmocka_unit_test(samples_fill_the_lanes),
         cmocka_unit_test(live_lanes_are_stored_side_by_side),

@@ -20,7 +20,7 @@ static const HdFrame frame = {
     .shadow_tests = UINT64_C(1) << 60,
     .clamps = 7,
 };
-static const HdStoredFrame stored = {
+static HdStoredFrame stored = {
     .number = 11,
     .done = 1,
     .frame = &frame,
@@ -29,7 +29,8 @@ static const HdStoredFrame stored = {
               .copy = {1.75, 0.0},
               .convert = {2.0, 1e-9},
               .store = {2.5, 3.0},
-              .film = {-1.0, 0.0}},
+              .film = {-1.0, 0.0},
+              .longest_launch = 0.0625},
 };
 
 /* Writes one line about a device of this name, and reads it back. */
@@ -108,6 +109,18 @@ static void a_line_has_everything(void **state) {
     json_decref(line);
 }
 
+static void the_longest_launch_is_told_where_it_is_known(void **state) {
+    (void)state;
+    json_t *line = read_line_about("GPU");
+    assert_true(json_real_value(json_object_get(line, "longest_launch_ms")) == 62.5);
+    json_decref(line);
+    stored.times.longest_launch = -1.0;
+    line = read_line_about("CPU");
+    assert_true(json_is_null(json_object_get(line, "longest_launch_ms")));
+    json_decref(line);
+    stored.times.longest_launch = 0.0625;
+}
+
 static void names_in_other_encodings_stay_json(void **state) {
     (void)state;
     json_t *line = read_line_about("Intel\xae Xeon");
@@ -163,6 +176,7 @@ static void files_that_take_nothing_are_told(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_has_everything),
+        cmocka_unit_test(the_longest_launch_is_told_where_it_is_known),
         cmocka_unit_test(names_in_other_encodings_stay_json),
         cmocka_unit_test(numbers_have_a_point_in_every_locale),
         cmocka_unit_test(files_that_take_nothing_are_told),

@@ -78,6 +78,9 @@ static HdStatus store(void *context, int first_item, int item_count, HdError *er
     return HD_OK;
 }
 
+/* What one launch may have. */
+static int launch_rays = HD_MOST_LAUNCH_WORK;
+
 /* Runs a frame; returns the number of rays traced. */
 static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t *steps) {
     HdError error;
@@ -90,9 +93,10 @@ static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t
     };
     HdWavePlan plan = hd_wave_plan(&needs);
     assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    HdLaunchSize size = hd_launch_size_fixed(launch_rays);
     Account account = {.plan = &plan, .frame = frame, .children = children};
     account.waits = calloc((size_t)plan.queue_stride, 1);
-    HdWaveDevice device = {.context = &account, .trace = trace, .store = store};
+    HdWaveDevice device = {.context = &account, .trace = trace, .store = store, .size = &size};
     assert_int_equal(hd_wave_run(&plan, frame, &device, &error), HD_OK);
     assert_int_equal(account.next_item, frame->items);
     free(account.waits);
@@ -128,6 +132,26 @@ static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
         }
 }
 
+static void launches_of_any_size_trace_all_rays(void **state) {
+    static const int sizes[] = {1, 5, 32, 40, 150};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        launch_rays = sizes[i];
+        all_rays_are_traced_in_any_memory(state);
+        groups_that_do_not_fit_evenly_never_overlap(state);
+    }
+    launch_rays = HD_MOST_LAUNCH_WORK;
+}
+
+static void launches_have_at_most_their_size(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    int64_t steps;
+    launch_rays = 64;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 4 * 6);
+    launch_rays = HD_MOST_LAUNCH_WORK;
+}
+
 static void enough_memory_takes_a_step_a_level(void **state) {
     (void)state;
     HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
@@ -158,6 +182,35 @@ static void plans_keep_to_their_budget(void **state) {
         }
 }
 
+/* A device that refuses memory is asked for less, until it is as little as the least. */
+static void a_refused_queue_is_halved(void **state) {
+    (void)state;
+    HdWaveNeeds needs = {
+        .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
+    size_t before = hd_wave_plan(&needs).real_bytes;
+    static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        assert_true(hd_wave_halve(&needs));
+        assert_int_equal(needs.bytes, expected[i]);
+        assert_true(hd_wave_plan(&needs).real_bytes < before);
+        before = hd_wave_plan(&needs).real_bytes;
+    }
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
+    needs.bytes = 1;
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, 1);
+}
+
+static void a_cut_queue_is_told(void **state) {
+    (void)state;
+    char text[128];
+    hd_wave_tell_cut(33554432, text, sizeof text);
+    assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
+    hd_wave_tell_cut(33554432, text, 8);
+    assert_string_equal(text, ", the q");
+}
+
 static void launches_have_the_groups_that_they_need(void **state) {
     (void)state;
     HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
@@ -183,8 +236,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_rays_are_traced_in_any_memory),
         cmocka_unit_test(groups_that_do_not_fit_evenly_never_overlap),
+        cmocka_unit_test(launches_of_any_size_trace_all_rays),
+        cmocka_unit_test(launches_have_at_most_their_size),
         cmocka_unit_test(enough_memory_takes_a_step_a_level),
         cmocka_unit_test(plans_keep_to_their_budget),
+        cmocka_unit_test(a_refused_queue_is_halved),
+        cmocka_unit_test(a_cut_queue_is_told),
         cmocka_unit_test(launches_have_the_groups_that_they_need),
         cmocka_unit_test(a_signal_ends_the_frame),
     };
