@@ -98,7 +98,7 @@ static void a_line_has_everything(void **state) {
     (void)state;
     json_t *line = read_line_about("A \"quoted\" \\ name\twith a tab");
     assert_non_null(line);
-    assert_int_equal(json_object_size(line), 14);
+    assert_int_equal(json_object_size(line), 15);
     check_numbers(line);
     check_begins(line);
     assert_string_equal(json_string_value(json_object_get(line, "backend")), "c");
