@@ -214,7 +214,7 @@ start_sequence() {
         films=(-o killed/film.mkv)
     fi
     rm -f stats.jsonl
-    "$hedron" render --backend c --quiet --size 240x180 --samples 2 --depth 8 --frames "0-$((frames - 1))" \
+    "$hedron" render --backend c --quiet --size 160x120 --samples 2 --depth 8 --frames "0-$((frames - 1))" \
         --stats stats.jsonl -o 'killed/%02d.png' "${films[@]}" >"$logs/stdout" 2>"$logs/stderr" &
     pid=$!
 }
