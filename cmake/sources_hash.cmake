@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DFOLDER=... -DOUTPUT=... -P sources_hash.cmake writes a header with a hash of all sources that
+# cmake -DFOLDER=... -DOUTPUT=... -P sources_hash.cmake writes a C file with a hash of all sources that
 # may decide a pixel. A changed comment counts as well: a hash that errs, errs to the safe side.
 set(patterns "")
 foreach(folder src cpu kernels)
@@ -15,4 +15,4 @@ foreach(file IN LISTS files ITEMS cmake/cpu_kernels.cmake)
     string(APPEND all "${file} ${hash}\n")
 endforeach()
 string(SHA256 hash "${all}")
-file(WRITE ${OUTPUT} "/* Made by cmake/sources_hash.cmake. */\n#define HD_SOURCES_HASH \"${hash}\"\n")
+file(WRITE ${OUTPUT} "extern const char hd_sources_hash[];\nconst char hd_sources_hash[] = \"${hash}\";\n")

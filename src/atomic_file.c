@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _DEFAULT_SOURCE /* flock */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE /* flock */
 
 #include "atomic_file.h"
 

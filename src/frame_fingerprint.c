@@ -5,7 +5,9 @@
 
 #include "hash.h"
 #include "scene_fields.h"
-#include "sources_hash.h"
+
+/* Made by cmake/sources_hash.cmake. */
+extern const char hd_sources_hash[];
 
 static void add(uint64_t *hash, const void *data, size_t size) {
     *hash = hd_hash_bytes(*hash, data, size);
@@ -194,7 +196,7 @@ static void add_options(uint64_t *hash, const HdScene *scene) {
 
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style) {
-    uint64_t hash = hd_hash_bytes(HD_HASH_START, HD_SOURCES_HASH, strlen(HD_SOURCES_HASH));
+    uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_sources_hash, strlen(hd_sources_hash));
     add_object(&hash, &hd_scene_fields, file);
     add_content(&hash, &file->scene);
     add_options(&hash, &file->scene);

@@ -78,11 +78,11 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     *resume = (HdResume){.all = frames};
     resume->missing.frames = malloc(count * sizeof *resume->missing.frames);
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
-    HdStatus status = HD_OK;
-    if (resume->missing.frames == NULL || resume->is_finished == NULL)
-        status = hd_fail(error, HD_FAILED, "not enough memory for a list of %zu frames", count);
-    if (status == HD_OK)
-        status = look_at_frames(resume, plan, error);
+    if (resume->missing.frames == NULL || resume->is_finished == NULL) {
+        hd_resume_free(resume);
+        return hd_fail(error, HD_FAILED, "not enough memory for a list of %zu frames", count);
+    }
+    HdStatus status = look_at_frames(resume, plan, error);
     if (status != HD_OK)
         hd_resume_free(resume);
     return status;

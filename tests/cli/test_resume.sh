@@ -99,6 +99,31 @@ render 0 other.json -o 'out/%d.png' --set output.frames_per_second=25
 printf '\100' | dd of=floor.data bs=1 seek=8 conv=notrunc status=none
 render 10 scene.json -o 'out/%d.png'
 
+# ---- another program has another hash, wherever its sources lie
+sources_hash() {
+    cmake -DFOLDER="$1" -DOUTPUT="$work/hash.c" -P "$project/cmake/sources_hash.cmake"
+    cat "$work/hash.c"
+}
+
+if command -v cmake >"$logs/which"; then
+    mkdir -p a/{src,cpu,cmake,kernels/common}
+    for file in src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu cmake/cpu_kernels.cmake; do
+        echo text >"a/$file"
+    done
+    hash=$(sources_hash "$PWD/a")
+    cp -r a b
+    if [[ $(sources_hash "$PWD/b") != "$hash" ]]; then
+        fail 'the hash of the sources depends on their place'
+    fi
+    for file in src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu cmake/cpu_kernels.cmake; do
+        echo other >"b/$file"
+        if [[ $(sources_hash "$PWD/b") == "$hash" ]]; then
+            fail "$file is not in the hash of the sources"
+        fi
+        echo text >"b/$file"
+    done
+fi
+
 # ---- what is always rendered
 render 10 scene.json -o 'out/%d.png' --again
 render 10 scene.json -o 'out/%d.png' -o 'out/%d.pfm'
@@ -189,7 +214,7 @@ start_sequence() {
         films=(-o killed/film.mkv)
     fi
     rm -f stats.jsonl
-    "$hedron" render --backend c --quiet --size 240x180 --samples 2 --depth 8 --frames "0-$((frames - 1))" \
+    "$hedron" render --backend c --quiet --size 160x120 --samples 2 --depth 8 --frames "0-$((frames - 1))" \
         --stats stats.jsonl -o 'killed/%02d.png' "${films[@]}" >"$logs/stdout" 2>"$logs/stderr" &
     pid=$!
 }
