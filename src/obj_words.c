@@ -14,7 +14,10 @@ enum {
 
 int hd_span_shown(HdSpan span) {
     const ptrdiff_t length = span.end - span.begin;
-    return length < MOST_SHOWN ? (int)length : MOST_SHOWN;
+    int shown = length < MOST_SHOWN ? (int)length : MOST_SHOWN;
+    while (shown > 0 && shown < length && ((unsigned char)span.begin[shown] & 0xc0) == 0x80)
+        shown--;
+    return shown;
 }
 
 bool hd_span_is(HdSpan span, const char *text) {

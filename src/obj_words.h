@@ -11,7 +11,7 @@ typedef struct HdSpan {
     const char *begin, *end;
 } HdSpan;
 
-/* For "%.*s" in messages: no more bytes than a reader wants to see. */
+/* For "%.*s" in messages: no more bytes than a reader wants to see, and no character cut in two. */
 int hd_span_shown(HdSpan span);
 
 bool hd_span_is(HdSpan span, const char *text);

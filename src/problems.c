@@ -5,12 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "visible_text.h"
+
 void hd_problem(HdProblems *problems, const char *format, ...) {
-    char line[2048];
+    char text[2048], line[sizeof text];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    hd_escape(text, line, sizeof line);
     problems->count++;
     const size_t room = sizeof problems->text - problems->used;
     if (strlen(line) + 2 > room)

@@ -12,6 +12,7 @@
 #include "scene_changes.h"
 #include "scene_notes.h"
 #include "scene_read.h"
+#include "visible_text.h"
 
 /* JSON text has no zero bytes, and the parser takes one for the end of a token. */
 static HdStatus check_no_zero(const char *text, size_t size, const char *name, HdError *error) {

@@ -7,6 +7,7 @@
 #include "json_words.h"
 #include "output_kind.h"
 #include "paths.h"
+#include "visible_text.h"
 
 bool hd_check_file_name(HdSceneReport *report, const json_t *value) {
     const size_t length = json_string_length(value);

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "visible_text.h"
+
 typedef struct Token {
     char text[HD_MAX_PATH];
 } Token;
@@ -19,17 +21,10 @@ static bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/* The start of a token, fit for a message: no control characters, and no UTF-8 character cut. */
+/* The start of a token, fit for a message. */
 static const char *shown(const char *token, char out[44]) {
-    size_t length = 0;
-    for (; token[length] != '\0' && length < 40; length++) {
-        const unsigned char c = (unsigned char)token[length];
-        out[length] = c < ' ' || c == 0x7f ? '?' : token[length];
-    }
-    if (token[length] != '\0')
-        while (length > 0 && ((unsigned char)token[length] & 0xc0) == 0x80)
-            length--;
-    snprintf(out + length, 4, "%s", token[length] != '\0' ? "..." : "");
+    const size_t taken = hd_escape(token, out, 41), length = strlen(out);
+    snprintf(out + length, 4, "%s", token[taken] != '\0' ? "..." : "");
     return out;
 }
 

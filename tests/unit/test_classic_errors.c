@@ -182,7 +182,8 @@ static void test_strange_bytes(void **state) {
     text[2] = '\0';
     assert_int_equal(parse_bytes(&input, text, sizeof text - 1, 4, &error), HD_BAD_INPUT);
     expect_contains(error.message, "standard input:1: number of frames holds a zero byte");
-    expect_token_rejected(VIEW, "\x1b[31m\x07", "field of view is '?[31m?', expected a number");
+    expect_token_rejected(VIEW, "\x1b[31m\x07",
+                          "field of view is '\\u001b[31m\\u0007', expected a number");
     /* 20 two-byte letters fill the 40 bytes shown; one byte more must not cut a letter in two. */
     expect_token_rejected(VIEW,
                           "a\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4"

@@ -6,6 +6,7 @@
 #include "scene.h"
 #include "scene_limits.h"
 #include "test_folder.h"
+#include "visible_text.h"
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -301,7 +302,7 @@ static void wrong_faces_are_told(void **state) {
     static const char *const corners[] = {
         "x",   "1.5",   "1e3",         "+1",         "1/2/3/4",       "/1",    "1/-", "-",
         "--1", "1//-/", "12345678901", "2147483648", "1/99999999999", "a\xff", "nan"};
-    char text[512], message[512];
+    char text[512], message[512], shown[32];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         snprintf(text, sizeof text, "%svn 0 0 1\nvt 0 0\n%s\n", TRIANGLE, wrong[i].face);
         snprintf(message, sizeof message, "a.obj: line 6: %s", wrong[i].problem);
@@ -310,10 +311,11 @@ static void wrong_faces_are_told(void **state) {
     for (size_t i = 0; i < sizeof corners / sizeof *corners; i++) {
         snprintf(text, sizeof text, "%svt 1 1\nvt 1 1\nvn 1 1 1\nvn 1 1 1\nvn 1 1 1\nf 1 2 %s\n",
                  TRIANGLE, corners[i]);
+        hd_escape(corners[i], shown, sizeof shown);
         snprintf(message, sizeof message,
                  "a.obj: line 9: corner '%s' of a face, expected numbers of a vertex, texture "
                  "coordinate and normal as 1, 1/2, 1//3 or 1/2/3",
-                 corners[i]);
+                 shown);
         expect_refused(text, message);
     }
     expect_refused(TRIANGLE "f 1 2 2\nf 1 1 1\n", "a.obj: none of its 2 triangles has an area");
@@ -666,13 +668,14 @@ static void libraries_stay_in_the_folder(void **state) {
 }
 
 static void expect_texture_note(const char *name, const char *expected) {
-    char text[256];
+    char text[256], shown[64];
+    hd_escape(name, shown, sizeof shown);
     snprintf(text, sizeof text, "newmtl m\nKs 0.5 0.5 0.5\nmap_Kd %s\n", name);
     write_text("a.mtl", text);
     HdMesh mesh = read_text("mtllib a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
     assert_null(mesh.materials[0].texture);
     snprintf(text, sizeof text,
-             "a.mtl: line 3: map_Kd is '%s', expected %s; there will be no texture\n", name,
+             "a.mtl: line 3: map_Kd is '%s', expected %s; there will be no texture\n", shown,
              expected);
     assert_string_equal(notes.text, text);
     hd_mesh_free(&mesh);

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* What the fuzz targets share. Each target is a file of its own with LLVMFuzzerTestOneInput: one
+   reader of the library, and what the program would do next with what was read. libFuzzer drives
+   them (HEDRON_FUZZ), or replay.c, which only hands them files. */
+#ifndef HD_FUZZ_H
+#define HD_FUZZ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error.h"
+
+/* 0, as libFuzzer wants it. Ends the process where the library broke its contract. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* A new copy with a zero byte behind it, as text; the caller frees it. */
+char *fuzz_text(const uint8_t *data, size_t size);
+
+/* Writes a file of that name into a folder of this process, which is removed at its end, and
+   returns the path, which is good until the next call with the same name. */
+const char *fuzz_file(const char *name, const void *data, size_t size);
+
+/* Ends the process with a message unless the condition holds. */
+void fuzz_expect(int holds, const char *what);
+
+/* What may come of wrong input: never a failure of the machine, as a wrong size of memory would be.
+ */
+void fuzz_expect_input_status(HdStatus status, const HdError *error);
+
+#endif
