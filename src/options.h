@@ -38,6 +38,7 @@ typedef struct HdOptions {
     const char *frames;     /* NULL: not given */
     const char *statistics; /* a file, "-": standard output; NULL: not given */
     bool verbose, quiet;    /* not both */
+    bool tells_frames;      /* a line of progress for each frame */
     bool json;              /* of 'devices', 'tune' and 'compare' */
     bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,

@@ -46,8 +46,10 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     run->rays += hd_frame_rays(stored->frame);
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
-    if (status == HD_OK)
+    if (status == HD_OK) {
+        hd_progress_tell_frame(&run->progress, stored->number, stored->done);
         hd_progress_update(&run->progress, stored->done);
+    }
     return status;
 }
 
@@ -122,13 +124,18 @@ static HdStatus render_all(Run *run, HdError *error) {
     return status;
 }
 
+static HdProgressForm progress_form(const Run *run) {
+    if (run->options->tells_frames)
+        return HD_PROGRESS_FRAMES;
+    return run->options->quiet ? HD_PROGRESS_NONE
+                               : hd_progress_form(run->rendering->tells_progress);
+}
+
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdError ignored;
-    run->progress = hd_progress_start(
-        run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
-        rendering->frames->count);
+    run->progress = hd_progress_start(progress_form(run), rendering->frames->count);
     HdStatus status = open_device(run, error);
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);
