@@ -59,6 +59,7 @@ SelectTypeParameters=CR_Core
 SwitchType=switch/none
 MpiDefault=none
 MailProg=/bin/true
+KillWait=300
 MessageTimeout=100
 SlurmdTimeout=0
 BatchStartTimeout=300
@@ -113,6 +114,18 @@ try_to_start_cluster() {
     wait_until 180 cluster_is_decided && daemons_run
 }
 
+# What kept the daemons from starting: the first fatal errors, else the first others.
+why_no_cluster() {
+    local kind
+    for kind in fatal error; do
+        if grep -r -h -i -m 2 "$kind" "$cluster/log" >"$logs/why"; then
+            head -n 4 "$logs/why" | tr '\n' ';'
+            return
+        fi
+    done
+    echo "no error in the logs"
+}
+
 # Skips the test where the daemons do not start, such as for lack of a permission. Another program may
 # take a port between the search and the start; then others are tried.
 start_cluster() {
@@ -123,7 +136,7 @@ start_cluster() {
         fi
         grep -r -q -i 'address already in use' "$cluster/log" || break
     done
-    skip "Slurm does not start here: $(grep -r -h -i -E 'fatal|error' "$cluster/log" | head -n 3 | tr '\n' ';')"
+    skip "Slurm does not start here: $(why_no_cluster)"
 }
 
 # What belongs to the cluster: its daemons, and what they have started. The search itself has nothing of
