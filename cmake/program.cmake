@@ -30,6 +30,8 @@ add_executable(hedron src/main.c)
 target_link_libraries(hedron PRIVATE hedron_program)
 hedron_compile_options(hedron)
 install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/hedron-task
+        DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # The man page and the completion script are what the program prints. With the thread sanitizer it starts
 # on some systems only with help, so there are none of it.

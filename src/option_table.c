@@ -98,6 +98,9 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
      "tell what was chosen and why"},
     {HD_OPTION_QUIET, "--quiet", NULL, NULL, NULL, false, 0, 0, RENDERING,
      "no progress and no notes; errors only"},
+    {HD_OPTION_FRAME_LINES, "--frame-lines", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_RENDER,
+     "progress for programs: a line on standard error for each frame that is stored; with --quiet "
+     "nothing else"},
     {HD_OPTION_SCHEMA, "--schema", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_CHECK,
      "print the JSON Schema of scene files, and exit"},
     {HD_OPTION_JSON, "--json", NULL, NULL, NULL, false, 0, 0, HD_COMMAND_DEVICES | HD_COMMAND_TUNE,

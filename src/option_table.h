@@ -38,6 +38,7 @@ typedef enum HdOptionId {
     HD_OPTION_STATS,
     HD_OPTION_VERBOSE,
     HD_OPTION_QUIET,
+    HD_OPTION_FRAME_LINES,
     HD_OPTION_SCHEMA,
     HD_OPTION_JSON,
     HD_OPTION_DIFF,
@@ -60,7 +61,7 @@ typedef struct HdOptionSpec {
 } HdOptionSpec;
 
 /* An option may be there twice, with another meaning for another command. */
-enum { HD_OPTION_SPEC_COUNT = 41 };
+enum { HD_OPTION_SPEC_COUNT = 42 };
 extern const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT];
 
 /* The number of `text` among the choices, from 0; -1: it is none of them. */

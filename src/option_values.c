@@ -294,6 +294,8 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         return set_flag(&options->verbose, &options->quiet, error);
     case HD_OPTION_QUIET:
         return set_flag(&options->quiet, &options->verbose, error);
+    case HD_OPTION_FRAME_LINES:
+        return set_flag(&options->tells_frames, NULL, error);
     case HD_OPTION_SCHEMA:
         return set_flag(&options->schema, NULL, error);
     case HD_OPTION_JSON:

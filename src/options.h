@@ -39,6 +39,7 @@ typedef struct HdOptions {
     const char *statistics; /* a file, "-": standard output; NULL: not given */
     bool again;             /* finished frames are rendered again */
     bool verbose, quiet;    /* not both */
+    bool tells_frames;      /* a line of progress for each frame */
     bool json;              /* of 'devices', 'tune' and 'compare' */
     bool schema;            /* of 'check' */
     HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,

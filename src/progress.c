@@ -81,7 +81,8 @@ void hd_progress_prepare(const HdProgress *progress, const char *what) {
 void hd_progress_update(HdProgress *progress, int done) {
     char line[128], bar[160];
     double now = hd_monotonic_seconds();
-    if (progress->form == HD_PROGRESS_NONE || !hd_wait_to_write(STDERR_FILENO))
+    bool redraws = progress->form == HD_PROGRESS_BAR || progress->form == HD_PROGRESS_LINES;
+    if (!redraws || !hd_wait_to_write(STDERR_FILENO))
         return;
     hd_progress_line(done, progress->total, now - progress->start_seconds, line);
     if (progress->form == HD_PROGRESS_BAR) {
@@ -92,6 +93,11 @@ void hd_progress_update(HdProgress *progress, int done) {
         fprintf(stderr, "%s\n", line);
         progress->line_seconds = now;
     }
+}
+
+void hd_progress_tell_frame(const HdProgress *progress, int number, int done) {
+    if (progress->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
+        fprintf(stderr, "hedron: frame %d stored, %d of %d\n", number, done, progress->total);
 }
 
 void hd_progress_end(const HdProgress *progress) {

@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Progress on standard error: a bar where that is a terminal, plain lines elsewhere. */
+/* Progress on standard error: a bar where that is a terminal, plain lines elsewhere; or a line for
+   each frame, which programs read. */
 #ifndef HD_PROGRESS_H
 #define HD_PROGRESS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef enum HdProgressForm { HD_PROGRESS_NONE, HD_PROGRESS_BAR, HD_PROGRESS_LINES } HdProgressForm;
+typedef enum HdProgressForm {
+    HD_PROGRESS_NONE,
+    HD_PROGRESS_BAR,
+    HD_PROGRESS_LINES, /* a line every few seconds */
+    HD_PROGRESS_FRAMES /* a line for each frame, and nothing else */
+} HdProgressForm;
 
 typedef struct HdProgress {
     HdProgressForm form;
@@ -27,6 +33,10 @@ void hd_progress_prepare(const HdProgress *progress, const char *what);
 /* After `done` frames, 0 included: redraws the bar, or writes a line, if the last one is long
  * enough ago. */
 void hd_progress_update(HdProgress *progress, int done);
+
+/* After frame `number` is stored, the `done`-th of this run: "hedron: frame 17 stored, 3 of 40" on
+   a line of its own, where there is a line for each frame. docs/farm.md promises its form. */
+void hd_progress_tell_frame(const HdProgress *progress, int number, int done);
 
 /* Takes the bar away, so that a message can be written. */
 void hd_progress_end(const HdProgress *progress);

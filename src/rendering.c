@@ -55,10 +55,11 @@ static void device_dropped(void *context, int number, const HdError *error) {
     pthread_mutex_unlock(&run->telling);
 }
 
-static void tell_progress(Run *run, int rendered) {
+static void tell_progress(Run *run, int number) {
     pthread_mutex_lock(&run->telling);
-    run->rendered = rendered;
-    hd_progress_update(&run->progress, rendered);
+    run->rendered++;
+    hd_progress_tell_frame(&run->progress, number, run->rendered);
+    hd_progress_update(&run->progress, run->rendered);
     pthread_mutex_unlock(&run->telling);
 }
 
@@ -80,7 +81,7 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
     if (status == HD_OK)
-        tell_progress(run, run->rendered + 1);
+        tell_progress(run, stored->number);
     return status;
 }
 
@@ -179,13 +180,18 @@ static HdStatus render_all(Run *run, HdError *error) {
     return status;
 }
 
+static HdProgressForm progress_form(const Run *run) {
+    if (run->options->tells_frames)
+        return HD_PROGRESS_FRAMES;
+    return run->options->quiet ? HD_PROGRESS_NONE
+                               : hd_progress_form(run->rendering->tells_progress);
+}
+
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdError ignored;
-    run->progress = hd_progress_start(
-        run->options->quiet ? HD_PROGRESS_NONE : hd_progress_form(rendering->tells_progress),
-        run->resume.missing.count);
+    run->progress = hd_progress_start(progress_form(run), run->resume.missing.count);
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);

@@ -27,7 +27,7 @@ rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipe
     --cutoff --aa --max-error --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
 classic="--gpu --cpu --default --variant ${rendering% }"
-render="--output --set --again --crop --reference ${rendering% }"
+render="--frame-lines --output --set --again --crop --reference ${rendering% }"
 
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"

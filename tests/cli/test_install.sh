@@ -18,6 +18,11 @@ if [[ ! -x $installed ]]; then
     fail "no program was installed"
     installed=$hedron
 fi
+for script in hedron-submit hedron-task hedron-report; do
+    if [[ ! -x ${installed%/*}/$script ]]; then
+        fail "there is no $script beside the program"
+    fi
+done
 if [[ -z $(find "$prefix" -type f -name LICENSE) ]]; then
     fail "no LICENSE was installed"
 fi

@@ -66,6 +66,22 @@ expect_silent_stderr
 rm -r out
 expect_refusal 1 "${render[@]}" --quiet --frames 0 -o /dev/null/x.png
 
+# ---- --frame-lines: a line for each frame, in their order, and no other progress
+frame_lines=$'hedron: frame 1 stored, 1 of 3\nhedron: frame 2 stored, 2 of 3\nhedron: frame 7 stored, 3 of 3'
+expect_exit 0 "${render[@]}" --quiet --frame-lines --frames 1-2,7 -o '%d.data'
+expect_stdout_lines 1 '%d\.data'
+if [[ $(<"$logs/stderr") != "$frame_lines" ]]; then
+    fail "standard error has other lines than those of the frames"
+    show_logs
+fi
+expect_exit 0 "${render[@]}" --frame-lines --frames 1-2,7 -o '%d.data'
+expect_note 'hedron: frame 7 stored, 3 of 3'
+if grep -q 'frames/s' "$logs/stderr"; then
+    fail "there is progress of two forms"
+    show_logs
+fi
+rm ./*.data
+
 # ---- --verbose: scene, outputs, device and the reason, what renders, what it was built for
 expect_exit 0 "${render[@]}" --verbose --frames 0-2 -o '%d.data' -o '%d.png'
 expect_stdout_lines 2
