@@ -9,6 +9,7 @@ from harness import charts, report
 TICKS = ((1, 2, 5), (1,))  # digits of the labels of a logarithmic axis: of few powers of ten, of many
 FEW_POWERS = 3
 BOUND = "#666666"
+MARKS = (7, 5, 9, 13, 11)
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,7 @@ class Line:
     colour: int
     dash: int = 1
     mark: int = 0
+    short: str = ""  # in sentences
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,13 @@ def is_wide(values):
     return bool(values) and charts.logarithmic(values)
 
 
-def lines(about, title, caption, x_axis, y_axis, drawn, bounds=()):
-    """(height, commands). `bounds` are (name, [(x, y)]) of what cannot be undercut."""
+def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""):
+    """(height, commands). `bounds` are lists of (x, y) that cannot be undercut."""
     drawn = [line for line in drawn if line.points]
-    rows = (len(drawn) + len(bounds) + charts.LEGEND_COLUMNS - 1) // charts.LEGEND_COLUMNS
+    rows = (len(drawn) + bool(bounds) + charts.LEGEND_COLUMNS - 1) // charts.LEGEND_COLUMNS
     xs = [x for line in drawn for x, _ in line.points]
     ys = [spread[key] for line in drawn for _, spread in line.points for key in ("median", "q1", "q3")]
-    shown = [y for _, points in bounds for _, y in points]
+    shown = [y for points in bounds for _, y in points]
     low, high = (min([*ys, *shown]), max([*ys, *shown])) if y_axis.logarithmic else (0, 1.1 * max([*ys, *shown]))
     pad = 0 if x_axis.logarithmic else max(0.04 * (max(xs) - min(xs)), 1e-6)
     commands = charts.style(about, title, caption, rows)
@@ -80,17 +82,17 @@ def lines(about, title, caption, x_axis, y_axis, drawn, bounds=()):
     commands += axis_commands("y", y_axis, low, high)
     commands.append(f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced samplen 3")
     plots = []
-    for place, (name, points) in enumerate(bounds):
+    for place, points in enumerate(bounds):
         commands += [f"$bound{place} << END", *(f"{x!r} {y!r}" for x, y in points), "END"]
         plots.append(f"$bound{place} using 1:2 with lines linewidth 2 dashtype 3 linecolor rgb '{BOUND}' "
-                     f"title {charts.quoted(name)}")
+                     + (f"title {charts.quoted(bound_name)}" if place == 0 else "notitle"))
     for place, line in enumerate(drawn):
         commands += [f"$line{place} << END", *(f"{x!r} {each['median']!r} {each['q1']!r} {each['q3']!r}"
                                                for x, each in line.points), "END"]
         look = f"linecolor rgb '{charts.colour(line.colour)}'"
-        plots += [f"$line{place} using 1:2 with linespoints linewidth 2 dashtype {line.dash} pointsize 1 "
-                  f"pointtype {(7, 5, 9, 13, 11)[line.mark % 5]} {look} title {charts.quoted(charts.plain(line.name, 68))}",
-                  f"$line{place} using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.5 {look} notitle"]
+        plots += [f"$line{place} using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.5 {look} notitle",
+                  f"$line{place} using 1:2 with linespoints linewidth 2 dashtype {line.dash} pointsize 1 "
+                  f"pointtype {MARKS[line.mark % len(MARKS)]} {look} title {charts.quoted(charts.plain(line.name, 60))}"]
     commands.append("plot " + ", ".join(plots))
     return 560 + 20 * rows, commands
 
@@ -128,7 +130,7 @@ def rows(about, title, caption, unit, drawn, legend=()):
     plots += [f"NaN with boxes linecolor rgb '{charts.colour(place)}' title {charts.quoted(name)}"
               for place, name in enumerate(legend)]
     commands.append("plot " + ", ".join(plots))
-    return 230 + 20 * key_rows + round(30 * -places[-1]), commands
+    return 310 + 20 * key_rows + round(34 * (1 - places[-1])), commands
 
 
 def row_places(drawn):
@@ -146,4 +148,6 @@ def ms(value):
 
 
 def spread_words(spread):
-    return f"{ms(spread['median'])} [{report.number(spread['q1'], 3)} .. {report.number(spread['q3'], 3)}]"
+    unit, name = (1, "ms") if spread["median"] < 1000 else (1000, "s")
+    first, middle, third = (report.number(spread[key] / unit, 3) for key in ("q1", "median", "q3"))
+    return f"{middle} {name} [{first} .. {third}]"

@@ -7,9 +7,9 @@ from harness import report
 
 STYLE = """body{font:16px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em;color:#222}
 h1,h2{line-height:1.2}h2{margin-top:2.2em;border-top:1px solid #ccc;padding-top:.8em}
-figure{margin:1em 0}svg{width:100%;height:auto;display:block}figcaption{color:#333;font-style:italic}
+figure{margin:1em 0}svg{width:100%;height:auto;display:block}
 table{border-collapse:collapse;font-size:14px;margin:1em 0}th,td{border:1px solid #ccc;padding:.2em .6em;text-align:left;
-vertical-align:top;overflow-wrap:anywhere}th{background:#f3f3f3}.wide{overflow-x:auto}.bad{background:#b00020;color:#fff;padding:.6em 1em}
+vertical-align:top;overflow-wrap:break-word}th{background:#f3f3f3}.wide{overflow-x:auto}.bad{background:#b00020;color:#fff;padding:.6em 1em}
 nav a{margin-right:1em;white-space:nowrap}summary{cursor:pointer;color:#0072B2}"""
 
 
@@ -39,8 +39,7 @@ def figure(name, caption, folder):
     if not file.is_file():
         return f"<p>{text(caption)}</p>"
     svg = inlined(name, file.read_text(encoding="utf-8"))
-    return (f"<figure id=\"{name}\" role=\"img\" aria-label=\"{text(caption)}\">\n{svg}\n"
-            f"<figcaption>{text(caption)}</figcaption></figure>")
+    return f"<figure id=\"{name}\" role=\"img\" aria-label=\"{text(caption)}\">\n{svg}\n</figure>"
 
 
 def machine_rows(results):

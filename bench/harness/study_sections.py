@@ -32,6 +32,14 @@ def ratio(value):
     return f"{report.number(value, 3)} times"
 
 
+def sentence(words):
+    return words[:1].upper() + words[1:]
+
+
+def speed_words(factor, than):
+    return f"{ratio(factor)} as fast as {than}" if factor >= 1 else f"{ratio(1 / factor)} as slow as {than}"
+
+
 def middle(entry):
     return entry["summary"]["trace_ms"]["median"]
 
@@ -52,8 +60,8 @@ def growth_words(drawn, what, words=number):
     for line in drawn:
         if len(line.points) > 1:
             x, first, last_x, last = growth(line)
-            told.append(f"{ratio(last / first)} as long on {line.name}" if told else
-                        f"From {words(x)} to {words(last_x)} {what} a frame takes {ratio(last / first)} as long on {line.name}")
+            told.append(f"{ratio(last / first)} as long on {line.short}" if told else
+                        f"From {words(x)} to {words(last_x)} {what} a frame takes {ratio(last / first)} as long on {line.short}")
     return "; ".join(told) + "." if told else "There is one point only."
 
 
@@ -63,7 +71,7 @@ def best_words(drawn, words=number):
     for line in drawn:
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
-        told.append(f"{words(x)} on {line.name} (the slowest takes {ratio(worst / spread['median'])} as long)")
+        told.append(f"{words(x)} on {line.short} (the slowest takes {ratio(worst / spread['median'])} as long)")
     return "; ".join(told)
 
 
@@ -95,13 +103,12 @@ def official(sources, section):
     drawn += [Row(device.name, official_spread(device), spread_words(official_spread(device)), device.place)
               for device in devices]
     fastest = official_spread(devices[0])["median"]
-    told = [f"{devices[0].short} takes {ms(fastest)} for a frame: {ratio(REPORT[name] / fastest)} as fast as {name}"
-            for name in REPORT][:1] + [f"{ratio(REPORT['the report' + chr(39) + 's GTX 1050'] / fastest)} as fast as its GTX 1050"]
-    caption = " and ".join(told)
+    cpu, gpu = REPORT
+    caption = (f"{devices[0].short} takes {ms(fastest)} for a frame, {speed_words(REPORT[cpu] / fastest, cpu)} and "
+               f"{speed_words(REPORT[gpu] / fastest, gpu)}")
     if len(devices) > 1:
         slowest = official_spread(devices[-1])["median"]
-        caption += (f"; {devices[-1].short}, the slowest, takes {ms(slowest)}, which is "
-                    f"{ratio(REPORT[next(iter(REPORT))] / slowest)} as fast as that CPU")
+        caption += (f"; {devices[-1].short}, the slowest, takes {ms(slowest)}, {speed_words(REPORT[cpu] / slowest, cpu)}")
     section.draw("official", rows, sources.about("official example, 640 x 480, 16 x 16 samples, depth 10"),
                  "Mean time of a frame", caption + ".", "milliseconds for each frame", drawn)
     section.table = table_of(sources, "official", lambda entry: f"frames {entry['frames']}", "what")
@@ -121,13 +128,13 @@ def by_frame(entry):
 
 
 def animation(sources, section):
-    drawn = [Line(device.name, by_frame(device.entries("animation")[0]), device.place, device.machine + 1, device.place)
-             for device in sources.with_part("animation")]
+    drawn = [Line(device.name, by_frame(device.entries("animation")[0]), device.place, device.machine + 1, device.place,
+                  device.short) for device in sources.with_part("animation")]
     times = [[spread["median"] for _, spread in line.points] for line in drawn]
     most = max(range(len(drawn)), key=lambda place: max(times[place]) / min(times[place]))
     slowest = max(drawn[most].points, key=lambda point: point[1]["median"])
     caption = (f"The slowest frame ({slowest[0]}) takes {ratio(max(times[most]) / min(times[most]))} as long as the fastest on "
-               f"{drawn[most].name}, where that differs most.")
+               f"{drawn[most].short}, where that differs most.")
     section.draw("animation", lines, sources.about(WHOLE_FRAME), "Time of tracing along the animation", caption,
                  Axis("frame number"), y_axis(drawn), drawn)
     section.table = table_of(sources, "animation", lambda entry: f"frames {entry['frames']}", "what")
@@ -154,7 +161,7 @@ def triangles(sources, section):
     for device in sources.with_part("triangles"):
         trees.append(device.line("triangles", f"{device.name}, hierarchy", series="bvh"))
         brute = device.line("triangles", f"{device.name}, each triangle tried", series="brute")
-        drawn += [trees[-1], Line(brute.name, brute.points, brute.colour, 4, brute.mark)]
+        drawn += [trees[-1], Line(brute.name, brute.points, brute.colour, 4, brute.mark, brute.short)]
     counts = {triangle_models.words(10 ** power): 10 ** power for power in range(1, 8)}
     caption = growth_words(trees, "triangles", lambda x: triangle_models.words(int(x)))
     caption += " The hierarchy is the faster one " + "; ".join(
@@ -165,12 +172,12 @@ def triangles(sources, section):
     section.table = table_of(sources, "triangles", lambda entry: f"{entry['x']:g}, {entry['series']}", "triangles")
 
 
-def sweep(sources, section, part, title, x_axis, scene=WHOLE_FRAME, what=None, bound=None):
+def sweep(sources, section, part, title, x_axis, scene=WHOLE_FRAME, what=None, **named):
     """A line for each device."""
     drawn = [device.line(part) for device in sources.with_part(part)]
     logarithmic = Axis("milliseconds for each frame", x_axis.logarithmic) if x_axis.logarithmic else y_axis(drawn)
     section.draw(part, lines, sources.about(scene), title, growth_words(drawn, what or x_axis.words), x_axis,
-                 logarithmic, drawn, bounds=bound(drawn) if bound else ())
+                 logarithmic, drawn, **named)
     section.table = table_of(sources, part, lambda entry: f"{entry['x']:g}", x_axis.words)
 
 
@@ -186,7 +193,7 @@ def lights(sources, section):
 
 def samples(sources, section):
     def squared(line):
-        return Line(line.name, [(x * x, spread) for x, spread in line.points], line.colour, line.dash, line.mark)
+        return Line(line.name, [(x * x, spread) for x, spread in line.points], line.colour, line.dash, line.mark, line.short)
     drawn = [squared(device.line("samples")) for device in sources.with_part("samples")]
     base = min(drawn, key=lambda line: line.points[0][1]["median"])
     x, first = base.points[0][0], base.points[0][1]["median"]
@@ -195,7 +202,7 @@ def samples(sources, section):
                  growth_words(drawn, "samples per pixel"),
                  Axis("samples per pixel", True, {number(x * x): x * x for x in sorted({entry['x'] for entry in sources.measured('samples')})}),
                  Axis("milliseconds for each frame", True), drawn,
-                 bounds=[("in proportion to the samples", [(x, first), (last, first * last / x)])] if last > x else ())
+                 bounds=[[(x, first), (last, first * last / x)]] if last > x else (), bound_name="in proportion to the samples")
     section.table = table_of(sources, "samples", lambda entry: f"{entry['x'] ** 2:g}", "samples per pixel")
 
 
@@ -209,9 +216,8 @@ def ideal(drawn):
     bounds = []
     for line in drawn:
         x, first = line.points[0][0], line.points[0][1]["median"]
-        bounds.append((f"bound: in proportion, {line.name}",
-                       [(each, first * x / each) for each, _ in line.points]))
-    return [bound for bound in bounds if len(bound[1]) > 1]
+        bounds.append([(each, first * x / each) for each, _ in line.points])
+    return [bound for bound in bounds if len(bound) > 1]
 
 
 def sets_words(sources):
@@ -230,22 +236,25 @@ def lanes(sources, section):
     section.draw("lanes", lines, sources.about(WHOLE_FRAME), "Time against rays traced together",
                  f"The fastest: {best_words(drawn, lambda x: f'{x:g} lanes')}.",
                  Axis("lanes", True, ticks_of(sources, "lanes")), Axis("milliseconds for each frame", True), drawn,
-                 bounds=ideal(drawn))
+                 bounds=ideal(drawn), bound_name="bound: in proportion to one")
     section.notes.append(sets_words(sources))
     section.table = table_of(sources, "lanes", lambda entry: f"{entry['x']:g}", "lanes")
 
 
+def threads_words(line):
+    x, first, last_x, last = growth(line)
+    if last_x == x:
+        return f"{line.short} has one core"
+    return f"{last_x:g} threads are {speed_words(first / last, f'{x:g}')} on {line.short}"
+
+
 def threads(sources, section):
     drawn = [device.line("threads") for device in sources.with_part("threads")]
-    told = []
-    for line in drawn:
-        x, first, last_x, last = growth(line)
-        told.append(f"{last_x:g} threads are {ratio(first / last)} as fast as {x:g} on {line.name}" if last_x > x else
-                    f"there is one core on {line.name}")
+    told = [threads_words(line) for line in drawn]
     section.draw("threads", lines, sources.about(WHOLE_FRAME), "Time against threads of the C backend",
-                 ("; ".join(told) + ".").capitalize() if told[0][0].isalpha() else "; ".join(told) + ".",
+                 "; ".join(told) + ".",
                  Axis("threads", True, ticks_of(sources, "threads")), Axis("milliseconds for each frame", True), drawn,
-                 bounds=ideal(drawn))
+                 bounds=ideal(drawn), bound_name="bound: in proportion to one")
     section.table = table_of(sources, "threads", lambda entry: f"{entry['x']:g}", "threads")
 
 
@@ -261,10 +270,10 @@ def one_thread(sources, section):
     fastest, entry = found[-1]
     caption = f"{fastest.short} traces a frame in {ms(middle(entry))}"
     if base:
-        caption += f", {ratio(middle(base) / middle(entry))} as fast as one thread of the C backend"
+        caption += f", {speed_words(middle(base) / middle(entry), 'one thread of the C backend')}"
         plain = next((each for device, each in found if each["series"] == ONE_LANE and each["device"] == base["device"]), None)
         if plain:
-            caption += f", which is {ratio(middle(plain) / middle(base))} as fast as one thread that traces ray by ray"
+            caption += f", which is {speed_words(middle(plain) / middle(base), 'one thread that traces ray by ray')}"
     size = f"{int(entry['options'][1])} x {int(entry['options'][1])}"
     section.draw("one_thread", rows, sources.about(f"official example, 640 x 480, {size} samples, depth 10"),
                  "One thread against everything else", caption + ". The factors at the bars are against one thread.",
@@ -306,7 +315,7 @@ def arithmetic(sources, section):
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]
         if others:
             told.append(f"on {device.short} {' and '.join(others)}")
-    caption = ("; ".join(told) + ", all against strict arithmetic in float.").capitalize() if told else "Too little was measured to compare."
+    caption = sentence("; ".join(told) + ", all against strict arithmetic in float.") if told else "Too little was measured to compare."
     section.draw("arithmetic", rows, sources.about(WHOLE_FRAME), "Strict and fast, float and double", caption,
                  "milliseconds for each frame", drawn, [f"{precision}, {math}" for precision, math in ARITHMETIC])
     section.table = table_of(sources, "arithmetic", lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]), "what")
@@ -348,7 +357,7 @@ def stages(sources, section):
             longest = max(found, key=lambda name: found[name]["median"])
             told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")
     section.draw("stages", rows, sources.about("one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples"),
-                 "Start-up and stages of a run of one frame", ("; ".join(told) + ".").capitalize(), "milliseconds", drawn)
+                 "Start-up and stages of a run of one frame", sentence("; ".join(told) + "."), "milliseconds", drawn)
     section.table = table_of(sources, "stages", lambda entry: entry["series"], "what")
 
 

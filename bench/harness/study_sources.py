@@ -37,7 +37,7 @@ class Device:
     def line(self, part, name=None, scale_x=1, **wanted):
         """Time against what the part varies."""
         points = sorted((each["x"] * scale_x, each["summary"]["trace_ms"]) for each in self.entries(part, **wanted))
-        return Line(name or self.name, points, self.place, self.machine + 1, self.place)
+        return Line(name or self.name, points, self.place, self.machine + 1, self.place, self.short)
 
 
 class Sources:
