@@ -84,8 +84,8 @@ class KeptPoints(Points):
 
 
 def empty_memory():
-    return {"truth": None, "truth_sha256": None, "runs": {}, "errors": {}, "rejected": 0, "points": [], "equal_error": [],
-            "not_tried": [], "not_finite": 0, "failures": []}
+    return {"size": None, "truth": None, "truth_sha256": None, "runs": {}, "errors": {}, "rejected": 0, "points": [],
+            "equal_error": [], "not_tried": [], "not_finite": 0, "failures": []}
 
 
 def measure_group(memory, size, devices, judge, program, out, folder, arguments, save, news):
@@ -100,6 +100,7 @@ def measure_group(memory, size, devices, judge, program, out, folder, arguments,
 
 
 def fill(memory, points, devices, plan):
+    memory["size"] = list(points.truth.size)
     memory["points"] = points.points()
     memory["equal_error"] = [{"device": label, "rmse": error, "ratio": ratio} for label in devices
                              for error, ratio in accuracy_points.equal_error(memory["points"], label)]

@@ -92,7 +92,7 @@ def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""
         look = f"linecolor rgb '{charts.colour(line.colour)}'"
         plots += [f"$line{place} using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.5 {look} notitle",
                   f"$line{place} using 1:2 with linespoints linewidth 2 dashtype {line.dash} pointsize 1 "
-                  f"pointtype {MARKS[line.mark % len(MARKS)]} {look} title {charts.quoted(charts.plain(line.name, 60))}"]
+                  f"pointtype {MARKS[line.mark % len(MARKS)]} {look} title {charts.quoted(charts.plain(line.name, 56))}"]
     commands.append("plot " + ", ".join(plots))
     return 560 + 20 * rows, commands
 
@@ -104,7 +104,7 @@ def rows(about, title, caption, unit, drawn, legend=()):
     values += [row.bound for row in drawn if row.bound]
     wide = is_wide([value for value in values if value > 0])
     start = min(value for value in values if value > 0) / 2 if wide else 0
-    end = max(values) * (max(values) / start) ** 0.45 if wide else max(max(values) * 1.5, 1e-9)
+    end = max(values) * min((max(values) / start) ** 0.45, 60) if wide else max(max(values) * 1.5, 1e-9)
     key_rows = (len(legend) + 3) // 4 + any(row.bound for row in drawn)
     commands = charts.style(about, title, caption, key_rows)
     places = row_places(drawn)

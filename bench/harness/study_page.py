@@ -95,7 +95,7 @@ def section_words(section, folder):
 
 
 def page(results, sections, failures, pictures, folder):
-    links = "".join(f"<a href=\"#{section.part}\">{text(section.title)}</a>" for section in sections)
+    links = "\n".join(f"<a href=\"#{section.part}\">{text(section.title)}</a>" for section in sections)
     words = ["<!DOCTYPE html>", "<html lang=\"en\"><head><meta charset=\"utf-8\">",
              "<meta name=\"viewport\" content=\"width=device-width\"><title>hedron: a study of speed</title>",
              f"<style>{STYLE}</style></head><body>", *head(results, failures, pictures), f"<nav>{links}</nav>"]

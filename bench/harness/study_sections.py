@@ -153,19 +153,19 @@ def crossing_words(device):
     trees = {x: spread["median"] for x, spread in device.line("triangles", series="bvh").points}
     brute = device.line("triangles", series="brute").points
     slower = [x for x, spread in brute if x in trees and spread["median"] > trees[x]]
-    return f"from {triangle_models.words(int(min(slower)))} on" if slower else "nowhere that was measured"
+    where = f"from {triangle_models.words(int(min(slower)))} triangles on" if slower else "nowhere that was measured"
+    return f"on {device.short} {where}"
 
 
 def triangles(sources, section):
     drawn, trees = [], []
     for device in sources.with_part("triangles"):
-        trees.append(device.line("triangles", f"{device.name}, hierarchy", series="bvh"))
-        brute = device.line("triangles", f"{device.name}, each triangle tried", series="brute")
+        trees.append(device.line("triangles", f"{device.short}, hierarchy", series="bvh"))
+        brute = device.line("triangles", f"{device.short}, each triangle tried", series="brute")
         drawn += [trees[-1], Line(brute.name, brute.points, brute.colour, 4, brute.mark, brute.short)]
     counts = {triangle_models.words(10 ** power): 10 ** power for power in range(1, 8)}
     caption = growth_words(trees, "triangles", lambda x: triangle_models.words(int(x)))
-    caption += " The hierarchy is the faster one " + "; ".join(
-        f"{crossing_words(device)} on {device.short}" for device in sources.with_part("triangles")) + "."
+    caption += " The hierarchy is the faster one " + "; ".join(map(crossing_words, sources.with_part("triangles"))) + "."
     section.draw("triangles", lines, sources.about("mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples"),
                  "Time against the number of triangles", caption, Axis("triangles", True, counts),
                  Axis("milliseconds for each frame", True), drawn)

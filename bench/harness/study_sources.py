@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from harness import charts, study_state
 from harness.study_charts import Line
 
-NAME_LENGTH = 30
+NAME_LENGTH, MACHINE_LENGTH = 28, 24
 
 
 @dataclass(frozen=True)
@@ -22,14 +22,18 @@ class Device:
         return self.entry["label"]
 
     @property
+    def machine_name(self):
+        return charts.plain(self.result["machine"]["name"], MACHINE_LENGTH)
+
+    @property
     def short(self):
-        return self.label + (f", {charts.plain(self.result['machine']['name'], NAME_LENGTH)}" if self.several else "")
+        return f"{self.label} ({self.machine_name})" if self.several else self.label
 
     @property
     def name(self):
         """Of the machine too, where there are several."""
         own = f"{self.label} {charts.device_name(self.entry)}"
-        return own + (f" ({charts.plain(self.result['machine']['name'], NAME_LENGTH)})" if self.several else "")
+        return f"{charts.plain(own, NAME_LENGTH)}, {self.machine_name}" if self.several else own
 
     def entries(self, part, **wanted):
         return study_state.of_part(self.result, part, device=self.label, **wanted)

@@ -6,7 +6,7 @@ import hashlib
 import json
 from statistics import mean
 
-from harness import machine, report, study_watch, summary
+from harness import machine, report, summary
 from harness.program import Problem
 from harness.study_points import PARTS
 
@@ -29,8 +29,8 @@ def begin(program, arguments, devices):
         "repeats": arguments.repeats,
         "hedron": {"version": program.version, "options": arguments.options,
                    "sha256": hashlib.sha256(program.path.read_bytes()).hexdigest()},
-        "machine": {"name": arguments.machine or place["cpu"], **place},
-        "interference_limit": study_watch.LIMIT,
+        "machine": {"name": arguments.machine, **place},
+        "interference_limit": arguments.others / 100,
         "devices": devices,
         "parts": [],
         "done": [],
@@ -114,7 +114,8 @@ def merge(old, new, points, parts):
         entries += [entry for entry in old["measurements"] if entry["part"] not in parts]
         for key in ("date", "accuracy", "stability"):
             new[key] = old[key]
-        new["machine"] = {**old["machine"], "name": new["machine"]["name"]}
+        new["machine"] = {**old["machine"], "name": new["machine"]["name"] or old["machine"]["name"]}
+    new["machine"]["name"] = new["machine"]["name"] or new["machine"]["cpu"]
     before = old or {"parts": [], "done": [], "left_out": {}}
     new["parts"] = [part for part in ALL_PARTS if part in parts or part in before["parts"]]
     new["done"] = [part for part in before["done"] if part not in parts]
