@@ -2,6 +2,7 @@
 """The two kinds of charts that bench/study adds to the others, in the same style: lines with quartiles, and rows of
 medians with quartiles."""
 import math
+import textwrap
 from dataclasses import dataclass, field
 
 from harness import charts, report
@@ -64,6 +65,10 @@ def axis_commands(name, axis, low, high):
     return [*commands, f"set {name}label {charts.quoted(words)}", f"set {name}range [{low!r}:{high!r}]"]
 
 
+def caption_height(caption):
+    return 23 * len(textwrap.wrap(caption, charts.CAPTION_LENGTH))
+
+
 def is_wide(values):
     return bool(values) and charts.logarithmic(values)
 
@@ -94,26 +99,25 @@ def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""
                   f"$line{place} using 1:2 with linespoints linewidth 2 dashtype {line.dash} pointsize 1 "
                   f"pointtype {MARKS[line.mark % len(MARKS)]} {look} title {charts.quoted(charts.plain(line.name, 56))}"]
     commands.append("plot " + ", ".join(plots))
-    return 560 + 20 * rows, commands
+    return 515 + 24 * rows + caption_height(caption), commands
 
 
-def rows(about, title, caption, unit, drawn, legend=()):
-    """(height, commands): a bar for each row, with whiskers to the quartiles, and a mark at its bound. `legend` names
-    colours."""
+def rows(about, title, caption, unit, drawn, bound_name=""):
+    """(height, commands): a bar for each row, with whiskers to the quartiles, and a mark at its bound."""
     values = [row.spread[key] for row in drawn for key in ("median", "q1", "q3")]
     values += [row.bound for row in drawn if row.bound]
     wide = is_wide([value for value in values if value > 0])
     start = min(value for value in values if value > 0) / 2 if wide else 0
     end = max(values) * min((max(values) / start) ** 0.45, 60) if wide else max(max(values) * 1.5, 1e-9)
-    key_rows = (len(legend) + 3) // 4 + any(row.bound for row in drawn)
-    commands = charts.style(about, title, caption, key_rows)
+    bounded = any(row.bound for row in drawn)
+    commands = charts.style(about, title, caption, int(bounded))
     places = row_places(drawn)
     ticks = ", ".join(f"{charts.quoted(charts.plain(row.name, 62).replace('%', '%%'))} {place!r}"
                       for row, place in zip(drawn, places))
     commands += axis_commands("x", Axis(unit, wide), (start or 0) * 1.4, end / 1.4) if wide else [
         f"set xlabel {charts.quoted(unit)}", f"set xrange [0:{end!r}]"]
     commands += [f"set yrange [{places[-1] - 0.7!r}:0.7]", f"set ytics ({ticks}) noenhanced", "set grid noytics",
-                 "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced" if key_rows else "unset key",
+                 "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced" if bounded else "unset key",
                  "$data << END"]
     commands += [f"{place!r} {max(row.spread['median'], start)!r} {max(row.spread['q1'], start)!r} {row.spread['q3']!r} "
                  f"{int(charts.colour(row.colour)[1:], 16)}" for row, place in zip(drawn, places)]
@@ -124,13 +128,11 @@ def rows(about, title, caption, unit, drawn, legend=()):
     plots = [f"$data using (($2+{start!r})/2):1:({start!r}):2:($1-0.36):($1+0.36):5 with boxxyerror linecolor rgb variable notitle",
              "$data using 2:1:3:4 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#222222' notitle",
              "$words using 1:2:3 with labels left offset 0.8, 0 noenhanced notitle"]
-    if any(row.bound for row in drawn):
-        plots.append(f"$bounds using 1:2 with points pointtype 2 pointsize 1.6 linewidth 2.5 linecolor rgb '{charts.COLOURS[1]}' "
-                     "title 'bound: the arithmetic peak'")
-    plots += [f"NaN with boxes linecolor rgb '{charts.colour(place)}' title {charts.quoted(name)}"
-              for place, name in enumerate(legend)]
+    if bounded:
+        plots.append(f"$bounds using 1:2 with points pointtype 2 pointsize 1.6 linewidth 2.5 linecolor rgb '#000000' "
+                     f"title {charts.quoted(bound_name)}")
     commands.append("plot " + ", ".join(plots))
-    return 310 + 20 * key_rows + round(34 * (1 - places[-1])), commands
+    return 265 + 24 * bounded + caption_height(caption) + round(34 * (1 - places[-1])), commands
 
 
 def row_places(drawn):

@@ -160,8 +160,8 @@ class Points:
 
     def stages(self):
         """A run of one frame, with all that comes before and after."""
-        for label, _ in self.every():
-            for cold, series in ((True, COLD), (False, WARM)):
+        for label, device in self.every():
+            for cold, series in ((True, COLD), (False, WARM))[device["backend"] == "c":]:  # C is compiled ahead
                 self.add("stages", series, 0, label, DEFAULT, ("--size", "640x360"), frames="0", output="#######.png",
                          warm_up=False, cold=cold)
 

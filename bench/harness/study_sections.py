@@ -3,12 +3,13 @@
 from dataclasses import dataclass, field
 from statistics import median
 
-from harness import charts, report, study_points, study_state, triangle_models
+from harness import report, study_bounds, study_points, study_state, triangle_models
 from harness.study_charts import Axis, Line, Row, is_wide, lines, ms, number, rows, spread_words
 from harness.study_points import ALL, ARITHMETIC, COLD, ONE_LANE, ONE_THREAD, PIPELINES, WARM, WHOLE_FRAME
 
 REPORT = {"the report's CPU": 84.5e3, "the report's GTX 1050": 1.10e3}  # milliseconds of a frame of the same scene
 REPORT_COLOUR = 6
+MOST_CLAUSES = 4
 PARTS_OF_A_RUN = ("program and device start", "kernels built", "scene and kernels to the device", "prepare", "trace",
                   "read back", "convert and encode PNG")
 
@@ -54,6 +55,12 @@ def growth(line):
     return x, first["median"], last_x, last["median"]
 
 
+def few(told):
+    """As many clauses as a sentence can have."""
+    more = len(told) - MOST_CLAUSES
+    return "; ".join(told[:MOST_CLAUSES]) + (f"; and {more} more in the figures below" if more > 0 else "")
+
+
 def growth_words(drawn, what, words=number):
     """How each line grows from end to end."""
     told = []
@@ -62,7 +69,7 @@ def growth_words(drawn, what, words=number):
             x, first, last_x, last = growth(line)
             told.append(f"{ratio(last / first)} as long on {line.short}" if told else
                         f"From {words(x)} to {words(last_x)} {what} a frame takes {ratio(last / first)} as long on {line.short}")
-    return "; ".join(told) + "." if told else "There is one point only."
+    return few(told) + "." if told else "There is one point only."
 
 
 def best_words(drawn, words=number):
@@ -72,7 +79,7 @@ def best_words(drawn, words=number):
         x, spread = min(line.points, key=lambda point: point[1]["median"])
         worst = max(each["median"] for _, each in line.points)
         told.append(f"{words(x)} on {line.short} (the slowest takes {ratio(worst / spread['median'])} as long)")
-    return "; ".join(told)
+    return few(told)
 
 
 def table_of(sources, part, name, what):
@@ -100,8 +107,8 @@ def official(sources, section):
     devices = sorted(sources.with_part("official"), key=lambda device: official_spread(device)["median"])
     drawn = [Row(name, {key: value for key in ("median", "q1", "q3")}, ms(value), REPORT_COLOUR, group="report")
              for name, value in REPORT.items()]
-    drawn += [Row(device.name, official_spread(device), spread_words(official_spread(device)), device.place)
-              for device in devices]
+    drawn += [Row(device.name, official_spread(device), spread_words(official_spread(device)), device.place,
+                  bound_of(device, device.entries("official")[0])) for device in devices]
     fastest = official_spread(devices[0])["median"]
     cpu, gpu = REPORT
     caption = (f"{devices[0].short} takes {ms(fastest)} for a frame, {speed_words(REPORT[cpu] / fastest, cpu)} and "
@@ -110,8 +117,12 @@ def official(sources, section):
         slowest = official_spread(devices[-1])["median"]
         caption += (f"; {devices[-1].short}, the slowest, takes {ms(slowest)}, {speed_words(REPORT[cpu] / slowest, cpu)}")
     section.draw("official", rows, sources.about("official example, 640 x 480, 16 x 16 samples, depth 10"),
-                 "Mean time of a frame", caption + ".", "milliseconds for each frame", drawn)
+                 "Mean time of a frame", caption + ".", "milliseconds for each frame", drawn, study_bounds.NAME)
     section.table = table_of(sources, "official", lambda entry: f"frames {entry['frames']}", "what")
+
+
+def bound_of(device, entry):
+    return study_bounds.milliseconds(device.result, device.entry, entry)
 
 
 def official_spread(device):
@@ -165,7 +176,7 @@ def triangles(sources, section):
         drawn += [trees[-1], Line(brute.name, brute.points, brute.colour, 4, brute.mark, brute.short)]
     counts = {triangle_models.words(10 ** power): 10 ** power for power in range(1, 8)}
     caption = growth_words(trees, "triangles", lambda x: triangle_models.words(int(x)))
-    caption += " The hierarchy is the faster one " + "; ".join(map(crossing_words, sources.with_part("triangles"))) + "."
+    caption += " The hierarchy is the faster one " + few(list(map(crossing_words, sources.with_part("triangles")))) + "."
     section.draw("triangles", lines, sources.about("mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples"),
                  "Time against the number of triangles", caption, Axis("triangles", True, counts),
                  Axis("milliseconds for each frame", True), drawn)
@@ -252,7 +263,7 @@ def threads(sources, section):
     drawn = [device.line("threads") for device in sources.with_part("threads")]
     told = [threads_words(line) for line in drawn]
     section.draw("threads", lines, sources.about(WHOLE_FRAME), "Time against threads of the C backend",
-                 "; ".join(told) + ".",
+                 few(told) + ".",
                  Axis("threads", True, ticks_of(sources, "threads")), Axis("milliseconds for each frame", True), drawn,
                  bounds=ideal(drawn), bound_name="bound: in proportion to one")
     section.table = table_of(sources, "threads", lambda entry: f"{entry['x']:g}", "threads")
@@ -265,8 +276,9 @@ def one_thread(sources, section):
     drawn = []
     for device, entry in found:
         against = f", {report.number(middle(base) / middle(entry), 3)} x" if base else ""
-        drawn.append(Row(f"{device.name}, {entry['series']}" if entry["series"] != ALL else device.name,
-                         entry["summary"]["trace_ms"], ms(middle(entry)) + against, device.place))
+        bound = bound_of(device, entry) if entry["series"] == ALL else None
+        drawn.append(Row(f"{device.short}, {entry['series']}" if entry["series"] != ALL else device.name,
+                         entry["summary"]["trace_ms"], ms(middle(entry)) + against, device.place, bound))
     fastest, entry = found[-1]
     caption = f"{fastest.short} traces a frame in {ms(middle(entry))}"
     if base:
@@ -277,7 +289,7 @@ def one_thread(sources, section):
     size = f"{int(entry['options'][1])} x {int(entry['options'][1])}"
     section.draw("one_thread", rows, sources.about(f"official example, 640 x 480, {size} samples, depth 10"),
                  "One thread against everything else", caption + ". The factors at the bars are against one thread.",
-                 "milliseconds for each frame", drawn)
+                 "milliseconds for each frame", drawn, study_bounds.NAME)
     section.table = table_of(sources, "one_thread", lambda entry: entry["series"], "what")
 
 
@@ -299,7 +311,7 @@ def pipelines(sources, section):
         caption = (f"The wavefront does best on {best[2]}, where it takes {ratio(best[0])} the megakernel's time; closing up the "
                    f"live rays helps most on {compacted[2]}: without it the wavefront takes {ratio(compacted[1])} as long.")
     section.draw("pipelines", rows, sources.about("built-in scene and official example"), "Megakernel and wavefront", caption,
-                 "milliseconds for each frame", drawn, PIPELINES)
+                 "milliseconds for each frame", drawn)
     section.table = table_of(sources, "pipelines", lambda entry: f"{entry['series']}, {PIPELINES[int(entry['x'])]}", "what")
 
 
@@ -315,9 +327,9 @@ def arithmetic(sources, section):
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]
         if others:
             told.append(f"on {device.short} {' and '.join(others)}")
-    caption = sentence("; ".join(told) + ", all against strict arithmetic in float.") if told else "Too little was measured to compare."
+    caption = sentence(few(told) + ", all against strict arithmetic in float.") if told else "Too little was measured to compare."
     section.draw("arithmetic", rows, sources.about(WHOLE_FRAME), "Strict and fast, float and double", caption,
-                 "milliseconds for each frame", drawn, [f"{precision}, {math}" for precision, math in ARITHMETIC])
+                 "milliseconds for each frame", drawn)
     section.table = table_of(sources, "arithmetic", lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]), "what")
 
 
@@ -357,7 +369,7 @@ def stages(sources, section):
             longest = max(found, key=lambda name: found[name]["median"])
             told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")
     section.draw("stages", rows, sources.about("one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples"),
-                 "Start-up and stages of a run of one frame", sentence("; ".join(told) + "."), "milliseconds", drawn)
+                 "Start-up and stages of a run of one frame", sentence(few(told) + "."), "milliseconds", drawn)
     section.table = table_of(sources, "stages", lambda entry: entry["series"], "what")
 
 
@@ -377,7 +389,8 @@ SECTIONS = {
                    "lanes, and by every device with all it has."),
     "pipelines": (pipelines, "Megakernel and wavefront", "--pipeline mega, wavefront, and wavefront-uncompacted, which keeps dead rays."),
     "arithmetic": (arithmetic, "Arithmetic", "--math strict and fast, --precision float and double."),
-    "stages": (stages, "Start-up and stages", "Whole runs of one frame. What a run takes longer with empty caches is the building of kernels."),
+    "stages": (stages, "Start-up and stages", "Whole runs of one frame. What a run takes longer with empty caches is the building of kernels; "
+               "those of the C backend are compiled ahead."),
 }
 
 

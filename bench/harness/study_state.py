@@ -10,9 +10,11 @@ from harness import machine, report, summary
 from harness.program import Problem
 from harness.study_points import PARTS
 
-UNITS = ("accuracy", "stability")  # parts that other benches measure
+UNITS = ("bounds", "accuracy", "stability")  # parts that are no frames, measured as other benches do
 ALL_PARTS = (*PARTS, *UNITS)
 FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing", "renderer")
+KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "measurements", "bounds",
+        "accuracy", "stability")
 SAME = ("bench", "quick")  # what must be alike for a study to go on
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
@@ -36,6 +38,7 @@ def begin(program, arguments, devices):
         "done": [],
         "left_out": {},
         "measurements": [],
+        "bounds": None,
         "accuracy": None,
         "stability": None,
         "pictures": None,
@@ -60,6 +63,9 @@ def check(file, result):
         raise Problem(2, f"{file} is not what bench/study writes")
     if result.get("hedron_bench") != report.VERSION:
         raise Problem(2, f"{file} has version {result.get('hedron_bench')} of the format, expected {report.VERSION}")
+    missing = [key for key in KEYS if key not in result]
+    if missing:
+        raise Problem(2, f"{file} is damaged: it has no {', '.join(missing)}")
     try:
         summarize(result)
     except (KeyError, TypeError, IndexError, AttributeError, ValueError) as error:
@@ -112,7 +118,7 @@ def merge(old, new, points, parts):
         known = {identity(entry): entry for entry in old["measurements"]}
         entries = [known.get(identity(entry), entry) for entry in entries]
         entries += [entry for entry in old["measurements"] if entry["part"] not in parts]
-        for key in ("date", "accuracy", "stability"):
+        for key in ("date", "bounds", "accuracy", "stability"):
             new[key] = old[key]
         new["machine"] = {**old["machine"], "name": new["machine"]["name"] or old["machine"]["name"]}
     new["machine"]["name"] = new["machine"]["name"] or new["machine"]["cpu"]

@@ -329,6 +329,15 @@ True 6 6 [[[0, 0.5], [0.5, 0.7]], [[0, 0.6], []]]
 True 6 6 [[[0.5, 0.5], [0.5]], [[0.5, 0.5], [0.5]]]
 [(3000.0, True), (4000.0, True)]' "$(cat noise.py)"
 
+# ---- the bound: shadow tests by operations, over the peak of all cores or of a GPU's lanes
+expect_python '[20.0, 4.0, None, None]' 'from harness import study_bounds as b' \
+    'cpu, gpu = {"is_cpu": True, "name": "c"}, {"is_cpu": False, "name": "g", "driver": "sm_90", "compute_units": 2, "clock_mhz": 1000}' \
+    'odd = {**gpu, "driver": "?"}' \
+    'bounds = {"instructions_per_core_second": 1e9, "lanes": 4, "operations_per_test": 80, "operations_per_test_one_lane": 512}' \
+    'r = {"bounds": bounds, "devices": [cpu], "machine": {"cores": 2}}' \
+    'entry = {"scale": 4, "runs": [{"noisy": False, "frames": [{"warm_up": False, "shadow_tests": n} for n in (0, 2000000)]}]}' \
+    'print([b.milliseconds(r, cpu, entry), b.milliseconds(r, gpu, entry), b.milliseconds(r, odd, entry), b.milliseconds({**r, "bounds": None}, cpu, entry)])'
+
 # ---- error against time goes on where it was: with the same points, and nothing measured again
 cat >accuracy.py <<'PYTHON'
 import json
