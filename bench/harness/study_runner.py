@@ -2,7 +2,7 @@
 """Measures the points of bench/study in turns, and again what was disturbed."""
 import tempfile
 from pathlib import Path
-from statistics import mean, median
+from statistics import median
 
 from harness import study_state
 from harness.program import Interrupted, Problem
@@ -113,10 +113,10 @@ class Runner:
 
     def seconds_left(self, now):
         """By what runs took so far; None: nothing is known yet."""
-        walls = {id(entry): median(run["wall"] for run in entry["runs"]) for entry in self.entries if entry["runs"]}
+        walls = {id(entry): min(run["wall"] for run in entry["runs"]) for entry in self.entries if entry["runs"]}
         if not walls:
             return None
-        usual = mean(walls.values())
+        usual = median(walls.values())
         return sum(walls.get(id(entry), usual) for entry in self.entries for repeat in range(now, self.repeats)
                    if self.is_wanted(entry, repeat))
 

@@ -386,7 +386,7 @@ expect_python "4 True True [2, 2, 2, 2] []
 True True True" "$(sed "s|PATH|'$hedron'|" accuracy.py)"
 
 # ---- the program itself
-expect_exit 0 "${no_nvidia[@]}" timeout 500 "$bench" --hedron "$hedron" --out real --results none --device c --quick --repeats 1 \
+expect_exit 0 "${no_nvidia[@]}" timeout 800 "$bench" --hedron "$hedron" --out real --results none --device c --quick --repeats 1 \
     --parts threads,stages
 expect_value real/study.json '[r["complete"], r["failures"], all(e["summary"]["trace_ms"]["median"] > 0 for e in r["measurements"]), m["threads", "", 1, "c:0"]["renderer"].count(", 1 thread")]' \
     '[true, [], true, 1]'
