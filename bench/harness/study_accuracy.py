@@ -10,6 +10,7 @@ from harness.speed_plan import Plan
 
 AGAIN = 2  # times that a disturbed run is done again, at most
 MOST_REJECTED = 40  # in all
+ROUNDS = {True: 1, False: 3}  # at most
 SIZES = {"cpu": {True: (48, 36), False: (64, 48)}, "gpu": {True: (320, 180), False: (640, 360)}}
 
 
@@ -94,7 +95,7 @@ def measure_group(memory, size, devices, judge, program, out, folder, arguments,
     plan = Plan(devices, {accuracy_points.SCENE: None})
     points = KeptPoints(memory, lambda: (fill(memory, points, devices, plan), save()), plan, devices, truth, size,
                         arguments.options, arguments.quick, folder)
-    points.measure(program, arguments.repeats, news)
+    points.measure(program, min(arguments.repeats, ROUNDS[arguments.quick]), news)
     fill(memory, points, devices, plan)
     save()
 

@@ -16,7 +16,7 @@ WHOLE_FRAME = "one frame of the built-in scene, 1280 x 720, 2 x 2 samples"
 OFFICIAL_FRAMES = ",".join(map(str, range(0, 1024, 128)))
 ANIMATION = {True: 24, False: 8}  # frames between those that are timed, quickly and not so quickly: they are 240
 TRIANGLES = {True: (12, 100, 1000, 10000, 100000), False: (12, 48, 100, 1000, 10000, 100000, 1000000)}
-BRUTE_MOST = {True: 1000, False: 10000}
+BRUTE_MOST = {True: {True: 100, False: 1000}, False: {True: 1000, False: 10000}}  # CPUs or not, quickly or not
 LIGHTS = {True: (1, 10, 100, 1000), False: (1, 3, 10, 30, 100, 300, 1000)}
 SAMPLES = {True: (1, 2, 4), False: (1, 2, 3, 4, 6, 8)}
 DEPTHS = {True: (0, 2, 6, 14, 30), False: (0, 1, 2, 4, 6, 10, 14, 20, 30)}
@@ -101,7 +101,7 @@ class Points:
             view, scale = MESH_VIEWS[device["is_cpu"]]
             for way in ("bvh", "brute"):
                 for count in TRIANGLES[self.quick]:
-                    if way == "bvh" or count <= BRUTE_MOST[self.quick]:
+                    if way == "bvh" or count <= BRUTE_MOST[device["is_cpu"]][self.quick]:
                         self.add("triangles", way, count, label, f"sphere-{count}", (*view, "--accel", way), scale=scale)
 
     def lights(self):

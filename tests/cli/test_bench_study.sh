@@ -346,6 +346,7 @@ from types import SimpleNamespace
 from harness import accuracy_settings, study_accuracy
 from harness.program import Problem
 from harness.study_watch import WatchedProgram
+study_accuracy.ROUNDS = {True: 2}
 accuracy_settings.FAMILIES = {name: accuracy_settings.FAMILIES[name] for name in ("grid", "depth")}
 every = accuracy_settings.settings
 accuracy_settings.settings = lambda quick: {name: every(quick)[name][:2] for name in ("grid", "depth")}
