@@ -76,7 +76,9 @@ def head(results, failures, pictures):
         words.append("<p class=\"bad\">A study here is unfinished: bench/study goes on where it stopped.</p>")
     if any(result["quick"] for result in results):
         words.append("<p>Quick studies have few repeats and small pictures; they are rough.</p>")
-    words += [table(machine_rows(results)), "<ul>",
+    changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
+               for result in results if result["hedron"]["options"]]
+    words += [table(machine_rows(results)), "<ul>", *[f"<li>{text(each)}</li>" for each in changed],
               *[f"<li>{text(noise_words(result))}</li>" for result in results],
               *[f"<li>{text(each)}</li>" for each in pictures],
               "<li>Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "

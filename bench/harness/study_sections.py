@@ -84,21 +84,21 @@ def best_words(drawn, words=number):
 
 def table_of(sources, part, name, what):
     """A row for each measurement."""
-    found = [["device", "machine", what, "milliseconds [quartiles]", "runs", "rejected", "renderer"]]
+    found = [["device", "machine", what, "milliseconds [quartiles]", "times", "runs", "rejected", "options", "renderer"]]
     for device in sources.with_part(part):
         for entry in device.entries(part):
             each = entry["summary"]
             disturbed = " (disturbed)" if each["noisy"] else ""
             found.append([device.label, device.result["machine"]["name"], name(entry),
                           f"{report.number(each['trace_ms']['median'])} [{report.number(each['trace_ms']['q1'])} .. "
-                          f"{report.number(each['trace_ms']['q3'])}]{disturbed}", str(each["runs"]), str(each["rejected"]),
-                          entry["renderer"]])
+                          f"{report.number(each['trace_ms']['q3'])}]{disturbed}", str(entry["scale"]), str(each["runs"]),
+                          str(each["rejected"]), " ".join(entry["options"]), entry["renderer"]])
     return found
 
 
 def scaled_note(entries):
     scales = sorted({entry["scale"] for entry in entries if entry["scale"] > 1})
-    return [f"Times of CPUs are those of a picture with 1/{scale} of the samples, times {scale}." for scale in scales]
+    return [f"Some times are those of a picture with 1/{scale} of the samples, times {scale}, as the figures tell." for scale in scales]
 
 
 # ---- the parts
@@ -153,7 +153,10 @@ def animation(sources, section):
 
 def blocks(sources, section):
     for series, what in (("block", "threads of a work group"), ("grid", "work groups of a launch, at most")):
-        drawn = [device.line("blocks", series=series) for device in sources.with_part("blocks")]
+        drawn = [device.line("blocks", series=series) for device in sources.with_part("blocks")
+                 if device.entries("blocks", series=series)]
+        if not drawn:
+            continue
         section.draw(f"blocks_{series}", lines, sources.about(WHOLE_FRAME), f"Time against {what}",
                      f"The fastest: {best_words(drawn)}.",
                      Axis(what, True, {number(x): x for line in drawn for x, _ in line.points}), y_axis(drawn), drawn)
@@ -171,12 +174,16 @@ def crossing_words(device):
 def triangles(sources, section):
     drawn, trees = [], []
     for device in sources.with_part("triangles"):
+        if not device.entries("triangles", series="bvh"):
+            continue
         trees.append(device.line("triangles", f"{device.short}, hierarchy", series="bvh"))
         brute = device.line("triangles", f"{device.short}, each triangle tried", series="brute")
         drawn += [trees[-1], Line(brute.name, brute.points, brute.colour, 4, brute.mark, brute.short)]
     counts = {triangle_models.words(10 ** power): 10 ** power for power in range(1, 8)}
     caption = growth_words(trees, "triangles", lambda x: triangle_models.words(int(x)))
     caption += " The hierarchy is the faster one " + few(list(map(crossing_words, sources.with_part("triangles")))) + "."
+    if not trees:
+        return
     section.draw("triangles", lines, sources.about("mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples"),
                  "Time against the number of triangles", caption, Axis("triangles", True, counts),
                  Axis("milliseconds for each frame", True), drawn)
@@ -286,8 +293,7 @@ def one_thread(sources, section):
         plain = next((each for device, each in found if each["series"] == ONE_LANE and each["device"] == base["device"]), None)
         if plain:
             caption += f", which is {speed_words(middle(plain) / middle(base), 'one thread that traces ray by ray')}"
-    size = f"{int(entry['options'][1])} x {int(entry['options'][1])}"
-    section.draw("one_thread", rows, sources.about(f"official example, 640 x 480, {size} samples, depth 10"),
+    section.draw("one_thread", rows, sources.about("official example, 640 x 480, 4 x 4 samples, depth 10"),
                  "One thread against everything else", caption + ". The factors at the bars are against one thread.",
                  "milliseconds for each frame", drawn, study_bounds.NAME)
     section.table = table_of(sources, "one_thread", lambda entry: entry["series"], "what")
@@ -310,7 +316,7 @@ def pipelines(sources, section):
         best, compacted = min(gains), max(gains, key=lambda each: each[1])
         caption = (f"The wavefront does best on {best[2]}, where it takes {ratio(best[0])} the megakernel's time; closing up the "
                    f"live rays helps most on {compacted[2]}: without it the wavefront takes {ratio(compacted[1])} as long.")
-    section.draw("pipelines", rows, sources.about("built-in scene and official example"), "Megakernel and wavefront", caption,
+    section.draw("pipelines", rows, sources.about("built-in scene, 1280 x 720, and official example, 640 x 480, 2 x 2 samples"), "Megakernel and wavefront", caption,
                  "milliseconds for each frame", drawn)
     section.table = table_of(sources, "pipelines", lambda entry: f"{entry['series']}, {PIPELINES[int(entry['x'])]}", "what")
 
@@ -368,6 +374,8 @@ def stages(sources, section):
         if found:
             longest = max(found, key=lambda name: found[name]["median"])
             told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")
+    if not drawn:
+        return
     section.draw("stages", rows, sources.about("one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples"),
                  "Start-up and stages of a run of one frame", sentence(few(told) + "."), "milliseconds", drawn)
     section.table = table_of(sources, "stages", lambda entry: entry["series"], "what")
