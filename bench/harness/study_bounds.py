@@ -16,7 +16,8 @@ LANES, ONE_LANE = f"light:{OFFICIAL}", f"light_one_lane:{OFFICIAL}"
 def measure(program, scenes):
     """What is written as `bounds`. Raises Problem with the reason where it cannot be."""
     scene = scenes[OFFICIAL]
-    found = kernel_rates.run(program.path.parent / "bench/hedron_kernel_rates", [scene, scene], SECONDS, ROUNDS, counts=True)
+    tool = program.path.parent / "bench/hedron_kernel_rates"
+    found = kernel_rates.run(tool, [scene, scene], SECONDS, ROUNDS, counts=True)
     peaks = [max(both) for both in zip(found["rates"]["peak:fma"], found["rates"]["peak:mul_add"])]
     return {"instruction_set": found["instruction_set"], "lanes": found["lanes"],
             "instructions_per_core_second": median(peaks),

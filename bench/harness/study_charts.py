@@ -85,7 +85,8 @@ def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""
     commands = charts.style(about, title, caption, rows)
     commands += axis_commands("x", x_axis, min(xs) - pad, max(xs) + pad)
     commands += axis_commands("y", y_axis, low, high)
-    commands.append(f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced samplen 3")
+    commands.append(f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced "
+                    "samplen 3")
     plots = []
     for place, points in enumerate(bounds):
         commands += [f"$bound{place} << END", *(f"{x!r} {y!r}" for x, y in points), "END"]
@@ -117,7 +118,8 @@ def rows(about, title, caption, unit, drawn, bound_name=""):
     commands += axis_commands("x", Axis(unit, wide), (start or 0) * 1.4, end / 1.4) if wide else [
         f"set xlabel {charts.quoted(unit)}", f"set xrange [0:{end!r}]"]
     commands += [f"set yrange [{places[-1] - 0.7!r}:0.7]", f"set ytics ({ticks}) noenhanced", "set grid noytics",
-                 "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced" if bounded else "unset key",
+                 "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced" if bounded
+                 else "unset key",
                  "$data << END"]
     commands += [f"{place!r} {max(row.spread['median'], start)!r} {max(row.spread['q1'], start)!r} {row.spread['q3']!r} "
                  f"{int(charts.colour(row.colour)[1:], 16)}" for row, place in zip(drawn, places)]
@@ -125,7 +127,8 @@ def rows(about, title, caption, unit, drawn, bound_name=""):
                                            f'"{charts.plain(row.words, 60)}"' for row, place in zip(drawn, places)), "END",
                  "$bounds << END", *(f"{row.bound!r} {place!r}" for row, place in zip(drawn, places) if row.bound), "END",
                  "set style fill solid 0.85 noborder"]
-    plots = [f"$data using (($2+{start!r})/2):1:({start!r}):2:($1-0.36):($1+0.36):5 with boxxyerror linecolor rgb variable notitle",
+    plots = [f"$data using (($2+{start!r})/2):1:({start!r}):2:($1-0.36):($1+0.36):5 with boxxyerror "
+             "linecolor rgb variable notitle",
              "$data using 2:1:3:4 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#222222' notitle",
              "$words using 1:2:3 with labels left offset 0.8, 0 noenhanced notitle"]
     if bounded:

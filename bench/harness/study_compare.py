@@ -42,7 +42,8 @@ def compare(old, new):
     ours, theirs = measured(old), measured(new)
     common = [key for key in ours if key in theirs]
     if not common:
-        raise Problem(2, "the two have no measurement in common: they are of other devices, or one is quick and the other is not")
+        raise Problem(2, "the two have no measurement in common: they are of other devices, or one is quick and the other "
+                         "is not")
     usual = [usual_deviation(each[key] for key in common) for each in (ours, theirs)]
     found = []
     for key in common:
@@ -61,8 +62,9 @@ def compare(old, new):
 
 def row(each):
     entry = each["entry"]
-    return [f"{entry['part']} {entry['series']} {entry['x']:g}".replace("  ", " "), entry["device"], report.number(each["old_ms"]),
-            report.number(each["new_ms"]), f"{100 * each['change']:+.1f} %", f"{100 * each['limit']:.1f} %",
+    name = f"{entry['part']} {entry['series']} {entry['x']:g}".replace("  ", " ")
+    return [name, entry["device"], report.number(each["old_ms"]), report.number(each["new_ms"]), 
+            f"{100 * each['change']:+.1f} %", f"{100 * each['limit']:.1f} %",
             each["verdict"] + (", disturbed" if each["disturbed"] else "")]
 
 
@@ -81,8 +83,8 @@ def missing_words(old, new):
 def text(old, new, found, everything):
     beyond = [each for each in found if each["verdict"] != SAME]
     shown = found if everything else beyond
-    words = [f"old: hedron {old['hedron']['version']} ({old['hedron']['sha256'][:12]}), {old['date']}, {old['machine']['name']}",
-             f"new: hedron {new['hedron']['version']} ({new['hedron']['sha256'][:12]}), {new['date']}, {new['machine']['name']}", ""]
+    words = [*(f"{name}: hedron {each['hedron']['version']} ({each['hedron']['sha256'][:12]}), {each['date']}, "
+               f"{each['machine']['name']}" for name, each in (("old", old), ("new", new))), ""]
     if shown:
         words += [*report.lines([HEAD, *map(row, shown)]), ""]
     counts = {name: sum(each["verdict"] == name for each in found) for name in (SLOWER, FASTER, SAME)}

@@ -6,9 +6,10 @@ from harness.study_sections import Section
 
 def accuracy(sources):
     section = Section("accuracy", "Speed against accuracy",
-                      "Root mean square error of many settings against a reference of dense samples in double, by the time of a "
-                      "frame of the built-in scene; see bench/README.md, bench/accuracy.")
-    section.table = [["device", "machine", "setting", "options", "milliseconds", "RMSE", "largest error", "front", "recommended"]]
+                      "Root mean square error of many settings against a reference of dense samples in double, by the "
+                      "time of a frame of the built-in scene; see bench/README.md, bench/accuracy.")
+    section.table = [["device", "machine", "setting", "options", "milliseconds", "RMSE", "largest error", "front",
+                      "recommended"]]
     for result in sources.results:
         reason = result["left_out"].get("accuracy")
         if reason:
@@ -41,11 +42,10 @@ def add_device(section, device, memory):
     section.charts[name] = accuracy_chart.chart(about, label, "rmse")
     own = [point for point in memory["points"] if point["device"] == label]
     front = sum(point["on_front"] for point in own)
-    told = [f"as good as a grid of {word}: {' '.join(point['options'])} in {report.number(point['ms'], 3)} ms"
+    told = [f"{word}: {' '.join(point['options'])} in {report.number(point['ms'], 3)} ms"
             for word, point in accuracy_points.recommended(own)]
-    section.captions[name] = (f"On {device.short} {front} of {len(own)} settings are on the front, which no other beats in both; "
-                              f"the fastest {'; '.join(told)}.").replace("grid of draft", "grid of 2 x 2").replace(
-        "grid of usual", "grid of 4 x 4").replace("grid of fine", "grid of 8 x 8")
+    section.captions[name] = (f"On {device.short} {front} of {len(own)} settings are on the front, which no other beats in "
+                              f"both time and error; recommended: {'; '.join(told)}.")
     section.table += [[label, device.result["machine"]["name"], point["name"], " ".join(point["options"]),
                        report.number(point["ms"]), report.number(point["rmse"], 3), report.number(point["largest"], 3),
                        "yes" if point["on_front"] else "", point["recommended"] or ""] for point in own]
@@ -53,8 +53,8 @@ def add_device(section, device, memory):
 
 def stability(sources):
     """Of the first machine that has it: every number is the same each time, and everywhere."""
-    section = Section("stability", "Stability", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes "
-                      "and distances; see bench/README.md, bench/stability.")
+    section = Section("stability", "Stability", "How often methods of geometry and arithmetic fail, hedron's among them, "
+                      "at many sizes and distances; see bench/README.md, bench/stability.")
     for result in sources.results:
         reason = result["left_out"].get("stability")
         if reason:

@@ -9,8 +9,14 @@ STYLE = """body{font:16px/1.5 sans-serif;max-width:1200px;margin:2em auto;paddin
 h1,h2{line-height:1.2}h2{margin-top:2.2em;border-top:1px solid #ccc;padding-top:.8em}
 figure{margin:1em 0}svg{width:100%;height:auto;display:block}
 table{border-collapse:collapse;font-size:14px;margin:1em 0}th,td{border:1px solid #ccc;padding:.2em .6em;text-align:left;
-vertical-align:top;overflow-wrap:break-word}th{background:#f3f3f3}.wide{overflow-x:auto}.bad{background:#b00020;color:#fff;padding:.6em 1em}
+vertical-align:top;overflow-wrap:break-word}th{background:#f3f3f3}.wide{overflow-x:auto}
+.bad{background:#b00020;color:#fff;padding:.6em 1em}
 nav a{margin-right:1em;white-space:nowrap}summary{cursor:pointer;color:#0072B2}"""
+
+
+METHOD = ("Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "
+          "charts of time. The first frame of a run warms up and does not count. A run's figure is the mean of its frames, "
+          "and a point is the median of the runs, with whiskers from the first to the third quartile. Runs took turns.")
 
 
 def text(words):
@@ -42,12 +48,16 @@ def figure(name, caption, folder):
     return f"<figure id=\"{name}\" role=\"img\" aria-label=\"{text(caption)}\">\n{svg}\n</figure>"
 
 
+def device_words(device):
+    reason = f" (not: {device['reason']})" if device["reason"] else ""
+    return f"{device['label']} {device['name'] or ''}".strip() + reason
+
+
 def machine_rows(results):
     rows = [["machine", "processor", "cores", "system", "devices", "measured", "hedron", "study", "load before, after"]]
     for result in results:
         place = result["machine"]
-        devices = "; ".join(f"{each['label']} {each['name'] or ''}".strip() + (f" (not: {each['reason']})" if each["reason"] else "")
-                            for each in result["devices"])
+        devices = "; ".join(map(device_words, result["devices"]))
         after = place["load_after"]
         rows.append([place["name"], place["cpu"], place["cores"], place["system"], devices, result["date"],
                      f"{result['hedron']['version']} ({result['hedron']['sha256'][:12]})",
@@ -62,10 +72,10 @@ def noise_words(result):
     rejected = sum(len(each["rejected"]) for each in entries)
     loads = [run["load"] for each in entries for run in each["runs"]]
     told = all(run["others"] is not None for each in entries for run in each["runs"])
-    words = (f"{result['machine']['name']}: {sum(len(each['runs']) for each in entries)} runs of {len(entries)} measurements count. "
-             + (f"Where other programs took more than {100 * result['interference_limit']:g} % of the processors, a run was done "
-                f"again: {rejected} were rejected, and {disturbed} measurements stayed disturbed." if told else
-                "This system does not tell what other programs took of the processors, so no run was rejected."))
+    words = f"{result['machine']['name']}: {len(loads)} runs of {len(entries)} measurements count. "
+    words += (f"Where other programs took more than {100 * result['interference_limit']:g} % of the processors, a run was "
+              f"done again: {rejected} were rejected, and {disturbed} measurements stayed disturbed." if told else
+              "This system does not tell what other programs took of the processors, so no run was rejected.")
     return words + (f" The load was {min(loads)} to {max(loads)}." if loads else "")
 
 
@@ -81,9 +91,7 @@ def head(results, failures, pictures):
     words += [table(machine_rows(results)), "<ul>", *[f"<li>{text(each)}</li>" for each in changed],
               *[f"<li>{text(noise_words(result))}</li>" for result in results],
               *[f"<li>{text(each)}</li>" for each in pictures],
-              "<li>Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "
-              "charts of time. The first frame of a run warms up and does not count. A run's figure is the mean of its frames, and a "
-              "point is the median of the runs, with whiskers from the first to the third quartile. Runs took turns.</li>", "</ul>"]
+              f"<li>{METHOD}</li>", "</ul>"]
     return words
 
 
@@ -114,13 +122,18 @@ def csv_rows(result):
     names = {device["label"]: device["name"] for device in result["devices"]}
     rows = [CSV_HEAD]
     for entry in result["measurements"]:
-        each = entry["summary"]
-        figures = [each["runs"], each["rejected"], int(each["noisy"]), *(each["trace_ms"][key] for key in ("q1", "median", "q3")),
-                   each["frame_ms"]["median"]] if each else [0, len(entry["rejected"])] + [""] * 5
-        rows.append([result["machine"]["name"], entry["device"], names[entry["device"]], entry["part"], entry["series"], entry["x"],
-                     entry["scene"], " ".join(entry["options"]), entry["renderer"] or "", *figures, entry["scale"],
-                     entry["reason"] or ""])
+        rows.append([result["machine"]["name"], entry["device"], names[entry["device"]], entry["part"], entry["series"],
+                     entry["x"], entry["scene"], " ".join(entry["options"]), entry["renderer"] or "", *csv_figures(entry),
+                     entry["scale"], entry["reason"] or ""])
     return rows
+
+
+def csv_figures(entry):
+    each = entry["summary"]
+    if not each:
+        return [0, len(entry["rejected"]), *[""] * 5]
+    return [each["runs"], each["rejected"], int(each["noisy"]),
+            *(each["trace_ms"][key] for key in ("q1", "median", "q3")), each["frame_ms"]["median"]]
 
 
 def summary_lines(result):

@@ -12,7 +12,8 @@ from harness.study_points import PARTS
 
 UNITS = ("bounds", "accuracy", "stability")  # parts that are no frames, measured as other benches do
 ALL_PARTS = (*PARTS, *UNITS)
-FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing", "renderer")
+FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing",
+              "renderer")
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "measurements", "bounds",
         "accuracy", "stability")
 SAME = ("bench", "quick")  # what must be alike for a study to go on
@@ -75,7 +76,8 @@ def check(file, result):
 def is_continued(old, new):
     """Whether the measurements of both answer the same question."""
     devices = [[[device[key] for key in SAME_OF_DEVICES] for device in result["devices"]] for result in (old, new)]
-    return (devices[0] == devices[1] and all(old[key] == new[key] for key in SAME) and old["machine"]["cpu"] == new["machine"]["cpu"]
+    return (devices[0] == devices[1] and old["machine"]["cpu"] == new["machine"]["cpu"]
+            and all(old[key] == new[key] for key in SAME)
             and all(old["hedron"][key] == new["hedron"][key] for key in SAME_OF_HEDRON))
 
 
@@ -166,7 +168,8 @@ def summarize(result):
         runs = chosen_runs(entry)
         entry["summary"] = runs and {
             "runs": len(runs), "noisy": any(run["noisy"] for run in runs), "rejected": len(entry["rejected"]),
-            "trace_ms": spread(values_of(entry, trace_seconds)), "frame_ms": spread(values_of(entry, frame_seconds))} or None
+            "trace_ms": spread(values_of(entry, trace_seconds)),
+            "frame_ms": spread(values_of(entry, frame_seconds))} or None
 
 
 def of_part(result, part, **wanted):

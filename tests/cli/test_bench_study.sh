@@ -55,6 +55,7 @@ render)
     echo "$backend ${words#--quiet }" | sed 's|/[^ ]*/||g' >>"$FAKE_LOG"
     run=$(wc -l <"$FAKE_LOG")
     if [[ -e $FAKE_HOLD && $(cat "$FAKE_HOLD") == "$run" ]]; then
+        trap 'exit 130' INT
         echo $$ >"$FAKE_HOLD.held"
         for ((wait = 0; wait < 6000; wait++)); do sleep 0.1; done
     fi
@@ -207,7 +208,7 @@ done
 echo '# other bytes' >>fake/hedron
 rm -f "$FAKE_LOG"
 fake_study 0 '' --quick --out killed --parts lights
-expect_stderr_contains 'all is measured anew'
+expect_stderr_contains 'another kind of study'
 expect_same whole/study.json killed/study.before.json
 expect_value killed/study.json '[r["parts"], {len(e["runs"]) for e in r["measurements"]} == {2}]' '[["lights"], true]'
 runs=$(wc -l <"$FAKE_LOG")
@@ -222,7 +223,7 @@ echo 4 >"$FAKE_HOLD"
 start "$bench" --hedron fake/hedron --others 100 --results none --quick --out stopped --parts lights
 wait_until 120 test -s "$FAKE_HOLD.held" || fail "the program was not run so often"
 kill -INT "$pid"
-expect_end 130 120
+expect_end 130 300
 rm "$FAKE_HOLD"
 expect_value stopped/study.json '[r["complete"], sum(len(e["runs"]) for e in r["measurements"])]' '[false, 3]'
 grep -q 'unfinished' stopped/report.html || fail "the page does not say that the study is unfinished"
