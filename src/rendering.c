@@ -55,10 +55,11 @@ static void device_dropped(void *context, int number, const HdError *error) {
     pthread_mutex_unlock(&run->telling);
 }
 
-static void tell_progress(Run *run, int number) {
+/* Programs are told of every frame, people of those that were rendered. */
+static void tell_progress(Run *run, const HdStoredFrame *stored) {
     pthread_mutex_lock(&run->telling);
-    run->rendered++;
-    hd_progress_tell_frame(&run->progress, number, run->rendered);
+    hd_progress_tell_frame(&run->progress, stored->number, stored->done);
+    run->rendered += !stored->was_finished;
     hd_progress_update(&run->progress, run->rendered);
     pthread_mutex_unlock(&run->telling);
 }
@@ -75,13 +76,13 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = hd_statistics_add(&run->statistics, &facts, stored, error);
+    if (status == HD_OK)
+        tell_progress(run, stored);
     if (stored->was_finished)
         return status;
     run->rays += hd_frame_rays(stored->frame);
     if (stored->frame->has_bound && stored->frame->largest_bound > run->missing)
         run->missing = stored->frame->largest_bound;
-    if (status == HD_OK)
-        tell_progress(run, stored->number);
     return status;
 }
 
@@ -189,9 +190,11 @@ static HdProgressForm progress_form(const Run *run) {
 
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_with_statistics(Run *run, HdError *error) {
-    const HdRendering *rendering = run->rendering;
+    const HdProgressForm form = progress_form(run);
     HdError ignored;
-    run->progress = hd_progress_start(progress_form(run), run->resume.missing.count);
+    run->progress =
+        hd_progress_start(form, form == HD_PROGRESS_FRAMES ? run->rendering->frames->count
+                                                           : run->resume.missing.count);
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, run->options->statistics, error);

@@ -47,11 +47,12 @@ static const char *const mp4_arguments[] = {
     "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
     "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL};
 
-/* Every frame is a key frame, so that players can jump to it. */
+/* Every frame is a key frame, so that players can jump to it. The container is given no random
+   number, so that the same frames make the same bytes. */
 static const char *const mkv_arguments[] = {
     "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb",
     "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "pc",
-    "-f", "matroska", NULL};
+    "-fflags", "+bitexact", "-f", "matroska", NULL};
 
 /* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
 static const char *const sliced_arguments[] = {

@@ -12,6 +12,13 @@ SECONDS, SECONDS_QUICKLY = 150, 12
 PART = 16  # of the picture's rows, in its middle, tells how long the whole takes
 
 
+def choose_judge(devices, backends):
+    """The device that makes references: a GPU if there is one; every strict one makes the same bytes."""
+    known = {(each["backend"], each["index"]): each for backend in backends for each in backend["devices"]}
+    able = [device for device in devices if device["strict"] and known[device["backend"], device["index"]]["has_double"]]
+    return min(able, key=lambda device: (device["is_cpu"] is not False, device["backend"] != "c"), default=None)
+
+
 def run(program, device, scene, options, file):
     """The statistics of frame 0, which becomes a PFM."""
     try:

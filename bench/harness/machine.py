@@ -28,6 +28,19 @@ def load():
     return [round(mean, 2) for mean in os.getloadavg()]
 
 
+def busy_seconds():
+    """Seconds that the usable processors worked, for whomever; None where the system does not tell."""
+    try:
+        usable = {f"cpu{number}" for number in os.sched_getaffinity(0)}
+        with open("/proc/stat", encoding="ascii", errors="replace") as file:
+            lines = [words for words in map(str.split, file) if words and words[0] in usable]
+        # user, nice and system; interrupts, and what another guest of the host took
+        ticks = [sum(map(int, words[1:4])) + sum(map(int, words[6:9])) for words in lines]
+    except (OSError, ValueError, AttributeError):
+        return None
+    return sum(ticks) / os.sysconf("SC_CLK_TCK") if any(ticks) else None
+
+
 def describe():
     return {
         "cpu": cpu_name(),

@@ -56,9 +56,9 @@ class Program:
             raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
 
     def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
-               look=None):
+               look=None, variables=None):
         """One run, in a new folder within the temporary one, so that no name in the path counts as a
-        pattern; on `cores` alone, with `path` for PATH, where these are given. Returns {"code",
+        pattern; on `cores` alone, with `path` for PATH and these variables of the environment, where given. Returns {"code",
         "message", "said", "frames", "digests", "wall", "cpu"}: the exit code (None where a run was interrupted),
         the first line of what hedron said, all of it, the lines of the statistics, for each frame the digest of its picture if that is a
         file of its own, the seconds from the start to the end of the program, and those that processors
@@ -72,7 +72,7 @@ class Program:
                    "-o", output]
         if scene is not None:
             command.append(scene)
-        environment = os.environ if path is None else {**os.environ, "PATH": path}
+        environment = {**os.environ, **(variables or {}), **({} if path is None else {"PATH": path})}
         try:
             start, worked = time.monotonic(), children_seconds()
             # A session of its own: Ctrl-C then reaches hedron once, from here.

@@ -150,6 +150,8 @@ def settings(result):
 
 def machine_words(result):
     place = result["machine"]
+    if "words" in place:
+        return place["words"]
     return f"{place['cpu']}, {place['cores']} {'core' if place['cores'] == 1 else 'cores'}"
 
 

@@ -167,7 +167,7 @@ def picture_groups(plan):
         if "--math fast" in options or not plan.devices[job.device]["strict"]:
             continue
         words = list(job.options)
-        for free in ("--threads", "--pipeline", "--accel"):
+        for free in ("--threads", "--pipeline", "--accel", "--lanes", "--block", "--grid"):
             if free in words:
                 del words[words.index(free):words.index(free) + 2]
         for run in runs:
