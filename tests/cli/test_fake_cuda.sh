@@ -117,12 +117,22 @@ if command -v jq >"$logs/which"; then
     expect_launches '.longest_launch_ms > 5 and (.longest_launch_ms - 1000 * .seconds.trace | fabs) < 0.001'
     FAKE_CUDA_PIXEL_NS=10000 expect_exit 0 "${large[@]}" -o cut/%d.data --stats stats.jsonl
     expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .seconds.trace > 2'
+    # The first launch, of which nothing is known, is not the last one of its frame.
+    if ! jq -e -s '.[0].longest_launch_ms > 60' stats.jsonl >"$logs/jq"; then
+        fail "the longest launch of the first frame takes $(jq -c .longest_launch_ms stats.jsonl | head -n 1) ms, expected more than 60"
+    fi
     for i in 0 1 2 3; do
         expect_same "cut/$i.data" "whole/$i.data"
         expect_same "short/$i.data" "whole/$i.data"
     done
     rm -r whole short cut stats.jsonl
 fi
+
+# ---- passes of many sizes use the same memory
+passes=("${large[@]}" --size 200x150 --samples 4 --aa adaptive -o passes/%d.data)
+expect_exit 0 env FAKE_CUDA_FAILS=cuMemHostAlloc FAKE_CUDA_FAILS_AT=9 "${passes[@]}"
+expect_exit 0 env FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_FAILS_AT=50 "${passes[@]}"
+rm -r passes
 
 # ---- a device that refuses memory: the wavefront gets along with less, and says so
 waves=("$hedron" render --size 512x512 --samples 4 --frames 0-1 --backend cuda --math fast --pipeline wavefront -o waves/%d.data)
