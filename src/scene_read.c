@@ -195,7 +195,7 @@ static NamedMaterial *find_material(const Reader *reader, const char *name) {
     NamedMaterial **found = reader->by_name == NULL
                                 ? NULL
                                 : bsearch(&key, reader->by_name, (size_t)reader->material_count,
-                                          sizeof key, compare_names);
+                                          sizeof(NamedMaterial *), compare_names);
     return found != NULL ? *found : NULL;
 }
 
