@@ -13,7 +13,10 @@
 enum {
     /* Of triangles at one edge each is compared with so many that follow: proper meshes have two,
        and thousands at one edge shall not take millions of comparisons. */
-    MOST_AT_EDGE = 16
+    MOST_AT_EDGE = 16,
+    /* Of a hash table with half of its slots in use, for a vertex on average: it needs about one.
+     */
+    MOST_PROBES = 32
 };
 
 /* What rounding may take from the cosine between two normals. */
@@ -69,33 +72,83 @@ static HdVec3 without_negative_zero(HdVec3 a) {
     return hd_vec3(a.x + 0.0, a.y + 0.0, a.z + 0.0);
 }
 
-/* Numbers the places in the order in which the vertices first name them. */
-static bool find_places(Smoother *smoother) {
-    const HdMesh *mesh = smoother->mesh;
-    size_t slots = 16;
+/* A vertex on its way to be sorted. */
+typedef struct Placed {
+    HdVec3 point;
+    int32_t vertex;
+} Placed;
+
+static int compare_placed(const void *first, const void *second) {
+    const Placed *a = first, *b = second;
+    if (a->point.x != b->point.x)
+        return a->point.x < b->point.x ? -1 : 1;
+    if (a->point.y != b->point.y)
+        return a->point.y < b->point.y ? -1 : 1;
+    if (a->point.z != b->point.z)
+        return a->point.z < b->point.z ? -1 : 1;
+    return (a->vertex > b->vertex) - (a->vertex < b->vertex);
+}
+
+static bool is_same_place(HdVec3 a, HdVec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Of each vertex the first one at its place, by sorting: slower than by hashing, but never slow. */
+static bool find_first_by_sorting(const HdMesh *mesh, int32_t *first) {
+    const size_t count = (size_t)mesh->vertex_count;
+    Placed *placed = allocate(count, sizeof *placed);
+    if (placed == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        placed[i] = (Placed){mesh->vertices[i], (int32_t)i};
+    qsort(placed, count, sizeof *placed, compare_placed);
+    for (size_t i = 0; i < count; i++) {
+        const bool is_new = i == 0 || !is_same_place(placed[i - 1].point, placed[i].point);
+        first[placed[i].vertex] = is_new ? placed[i].vertex : first[placed[i - 1].vertex];
+    }
+    free(placed);
+    return true;
+}
+
+/* The slot that has a vertex at the place or is free for one. */
+static size_t find_slot(const HdMesh *mesh, const int32_t *table, size_t slots, HdVec3 point,
+                        size_t *probes) {
+    size_t slot = hd_hash_bytes(HD_HASH_START, &point, sizeof point) & (slots - 1);
+    for (; table[slot] >= 0 && !is_same_place(point, mesh->vertices[table[slot]]); ++*probes)
+        slot = (slot + 1) & (slots - 1);
+    return slot;
+}
+
+/* The same by hashing; false: vertices collide, as those of a mesh made for it do, or there is too
+   little memory. */
+static bool find_first_by_hashing(const HdMesh *mesh, int32_t *first) {
+    const size_t most_probes = MOST_PROBES * ((size_t)mesh->vertex_count + 16);
+    size_t slots = 16, probes = 0;
     while (slots < 2 * (size_t)mesh->vertex_count)
         slots *= 2;
     int32_t *table = malloc(slots * sizeof *table); /* a vertex of the place; -1: empty */
     if (table == NULL)
         return false;
     memset(table, -1, slots * sizeof *table);
-    for (int32_t i = 0; i < mesh->vertex_count; i++) {
+    for (int32_t i = 0; i < mesh->vertex_count && probes <= most_probes; i++) {
         const HdVec3 point = without_negative_zero(mesh->vertices[i]);
-        size_t slot = hd_hash_bytes(HD_HASH_START, &point, sizeof point) & (slots - 1);
-        while (table[slot] >= 0) {
-            const HdVec3 other = mesh->vertices[table[slot]];
-            if (point.x == other.x && point.y == other.y && point.z == other.z)
-                break;
-            slot = (slot + 1) & (slots - 1);
-        }
-        if (table[slot] < 0) {
+        const size_t slot = find_slot(mesh, table, slots, point, &probes);
+        if (table[slot] < 0)
             table[slot] = i;
-            smoother->place_of[i] = smoother->place_count++;
-        } else {
-            smoother->place_of[i] = smoother->place_of[table[slot]];
-        }
+        first[i] = table[slot];
     }
     free(table);
+    return probes <= most_probes;
+}
+
+/* Numbers the places in the order in which the vertices first name them. */
+static bool find_places(Smoother *smoother) {
+    int32_t *place_of = smoother->place_of;
+    if (!find_first_by_hashing(smoother->mesh, place_of) &&
+        !find_first_by_sorting(smoother->mesh, place_of))
+        return false;
+    for (int32_t i = 0; i < smoother->mesh->vertex_count; i++)
+        place_of[i] = place_of[i] == i ? smoother->place_count++ : place_of[place_of[i]];
     return true;
 }
 

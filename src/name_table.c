@@ -17,12 +17,21 @@ static bool allocate(HdNameTable *table, HdObjMemory *memory) {
     if (table->names == NULL)
         table->names =
             hd_obj_reallocate(memory, NULL, HD_MAX_MESH_MATERIALS * sizeof *table->names);
-    if (table->names == NULL)
+    if (table->names != NULL && table->sizes == NULL)
+        table->sizes =
+            hd_obj_reallocate(memory, NULL, HD_MAX_MESH_MATERIALS * sizeof *table->sizes);
+    if (table->names == NULL || table->sizes == NULL)
         return false;
     table->slots = hd_obj_reallocate(memory, NULL, SLOTS * sizeof *table->slots);
     if (table->slots != NULL)
         memset(table->slots, -1, SLOTS * sizeof *table->slots);
     return table->slots != NULL;
+}
+
+/* Long names are not looked at for each short one that collides with them. */
+static bool is_name(const HdNameTable *table, int32_t number, HdSpan name, size_t size) {
+    return (size_t)table->sizes[number] == size &&
+           memcmp(table->names[number], name.begin, size) == 0;
 }
 
 /* The slot that has the name or is free for it; NULL: too many probes. */
@@ -31,7 +40,7 @@ static int32_t *slot_of(const HdNameTable *table, HdSpan name) {
     size_t at = hd_hash_bytes(HD_HASH_START, name.begin, size) % SLOTS;
     for (int i = 0; i < MOST_PROBES; i++) {
         int32_t *slot = &table->slots[at];
-        if (*slot < 0 || hd_span_is(name, table->names[*slot]))
+        if (*slot < 0 || is_name(table, *slot, name, size))
             return slot;
         at = (at + 1) % SLOTS;
     }
@@ -58,6 +67,7 @@ int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory) {
     memcpy(copy, name.begin, size);
     copy[size] = '\0';
     table->names[table->count] = copy;
+    table->sizes[table->count] = (int32_t)size;
     *slot = table->count;
     return table->count++;
 }

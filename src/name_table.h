@@ -12,6 +12,7 @@
 typedef struct HdNameTable {
     int count;
     char **names;   /* of HD_MAX_MESH_MATERIALS */
+    int32_t *sizes; /* of the names, without the zero byte */
     int32_t *slots; /* hashed; -1: empty */
 } HdNameTable;
 

@@ -7,9 +7,16 @@
 
 #include "visible_text.h"
 
+/* With the break; a problem names a place, a value and what was expected. */
+enum { SHORTEST_LINE = 16 };
+
 void hd_problem(HdProblems *problems, const char *format, ...) {
     char text[2048], line[sizeof text];
     va_list arguments;
+    if (hd_problems_are_full(problems)) {
+        problems->count++;
+        return;
+    }
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
@@ -19,6 +26,10 @@ void hd_problem(HdProblems *problems, const char *format, ...) {
     if (strlen(line) + 2 > room)
         return;
     problems->used += (size_t)snprintf(problems->text + problems->used, room, "%s\n", line);
+}
+
+bool hd_problems_are_full(const HdProblems *problems) {
+    return problems->count >= (int)sizeof problems->text / SHORTEST_LINE;
 }
 
 static void append_line(char *whole, size_t size, const char *line, size_t length) {

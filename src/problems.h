@@ -3,6 +3,7 @@
 #ifndef HD_PROBLEMS_H
 #define HD_PROBLEMS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "error.h"
@@ -20,6 +21,10 @@ typedef struct HdProblems {
 __attribute__((format(printf, 2, 3)))
 #endif
 void hd_problem(HdProblems *problems, const char *format, ...);
+
+/* Whether so many were added that none of those to come will be told: where looking for more is
+   dear, `count` alone may be raised. */
+bool hd_problems_are_full(const HdProblems *problems);
 
 /* HD_OK where nothing was found. Otherwise HD_BAD_INPUT and "name: problem", or, for more than one,
    "name: 3 problems" followed by a line for each, indented. */

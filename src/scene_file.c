@@ -8,6 +8,7 @@
 #include "default_scene.h"
 #include "file_bytes.h"
 #include "json_hints.h"
+#include "json_limits.h"
 #include "json_words.h"
 #include "scene_changes.h"
 #include "scene_notes.h"
@@ -65,7 +66,7 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
                        "scene.json' makes a scene of",
                        name);
-    return status;
+    return status == HD_OK ? hd_json_check_limits(text, size, name, error) : status;
 }
 
 static HdStatus parse_json(json_t **root, const char *text, size_t size, const char *name,

@@ -22,6 +22,7 @@ typedef struct Reader {
     HdError *error;
     HdStatus status;
     NamedMaterial *materials;
+    NamedMaterial **by_name; /* the same, sorted once all are read */
     int material_count;
     bool knows_materials; /* otherwise no name of one can be checked */
 } Reader;
@@ -185,6 +186,31 @@ static void read_scale(Reader *reader, const HdField *field, const json_t *value
         *out = hd_vec3(number, number, number);
 }
 
+static int compare_names(const void *a, const void *b) {
+    return strcmp((*(NamedMaterial *const *)a)->name, (*(NamedMaterial *const *)b)->name);
+}
+
+static NamedMaterial *find_material(const Reader *reader, const char *name) {
+    NamedMaterial wanted = {.name = name}, *key = &wanted;
+    NamedMaterial **found = reader->by_name == NULL
+                                ? NULL
+                                : bsearch(&key, reader->by_name, (size_t)reader->material_count,
+                                          sizeof(NamedMaterial *), compare_names);
+    return found != NULL ? *found : NULL;
+}
+
+/* Looking for what may be meant takes long among many names, and is for readers. */
+static void report_unknown_material(Reader *reader, const HdField *field, const json_t *value) {
+    HdNearest nearest = {.word = json_string_value(value)};
+    for (int i = 0; i < reader->material_count; i++)
+        if (!hd_problems_are_full(reader->report.problems))
+            hd_nearest_offer(&nearest, reader->materials[i].name);
+    if (nearest.name == NULL)
+        hd_report_field(&reader->report, field, value, false);
+    else
+        hd_report_mistaken(&reader->report, value, nearest.name);
+}
+
 static void read_material(Reader *reader, const HdField *field, const json_t *value,
                           HdMaterial *out) {
     const char *name = json_string_value(value);
@@ -192,22 +218,13 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
         hd_report_field(&reader->report, field, value, false);
         return;
     }
-    HdNearest nearest = {.word = name};
-    for (int i = 0; i < reader->material_count; i++) {
-        hd_nearest_offer(&nearest, reader->materials[i].name);
-        if (strcmp(reader->materials[i].name, name) == 0) {
-            *out = reader->materials[i].material;
-            reader->materials[i].is_used = true;
-            return;
-        }
+    NamedMaterial *named = find_material(reader, name);
+    if (named != NULL) {
+        *out = named->material;
+        named->is_used = true;
+    } else if (reader->knows_materials) {
+        report_unknown_material(reader, field, value);
     }
-    if (!reader->knows_materials)
-        return;
-    if (nearest.name == NULL) {
-        hd_report_field(&reader->report, field, value, false);
-        return;
-    }
-    hd_report_mistaken(&reader->report, value, nearest.name);
 }
 
 /* Objects */
@@ -261,6 +278,17 @@ static void check_shares(Reader *reader, HdMaterial *material) {
         material->reflection = material->inner_reflection = 0.0;
 }
 
+/* None where there is no room, which the reader's status then tells. */
+static void sort_materials(Reader *reader) {
+    const size_t count = (size_t)reader->material_count;
+    reader->by_name = allocate(reader, count + 1, sizeof(NamedMaterial *));
+    if (reader->by_name == NULL)
+        return;
+    for (size_t i = 0; i < count; i++)
+        reader->by_name[i] = &reader->materials[i];
+    qsort(reader->by_name, count, sizeof(NamedMaterial *), compare_names);
+}
+
 static void read_materials(Reader *reader, const HdField *field, const json_t *value) {
     const size_t count = json_object_size(value);
     const char *name;
@@ -286,6 +314,7 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         check_shares(reader, &named->material);
         leave_to(reader, length);
     }
+    sort_materials(reader);
 }
 
 static void read_field(Reader *reader, const HdField *field, const json_t *value, void *owner) {
@@ -440,6 +469,7 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     hd_check_output_path(&reader.report, file->output.path);
     if (source->notes != NULL)
         note_unused_materials(&reader, source->notes);
+    free(reader.by_name);
     free(reader.materials);
     if (reader.status != HD_OK)
         return reader.status;

@@ -34,10 +34,14 @@ void hd_report(HdSceneReport *report, const char *format, ...) {
     const HdSceneSource *source = report->source;
     char name[256] = "", text[1024];
     va_list arguments;
+    note_place(report);
+    if (hd_problems_are_full(report->problems)) {
+        report->problems->count++;
+        return;
+    }
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    note_place(report);
     for (int i = 0; i < source->change_count; i++)
         if (hd_scene_change_made(source->changes[i], report->path))
             hd_scene_change_name(source->changes[i], name);
@@ -131,7 +135,11 @@ void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, con
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)json, key, value) {
-        if (hd_field(type, key) == NULL)
+        if (hd_field(type, key) != NULL)
+            continue;
+        if (hd_problems_are_full(report->problems))
+            report->problems->count++;
+        else
             report_unknown_key(report, type, key);
     }
 }

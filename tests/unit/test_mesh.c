@@ -5,6 +5,7 @@
 
 #include "angle.h"
 #include "expect.h"
+#include "hash.h"
 #include "mesh.h"
 #include "trigonometry.h"
 
@@ -262,6 +263,54 @@ static void normals_have_the_same_bytes_everywhere(void **state) {
     hd_mesh_free(&mesh);
 }
 
+/* Points whose hashes agree in the bits that pick a slot of a table for 4096 vertices. */
+static void fill_colliding(HdVec3 *points, int count) {
+    int found = 0;
+    for (int k = 0; found < count; k++) {
+        const HdVec3 point = hd_vec3(k & 1023, k >> 10, k % 97);
+        if ((hd_hash_bytes(HD_HASH_START, &point, sizeof point) & 4095) == 77)
+            points[found++] = point;
+    }
+}
+
+/* Both vertices of each place are used, in opposite orders. */
+static void make_colliding(HdMesh *mesh, double scale) {
+    enum { PLACES = 1000 };
+    static HdVec3 points[2 * PLACES];
+    static int32_t corners[2 * PLACES - 6][3];
+    fill_colliding(points, PLACES);
+    for (int i = 0; i < PLACES; i++) {
+        points[i] = hd_scale(points[i], scale);
+        points[2 * PLACES - 1 - i] = points[i];
+    }
+    for (int i = 0; i < PLACES - 3; i++)
+        for (int k = 0; k < 3; k++) {
+            corners[2 * i][k] = i + k;
+            corners[2 * i + 1][k] = 2 * PLACES - 1 - (i + (k > 0) + k);
+        }
+    *mesh = (HdMesh){.vertex_count = 2 * PLACES, .triangle_count = 2 * PLACES - 6};
+    mesh->vertices = copy(points, sizeof points);
+    mesh->corners = copy(corners, sizeof corners);
+}
+
+/* Twice as large it has the same normals, and other hashes. */
+static void vertices_that_collide_do_no_harm(void **state) {
+    (void)state;
+    HdMesh colliding, other;
+    make_colliding(&colliding, 1.0);
+    make_colliding(&other, 2.0);
+    smooth(&colliding, 100.0);
+    smooth(&other, 100.0);
+    assert_int_equal(colliding.normal_count, other.normal_count);
+    assert_in_range(other.normal_count, 1000, 5000);
+    assert_memory_equal(colliding.normals, other.normals,
+                        (size_t)other.normal_count * sizeof *other.normals);
+    assert_memory_equal(colliding.corner_normals, other.corner_normals,
+                        (size_t)other.triangle_count * sizeof *other.corner_normals);
+    hd_mesh_free(&colliding);
+    hd_mesh_free(&other);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_without_an_area_are_told),
@@ -273,6 +322,7 @@ int main(void) {
         cmocka_unit_test(triangles_that_share_a_point_alone_are_apart),
         cmocka_unit_test(odd_triangles_do_no_harm),
         cmocka_unit_test(normals_have_the_same_bytes_everywhere),
+        cmocka_unit_test(vertices_that_collide_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
