@@ -94,14 +94,18 @@ def parse(program, text):
     return result
 
 
-def run(program, scenes, seconds, rounds, counts=False):
-    """Raises Problem with the reason where it cannot be."""
+def run(program, scenes, seconds, rounds, counts=False, limit=None):
+    """Raises Problem with the reason where it cannot be, or takes more than `limit` seconds: counting goes instruction
+    by instruction, which a busy machine makes slow."""
     if not program.is_file():
         raise Problem(3, f"there is no {program}: ./dev build builds it")
     if counts and shutil.which("objdump") is None:
         raise Problem(3, "there is no objdump to tell instructions apart; its package is binutils")
     command = [program, "--seconds", str(seconds), "--rounds", str(rounds), *(["--count"] if counts else []), *scenes]
-    done = subprocess.run(command, capture_output=True, text=True)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
+    except subprocess.TimeoutExpired as expired:
+        raise Problem(3, f"{program.name} took more than {limit} s, on a busy machine") from expired
     if done.returncode != 0:
         raise Problem(1, f"{program.name}: {done.stderr.strip()}")
     return parse(program, done.stdout)

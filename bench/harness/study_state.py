@@ -14,8 +14,8 @@ UNITS = ("bounds", "accuracy", "stability")  # parts that are no frames, measure
 ALL_PARTS = (*PARTS, *UNITS)
 FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing",
               "renderer")
-KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "measurements", "bounds",
-        "accuracy", "stability")
+KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
+        "bounds", "accuracy", "stability")
 SAME = ("bench", "quick")  # what must be alike for a study to go on
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
@@ -38,6 +38,7 @@ def begin(program, arguments, devices):
         "parts": [],
         "done": [],
         "left_out": {},
+        "failed": {},
         "measurements": [],
         "bounds": None,
         "accuracy": None,
@@ -124,10 +125,11 @@ def merge(old, new, points, parts):
             new[key] = old[key]
         new["machine"] = {**old["machine"], "name": new["machine"]["name"] or old["machine"]["name"]}
     new["machine"]["name"] = new["machine"]["name"] or new["machine"]["cpu"]
-    before = old or {"parts": [], "done": [], "left_out": {}}
+    before = old or {"parts": [], "done": [], "left_out": {}, "failed": {}}
     new["parts"] = [part for part in ALL_PARTS if part in parts or part in before["parts"]]
     new["done"] = [part for part in before["done"] if part not in parts]
-    new["left_out"] = {part: words for part, words in before["left_out"].items() if part not in parts}
+    for key in ("left_out", "failed"):
+        new[key] = {part: words for part, words in before[key].items() if part not in parts}
     new["measurements"] = sorted(entries, key=lambda entry: ALL_PARTS.index(entry["part"]))
     return new
 

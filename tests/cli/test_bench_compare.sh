@@ -14,7 +14,7 @@ cat >make.py <<'PYTHON'
 import json, sys
 file, *words = sys.argv[1:]
 r = {"hedron_bench": 1, "bench": "study", "quick": False, "date": "then", "complete": True, "pictures": None, "failures": [],
-     "parts": [], "done": [], "left_out": {}, "bounds": None, "accuracy": None, "stability": None,
+     "parts": [], "done": [], "left_out": {}, "failed": {}, "bounds": None, "accuracy": None, "stability": None,
      "hedron": {"version": "1", "sha256": "0123456789abcdef", "options": []}, "machine": {"name": "here", "cpu": "x"},
      "devices": [{"label": "c:0", "name": "X"}], "measurements": []}
 for word in words:

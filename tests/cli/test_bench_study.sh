@@ -217,12 +217,12 @@ if (($(wc -l <"$FAKE_LOG") != 2 * runs)); then
     fail "--again did not measure all anew"
 fi
 
-# ---- Ctrl-C leaves what was measured, and a page of it
+# ---- Ctrl-C, or the signal to end, leaves what was measured, and a page of it
 rm -f "$FAKE_LOG" "$FAKE_HOLD.held"
 echo 4 >"$FAKE_HOLD"
 start "$bench" --hedron fake/hedron --others 100 --results none --quick --out stopped --parts lights
 wait_until 120 test -s "$FAKE_HOLD.held" || fail "the program was not run so often"
-kill -INT "$pid"
+kill -TERM "$pid"
 expect_end 130 300
 rm "$FAKE_HOLD"
 expect_value stopped/study.json '[r["complete"], sum(len(e["runs"]) for e in r["measurements"])]' '[false, 3]'
