@@ -5,19 +5,34 @@
 #include <errno.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "leftovers.h"
 
-enum { SAME_WISH_MS = 500 };
+enum { SAME_WISH_MS = 500, PATIENCE_MS = 1500, REMOVAL_MS = 300 };
+
+static const double MIN_PATIENCE_S = 0.1, MAX_PATIENCE_S = 86400.0;
+static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
 
 /* Signals may come in any thread, and two of them in two threads at once. */
 static atomic_int caught;
 static atomic_llong caught_ms; /* on a clock that only goes forward; 0: none came */
 static _Atomic(const char *) announcement;
+
+/* Timers, since nothing else of the program may be able to move. */
+static struct {
+    timer_t end, kill; /* send SIGALRM and, where nothing handles that, SIGKILL */
+    bool has_end, has_kill;
+} timers;
+
+static atomic_bool is_removing;
+
+static long patience_ms = PATIENCE_MS;
 
 _Static_assert(ATOMIC_INT_LOCK_FREE == 2 && ATOMIC_LLONG_LOCK_FREE == 2 &&
                    ATOMIC_POINTER_LOCK_FREE == 2,
@@ -29,11 +44,16 @@ static long long milliseconds(void) {
     return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000 + 1;
 }
 
+static void set_timer(timer_t timer, long after_ms) {
+    const struct itimerspec once = {
+        .it_value = {.tv_sec = after_ms / 1000, .tv_nsec = after_ms % 1000 * 1000000}};
+    timer_settime(timer, 0, &once, NULL);
+}
+
 /* As if the signal had never been caught, so that the parent process sees what ended us. */
-static void end_at_once(int number) {
+static void die(int number) {
     struct sigaction action;
     sigset_t only;
-    hd_leftovers_remove();
     memset(&action, 0, sizeof action);
     action.sa_handler = SIG_DFL;
     sigemptyset(&action.sa_mask);
@@ -45,16 +65,41 @@ static void end_at_once(int number) {
     _exit(128 + number);
 }
 
+/* Removing files may hang too. */
+static void end_at_once(int number, const char *text) {
+    atomic_store(&is_removing, true);
+    if (timers.has_end)
+        set_timer(timers.end, REMOVAL_MS);
+    if (timers.has_kill)
+        set_timer(timers.kill, 2 * REMOVAL_MS);
+    if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
+        errno = 0; /* and nobody there to be told */
+    hd_leftovers_remove();
+    die(number);
+}
+
+static void handle_deadline(int unused) {
+    int number = atomic_load(&caught);
+    (void)unused;
+    if (number == 0)
+        return; /* somebody else's SIGALRM */
+    if (atomic_load(&is_removing))
+        die(number);
+    end_at_once(number, too_late);
+}
+
 static void handle(int number) {
     int kept = errno;
     long long first = 0, now = milliseconds();
     if (atomic_compare_exchange_strong(&caught_ms, &first, now)) {
         const char *text = atomic_load(&announcement);
         atomic_store(&caught, number);
+        if (timers.has_end)
+            set_timer(timers.end, patience_ms);
         if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
             errno = kept; /* and nobody there to be told */
     } else if (now - first >= SAME_WISH_MS) {
-        end_at_once(number);
+        end_at_once(number, NULL);
     }
     errno = kept;
 }
@@ -71,8 +116,33 @@ static void catch_signal(int number) {
     sigaction(number, &action, NULL);
 }
 
+/* False where the system has none left. */
+static bool create_timer(timer_t *timer, int number) {
+    struct sigevent event;
+    memset(&event, 0, sizeof event);
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = number;
+    return timer_create(CLOCK_MONOTONIC, &event, timer) == 0;
+}
+
+static void prepare_deadline(void) {
+    struct sigaction action;
+    sigset_t only;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handle_deadline;
+    action.sa_flags = SA_NODEFER; /* it comes again while the first one is handled */
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGALRM, &action, NULL);
+    sigemptyset(&only);
+    sigaddset(&only, SIGALRM);
+    pthread_sigmask(SIG_UNBLOCK, &only, NULL);
+    timers.has_end = create_timer(&timers.end, SIGALRM);
+    timers.has_kill = create_timer(&timers.kill, SIGKILL);
+}
+
 void hd_interrupt_install(void) {
     struct sigaction action;
+    prepare_deadline();
     catch_signal(SIGINT);
     catch_signal(SIGTERM);
     catch_signal(SIGHUP);
@@ -83,6 +153,20 @@ void hd_interrupt_install(void) {
     sigaction(SIGPIPE, &action, NULL);
     action.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &action, NULL);
+}
+
+HdStatus hd_interrupt_read_patience(HdError *error) {
+    const char *text = getenv("HEDRON_STOP_PATIENCE");
+    char *end;
+    if (text == NULL || text[0] == '\0')
+        return HD_OK;
+    double seconds = strtod(text, &end);
+    if (*end != '\0' || !(seconds >= MIN_PATIENCE_S && seconds <= MAX_PATIENCE_S))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "HEDRON_STOP_PATIENCE is '%.200s', expected seconds from %g to %g", text,
+                       MIN_PATIENCE_S, MAX_PATIENCE_S);
+    patience_ms = (long)(1e3 * seconds);
+    return HD_OK;
 }
 
 int hd_interrupt_signal(void) {

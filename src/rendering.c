@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "fallbacks.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
@@ -22,12 +23,20 @@ typedef struct Run {
     double missing; /* steps of 255 at most, of the worst frame so far */
 } Run;
 
+static void tell_fallbacks(const Run *run) {
+    char text[HD_FALLBACK_LENGTH];
+    while (hd_fallback_take(text))
+        if (!run->options->quiet)
+            fprintf(stderr, "hedron: %s\n", text);
+}
+
 static void scene_uploaded(void *context, const HdSceneTables *tables) {
     Run *run = context;
     hd_renderer_describe(run->renderer, run->renderer_line, sizeof run->renderer_line);
     if (run->options->verbose)
         hd_note_renderer(&run->device, run->renderer_line, hd_renderer_kernels_note(run->renderer),
                          tables);
+    tell_fallbacks(run);
     hd_progress_update(&run->progress, 0);
 }
 
@@ -115,6 +124,7 @@ static HdStatus render_all(Run *run, HdError *error) {
     HdStatus status = hd_sequence_render(&sequence, run->renderer, error);
     hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
+    tell_fallbacks(run);
     if (status == HD_OK)
         hd_progress_tell_end(&run->progress, run->rays);
     if (status == HD_OK && !run->options->quiet)
