@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "cuda_api.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "device_loss.h"
 #include "dynamic_library.h"
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
@@ -45,13 +48,26 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
+/* After these no call of this program succeeds on the device. */
+static bool is_lost(HdCuResult code) {
+    return code == HD_CU_ERROR_DEINITIALIZED || code == HD_CU_ERROR_DEVICE_UNAVAILABLE ||
+           code == HD_CU_ERROR_INVALID_DEVICE || code == HD_CU_ERROR_INVALID_CONTEXT ||
+           code == HD_CU_ERROR_ECC_UNCORRECTABLE || code == HD_CU_ERROR_NVLINK_UNCORRECTABLE ||
+           (code >= HD_CU_ERROR_ILLEGAL_ADDRESS && code <= HD_CU_ERROR_LAUNCH_TIMEOUT) ||
+           code == HD_CU_ERROR_CONTEXT_IS_DESTROYED ||
+           (code >= HD_CU_ERROR_HARDWARE_STACK && code <= HD_CU_ERROR_LAUNCH_FAILED) ||
+           code == HD_CU_ERROR_UNKNOWN;
+}
+
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error) {
     const char *text = NULL;
+    char what[512];
     if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%u: %s)", function,
-                   hd_cuda_error_name(driver, code), code, text);
+    snprintf(what, sizeof what, "%s failed with %s (%u: %s)", function,
+             hd_cuda_error_name(driver, code), code, text);
+    return is_lost(code) ? hd_fail_lost(error, what) : hd_fail(error, HD_FAILED, "%s", what);
 }
 
 const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {

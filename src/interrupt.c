@@ -3,6 +3,7 @@
 #include "interrupt.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -14,8 +15,15 @@
 
 #include "leftovers.h"
 
-enum { SAME_WISH_MS = 500, PATIENCE_MS = 1500, REMOVAL_MS = 300 };
+enum {
+    SAME_WISH_MS = 500,
+    PATIENCE_MS = 1500,
+    REMOVAL_MS = 300,
+    CLOCK_SLACK_MS = 2,
+    GLANCE_MS = 250
+};
 
+static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
 static const double MIN_PATIENCE_S = 0.1, MAX_PATIENCE_S = 86400.0;
 static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
 
@@ -78,11 +86,13 @@ static void end_at_once(int number, const char *text) {
     die(number);
 }
 
+/* Also what wakes the main thread, and then does nothing else. */
 static void handle_deadline(int unused) {
     int number = atomic_load(&caught);
+    long long waited = milliseconds() - atomic_load(&caught_ms);
     (void)unused;
-    if (number == 0)
-        return; /* somebody else's SIGALRM */
+    if (number == 0 || waited + CLOCK_SLACK_MS < patience_ms)
+        return;
     if (atomic_load(&is_removing))
         die(number);
     end_at_once(number, too_late);
@@ -104,16 +114,53 @@ static void handle(int number) {
     errno = kept;
 }
 
+static bool is_ignored(int number) {
+    struct sigaction action;
+    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 /* A signal that the parent process had ignored stays ignored: so shells start jobs in the
    background, and nohup its program. */
 static void catch_signal(int number) {
     struct sigaction action;
-    if (sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN)
+    if (is_ignored(number))
         return;
     memset(&action, 0, sizeof action);
     action.sa_handler = handle;
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, NULL);
+}
+
+/* The system hands a signal to the main thread if it can, but that one handles none while it waits
+   for a file server that is gone. What was meant for it, it may be missing then. */
+static void *watch(void *main_thread) {
+    const struct timespec glance = {.tv_nsec = GLANCE_MS * 1000000};
+    sigset_t all, watched;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, NULL);
+    sigemptyset(&watched);
+    for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
+        sigaddset(&watched, watched_signals[i]);
+    sigaddset(&watched, SIGALRM);
+    for (;;) {
+        int number = sigtimedwait(&watched, NULL, &glance);
+        if (number == SIGALRM) {
+            handle_deadline(number);
+        } else if (number > 0 && !is_ignored(number)) {
+            handle(number);
+            pthread_kill(*(pthread_t *)main_thread, SIGALRM);
+        }
+    }
+    return NULL;
+}
+
+/* Without it all but such waiting ends in time. */
+static void start_watching(void) {
+    static pthread_t main_thread;
+    pthread_t watcher;
+    main_thread = pthread_self();
+    if (pthread_create(&watcher, NULL, watch, &main_thread) == 0)
+        pthread_detach(watcher);
 }
 
 /* False where the system has none left. */
@@ -143,9 +190,8 @@ static void prepare_deadline(void) {
 void hd_interrupt_install(void) {
     struct sigaction action;
     prepare_deadline();
-    catch_signal(SIGINT);
-    catch_signal(SIGTERM);
-    catch_signal(SIGHUP);
+    for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
+        catch_signal(watched_signals[i]);
     memset(&action, 0, sizeof action);
     sigemptyset(&action.sa_mask);
     action.sa_handler = SIG_IGN;
@@ -153,6 +199,7 @@ void hd_interrupt_install(void) {
     sigaction(SIGPIPE, &action, NULL);
     action.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &action, NULL);
+    start_watching();
 }
 
 HdStatus hd_interrupt_read_patience(HdError *error) {

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "opencl_error.h"
 
-#include <stddef.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "device_loss.h"
 
 #define CODES(X)                                                                                   \
     X(CL_DEVICE_NOT_FOUND)                                                                         \
@@ -78,7 +82,28 @@ const char *hd_opencl_error_name(cl_int code) {
     }
 }
 
+/* NVIDIA's driver has no other words for a kernel that crashed or took too long. */
+static bool is_lost(const char *function, cl_int code) {
+    enum { NVIDIA_ILLEGAL_ACCESS = -9999 };
+    switch (code) {
+    case CL_DEVICE_NOT_AVAILABLE:
+    case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST:
+    case CL_INVALID_COMMAND_QUEUE:
+    case CL_INVALID_CONTEXT:
+    case CL_INVALID_DEVICE:
+    case NVIDIA_ILLEGAL_ACCESS:
+        return true;
+    case CL_OUT_OF_RESOURCES:
+        return strcmp(function, "clFinish") == 0 || strcmp(function, "clWaitForEvents") == 0;
+    default:
+        return false;
+    }
+}
+
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code) {
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%d)", function, hd_opencl_error_name(code),
-                   (int)code);
+    char what[256];
+    snprintf(what, sizeof what, "%s failed with %s (%d)", function, hd_opencl_error_name(code),
+             (int)code);
+    return is_lost(function, code) ? hd_fail_lost(error, what)
+                                   : hd_fail(error, HD_FAILED, "%s", what);
 }

@@ -141,5 +141,122 @@ else
     echo "not tested: films, for there is no FFmpeg"
 fi
 
+# ---- a signal while a file server does not answer, which holds the main thread or another one
+# expect_end_by_signals WHAT COMMAND...: by each of them, once there is `reached`.
+expect_end_by_signals() {
+    local signal
+    for signal in INT TERM HUP; do
+        rm -f "$work/reached"
+        start "$@"
+        wait_for 'it to hang' test -e "$work/reached"
+        kill "-$signal" "$pid" || fail 'it was over before the signal'
+        expect_end $((128 + $(kill -l "$signal"))) 60
+        expect_sentence
+        expect_stderr_contains 'interrupted; what was at work did not end in time'
+        if [[ -e 0.data ]]; then # a frame that was finished before
+            expect_data 0.data 32 24
+            rm 0.data
+        fi
+        expect_files .
+    done
+}
+if is_sanitized; then
+    echo "not tested: memory, threads and files that fail, for sanitizers bring their own"
+    expect_files .
+    finish
+fi
+hanging=(env -u HEDRON_STOP_PATIENCE STUCK_MARK="$work/reached" LD_PRELOAD="$failing/libfailing_stuck.so")
+cp "$project/scenes/default.json" "$work/scene.json"
+expect_end_by_signals "${hanging[@]}" STUCK_OPEN=/scene.json "$hedron" render "$work/scene.json" --backend c "${small[@]}" \
+    --frames 0 -o picture.data
+# The first file of that name only asks whether it can be written.
+expect_end_by_signals "${hanging[@]}" STUCK_OPEN=1.data.tmp- "$hedron" render --quiet --backend c "${small[@]}" --frames 0-1 \
+    -o '%d.data' -o film.mkv
+for patience in x 0 -1 1e9 nan; do
+    expect_refusal 2 env HEDRON_STOP_PATIENCE=$patience "$hedron" render --backend c "${small[@]}" --frames 0 -o x.png
+    expect_stderr_contains HEDRON_STOP_PATIENCE
+done
+
+# ---- threads that the system refuses
+few=("$hedron" render --backend c "${small[@]}" --frames 0-2 -o '%d.data' --threads 4)
+"${few[@]}" --quiet >"$logs/which"
+mkdir "$work/whole"
+mv ./*.data "$work/whole"
+refused=0
+for ((after = 0; after < 12; after++)); do
+    run env FAILING_THREADS_AFTER=$after LD_PRELOAD="$failing/libfailing_threads.so" "${few[@]}"
+    if ((code == 0)); then
+        for i in 0 1 2; do
+            expect_same "$i.data" "$work/whole/$i.data"
+        done
+        if grep -q 'the system refused threads for' "$logs/stderr"; then
+            refused=$((refused + 1))
+        fi
+    elif ((code != 1)); then
+        fail "exit code $code, expected 0 or 1"
+        show_logs
+    else
+        expect_stderr_contains 'cannot start'
+        expect_files .
+    fi
+    if ((after > 8 || after < 2)) && ((code != (after < 2))); then
+        fail "exit code $code with $after threads"
+    fi
+    rm -f ./*.data
+done
+if ((refused == 0)); then
+    fail "fewer threads never did the work"
+fi
+run env FAILING_THREADS_AFTER=2 LD_PRELOAD="$failing/libfailing_threads.so" "${few[@]}"
+expect_stderr_contains '1 of 4 do it'
+expect_stderr_contains '--threads leaves more'
+
+# ---- memory that is at its end, at any of the allocations of a run
+lean=("$hedron" render --quiet --backend c --threads 1 "${small[@]}" --frames 0-1 --stats stats.jsonl -o '%d.png' -o '%d.pfm')
+memory=(env HEDRON_CACHE=off LD_PRELOAD="$failing/libfailing_memory.so")
+expect_exit 0 "${memory[@]}" FAILING_MEMORY_COUNT="$work/count" "${lean[@]}"
+count=$(<"$work/count")
+if ((count < 200)); then
+    fail "$count allocations were counted, expected hundreds"
+fi
+mv 0.png 1.png 0.pfm 1.pfm "$work/whole"
+rm stats.jsonl
+# The first ones are those of the system's loader; then those that read the scene, each like the other.
+step=1
+failed=0
+for ((at = 1; at <= count; at += step)); do
+    run "${memory[@]}" FAILING_MEMORY_AT=$at "${lean[@]}"
+    if ((code == 1)); then
+        failed=$((failed + 1))
+        expect_sentence
+        # A thread needs some, and the system does not say what it lacked.
+        if ! grep -q -i -E 'memory|cannot start .*thread' "$logs/stderr"; then
+            fail "where allocation $at of $count fails, nothing says so"
+            show_logs
+        fi
+    elif ((code == 0)); then
+        for file in 0.png 1.png 0.pfm 1.pfm; do
+            expect_same "$file" "$work/whole/$file"
+        done
+    else
+        fail "exit code $code where allocation $at of $count fails, expected 0 or 1"
+        show_logs
+    fi
+    if compgen -G '*.tmp-*' >"$logs/which"; then
+        fail "where allocation $at of $count fails, there stays $(ls)"
+    fi
+    rm -f ./*
+    step=$((at > 40 && at < count / 2 ? 7 : 1))
+done
+if ((failed < 20)); then
+    fail "only $failed allocations were missed"
+fi
+# From then on for good.
+for ((at = 60; at <= count; at += 23)); do
+    expect_exit 1 "${memory[@]}" FAILING_MEMORY_AT=$at FAILING_MEMORY_TIMES=1000000 "${lean[@]}"
+    expect_stderr_contains memory
+    rm -f ./*
+done
+
 expect_files .
 finish

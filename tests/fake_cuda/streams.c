@@ -3,12 +3,15 @@
    for it. So memory that is used again too early shows. Kernels leave a colour that tells the view,
    or convert pixels as the true one does. FAKE_CUDA_EAGER carries everything out at once. Memory
    that is freed while something is queued, and what is left at the end, is told on standard error.
-   FAKE_CUDA_FAILS names a function that fails from its third call on. */
+   FAKE_CUDA_FAILS names a function that fails from its third call on, with FAKE_CUDA_CODE, else for
+   want of memory; with FAKE_CUDA_HANGS it makes that file and then never returns. */
+#define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../../kernels/common/encode.h"
 #include "../../kernels/common/scene_tables.h"
@@ -39,14 +42,27 @@ static int queued, allocations;
 
 static bool fails(const char *function) {
     static int calls;
-    const char *failing = getenv("FAKE_CUDA_FAILS");
-    return failing != NULL && strcmp(failing, function) == 0 && ++calls >= FIRST_FAILING;
+    const char *failing = getenv("FAKE_CUDA_FAILS"), *mark = getenv("FAKE_CUDA_HANGS");
+    bool is_time = failing != NULL && strcmp(failing, function) == 0 && ++calls >= FIRST_FAILING;
+    if (is_time && mark != NULL) {
+        FILE *file = fopen(mark, "w");
+        if (file != NULL)
+            fclose(file);
+        for (;;)
+            pause();
+    }
+    return is_time;
+}
+
+static HdCuResult failure(void) {
+    const char *code = getenv("FAKE_CUDA_CODE");
+    return code != NULL ? (HdCuResult)atoi(code) : HD_CU_ERROR_OUT_OF_MEMORY;
 }
 
 #define FAIL_IF_ASKED(function)                                                                    \
     do {                                                                                           \
         if (fails(#function))                                                                      \
-            return HD_CU_ERROR_OUT_OF_MEMORY;                                                      \
+            return failure();                                                                      \
     } while (0)
 
 static void *pointer(uint64_t argument) {
