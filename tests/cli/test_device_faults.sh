@@ -76,8 +76,8 @@ else
 
     # Memory, at the first buffer and at later ones.
     for at in 1 3 9 20; do
-        for code in -4 -5 -6; do
-            expect_orderly_failure 1 "${opencl[@]}" FAILING_OPENCL=clCreateBuffer FAILING_OPENCL_CODE=$code \
+        for error in -4 -5 -6; do
+            expect_orderly_failure 1 "${opencl[@]}" FAILING_OPENCL=clCreateBuffer FAILING_OPENCL_CODE=$error \
                 FAILING_OPENCL_AT=$at "${render[@]}"
             expect_stderr_contains 'has too little free of its'
         done
@@ -86,9 +86,12 @@ else
     # A device that is lost: at the first launches or in the midst of a run.
     for function in clEnqueueNDRangeKernel clFlush clFinish clWaitForEvents clEnqueueReadBuffer clEnqueueWriteBuffer; do
         for at in 1 2 5; do
-            for code in -36 -9999; do
+            if [[ $function == clFinish ]] && ((at > 1)); then
+                continue # after the upload it only cleans up
+            fi
+            for error in -36 -9999; do
                 expect_orderly_failure 3 "${opencl[@]}" FAILING_OPENCL=$function FAILING_OPENCL_AT=$at \
-                    FAILING_OPENCL_CODE=$code "${render[@]}"
+                    FAILING_OPENCL_CODE=$error "${render[@]}"
                 expect_stderr_contains "$lost"
                 expect_stderr_contains "$function"
             done
@@ -120,19 +123,16 @@ else
     done
 
     # A compiler that fails, and one that is not there.
-    for code in -11 -3; do
+    for error in -11 -3 -6; do
         rm -rf ./*
-        expect_exit 1 env HEDRON_CACHE=off "${opencl[@]}" FAILING_OPENCL=clBuildProgram FAILING_OPENCL_CODE=$code \
+        expect_exit 1 env HEDRON_CACHE=off "${opencl[@]}" FAILING_OPENCL=clBuildProgram FAILING_OPENCL_CODE=$error \
             "${render[@]}"
         expect_stderr_contains 'refused the kernels (clBuildProgram: CL_'
         expect_files .
     done
-    expect_orderly_failure 1 env HEDRON_CACHE=off "${opencl[@]}" FAILING_OPENCL=clBuildProgram FAILING_OPENCL_CODE=-6 \
-        "${render[@]}"
-    expect_stderr_contains 'clBuildProgram failed with CL_OUT_OF_HOST_MEMORY'
     # Kernels that are kept, but that the compiler no longer turns into a program, are compiled anew.
     expect_exit 0 "${opencl[@]}" FAILING_OPENCL=clBuildProgram FAILING_OPENCL_TIMES=1 FAILING_OPENCL_CODE=-11 \
-        "${render[@]}" --verbose
+        "$hedron" render --verbose --backend opencl "${small[@]}" --frames 0-4 -o '%d.data'
     expect_stderr_contains 'the driver refused the cached kernels'
     expect_stderr_contains 'compiled in'
     rm -rf ./*
@@ -169,16 +169,16 @@ frames=("$hedron" render "${small[@]}" --frames 0-6 --backend cuda --math fast -
 expect_exit 0 "${cuda[@]}" "${frames[@]}"
 rm -rf ./*
 # A device that fell off the bus, an error of its memory, a kernel that took too long, one that crashed.
-for code in 46 214 700 702 719 999; do
+for error in 46 214 700 702 719 999; do
     for function in cuMemcpyHtoDAsync cuLaunchKernel cuEventSynchronize; do
-        expect_orderly_failure 3 "${cuda[@]}" FAKE_CUDA_FAILS=$function FAKE_CUDA_CODE=$code "${frames[@]}"
+        expect_orderly_failure 3 "${cuda[@]}" FAKE_CUDA_FAILS=$function FAKE_CUDA_CODE=$error "${frames[@]}"
         expect_stderr_contains "$lost"
         expect_stderr_contains "$function"
     done
 done
 # Memory: what was asked for, and what there is.
-expect_orderly_failure 1 "${cuda[@]}" FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_MEMORY=2000000 "${frames[@]}"
-expect_stderr_contains 'free of its 2.00 MB (cuMemAlloc: '
+expect_orderly_failure 1 "${cuda[@]}" FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_MEMORY=50000000 "${frames[@]}"
+expect_stderr_contains 'free of its 50.0 MB (cuMemAlloc: '
 # A driver that never returns.
 for function in cuLaunchKernel cuEventSynchronize; do
     expect_end_by_signals "${cuda[@]}" FAKE_CUDA_HANGS="$work/reached" FAKE_CUDA_FAILS=$function "${frames[@]}"
