@@ -172,6 +172,21 @@ expect_end_by_signals "${hanging[@]}" STUCK_OPEN=/scene.json "$hedron" render "$
 # The first file of that name only asks whether it can be written.
 expect_end_by_signals "${hanging[@]}" STUCK_OPEN=1.data.tmp- "$hedron" render --quiet --backend c "${small[@]}" --frames 0-1 \
     -o '%d.data' -o film.mkv
+# Later signals end it at once, however much patience there is.
+ends_by_another() {
+    kill -INT "$pid" 2>/dev/null || true
+    sleep 0.6
+    is_gone "$pid"
+}
+rm -f "$work/reached"
+start env STUCK_MARK="$work/reached" LD_PRELOAD="$failing/libfailing_stuck.so" STUCK_OPEN=1.data.tmp- \
+    "$hedron" render --quiet --backend c "${small[@]}" --frames 0-1 -o '%d.data'
+wait_for 'it to hang' test -e "$work/reached"
+wait_for 'the second signal to end it' ends_by_another
+expect_end 130 60
+expect_silent_stderr
+rm -f 0.data
+expect_files .
 for patience in x 0 -1 1e9 nan; do
     expect_refusal 2 env HEDRON_STOP_PATIENCE=$patience "$hedron" render --backend c "${small[@]}" --frames 0 -o x.png
     expect_stderr_contains HEDRON_STOP_PATIENCE

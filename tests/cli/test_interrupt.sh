@@ -167,16 +167,13 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
     expect_files .
     rm "$work/tools/ffprobe"
 
-    # A second signal, long enough after the first, ends the program at once whatever it waits for: here for
-    # an FFmpeg that neither speaks nor ends. Nothing stays behind.
+    # An FFmpeg that neither speaks nor ends is ended. Nothing stays behind.
     fake_ffmpeg "cat >/dev/null; echo \$\$ >'$work/leader'; exec >&- 2>&-; : >'$work/reached'; exec sleep 60"
     start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${small[@]}" --frames 0 -o film.mkv
     wait_for 'FFmpeg to fall silent' test -e "$work/reached"
-    sleep 0.6
     send INT "$pid"
-    sleep 0.6
-    send INT "$pid"
-    expect_end 130 3
+    expect_end 130 20
+    expect_sentence
     wait_for 'FFmpeg to be gone' is_gone "$(<"$work/leader")"
     expect_files .
     rm "$work/tools/ffmpeg"
