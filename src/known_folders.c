@@ -48,3 +48,9 @@ bool hd_known_folders_has(const char *path) {
     pthread_mutex_unlock(&mutex);
     return has;
 }
+
+void hd_known_folders_forget(void) {
+    pthread_mutex_lock(&mutex);
+    memset(&known, 0, sizeof known);
+    pthread_mutex_unlock(&mutex);
+}

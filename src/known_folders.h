@@ -12,4 +12,7 @@ void hd_known_folders_add(const char *path);
 /* True where the folder of the file `path` is remembered. */
 bool hd_known_folders_has(const char *path);
 
+/* Forgets all: another run begins. */
+void hd_known_folders_forget(void);
+
 #endif
