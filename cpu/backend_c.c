@@ -88,11 +88,13 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
         status = create_queues(c, error);
     if (status == HD_OK)
         status = hd_thread_pool_create(&c->pool, c->threads, error);
-    if (status != HD_OK)
+    if (status != HD_OK) {
         c_close(c);
-    else
-        *renderer = c;
-    return status;
+        return status;
+    }
+    c->threads = hd_thread_pool_size(c->pool);
+    *renderer = c;
+    return HD_OK;
 }
 
 static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content, HdError *error) {

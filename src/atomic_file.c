@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "known_folders.h"
 #include "leftovers.h"
 
 enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
@@ -93,10 +94,30 @@ void hd_temporary_remove_stale(const char *temporary) {
     close(descriptor);
 }
 
+/* Of a folder that was there, or of a temporary file. */
+static HdStatus fail_without(const char *path, const char *temporary, HdError *error) {
+    char folder[HD_MAX_PATH] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    if (access(folder, F_OK) != 0)
+        return hd_fail(error, HD_FAILED,
+                       "cannot write %s: its folder %s is gone; it was there before", path, folder);
+    return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", path, temporary);
+}
+
+static HdStatus fail_to_create(const char *path, const char *temporary, int reason,
+                               HdError *error) {
+    if (reason == ENOENT && hd_known_folders_has(path))
+        return fail_without(path, temporary, error);
+    return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path, temporary,
+                   strerror(reason));
+}
+
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
-    if (status == HD_OK)
+    if (status == HD_OK && !hd_known_folders_has(path))
         status = hd_path_make_parents(path, error);
     if (status == HD_OK)
         status = check_length(path, error);
@@ -108,18 +129,24 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
+            hd_known_folders_add(path);
             return HD_OK;
         }
         if (*descriptor >= 0)
             close(*descriptor);
         else if (errno != EEXIST)
-            return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path,
-                           temporary, strerror(errno));
+            return fail_to_create(path, temporary, errno, error);
     }
     if (status != HD_OK)
         return status;
     return hd_fail(error, HD_FAILED, "cannot write %s: all %d temporary names up to %s are taken",
                    path, MAX_ATTEMPTS, temporary);
+}
+
+HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *error) {
+    if (access(temporary, F_OK) != 0 && errno == ENOENT)
+        return fail_without(path, temporary, error);
+    return HD_OK;
 }
 
 void hd_temporary_remove(const char *temporary) {
@@ -134,6 +161,8 @@ HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *
     }
     int reason = errno;
     hd_temporary_remove(temporary);
+    if (reason == ENOENT)
+        return fail_without(path, temporary, error);
     return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", temporary, path,
                    strerror(reason));
 }

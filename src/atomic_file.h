@@ -9,13 +9,16 @@
 #include "error.h"
 #include "paths.h"
 
-/* Makes missing folders and an empty file beside `path`, "NAME.tmp-PID-N", that no other process
-   uses. It does not outlive the program (leftovers.h), unless that is killed; then the descriptor,
-   by which the file is locked, tells that it may be removed. The caller closes the descriptor, once
-   the file has its final name. A `path` that stands for a folder or a device is refused, because
-   renaming would replace it. */
+/* Makes missing folders, but not one that was there earlier in the run and is gone, and an empty
+   file beside `path`, "NAME.tmp-PID-N", that no other process uses. It does not outlive the program
+   (leftovers.h), unless that is killed; then the descriptor, by which the file is locked, tells
+   that it may be removed. The caller closes the descriptor, once the file has its final name. A
+   `path` that stands for a folder or a device is refused, because renaming would replace it. */
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error);
+
+/* HD_FAILED where somebody removed the temporary file, or its folder, which the message tells. */
+HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *error);
 
 void hd_temporary_remove(const char *temporary);
 

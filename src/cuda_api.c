@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "cuda_api.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "device_loss.h"
 #include "dynamic_library.h"
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
@@ -45,16 +48,14 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
-/* What the error means for the device; ends a message. */
-static const char *consequence(HdCuResult code) {
+/* After these no call of this program succeeds on the device. */
+static bool is_lost(HdCuResult code) {
     switch (code) {
-    case HD_CU_ERROR_LAUNCH_TIMEOUT:
-        return "; the driver ended a kernel that ran for too long, and the device is lost to this "
-               "process";
     case HD_CU_ERROR_DEVICE_UNAVAILABLE:
     case HD_CU_ERROR_ECC_UNCORRECTABLE:
     case HD_CU_ERROR_NVLINK_UNCORRECTABLE:
     case HD_CU_ERROR_ILLEGAL_ADDRESS:
+    case HD_CU_ERROR_LAUNCH_TIMEOUT:
     case HD_CU_ERROR_CONTEXT_IS_DESTROYED:
     case HD_CU_ERROR_HARDWARE_STACK_ERROR:
     case HD_CU_ERROR_ILLEGAL_INSTRUCTION:
@@ -62,19 +63,21 @@ static const char *consequence(HdCuResult code) {
     case HD_CU_ERROR_INVALID_ADDRESS_SPACE:
     case HD_CU_ERROR_INVALID_PC:
     case HD_CU_ERROR_LAUNCH_FAILED:
-        return "; the device is lost to this process";
+        return true;
     default:
-        return "";
+        return false;
     }
 }
 
 HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
                       HdError *error) {
     const char *text = NULL;
+    char what[512];
     if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%u: %s)%s", function,
-                   hd_cuda_error_name(driver, code), code, text, consequence(code));
+    snprintf(what, sizeof what, "%s failed with %s (%u: %s)", function,
+             hd_cuda_error_name(driver, code), code, text);
+    return is_lost(code) ? hd_fail_lost(error, what) : hd_fail(error, HD_FAILED, "%s", what);
 }
 
 const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {

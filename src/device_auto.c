@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cache_folder.h"
+#include "device_loss.h"
 #include "job_kind.h"
 #include "launch_choice.h"
 
@@ -145,7 +146,8 @@ static HdStatus measure_all(Choosing *choosing, HdError *error) {
             return status;
         if (status != HD_OK)
             note_failure(choosing, error->message);
-        is_lasting = is_lasting && status != HD_FAILED;
+        bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
+        is_lasting = is_lasting && !is_passing;
     }
     if (choosing->best < 0)
         return HD_OK;

@@ -107,7 +107,8 @@ HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, siz
     bool done = job.info != NULL && try_reading(&job, texture);
     png_destroy_read_struct(&job.png, &job.info, NULL);
     if (!done)
-        return hd_fail(error, HD_BAD_INPUT, "cannot read %s as PNG: %s", name, job.message);
+        return hd_fail(error, hd_png_reading_status(job.message), "cannot read %s as PNG: %s", name,
+                       job.message);
     if (job.bits == 16)
         take_off_curve16(texture, curve);
     else

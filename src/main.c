@@ -44,7 +44,9 @@ int main(int count, char **arguments) {
     static HdError error;
     HdOptions options;
     hd_interrupt_install();
-    HdStatus status = hd_options_parse(&options, count, arguments, &error);
+    HdStatus status = hd_interrupt_read_patience(&error);
+    if (status == HD_OK)
+        status = hd_options_parse(&options, count, arguments, &error);
     if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))
         options.command = HD_COMMAND_HELP;
     if (status == HD_OK)

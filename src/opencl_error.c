@@ -3,7 +3,10 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
+
+#include "device_loss.h"
 
 #define CODES(X)                                                                                   \
     X(CL_DEVICE_NOT_FOUND)                                                                         \
@@ -80,17 +83,30 @@ const char *hd_opencl_error_name(cl_int code) {
     }
 }
 
-/* Drivers report what became of a kernel to those who wait for it. */
-static bool is_loss(const char *function, cl_int code) {
+/* Drivers report what became of a kernel to those who wait for it; NVIDIA's has no other words than
+   a number of its own for one that crashed. */
+static bool is_lost(const char *function, cl_int code) {
+    enum { NVIDIA_ILLEGAL_ACCESS = -9999 };
     bool waits = strcmp(function, "clFinish") == 0 || strcmp(function, "clWaitForEvents") == 0 ||
                  strcmp(function, "clEnqueueReadBuffer") == 0;
-    return code == CL_DEVICE_NOT_AVAILABLE ||
-           (waits && (code == CL_OUT_OF_RESOURCES || code == CL_INVALID_COMMAND_QUEUE ||
-                      code == CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST));
+    switch (code) {
+    case CL_DEVICE_NOT_AVAILABLE:
+    case NVIDIA_ILLEGAL_ACCESS:
+        return true;
+    case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST:
+    case CL_INVALID_COMMAND_QUEUE:
+    case CL_INVALID_CONTEXT:
+    case CL_OUT_OF_RESOURCES:
+        return waits;
+    default:
+        return false;
+    }
 }
 
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code) {
-    return hd_fail(error, HD_FAILED, "%s failed with %s (%d)%s", function,
-                   hd_opencl_error_name(code), (int)code,
-                   is_loss(function, code) ? "; the device is lost to this process" : "");
+    char what[256];
+    snprintf(what, sizeof what, "%s failed with %s (%d)", function, hd_opencl_error_name(code),
+             (int)code);
+    return is_lost(function, code) ? hd_fail_lost(error, what)
+                                   : hd_fail(error, HD_FAILED, "%s", what);
 }

@@ -11,8 +11,8 @@
 /* "CL_OUT_OF_RESOURCES"; for codes that the standard does not have, "an unknown error". */
 const char *hd_opencl_error_name(cl_int code);
 
-/* Fails with the name of the function and of the error, and says so where it means that the device
-   is lost: a kernel failed, or was ended, while it was waited for. */
+/* Fails with the name of the function and of the error: HD_UNAVAILABLE where that means that the
+   device is lost (hd_fail_lost), else HD_FAILED. */
 HdStatus hd_opencl_fail(HdError *error, const char *function, cl_int code);
 
 #endif

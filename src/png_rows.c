@@ -66,7 +66,8 @@ HdStatus hd_png_rows_open(HdPngRows **out, FILE *file, const char *path, HdPictu
         rows->info = png_create_info_struct(rows->png);
     HdStatus status = HD_OK;
     if (rows->info == NULL || !try_head(rows, facts))
-        status = hd_fail(error, HD_BAD_INPUT, "cannot read %s as PNG: %s", path, rows->message);
+        status = hd_fail(error, hd_png_reading_status(rows->message), "cannot read %s as PNG: %s",
+                         path, rows->message);
     else if (rows->is_interlaced)
         status =
             hd_fail(error, HD_BAD_INPUT,
@@ -99,7 +100,8 @@ static void make_codes(const HdPngRows *rows, uint16_t *codes) {
 
 HdStatus hd_png_rows_next(HdPngRows *rows, uint16_t *codes, HdError *error) {
     if (!try_row(rows, (unsigned char *)codes))
-        return hd_fail(error, HD_BAD_INPUT, "cannot read %s as PNG: %s", rows->path, rows->message);
+        return hd_fail(error, hd_png_reading_status(rows->message), "cannot read %s as PNG: %s",
+                       rows->path, rows->message);
     make_codes(rows, codes);
     return HD_OK;
 }

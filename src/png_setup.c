@@ -33,6 +33,10 @@ png_structp hd_png_create_writer(char message[HD_PNG_MESSAGE_SIZE]) {
     return png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
 }
 
+HdStatus hd_png_reading_status(const char *message) {
+    return strstr(message, "memory") != NULL ? HD_FAILED : HD_BAD_INPUT;
+}
+
 void hd_png_limit_reading(png_structp png) {
     png_set_user_limits(png, HD_MAX_IMAGE_SIDE, HD_MAX_IMAGE_SIDE);
     png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);

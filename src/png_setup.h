@@ -8,12 +8,17 @@
 
 #include <png.h>
 
+#include "error.h"
+
 enum { HD_PNG_MESSAGE_SIZE = 256 };
 
 /* Structures for reading and writing; NULL where there is no memory. Before the jump an error's
    sentence goes to `message`, which has to live as long; warnings are dropped. */
 png_structp hd_png_create_reader(char message[HD_PNG_MESSAGE_SIZE]);
 png_structp hd_png_create_writer(char message[HD_PNG_MESSAGE_SIZE]);
+
+/* What a reader's error is: HD_FAILED where memory was short, else HD_BAD_INPUT. */
+HdStatus hd_png_reading_status(const char *message);
 
 /* Refuses more than 65535 pixels a side and chunks without measure, and skips all that is not
    needed for the pixels. Jumps on error, as all that follows. */

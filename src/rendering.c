@@ -10,6 +10,7 @@
 
 #include "device_team.h"
 #include "frame_fingerprint.h"
+#include "fallbacks.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
@@ -33,6 +34,14 @@ typedef struct Run {
     double missing;                        /* steps of 255 at most, of the worst frame so far */
 } Run;
 
+/* Nobody else tells of anything now. */
+static void tell_fallbacks(const Run *run) {
+    char text[HD_FALLBACK_LENGTH];
+    while (hd_fallback_take(text))
+        if (!run->options->quiet)
+            fprintf(stderr, "hedron: %s\n", text);
+}
+
 static void scene_uploaded(void *context, int number, const HdSceneTables *tables) {
     Run *run = context;
     HdRenderer *renderer = run->team.renderers[number];
@@ -43,6 +52,7 @@ static void scene_uploaded(void *context, int number, const HdSceneTables *table
         hd_note_renderer(&run->team.devices[number], run->renderer_lines[number],
                          hd_renderer_kernels_note(renderer), tables);
     }
+    tell_fallbacks(run);
     hd_progress_update(&run->progress, run->rendered);
     pthread_mutex_unlock(&run->telling);
 }
@@ -172,6 +182,7 @@ static HdStatus render_all(Run *run, HdError *error) {
     HdStatus status = hd_sequence_render(&sequence, error);
     hd_interrupt_announce(NULL);
     hd_progress_end(&run->progress);
+    tell_fallbacks(run);
     if (status == HD_OK && run->team.count > 0)
         hd_progress_tell_end(&run->progress, run->rays);
     if (run->options->verbose)

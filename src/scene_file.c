@@ -9,6 +9,7 @@
 #include "file_bytes.h"
 #include "json_hints.h"
 #include "json_limits.h"
+#include "json_memory.h"
 #include "json_words.h"
 #include "scene_changes.h"
 #include "scene_notes.h"
@@ -116,10 +117,14 @@ HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size,
                              const HdSceneSource *source, HdError *error) {
     json_t *root = NULL;
     *file = (HdSceneFile){.schema = ""};
+    hd_json_memory_watch();
     HdStatus status = parse_json(&root, text, size, source->name, error);
     if (status == HD_OK)
         status = build(file, root, source, error);
     json_decref(root);
+    if (status == HD_BAD_INPUT && hd_json_memory_failed())
+        status =
+            hd_fail(error, HD_FAILED, "%s: out of memory: no room for the scene", source->name);
     if (status != HD_OK)
         hd_scene_file_free(file);
     return status;

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fallbacks.h"
+
 typedef struct Worker {
     HdStages *stages;
     int stage;
@@ -218,6 +220,19 @@ static int start_worker(HdStages *stages, int stage) {
     return reason;
 }
 
+/* Every stage has one thread already, and could do with it. */
+static void start_more(HdStages *stages) {
+    int reason = 0, wanted = 0;
+    for (int i = 0; i < stages->count; i++) {
+        wanted += stages->list[i].threads;
+        for (int j = 1; j < stages->list[i].threads && reason == 0; j++)
+            reason = start_worker(stages, i);
+    }
+    if (reason != 0)
+        hd_fallback_note("the system refused threads for the outputs (%s): %d of %d do it",
+                         strerror(reason), stages->worker_count, wanted);
+}
+
 HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
                          const bool *is_ready, int room, HdError *error) {
     HdStages *stages = create(list, count, item_count, is_ready, room);
@@ -230,17 +245,20 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
         return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
     }
     for (int i = 0; i < count && reason == 0; i++)
-        for (int j = 0; j < list[i].threads && reason == 0; j++)
-            reason = start_worker(stages, i);
+        reason = start_worker(stages, i);
     if (reason == 0) {
+        start_more(stages);
         *out = stages;
         return HD_OK;
     }
     int started = stages->worker_count;
     join_all(stages);
     destroy(stages);
-    return hd_fail(error, HD_FAILED, "cannot start thread %d for the outputs: %s", started + 1,
-                   strerror(reason));
+    return hd_fail(
+        error, HD_FAILED,
+        "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
+        "them to the outputs",
+        started + 1, count, strerror(reason));
 }
 
 /* The first item that is there to be taken. */

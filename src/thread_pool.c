@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fallbacks.h"
+
 typedef struct Thread {
     pthread_t thread;
     HdThreadPool *pool;
@@ -83,6 +85,16 @@ static int start_thread(Thread *thread) {
     return code;
 }
 
+static HdStatus do_with_fewer(const HdThreadPool *pool, int wanted, int reason, HdError *error) {
+    int started = pool->thread_count;
+    if (started == 0)
+        return hd_fail(error, HD_FAILED, "cannot start one of %d threads: %s", wanted,
+                       strerror(reason));
+    hd_fallback_note("the system refused threads for tracing (%s): %d of %d do it",
+                     strerror(reason), started, wanted);
+    return HD_OK;
+}
+
 static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
     pool->threads = calloc((size_t)threads, sizeof *pool->threads);
     if (pool->threads == NULL)
@@ -92,8 +104,7 @@ static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
         pool->threads[i].number = i;
         int code = start_thread(&pool->threads[i]);
         if (code != 0)
-            return hd_fail(error, HD_FAILED, "cannot start thread %d of %d: %s", i + 1, threads,
-                           strerror(code));
+            return do_with_fewer(pool, threads, code, error);
         pool->thread_count++;
     }
     return HD_OK;
@@ -112,6 +123,10 @@ HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) 
     else
         *out = pool;
     return status;
+}
+
+int hd_thread_pool_size(const HdThreadPool *pool) {
+    return pool->thread_count;
 }
 
 bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,

@@ -9,8 +9,12 @@
 
 typedef struct HdThreadPool HdThreadPool;
 
-/* Starts `threads` threads (at least 1), each in the default floating-point environment. */
+/* Starts `threads` threads (at least 1), each in the default floating-point environment. Where the
+   system refuses some, those that it did not refuse do the work, and a note tells (fallbacks.h). */
 HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
+
+/* How many threads there are. */
+int hd_thread_pool_size(const HdThreadPool *pool);
 
 /* What a pool does; `thread` counts from 0, and no two calls with the same number run at once. */
 typedef void HdThreadWork(void *context, int thread, int item);

@@ -112,7 +112,7 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_
     append(&arguments, start);
     append_kind(&arguments, video);
     append(&arguments, end);
-    return hd_child_start(&video->ffmpeg, arguments.words, true, error);
+    return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
 }
 
 static void remove_file(HdVideo *video) {
@@ -177,12 +177,33 @@ static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdEr
                    video->path);
 }
 
+/* FFmpeg's words on a file that is gone mislead. */
+static void blame_folder(const HdVideo *video, HdError *error) {
+    HdError gone;
+    if (hd_temporary_check(video->temporary, video->path, &gone) != HD_OK)
+        *error = gone;
+}
+
+static HdStatus fail_stuck(const HdVideo *video, const char *program, HdChild *child,
+                           HdError *error) {
+    return hd_fail(error, HD_FAILED,
+                   "%s stood still for %d s at frame %ld of %s and was ended "
+                   "(HEDRON_FFMPEG_PATIENCE sets the seconds); it said: %s",
+                   program, child->patience_s, video->frames, video->path, hd_child_said(child));
+}
+
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
-    hd_child_end(&video->ffmpeg, HD_CHILD_PATIENCE_MS, how);
-    return hd_fail(error, HD_FAILED,
-                   "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
-                   video->frames, video->path, hd_child_said(&video->ffmpeg));
+    if (video->ffmpeg.is_stuck) {
+        hd_child_stop(&video->ffmpeg);
+        return fail_stuck(video, "FFmpeg", &video->ffmpeg, error);
+    }
+    hd_child_end(&video->ffmpeg, HD_CHILD_SILENCE_MS, how);
+    hd_fail(error, HD_FAILED,
+            "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
+            video->frames, video->path, hd_child_said(&video->ffmpeg));
+    blame_folder(video, error);
+    return HD_FAILED;
 }
 
 HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error) {
@@ -209,10 +230,12 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (video->frames == 0)
         return hd_fail(error, HD_FAILED, "the film %s has no frames, expected at least 1",
                        video->path);
-    if (hd_child_end(&video->ffmpeg, HD_CHILD_FOR_EVER, how))
+    if (hd_child_end(&video->ffmpeg, HD_CHILD_WHILE_IT_WORKS, how))
         return HD_OK;
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
+    if (video->ffmpeg.is_stuck)
+        return fail_stuck(video, "FFmpeg", &video->ffmpeg, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
                    hd_child_said(&video->ffmpeg));
 }
@@ -227,12 +250,14 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
-    HdStatus status = hd_child_start(&ffprobe, arguments, false, error);
+    HdStatus status = hd_child_start(&ffprobe, arguments, false, NULL, error);
     if (status != HD_OK)
         return status;
-    bool done = hd_child_end(&ffprobe, HD_CHILD_FOR_EVER, how);
+    bool done = hd_child_end(&ffprobe, HD_CHILD_WHILE_IT_WORKS, how);
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
+    if (ffprobe.is_stuck)
+        return fail_stuck(video, "ffprobe", &ffprobe, error);
     const char *answer = hd_child_said(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')
@@ -249,6 +274,8 @@ HdStatus hd_video_close(HdVideo *video, HdError *error) {
     HdStatus status = end_ffmpeg(video, error);
     if (status == HD_OK)
         status = count_frames(video, error);
+    if (status == HD_FAILED)
+        blame_folder(video, error);
     if (status == HD_OK) {
         status = hd_temporary_publish(video->temporary, video->path, error);
         video->temporary[0] = '\0';

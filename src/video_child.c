@@ -14,6 +14,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "interrupt.h"
@@ -21,7 +22,11 @@
 
 extern char **environ;
 
-enum { GLANCE_MS = 200 };
+/* Where nothing tells that something happened, glances are shorter. */
+enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
+
+/* Of computing: less may be a loop that waits. */
+static const int64_t LEAST_WORK_NS = 100000000;
 
 static bool is_program(const char *path) {
     struct stat found;
@@ -137,35 +142,87 @@ static void take_output(HdChild *child) {
         close_descriptor(&child->output);
 }
 
-/* Takes in output until its end; false where the child is silent for longer than `patience`. */
-static bool drain(HdChild *child, int patience) {
-    int waited = 0;
-    while (child->output >= 0) {
-        if (patience == HD_CHILD_FOR_EVER && hd_interrupt_signal() != 0)
+/* ---- standing still ---- */
+
+static int64_t nanoseconds(struct timespec time) {
+    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+}
+
+static HdChildWork look_at_work(const HdChild *child) {
+    HdChildWork work = {0};
+    struct timespec used;
+    struct stat found;
+    clockid_t clock;
+    if (clock_getcpuclockid(child->pid, &clock) == 0 && clock_gettime(clock, &used) == 0)
+        work.cpu_ns = nanoseconds(used);
+    if (child->file != NULL && stat(child->file, &found) == 0) {
+        work.file_bytes = (int64_t)found.st_size;
+        work.file_changed_ns = nanoseconds(found.st_mtim);
+    }
+    return work;
+}
+
+/* Since it was last found to have worked. */
+static bool has_worked(HdChild *child) {
+    HdChildWork now = look_at_work(child);
+    if (now.file_bytes == child->work.file_bytes &&
+        now.file_changed_ns == child->work.file_changed_ns &&
+        now.cpu_ns - child->work.cpu_ns < LEAST_WORK_NS)
+        return false;
+    child->work = now;
+    return true;
+}
+
+/* After a glance in vain; `still_ms` counts them, and no clock, for the whole system may have slept
+   or this program been stopped. */
+static bool stands_still(HdChild *child, int glance_ms, int *still_ms) {
+    *still_ms = has_worked(child) ? 0 : *still_ms + glance_ms;
+    child->is_stuck = *still_ms >= 1000 * child->patience_s;
+    return child->is_stuck;
+}
+
+static bool has_ended(const HdChild *child) {
+    siginfo_t state = {0};
+    int code = waitid(P_PID, (id_t)child->pid, &state, WEXITED | WNOWAIT | WNOHANG);
+    return code != 0 ? errno != EINTR : state.si_pid != 0;
+}
+
+/* Takes in output until its end, then waits for the child's. False where it is to be killed. */
+static bool wait_for_end(HdChild *child, int silence_ms) {
+    int still_ms = 0;
+    while (child->output >= 0 || !has_ended(child)) {
+        bool works = silence_ms == HD_CHILD_WHILE_IT_WORKS;
+        if (works && hd_interrupt_signal() != 0)
             return false;
+        int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
         struct pollfd ready = {.fd = child->output, .events = POLLIN};
-        int count = poll(&ready, 1, GLANCE_MS);
-        bool failed = count < 0 && errno != EINTR;
+        int count = poll(&ready, 1, glance_ms);
+        if (count < 0 && errno != EINTR)
+            return false;
         if (count > 0) {
             take_output(child);
-            continue;
-        }
-        waited += GLANCE_MS;
-        if (failed || (patience != HD_CHILD_FOR_EVER && waited >= patience))
+            still_ms = 0;
+        } else if (works ? stands_still(child, glance_ms, &still_ms)
+                         : (still_ms += glance_ms) >= silence_ms) {
             return false;
+        }
     }
     return true;
 }
 
 bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
+    int still_ms = 0;
     while (size > 0) {
         struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
                                   {.fd = child->output, .events = POLLIN}};
         int count = poll(ready, 2, GLANCE_MS);
         if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
             return false;
+        if (count <= 0 && stands_still(child, GLANCE_MS, &still_ms))
+            return false;
         if (count <= 0)
             continue;
+        still_ms = 0;
         if (ready[1].revents != 0)
             take_output(child);
         if (ready[0].revents == 0)
@@ -181,13 +238,13 @@ bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
     return true;
 }
 
-bool hd_child_end(HdChild *child, int patience, char how[64]) {
+/* ---- ends ---- */
+
+/* Waits for as long as it takes, and describes how the child ended. */
+static bool reap(HdChild *child, char how[64]) {
     int state = 0;
     pid_t ended;
     siginfo_t unused;
-    close_descriptor(&child->input);
-    if (!drain(child, patience))
-        kill(-child->pid, SIGKILL);
     /* Its number is free for another process only once it was waited for. */
     while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
         continue;
@@ -206,24 +263,50 @@ bool hd_child_end(HdChild *child, int patience, char how[64]) {
     return ended > 0 && WIFEXITED(state) && WEXITSTATUS(state) == 0;
 }
 
+bool hd_child_end(HdChild *child, int silence_ms, char how[64]) {
+    close_descriptor(&child->input);
+    if (!wait_for_end(child, silence_ms))
+        kill(-child->pid, SIGKILL);
+    return reap(child, how);
+}
+
 /* Kills the whole group, because "ffmpeg" may be a script that started the real program. */
 void hd_child_stop(HdChild *child) {
     char how[64];
     if (child->pid > 0) {
         kill(-child->pid, SIGKILL);
-        close_descriptor(&child->output);
-        hd_child_end(child, HD_CHILD_FOR_EVER, how);
+        reap(child, how);
     }
     close_descriptor(&child->input);
     close_descriptor(&child->output);
 }
 
+static HdStatus read_patience(int *seconds, HdError *error) {
+    const char *text = getenv("HEDRON_FFMPEG_PATIENCE");
+    char *end;
+    *seconds = HD_CHILD_PATIENCE_S;
+    if (text == NULL || text[0] == '\0')
+        return HD_OK;
+    long wanted = strtol(text, &end, 10);
+    if (*end != '\0' || wanted < 1 || wanted > HD_CHILD_MAX_PATIENCE_S)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "HEDRON_FFMPEG_PATIENCE is '%.200s', expected whole seconds from 1 to %d",
+                       text, HD_CHILD_MAX_PATIENCE_S);
+    *seconds = (int)wanted;
+    return HD_OK;
+}
+
 HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
-                        HdError *error) {
+                        const char *file, HdError *error) {
     int input[2] = {-1, -1}, output[2] = {-1, -1};
+    *child = (HdChild){.input = -1, .output = -1, .file = file};
+    HdStatus status = read_patience(&child->patience_s, error);
+    if (status != HD_OK)
+        return status;
     bool opened = (!with_input || open_channel(input)) && open_channel(output);
     int reason = opened ? 0 : errno;
-    *child = (HdChild){.input = input[0], .output = output[0]};
+    child->input = input[0];
+    child->output = output[0];
     if (opened)
         reason = spawn(&child->pid, arguments, input[1], output[1]);
     close_descriptor(&input[1]);

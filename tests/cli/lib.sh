@@ -17,6 +17,7 @@ project=$(realpath "$cli_folder/../..")
 # Compiled OpenCL kernels stay where this user has them, for compiling takes seconds.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/pocl/kcache}
 export LC_ALL=C
+export HEDRON_STOP_PATIENCE=600 # a slow machine ends in order as well
 unset CDPATH XDG_CACHE_HOME # hedron's own cache is where HEDRON_CACHE says, else in the home folder below
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")

@@ -147,8 +147,8 @@ expect_silent_stderr
 rm -r waves
 
 # ---- a device that is lost
-expect_refusal 1 env FAKE_CUDA_FAILS=cuEventSynchronize FAKE_CUDA_ERROR=719 "${frames[@]}" -o failed/%d.data
-expect_stderr_contains 'cuEventSynchronize failed with CUDA_ERROR_FAKE (719: CUDA_ERROR_FAKE); the device is lost to this process'
+expect_refusal 3 env FAKE_CUDA_FAILS=cuEventSynchronize FAKE_CUDA_ERROR=719 "${frames[@]}" -o failed/%d.data
+expect_stderr_contains 'cuEventSynchronize failed with CUDA_ERROR_FAKE (719: CUDA_ERROR_FAKE): the device is lost to this program'
 rm -rf failed
 
 # ---- whatever fails, nothing is left behind

@@ -244,7 +244,7 @@ stop_task() {
         touch -d 'now + 1 minute' "$2"
     fi
     kill "-$1" "$pid"
-    expect_end 143 60
+    expect_end 143
 }
 
 stop_task TERM

@@ -173,15 +173,13 @@ if ffmpeg=$(command -v ffmpeg) && command -v ffprobe >"$logs/which"; then
     expect_files .
     rm "$work/tools/ffprobe"
 
-    # A second signal, long enough after the first, ends the program at once whatever it waits for: here for
-    # an FFmpeg that neither speaks nor ends. Nothing stays behind.
+    # An FFmpeg that neither speaks nor ends is ended. Nothing stays behind.
     fake_ffmpeg "cat >/dev/null; echo \$\$ >'$work/leader'; exec >&- 2>&-; : >'$work/reached'; exec sleep 3600"
     start env PATH="$work/tools:$PATH" "$hedron" render --backend c "${small[@]}" --frames 0 -o film.mkv
     wait_for 'FFmpeg to fall silent' test -e "$work/reached"
     send INT "$pid"
-    # Again and again, for those that come too soon after the first are taken for the same one.
-    wait_for 'it to end' ends_by_signals
     expect_end 130
+    expect_sentence
     wait_for 'FFmpeg to be gone' is_gone "$(<"$work/leader")"
     expect_files .
     rm "$work/tools/ffmpeg"

@@ -187,7 +187,7 @@ if ((has_ffmpeg)); then
         show_logs
     fi
     kill -KILL "$pid" "$(<"$work/leader")"
-    expect_end 137 60
+    expect_end 137
     if ! has_temporary || [[ -e held/0.png ]]; then
         fail 'the first frame has its name before the film has it, or nothing is left of it'
     fi
@@ -201,7 +201,7 @@ if ((has_ffmpeg)); then
         fail 'no film was begun'
     fi
     kill -INT "$pid"
-    expect_end 130 60
+    expect_end 130
     expect_sentence
     expect_stderr_contains interrupted
     expect_files held {0..9}.png film.mkv

@@ -7,12 +7,15 @@
    for each pixel.
    FAKE_CUDA_FAILS names a function that fails from its call number FAKE_CUDA_FAILS_AT on, else from
    its third one, with the error FAKE_CUDA_ERROR, else a lack of memory. No more than
-   FAKE_CUDA_LARGEST bytes are given at once. */
+   FAKE_CUDA_LARGEST bytes are given at once. With FAKE_CUDA_HANGS it makes that file
+   and then never returns. */
+#define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../../kernels/common/encode.h"
 #include "../../kernels/common/scene_tables.h"
@@ -53,9 +56,17 @@ static int number(const char *variable, int otherwise) {
 
 static bool fails(const char *function) {
     static int calls;
-    const char *failing = getenv("FAKE_CUDA_FAILS");
-    return failing != NULL && strcmp(failing, function) == 0 &&
-           ++calls >= number("FAKE_CUDA_FAILS_AT", FIRST_FAILING);
+    const char *failing = getenv("FAKE_CUDA_FAILS"), *mark = getenv("FAKE_CUDA_HANGS");
+    bool is_time = failing != NULL && strcmp(failing, function) == 0 &&
+                   ++calls >= number("FAKE_CUDA_FAILS_AT", FIRST_FAILING);
+    if (is_time && mark != NULL) {
+        FILE *file = fopen(mark, "w");
+        if (file != NULL)
+            fclose(file);
+        for (;;)
+            pause();
+    }
+    return is_time;
 }
 
 #define FAIL_IF_ASKED(function)                                                                    \

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* Preloaded before the OpenCL library, a driver that fails: FAILING_OPENCL is the name of a
+   function, FAILING_OPENCL_AT the number of its first call that fails, from 1, FAILING_OPENCL_TIMES
+   how many of them fail, else all from there, and FAILING_OPENCL_CODE what they fail with.
+   FAILING_OPENCL_HANGS, if it is there, is a file that is made before the call then waits for ever.
+ */
+#define _GNU_SOURCE
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
+
+static atomic_int calls;
+
+static int number_of(const char *name, int otherwise) {
+    const char *text = getenv(name);
+    return text != NULL ? atoi(text) : otherwise;
+}
+
+/* What the call is to fail with, or CL_SUCCESS. */
+static cl_int failure_of(const char *function) {
+    const char *failing = getenv("FAILING_OPENCL"), *mark = getenv("FAILING_OPENCL_HANGS");
+    if (failing == NULL || strcmp(failing, function) != 0)
+        return CL_SUCCESS;
+    int past = atomic_fetch_add(&calls, 1) + 1 - number_of("FAILING_OPENCL_AT", 1);
+    if (past < 0 || past >= number_of("FAILING_OPENCL_TIMES", INT_MAX))
+        return CL_SUCCESS;
+    if (mark != NULL) {
+        close(open(mark, O_CREAT | O_WRONLY | O_CLOEXEC, 0666));
+        for (;;)
+            pause();
+    }
+    return number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
+}
+
+/* Those that return a code, and those that return a handle and the code by their last argument. */
+#define CODED(name, parameters, arguments)                                                         \
+    cl_int name parameters {                                                                       \
+        cl_int(*real) parameters;                                                                  \
+        void *found = dlsym(RTLD_NEXT, #name);                                                     \
+        cl_int failure = failure_of(#name);                                                        \
+        memcpy(&real, &found, sizeof real);                                                        \
+        return failure != CL_SUCCESS ? failure : real arguments;                                   \
+    }
+/* Those that wait do so even then: nobody may use memory that a copy still reads. */
+#define WAITING(name, parameters, arguments)                                                       \
+    cl_int name parameters {                                                                       \
+        cl_int(*real) parameters;                                                                  \
+        void *found = dlsym(RTLD_NEXT, #name);                                                     \
+        cl_int failure = failure_of(#name);                                                        \
+        memcpy(&real, &found, sizeof real);                                                        \
+        cl_int code = real arguments;                                                              \
+        return failure != CL_SUCCESS ? failure : code;                                             \
+    }
+#define MADE(type, name, parameters, arguments)                                                    \
+    type name parameters {                                                                         \
+        type(*real) parameters;                                                                    \
+        void *found = dlsym(RTLD_NEXT, #name);                                                     \
+        cl_int failure = failure_of(#name);                                                        \
+        memcpy(&real, &found, sizeof real);                                                        \
+        if (failure == CL_SUCCESS)                                                                 \
+            return real arguments;                                                                 \
+        if (code != NULL)                                                                          \
+            *code = failure;                                                                       \
+        return NULL;                                                                               \
+    }
+
+typedef void(CL_CALLBACK *OnContext)(const char *, const void *, size_t, void *);
+typedef void(CL_CALLBACK *OnProgram)(cl_program, void *);
+
+CODED(clGetPlatformIDs, (cl_uint capacity, cl_platform_id *list, cl_uint *count),
+      (capacity, list, count))
+CODED(clGetDeviceIDs,
+      (cl_platform_id platform, cl_device_type type, cl_uint capacity, cl_device_id *list,
+       cl_uint *count),
+      (platform, type, capacity, list, count))
+MADE(cl_context, clCreateContext,
+     (const cl_context_properties *properties, cl_uint count, const cl_device_id *devices,
+      OnContext notify, void *user, cl_int *code),
+     (properties, count, devices, notify, user, code))
+MADE(cl_command_queue, clCreateCommandQueue,
+     (cl_context context, cl_device_id device, cl_command_queue_properties properties,
+      cl_int *code),
+     (context, device, properties, code))
+MADE(cl_program, clCreateProgramWithSource,
+     (cl_context context, cl_uint count, const char **texts, const size_t *lengths, cl_int *code),
+     (context, count, texts, lengths, code))
+CODED(clBuildProgram,
+      (cl_program program, cl_uint count, const cl_device_id *devices, const char *options,
+       OnProgram notify, void *user),
+      (program, count, devices, options, notify, user))
+MADE(cl_kernel, clCreateKernel, (cl_program program, const char *name, cl_int *code),
+     (program, name, code))
+MADE(cl_mem, clCreateBuffer,
+     (cl_context context, cl_mem_flags flags, size_t bytes, void *host, cl_int *code),
+     (context, flags, bytes, host, code))
+CODED(clSetKernelArg, (cl_kernel kernel, cl_uint index, size_t bytes, const void *value),
+      (kernel, index, bytes, value))
+CODED(clEnqueueWriteBuffer,
+      (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t bytes,
+       const void *from, cl_uint count, const cl_event *waits, cl_event *event),
+      (queue, buffer, blocking, offset, bytes, from, count, waits, event))
+CODED(clEnqueueReadBuffer,
+      (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t bytes,
+       void *to, cl_uint count, const cl_event *waits, cl_event *event),
+      (queue, buffer, blocking, offset, bytes, to, count, waits, event))
+MADE(void *, clEnqueueMapBuffer,
+     (cl_command_queue queue, cl_mem buffer, cl_bool blocking, cl_map_flags flags, size_t offset,
+      size_t bytes, cl_uint count, const cl_event *waits, cl_event *event, cl_int *code),
+     (queue, buffer, blocking, flags, offset, bytes, count, waits, event, code))
+CODED(clEnqueueNDRangeKernel,
+      (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
+       const size_t *global, const size_t *local, cl_uint count, const cl_event *waits,
+       cl_event *event),
+      (queue, kernel, dimensions, offset, global, local, count, waits, event))
+WAITING(clWaitForEvents, (cl_uint count, const cl_event *events), (count, events))
+CODED(clFlush, (cl_command_queue queue), (queue))
+WAITING(clFinish, (cl_command_queue queue), (queue))
