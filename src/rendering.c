@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "device_team.h"
-#include "frame_fingerprint.h"
 #include "fallbacks.h"
+#include "frame_fingerprint.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "rendering_notes.h"
