@@ -91,12 +91,13 @@ static bool is_lost(const char *function, cl_int code) {
                  strcmp(function, "clEnqueueReadBuffer") == 0;
     switch (code) {
     case CL_DEVICE_NOT_AVAILABLE:
-    case NVIDIA_ILLEGAL_ACCESS:
-        return true;
     case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST:
     case CL_INVALID_COMMAND_QUEUE:
     case CL_INVALID_CONTEXT:
-    case CL_OUT_OF_RESOURCES:
+    case CL_INVALID_DEVICE:
+    case NVIDIA_ILLEGAL_ACCESS:
+        return true;
+    case CL_OUT_OF_RESOURCES: /* elsewhere a lack of memory */
         return waits;
     default:
         return false;

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "atomic_file.h"
-#include "known_folders.h"
 #include "output_kind.h"
 
 struct HdOutputs {
@@ -144,7 +143,6 @@ HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *e
 HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,
                          HdError *error) {
     HdStatus status = HD_OK;
-    hd_known_folders_forget();
     *outputs = calloc(1, sizeof **outputs);
     if (*outputs == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the outputs");

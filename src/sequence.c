@@ -2,6 +2,7 @@
 #include "sequence.h"
 
 #include "clock.h"
+#include "known_folders.h"
 #include "scene_upload.h"
 #include "tracer_team.h"
 #include "trial.h"
@@ -156,6 +157,7 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
                 .wish = hd_outputs_wish(sequence->outputs),
                 .start = hd_monotonic_seconds()},
     };
+    hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
     HdStatus status = prepare(&run, error);
     if (status == HD_OK)
         status = trace_and_store(&run, error);

@@ -122,7 +122,9 @@ int main(int count, char **arguments) {
     static HdError error;
     hd_interrupt_install();
     bool asks_for_help = count == 2 && strcmp(arguments[1], "--help") == 0;
-    HdStatus status = asks_for_help ? print_help(&error) : run(arguments + 1, &error);
+    HdStatus status = hd_interrupt_read_patience(&error);
+    if (status == HD_OK)
+        status = asks_for_help ? print_help(&error) : run(arguments + 1, &error);
     if (status == HD_OK)
         return 0;
     fprintf(stderr, "hedron_model: %s\n", error.message);

@@ -131,8 +131,8 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
         rm -f film.mkv
     done
     rm "$tools/ffmpeg"
-    for patience in x 0 -1 1.5 1e9; do
-        expect_refusal 2 env HEDRON_FFMPEG_PATIENCE=$patience "$hedron" render --backend c "${small[@]}" --frames 0 \
+    for seconds in x 0 -1 1.5 1e9; do
+        expect_refusal 2 env HEDRON_FFMPEG_PATIENCE=$seconds "$hedron" render --backend c "${small[@]}" --frames 0 \
             -o film.mkv
         expect_stderr_contains 'HEDRON_FFMPEG_PATIENCE'
         expect_files .
@@ -187,8 +187,8 @@ expect_end 130
 expect_silent_stderr
 rm -f 0.data
 expect_files .
-for patience in x 0 -1 1e9 nan; do
-    expect_refusal 2 env HEDRON_STOP_PATIENCE=$patience "$hedron" render --backend c "${small[@]}" --frames 0 -o x.png
+for seconds in x 0 -1 1e9 nan; do
+    expect_refusal 2 env HEDRON_STOP_PATIENCE=$seconds "$hedron" render --backend c "${small[@]}" --frames 0 -o x.png
     expect_stderr_contains HEDRON_STOP_PATIENCE
 done
 

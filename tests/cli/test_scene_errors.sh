@@ -88,7 +88,7 @@ refuse 'bad.json:1:'
 printf '{"hedron": 1, "h\xe9dron": 1}' >bad.json
 refuse 'bad.json:1:' 'byte 0xe9'
 head -c 100000 /dev/zero | tr '\0' '[' >bad.json
-refuse 'bad.json:1:' depth
+refuse 'bad.json:1:' 'expected at most 32'
 truncate -s 70M bad.json
 refuse 'cannot read the scene bad.json: it has 73400320 bytes'
 for value in NaN 1e999 0x10 '1,'; do

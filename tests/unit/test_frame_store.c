@@ -5,6 +5,7 @@
 #include "clock.h"
 #include "frame_store.h"
 #include "interrupt.h"
+#include "known_folders.h"
 #include "test_folder.h"
 
 enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100, PATIENCE_SECONDS = 600 };
@@ -55,6 +56,7 @@ static HdStatus store_frames(Listener *listener, const char *second_output, int 
     int place;
     for (int i = 0; i < FRAMES; i++)
         numbers[i] = FIRST + i;
+    hd_known_folders_forget(); /* that of another test is gone */
     *listener = (Listener){.fails_at = listener->fails_at, .in_order = true, .was_there = true};
     assert_int_equal(hd_outputs_open(&store_plan.outputs, &plan, WIDTH, HEIGHT, &error), HD_OK);
     assert_int_equal(hd_frame_store_start(&store, &store_plan, &error), HD_OK);

@@ -280,12 +280,12 @@ static void test_paths_that_are_not_utf8(void **state) {
     expect_scene(&first, least_text, NULL);
     strcpy(first.output.path, "\xff.png");
     assert_int_equal(hd_scene_file_print(stdout, &first, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "the path of the output is \"\xff.png\", expected UTF-8");
+    expect_contains(error.message, "the path of the output is \"\\xff.png\", expected UTF-8");
     hd_scene_file_free(&first);
     expect_scene(&first, rich_text, NULL);
     first.mesh_entries[1].file[0] = '\xff';
     assert_int_equal(hd_scene_file_print(stdout, &first, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "the path of a mesh is \"\xffther.obj\", expected UTF-8");
+    expect_contains(error.message, "the path of a mesh is \"\\xffther.obj\", expected UTF-8");
     hd_scene_file_free(&first);
 }
 
