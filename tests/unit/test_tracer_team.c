@@ -114,6 +114,9 @@ static int end(void **state) {
     return 0;
 }
 
+/* A sequence may start so many threads, and has so many left; negative: any number. */
+static int threads_for_sequence = -1, threads_allowed = -1, threads_left;
+
 /* The arithmetic is fast, so that the kernels do not test themselves first. */
 static HdStatus render(const char *output, int count) {
     const HdRenderOptions options = {.threads = 1, .math = HD_MATH_FAST};
@@ -139,7 +142,10 @@ static HdStatus render(const char *output, int count) {
         device.is_cpu = i == the_cpu;
         assert_int_equal(hd_renderer_open(&renderers[i], &device, &options, &error), HD_OK);
     }
+    threads_allowed = threads_for_sequence;
     HdStatus status = hd_sequence_render(&sequence, &error);
+    threads_left = threads_allowed;
+    threads_allowed = -1;
     for (int i = 0; i < count; i++)
         hd_renderer_close(renderers[i]);
     return status;
@@ -488,8 +494,6 @@ static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
 
 /* ---- the system refuses threads ---- */
 
-static int threads_allowed = -1; /* negative: any number */
-static int threads_refused;
 
 /* In place of the system's. */
 int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
@@ -499,7 +503,6 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
     void *symbol = dlsym(RTLD_NEXT, "pthread_create");
     memcpy(&create, &symbol, sizeof create);
     if (threads_allowed == 0) {
-        threads_refused++;
         return EAGAIN;
     }
     if (threads_allowed > 0)
@@ -512,16 +515,15 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 static void devices_without_a_thread_are_dropped(void **state) {
     (void)state;
     enum { ENOUGH = 1000 };
-    threads_allowed = ENOUGH;
+    threads_for_sequence = ENOUGH;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
-    const int needed = ENOUGH - threads_allowed;
+    const int needed = ENOUGH - threads_left;
     for (int missing = 1; missing <= 3; missing++) {
         end(NULL);
         begin(NULL);
-        threads_allowed = missing < 3 ? needed - missing : 0;
-        threads_refused = 0;
+        threads_for_sequence = missing < 3 ? needed - missing : 0;
         HdStatus status = render("run/%d.data", 2);
-        threads_allowed = -1;
+        threads_for_sequence = -1;
         assert_int_equal(status, missing == 1 ? HD_OK : HD_FAILED);
         assert_int_equal(history.dropped, missing < 3 ? 1 : 0);
         if (missing < 3)
