@@ -494,7 +494,6 @@ static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
 
 /* ---- the system refuses threads ---- */
 
-
 /* In place of the system's. */
 int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
                    void *argument) {
@@ -502,9 +501,8 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
     Create *create;
     void *symbol = dlsym(RTLD_NEXT, "pthread_create");
     memcpy(&create, &symbol, sizeof create);
-    if (threads_allowed == 0) {
+    if (threads_allowed == 0)
         return EAGAIN;
-    }
     if (threads_allowed > 0)
         threads_allowed--;
     return create(thread, attributes, start, argument);
