@@ -93,7 +93,7 @@ const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT] = {
     {"1", "failed"},
     {"2", "wrong usage or input"},
     {"3", "no such backend, device or program (FFmpeg)"},
-    {"130, 143", "interrupted"},
+    {"129, 130, 143", "interrupted by SIGHUP, SIGINT or SIGTERM"},
 };
 
 const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {

@@ -184,19 +184,21 @@ static void blame_folder(const HdVideo *video, HdError *error) {
         *error = gone;
 }
 
-static HdStatus fail_stuck(const HdVideo *video, const char *program, HdChild *child,
-                           HdError *error) {
-    return hd_fail(error, HD_FAILED,
-                   "%s stood still for %d s at frame %ld of %s and was ended "
-                   "(HEDRON_FFMPEG_PATIENCE sets the seconds); it said: %s",
-                   program, child->patience_s, video->frames, video->path, hd_child_said(child));
+static HdStatus fail_stuck(const HdVideo *video, const char *program, const char *when,
+                           HdChild *child, HdError *error) {
+    return hd_fail(
+        error, HD_FAILED,
+        "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
+        "seconds); it said: %s",
+        program, child->patience_s, when, video->path, hd_child_said(child));
 }
 
 static HdStatus fail_early(HdVideo *video, HdError *error) {
     char how[64];
     if (video->ffmpeg.is_stuck) {
         hd_child_stop(&video->ffmpeg);
-        return fail_stuck(video, "FFmpeg", &video->ffmpeg, error);
+        snprintf(how, sizeof how, "at frame %ld", video->frames);
+        return fail_stuck(video, "FFmpeg", how, &video->ffmpeg, error);
     }
     hd_child_end(&video->ffmpeg, HD_CHILD_SILENCE_MS, how);
     hd_fail(error, HD_FAILED,
@@ -235,7 +237,7 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
     if (hd_interrupt_signal() != 0)
         return fail_interrupted(video, "FFmpeg", error);
     if (video->ffmpeg.is_stuck)
-        return fail_stuck(video, "FFmpeg", &video->ffmpeg, error);
+        return fail_stuck(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
     return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
                    hd_child_said(&video->ffmpeg));
 }
@@ -257,7 +259,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     if (!done && hd_interrupt_signal() != 0)
         return fail_interrupted(video, "ffprobe", error);
     if (ffprobe.is_stuck)
-        return fail_stuck(video, "ffprobe", &ffprobe, error);
+        return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
     const char *answer = hd_child_said(&ffprobe);
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')

@@ -93,6 +93,7 @@ done
 expect_refused '-o was given twice' "${options[@]}" -o "$pattern" --output="$pattern" --frames 0-3
 expect_refused 'needs a value' "${options[@]}" -o "$pattern" --frames
 expect_refused '--stats' "${options[@]}" -o "$pattern" --frames 0-3 --stats x
+expect_refused '--again' "${options[@]}" -o "$pattern" --frames 0-3 --again
 expect_refused 'standard input' - -o "$pattern" --frames 0-3
 expect_refused "did you mean '--size'" "${options[@]}" --siz 1x1 -o "$pattern" --frames 0-3
 expect_refused 'outside the sequence' "${options[@]}" -o "$pattern" --frames 0-9999999

@@ -79,7 +79,7 @@ expect_data frames/40/picture.data 32 24
 rm -r frames
 
 # ---- an FFmpeg, or an ffprobe, that stands still
-stuck=(env PATH="$tools:$PATH" HEDRON_FFMPEG_PATIENCE=1 "$hedron" render --quiet --backend c --samples 1 --depth 0)
+stuck=(env PATH="$tools:$PATH" HEDRON_FFMPEG_PATIENCE=2 "$hedron" render --quiet --backend c --samples 1 --depth 0)
 # expect_stuck PROGRAM: with few bytes, and with more than the buffers on the way hold.
 expect_stuck() {
     local size
@@ -87,7 +87,7 @@ expect_stuck() {
         rm -f "$work/leader"
         expect_exit 1 timeout 100 "${stuck[@]}" --size "$size" --frames 0-2 -o film.mkv
         expect_sentence
-        expect_stderr_contains "$1 stood still for 1 s"
+        expect_stderr_contains "$1 stood still for 2 s"
         expect_stderr_contains 'HEDRON_FFMPEG_PATIENCE'
         expect_files .
         wait_for "$1 to be gone" is_gone "$(<"$work/leader")"
