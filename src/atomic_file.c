@@ -84,12 +84,14 @@ static bool lock(int descriptor) {
 }
 
 void hd_temporary_remove_stale(const char *temporary) {
-    struct stat found;
+    struct stat found, named;
     int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0)
         return;
+    /* Another process may have removed it and given its name to a file of its own meanwhile. */
     if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) &&
-        flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+        flock(descriptor, LOCK_EX | LOCK_NB) == 0 && lstat(temporary, &named) == 0 &&
+        named.st_dev == found.st_dev && named.st_ino == found.st_ino)
         unlink(temporary);
     close(descriptor);
 }

@@ -25,6 +25,7 @@ typedef struct Renderer {
     HdCuDevice device;
     int arch;        /* 61 stands for sm_61 */
     int units;       /* multiprocessors */
+    int has_timeout; /* the driver ends kernels that take too long */
     int launch_work; /* of a launch; 0: by measurement */
     HdNvrtc nvrtc;   /* once kernels were compiled */
     HdKernelCache kernels;
@@ -168,6 +169,9 @@ static HdStatus open_device(Renderer *renderer, int index, HdError *error) {
     if (status == HD_OK)
         status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_MULTIPROCESSOR_COUNT,
                        &renderer->units, error);
+    if (status == HD_OK)
+        status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT,
+                       &renderer->has_timeout, error);
     return status;
 }
 
@@ -423,8 +427,10 @@ static HdStatus cuda_upload(void *state, const HdSceneTables *tables, HdError *e
     Renderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     renderer->depth = tables->depth;
-    renderer->flights.size = renderer->launch_work > 0 ? hd_launch_size_fixed(renderer->launch_work)
-                                                       : hd_launch_size_start(renderer->units);
+    const double longest = renderer->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    renderer->flights.size = renderer->launch_work > 0
+                                 ? hd_launch_size_fixed(renderer->launch_work)
+                                 : hd_launch_size_start(renderer->units, longest);
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;

@@ -245,9 +245,11 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
                          .memory = (double)renderer->device.memory,
                          .at_once = (double)renderer->device.max_allocation};
     renderer->depth = tables->depth;
+    const double longest =
+        renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
     renderer->flights.size = renderer->launch_work > 0
                                  ? hd_launch_size_fixed(renderer->launch_work)
-                                 : hd_launch_size_start(renderer->device.compute_units);
+                                 : hd_launch_size_start(renderer->device.compute_units, longest);
     HdStatus status = hd_check_room(tables, &room, error);
     if (status == HD_OK)
         status = build(renderer, &needs, error);
@@ -569,6 +571,13 @@ static cl_int reserve_and_touch(Renderer *renderer, HdOpenclBuffer *buffer, size
 /* Takes memory for what the needs of each of the workers come to; where the device has too little
    left, for less. */
 static HdStatus reserve_queue(Renderer *renderer, HdWaveNeeds *needs, int workers, HdError *error) {
+    HdWavePlan wanted = hd_wave_plan(needs);
+    if (wanted.real_bytes * (size_t)workers > renderer->queue_reals.bytes) {
+        /* What became of an earlier kernel must not be taken for a lack of memory. */
+        HdStatus status = check(clFinish(renderer->queue), "clFinish", error);
+        if (status != HD_OK)
+            return status;
+    }
     for (;;) {
         HdWavePlan plan = renderer->plan = hd_wave_plan(needs);
         size_t all = (size_t)workers, bytes = plan.real_bytes + plan.int_bytes + plan.sum_bytes;

@@ -48,10 +48,12 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
-/* After these no call of this program succeeds on the device. */
-static bool is_lost(HdCuResult code) {
+/* After these no call of this program succeeds on the device. A device that another program has for
+   itself alone is unavailable from the begin. */
+static bool is_lost(const char *function, HdCuResult code) {
     switch (code) {
     case HD_CU_ERROR_DEVICE_UNAVAILABLE:
+        return strcmp(function, "cuDevicePrimaryCtxRetain") != 0;
     case HD_CU_ERROR_ECC_UNCORRECTABLE:
     case HD_CU_ERROR_NVLINK_UNCORRECTABLE:
     case HD_CU_ERROR_ILLEGAL_ADDRESS:
@@ -77,7 +79,8 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
         text = "no description";
     snprintf(what, sizeof what, "%s failed with %s (%u: %s)", function,
              hd_cuda_error_name(driver, code), code, text);
-    return is_lost(code) ? hd_fail_lost(error, what) : hd_fail(error, HD_FAILED, "%s", what);
+    return is_lost(function, code) ? hd_fail_lost(error, what)
+                                   : hd_fail(error, HD_FAILED, "%s", what);
 }
 
 const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {

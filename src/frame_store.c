@@ -11,6 +11,7 @@
 #include "stages.h"
 
 enum {
+    MOST_OPEN_PICTURES = 256, /* each takes two descriptors until it has its name */
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
     /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
@@ -193,6 +194,9 @@ static void list_stages(HdFrameStore *store) {
 
 static int choose_place_count(const HdFrameStorePlan *plan) {
     int wanted = least(encoder_count(plan) + spare_count(plan), plan->frames->count);
+    int pictures = hd_outputs_plan(plan->outputs)->count - hd_outputs_film_count(plan->outputs);
+    if (pictures > 0)
+        wanted = least(wanted, MOST_OPEN_PICTURES / pictures);
     size_t fitting = MAX_BYTES * (size_t)plan->tracers /
                      hd_parcel_bytes(plan->outputs, plan->width, plan->height);
     if (fitting < 1)

@@ -189,6 +189,15 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
     return status;
 }
 
+/* Only NVIDIA's driver tells. */
+static bool has_timeout(cl_device_id id) {
+    enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
+    cl_bool told = CL_FALSE;
+    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
+        return told != CL_FALSE;
+    return (query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
+}
+
 HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
     int count;
@@ -204,6 +213,7 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
         .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
         .nvidia_arch = find_nvidia_arch(id),
         .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
+        .has_timeout = has_timeout(id),
         .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
                          (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
         .memory = query_ulong(id, CL_DEVICE_GLOBAL_MEM_SIZE),

@@ -22,7 +22,7 @@
 #define USUAL_ERROR 2.0
 
 /* How often unevenness spreads to neighbours. */
-enum { MOST_SPREADS = 4 };
+enum { MOST_SPREADS = 4, MOST_THREADS = 16 };
 
 typedef struct Codes {
     uint8_t rgb[3];
@@ -86,6 +86,12 @@ static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {
     return HD_OK;
 }
 
+/* More threads would wait for one another longer than they have work. */
+static int count_threads(void) {
+    int count = hd_processor_count();
+    return count < MOST_THREADS ? count : MOST_THREADS;
+}
+
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
                               HdPrecision precision, HdCurve curve, HdError *error) {
     HdRefinement *r = calloc(1, sizeof *r);
@@ -99,7 +105,7 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
                           ? hd_sample_set_dense(&r->samples, scene->samples_per_side, error)
                           : hd_sample_set_grid(&r->samples, scene->samples_per_side, error);
     if (status == HD_OK)
-        status = hd_thread_pool_create(&r->threads, hd_processor_count(), error);
+        status = hd_thread_pool_create(&r->threads, count_threads(), error);
     r->surveyor = (HdSurveyor){.scene = scene,
                                .precision = precision,
                                .renderer = renderer,

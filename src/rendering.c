@@ -123,7 +123,8 @@ static HdStatus open_devices(Run *run, HdError *error) {
     HdStatus status = hd_open_devices(&run->team, &wish, &options->render, &job, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
-        return hd_fail(error, status, "interrupted after 0 of %d frames", run->resume.all->count);
+        return hd_fail(error, status, "interrupted after %d of %d frames",
+                       hd_resume_first_missing(&run->resume), run->resume.all->count);
     if (status != HD_OK)
         return status;
     if (reason.note[0] != '\0' && !options->quiet)

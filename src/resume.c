@@ -105,6 +105,13 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
     return status;
 }
 
+int hd_resume_first_missing(const HdResume *resume) {
+    int place = 0;
+    while (place < resume->all->count && resume->is_finished[place])
+        place++;
+    return place;
+}
+
 void hd_resume_free(HdResume *resume) {
     hd_frame_list_free(&resume->missing);
     free(resume->is_finished);

@@ -29,6 +29,9 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
    picture has changed since. */
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error);
 
+/* How many frames are finished before the first one that is missing. */
+int hd_resume_first_missing(const HdResume *resume);
+
 void hd_resume_free(HdResume *resume);
 
 #endif

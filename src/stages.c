@@ -35,8 +35,9 @@ struct HdStages {
     int item_count;       /* at the end only those before the first that was not given */
     int first_fresh;      /* the first item that was never taken */
     int back_count;
-    int gone;  /* items that went through all stages, and so did those before them */
-    int limit; /* the first item that failed; INT_MAX: none */
+    int given_until; /* the items before it are given */
+    int gone;        /* items that went through all stages, and so did those before them */
+    int limit;       /* the first item that failed; INT_MAX: none */
     bool stopped;
     bool ended; /* no more items come */
     HdStatus status;
@@ -62,10 +63,11 @@ static int wanted_end(const HdStages *stages) {
     return least(stages->item_count, stages->limit);
 }
 
-static int first_not_given(const HdStages *stages) {
-    int item = stages->gone, end = stages->gone + stages->room;
+static int first_not_given(HdStages *stages) {
+    int item = stages->given_until, end = stages->gone + stages->room;
     while (is_ready(stages, item) || (item < end && slot_of(stages, item)->given))
         item++;
+    stages->given_until = item;
     return item;
 }
 
@@ -128,6 +130,8 @@ static void note_success(HdStages *stages, int stage, int item) {
     while (slot_of(stages, stages->gone)->done == all) {
         *slot_of(stages, stages->gone) = (Slot){0};
         stages->gone++;
+        if (stages->given_until < stages->gone)
+            stages->given_until = stages->gone;
         pthread_cond_broadcast(&stages->room_made);
         if (is_ready(stages, stages->gone + stages->room - 1))
             wake_first_stages(stages);
@@ -252,6 +256,9 @@ HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int ite
         return HD_OK;
     }
     int started = stages->worker_count;
+    pthread_mutex_lock(&stages->mutex);
+    stages->limit = 0; /* not even what is ready is wanted */
+    pthread_mutex_unlock(&stages->mutex);
     join_all(stages);
     destroy(stages);
     return hd_fail(

@@ -126,11 +126,13 @@ static void give_oldest(HdTracer *tracer, const HdTracerWatch *watch) {
     hd_frame_store_give(tracer->job->store, flight->place, tracer->number);
 }
 
-static void give_all_back(HdTracer *tracer) {
+static void give_all_back(HdTracer *tracer, const HdTracerWatch *watch) {
     hd_renderer_drop(tracer->renderer);
     for (; tracer->ended < tracer->begun; tracer->ended++) {
         HdFlight *flight = flight_of(tracer, tracer->ended);
         hd_frame_tables_free(&flight->tables);
+        if (watch != NULL)
+            watch->given_back(watch->context);
         hd_frame_store_give_back(tracer->job->store, flight->place);
     }
 }
@@ -157,7 +159,7 @@ static HdStatus finish_oldest(HdTracer *tracer, const HdTracerWatch *watch, HdEr
     }
     if (is_wanted && !is_told(tracer, place, status, error))
         return status;
-    give_all_back(tracer);
+    give_all_back(tracer, watch);
     return HD_OK;
 }
 
@@ -193,7 +195,7 @@ HdStatus hd_tracer_run(HdTracer *tracer, const HdTracerWatch *watch, HdError *er
         else
             break;
     }
-    give_all_back(tracer);
+    give_all_back(tracer, watch);
     if (status != HD_OK || beginning == HD_OK)
         return status;
     *error = of_beginning;

@@ -49,6 +49,8 @@ typedef struct HdTracerWatch {
     /* A frame was begun; one was finished, for which the device took so long. */
     void (*begun)(void *context);
     void (*finished)(void *context, double seconds);
+    /* A frame that was begun went back to the store. */
+    void (*given_back)(void *context);
     void *context;
 } HdTracerWatch;
 

@@ -56,3 +56,8 @@ void hd_tracer_pace_finished(HdTracerPace *pace, double seconds, double now) {
     pace->in_flight--;
     pace->busy_until = now + pace->in_flight * pace->seconds;
 }
+
+void hd_tracer_pace_given_back(HdTracerPace *pace, double now) {
+    pace->in_flight--;
+    pace->busy_until = now + pace->in_flight * pace->seconds;
+}

@@ -28,4 +28,7 @@ void hd_tracer_pace_begun(HdTracerPace *pace, double now);
 /* A frame was finished for which the tracer took so long. */
 void hd_tracer_pace_finished(HdTracerPace *pace, double seconds, double now);
 
+/* A frame that was begun is given back. */
+void hd_tracer_pace_given_back(HdTracerPace *pace, double now);
+
 #endif

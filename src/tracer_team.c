@@ -54,6 +54,14 @@ static void finished(void *context, double seconds) {
     pthread_mutex_unlock(&run->mutex);
 }
 
+static void given_back(void *context) {
+    const Member *member = context;
+    Run *run = member->run;
+    pthread_mutex_lock(&run->mutex);
+    hd_tracer_pace_given_back(&run->paces[member->number], hd_monotonic_seconds());
+    pthread_mutex_unlock(&run->mutex);
+}
+
 static void note_estimate(const Member *member, double seconds) {
     Run *run = member->run;
     pthread_mutex_lock(&run->mutex);
@@ -99,7 +107,8 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
 
 /* ---- threads ---- */
 
-static HdStatus trace(const Member *member, HdError *error) {
+/* Tells whether it came to tracing: before that whatever fails is this device's own. */
+static HdStatus trace(const Member *member, bool *has_begun, HdError *error) {
     const HdTracerTeam *team = member->run->team;
     HdTracer tracer;
     double seconds = 0.0;
@@ -107,8 +116,10 @@ static HdStatus trace(const Member *member, HdError *error) {
         .wants = wants,
         .begun = begun,
         .finished = finished,
+        .given_back = given_back,
         .context = (void *)member,
     };
+    *has_begun = false;
     HdStatus status = team->prepare(team->context, member->number, &seconds, error);
     if (status != HD_OK)
         return status;
@@ -116,6 +127,7 @@ static HdStatus trace(const Member *member, HdError *error) {
     status =
         hd_tracer_open(&tracer, team->job, team->renderers[member->number], member->number, error);
     if (status == HD_OK) {
+        *has_begun = true;
         status = hd_tracer_run(&tracer, &watch, error);
         hd_tracer_close(&tracer);
     }
@@ -125,10 +137,11 @@ static HdStatus trace(const Member *member, HdError *error) {
 static void *member_main(void *argument) {
     const Member *member = argument;
     HdError error;
-    HdStatus status = trace(member, &error);
-    leave(member, status, &error,
-          status != HD_INTERRUPTED &&
-              hd_renderer_has_failed(member->run->team->renderers[member->number]));
+    bool has_begun;
+    HdStatus status = trace(member, &has_begun, &error);
+    bool has_failed =
+        !has_begun || hd_renderer_has_failed(member->run->team->renderers[member->number]);
+    leave(member, status, &error, status != HD_INTERRUPTED && has_failed);
     return NULL;
 }
 

@@ -48,6 +48,8 @@ HdCuResult cuDeviceGetName(char *name, int capacity, HdCuDevice device) {
 HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice device) {
     (void)device;
     *value = 1000;
+    if (attribute == HD_CU_DEVICE_MULTIPROCESSOR_COUNT)
+        *value = 200;
     if (attribute == HD_CU_DEVICE_CAPABILITY_MAJOR)
         *value = 6;
     if (attribute == HD_CU_DEVICE_CAPABILITY_MINOR)

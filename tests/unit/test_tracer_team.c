@@ -304,6 +304,7 @@ static void others_trace_what_a_failed_device_had(void **state) {
                  {FAKE_SUBMIT, 3, 2}, {FAKE_COLLECT, 1, 0}, {FAKE_COLLECT, 2, 1},
                  {FAKE_COLLECT, 5, 4}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        end(NULL);
         begin(NULL);
         failing_point = cases[i].point;
         failing_count = cases[i].count;
@@ -316,13 +317,11 @@ static void others_trace_what_a_failed_device_had(void **state) {
         assert_int_equal(count_made_by(1), cases[i].most_made);
         assert_int_equal(count_made_by(0), FRAMES - cases[i].most_made);
         expect_first_frames(FRAMES);
-        end(NULL);
     }
-    begin(NULL);
 }
 
 static bool first_has_the_rest(void) {
-    return history.events[0][FAKE_COLLECT] == frames.count - 1;
+    return history.events[0][FAKE_COLLECT] >= frames.count - 1;
 }
 
 /* The second device fails with its first frame when the other one has made all the others. */
@@ -352,7 +351,7 @@ static int room_beside(void) {
 }
 
 static bool store_is_full(void) {
-    return history.events[0][FAKE_COLLECT] == room_beside();
+    return history.events[0][FAKE_COLLECT] >= room_beside();
 }
 
 static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *failure) {
@@ -386,6 +385,7 @@ static void all_devices_failing_is_an_error(void **state) {
     (void)state;
     const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
     for (int i = 0; i < 3; i++) {
+        end(NULL);
         begin(NULL);
         failing_point = points[i];
         failing_count = 1;
@@ -398,9 +398,7 @@ static void all_devices_failing_is_an_error(void **state) {
             assert_int_equal(dropped_ones[k], k);
         assert_int_equal(history.stored, 0);
         assert_true(access("run", F_OK) != 0 || count_entries("run") == 0);
-        end(NULL);
     }
-    begin(NULL);
 }
 
 static HdStatus fail_at_once(FakePoint point, int index, int count, HdError *failure) {
@@ -413,6 +411,7 @@ static void a_device_alone_that_fails_is_an_error(void **state) {
     (void)state;
     const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
     for (int i = 0; i < 3; i++) {
+        end(NULL);
         begin(NULL);
         failing_point = points[i];
         failing_count = i == 0 ? 1 : 4;
@@ -423,9 +422,7 @@ static void a_device_alone_that_fails_is_an_error(void **state) {
         assert_int_equal(history.stored, i == 0 ? 0 : 3);
         if (i > 0)
             expect_first_frames(3);
-        end(NULL);
     }
-    begin(NULL);
 }
 
 /* ---- what no device is to blame for ---- */
@@ -448,20 +445,19 @@ static void expect_spoilt(int frame, int dropped) {
 static void a_frame_that_cannot_be_ends_it_for_all(void **state) {
     (void)state;
     for (int survey = 0; survey < 2; survey++) {
+        end(NULL);
         begin(NULL);
         scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
         spoil_frame(7);
         script = meet;
         assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
         expect_spoilt(7, 0);
-        end(NULL);
     }
-    begin(NULL);
 }
 
 /* All that can be made beside the second device's. */
 static bool first_has_four(void) {
-    return history.events[0][FAKE_COLLECT] == 4;
+    return history.events[0][FAKE_COLLECT] >= 4;
 }
 
 /* The other device has met the frame that cannot be, or is about to, and is still needed. */
@@ -491,6 +487,14 @@ static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
     assert_int_equal(history.dropped, 0);
     assert_int_equal(count_entries("run"), 6);
 }
+
+/* The thread sanitizer needs its own pthread_create in the program. */
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define HAS_THREADS_OF_ITS_OWN 1
+#endif
+#endif
+#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
 
 /* ---- the system refuses threads ---- */
 
@@ -534,6 +538,8 @@ static void devices_without_a_thread_are_dropped(void **state) {
             expect_contains(error.message, "for the outputs: ");
     }
 }
+
+#endif
 
 /* ---- a signal, which the program remembers for ever ---- */
 
@@ -580,7 +586,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(frames_before_one_that_cannot_be_are_made, begin, end),
         cmocka_unit_test_setup_teardown(a_picture_that_cannot_be_stored_ends_it_for_all, begin,
                                         end),
+#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
         cmocka_unit_test_setup_teardown(devices_without_a_thread_are_dropped, begin, end),
+#endif
         cmocka_unit_test_setup_teardown(a_signal_ends_it_for_all, begin, end),
     };
     hd_interrupt_install();
