@@ -7,8 +7,8 @@
 #include "outputs.h"
 
 /* Removes the temporary files (atomic_file.h) of these frames' outputs whose writer is gone. Those
-   of a living process stay, wherever it runs, for it has them locked. What cannot be looked at or
-   removed stays too. */
+   of a living process stay, for it has them locked: on other machines too where the file system
+   shares its locks. What cannot be looked at or removed stays too. */
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames);
 
 #endif

@@ -222,6 +222,18 @@ done
 if ((refused == 0)); then
     fail "fewer threads never did the work"
 fi
+# Finished frames beside a missing one, which nobody can store: it ends.
+most_finished=("$hedron" render --quiet --backend c "${small[@]}" --frames 0-19 -o 'finished/%d.png' --threads 1)
+"${most_finished[@]}" >"$logs/which"
+for ((after = 0; after < 6; after++)); do
+    rm -f finished/19.png
+    run timeout "$patience" env FAILING_THREADS_AFTER=$after LD_PRELOAD="$failing/libfailing_threads.so" "${most_finished[@]}"
+    if ((code != 0 && code != 1)); then
+        fail "exit code $code with $after threads, expected 0 or 1"
+        show_logs
+    fi
+done
+rm -r finished
 run env FAILING_THREADS_AFTER=2 LD_PRELOAD="$failing/libfailing_threads.so" "${few[@]}"
 expect_stderr_contains '1 of 4 do it'
 expect_stderr_contains '--threads leaves more'
