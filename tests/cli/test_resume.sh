@@ -107,7 +107,9 @@ sources_hash() {
 
 if command -v cmake >"$logs/which"; then
     mkdir -p a/{src,cpu,cmake,kernels/common}
-    for file in src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu cmake/cpu_kernels.cmake; do
+    sources=(CMakeLists.txt src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu
+        cmake/compile_options.cmake cmake/cpu_kernels.cmake)
+    for file in "${sources[@]}"; do
         echo text >"a/$file"
     done
     hash=$(sources_hash "$PWD/a")
@@ -115,7 +117,7 @@ if command -v cmake >"$logs/which"; then
     if [[ $(sources_hash "$PWD/b") != "$hash" ]]; then
         fail 'the hash of the sources depends on their place'
     fi
-    for file in src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu cmake/cpu_kernels.cmake; do
+    for file in "${sources[@]}"; do
         echo other >"b/$file"
         if [[ $(sources_hash "$PWD/b") == "$hash" ]]; then
             fail "$file is not in the hash of the sources"
