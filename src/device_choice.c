@@ -65,14 +65,10 @@ static bool is_named(const HdDevice *device, const char *wish) {
     return contains(device->name, wish);
 }
 
-static const HdBackend *plain_c(void) {
-    return hd_backends[HD_BACKEND_COUNT - 1];
-}
-
 static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
     if (!is_named(device, wish->device))
         return false;
-    return !device->is_cpu || device->backend == plain_c() || wish->backend != NULL ||
+    return !device->is_cpu || device->backend == &hd_backend_c || wish->backend != NULL ||
            wish->device != NULL || wish->kind == HD_PREFER_GPU;
 }
 
@@ -133,7 +129,7 @@ static void search_wanted(Search *search, HdError *error) {
     if (wish->backend != NULL)
         search_backend(search, hd_backend_find(wish->backend), error);
     else if (wish->kind == HD_ONLY_CPU)
-        search_backend(search, plain_c(), error);
+        search_backend(search, &hd_backend_c, error);
     else
         for (int i = 0; i < HD_BACKEND_COUNT; i++)
             search_backend(search, hd_backends[i], error);
@@ -225,7 +221,7 @@ static HdStatus open_plain_c(const Search *search, HdRenderer **renderer, HdDevi
                              const HdJob *job, double seconds, HdDeviceReason *reason,
                              HdError *error) {
     int count;
-    HdStatus status = plain_c()->enumerate(device, 1, &count, error);
+    HdStatus status = hd_backend_c.enumerate(device, 1, &count, error);
     if (status != HD_OK)
         return status;
     snprintf(reason->why, sizeof reason->why,

@@ -9,10 +9,6 @@
 #include "launch_choice.h"
 #include "processors.h"
 
-static const HdBackend *plain_c(void) {
-    return hd_backends[HD_BACKEND_COUNT - 1];
-}
-
 void hd_close_devices(HdDeviceTeam *team) {
     for (; team->count > 0; team->count--)
         hd_renderer_close(team->renderers[team->count - 1]);
@@ -101,7 +97,7 @@ static bool is_wanted(const HdDeviceTeam *team, const HdDeviceWish *wish, const 
         return false;
     if (!device->is_cpu)
         return wish->kind != HD_ONLY_CPU;
-    return device->backend == plain_c() || wish->backend != NULL;
+    return device->backend == &hd_backend_c || wish->backend != NULL;
 }
 
 static void note_left_out(HdDeviceReason *reason, const HdDevice *device, const char *obstacle) {
@@ -114,7 +110,7 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
                                   const HdRenderOptions *options) {
     HdRenderOptions own = *options;
     int left = hd_processor_count() - gpu_count(team);
-    if (device->backend == plain_c() && own.threads == 0 && gpu_count(team) > 0)
+    if (device->backend == &hd_backend_c && own.threads == 0 && gpu_count(team) > 0)
         own.threads = left > 1 ? left : 1;
     return own;
 }

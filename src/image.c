@@ -56,7 +56,7 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image) {
 }
 
 static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *error) {
-    if (hd_output_is_film(hd_output_kind(path)))
+    if (hd_name_is_film(path))
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s as a picture: its ending is that of a film", path);
     return check_size(frame->width, frame->height, error);

@@ -28,3 +28,7 @@ bool hd_output_is_film(HdOutputKind kind) {
             return formats[i].is_film;
     return false;
 }
+
+bool hd_name_is_film(const char *path) {
+    return hd_output_is_film(hd_output_kind(path));
+}

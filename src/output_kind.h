@@ -20,6 +20,9 @@ HdOutputKind hd_output_kind(const char *path);
 
 bool hd_output_is_film(HdOutputKind kind);
 
+/* The same by the ending of a name. */
+bool hd_name_is_film(const char *path);
+
 /* For messages and help. */
 #define HD_FILM_ENDINGS    ".mp4, .mkv or .gif"
 #define HD_PICTURE_ENDINGS ".png, .pfm or .data"

@@ -15,10 +15,6 @@ struct HdOutputs {
     HdVideo *films[HD_MAX_OUTPUTS]; /* NULL: pictures */
 };
 
-static bool is_film(const char *name) {
-    return hd_output_is_film(hd_output_kind(name));
-}
-
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
     if (hd_output_kind(name) == HD_OUTPUT_UNKNOWN)
         return hd_fail(error, HD_BAD_INPUT,
@@ -29,12 +25,12 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
 }
 
 static HdStatus check_output(const char *name, int frame_count, HdError *error) {
-    if (is_film(name) && hd_pattern_has_number(name))
+    if (hd_name_is_film(name) && hd_pattern_has_number(name))
         return hd_fail(error, HD_BAD_INPUT,
                        "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
                        "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
-    if (is_film(name))
+    if (hd_name_is_film(name))
         return HD_OK;
     char file[HD_MAX_PATH];
     if (hd_pattern_has_number(name))
@@ -48,9 +44,9 @@ static HdStatus check_output(const char *name, int frame_count, HdError *error) 
 }
 
 HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error) {
-    if (!is_film(name) && hd_pattern_has_number(name))
+    if (!hd_name_is_film(name) && hd_pattern_has_number(name))
         return hd_pattern_format(name, number, out, error);
-    if (!is_film(name))
+    if (!hd_name_is_film(name))
         return hd_pattern_format_single(name, out, error);
     if (snprintf(out, HD_MAX_PATH, "%s", name) >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
@@ -135,7 +131,7 @@ HdFrameWish hd_outputs_wish(const HdOutputPlan *plan) {
 HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < plan->count && status == HD_OK; i++)
-        if (!is_film(plan->names[i]))
+        if (!hd_name_is_film(plan->names[i]))
             status = probe_picture(plan->names[i], first_number, error);
     return status;
 }
@@ -148,7 +144,7 @@ HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int widt
         return hd_fail(error, HD_FAILED, "out of memory: no room for the outputs");
     (*outputs)->plan = plan;
     for (int i = 0; i < plan->count && status == HD_OK; i++)
-        if (is_film(plan->names[i]))
+        if (hd_name_is_film(plan->names[i]))
             status = open_film(*outputs, i, width, height, error);
     if (status != HD_OK) {
         hd_outputs_abort(*outputs);

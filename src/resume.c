@@ -39,16 +39,12 @@ static bool read_whole(const HdOutputPlan *plan, const char *name, int number,
            hd_picture_is_whole(*bytes, *size, hd_picture_fingerprint(plan->fingerprint, number));
 }
 
-static bool is_film(const char *name) {
-    return hd_output_is_film(hd_output_kind(name));
-}
-
 static bool is_finished(const HdOutputPlan *plan, int number) {
     bool whole = true;
     for (int i = 0; i < plan->count && whole; i++) {
         unsigned char *bytes = NULL;
         size_t size;
-        if (is_film(plan->names[i]))
+        if (hd_name_is_film(plan->names[i]))
             continue;
         whole = read_whole(plan, plan->names[i], number, &bytes, &size);
         free(bytes);
@@ -92,7 +88,7 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
     unsigned char *bytes;
     size_t size;
     int first = 0;
-    while (is_film(plan->names[first]))
+    while (hd_name_is_film(plan->names[first]))
         first++;
     HdStatus status = HD_FAILED;
     if (read_whole(plan, plan->names[first], number, &bytes, &size))

@@ -100,8 +100,8 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
 
 void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems) {
     const char *path = file->output.path;
-    if (path[0] == '\0' || file->scene.frame_count == 1 ||
-        hd_output_is_film(hd_output_kind(path)) || hd_pattern_has_number(path))
+    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_name_is_film(path) ||
+        hd_pattern_has_number(path))
         return;
     hd_problem(problems,
                "output.path is \"%s\", which names one picture, but camera.frames is %d, expected "

@@ -36,7 +36,7 @@ static bool is_of_frame(const Search *search, const char *entry, int frame) {
 }
 
 static bool is_of_run(const Search *search, const char *entry) {
-    if (hd_output_is_film(hd_output_kind(search->output)))
+    if (hd_name_is_film(search->output))
         return is_of_frame(search, entry, 0);
     for (int i = 0; i < search->frames->count; i++)
         if (is_of_frame(search, entry, search->frames->frames[i]))

@@ -29,7 +29,7 @@ static HdStatus check_settings(const char *path, int width, int height, int fram
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
                        path, width, height, HD_MAX_IMAGE_SIDE);
-    if (!hd_output_is_film(hd_output_kind(path)))
+    if (!hd_name_is_film(path))
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
     if (frames_per_second < 1)
