@@ -17,9 +17,9 @@ static int round_up(int count, int grain) {
     return (count + grain - 1) / grain * grain;
 }
 
-/* Samples whose rays and sums fit, if each had two rays on every level. */
+/* Samples whose rays and sums fit, if each had two rays on as many levels as are likely. */
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
-    size_t places = 2 * (size_t)(needs->depth > 0 ? needs->depth : 1);
+    size_t places = 2 * (size_t)wave_lesser(needs->depth > 0 ? needs->depth : 1, WAVE_BATCH_LEVELS);
     size_t fitting = needs->bytes / (places * ray_bytes + WAVE_SUMS * sizeof(int64_t));
     size_t most = MAX_STRIDE / places;
     fitting = fitting < most ? fitting : most;
@@ -86,19 +86,11 @@ typedef struct Run {
     bool has_begun;
 } Run;
 
-/* Takes as many rays as there is room for, at most what one launch may have; the others of the
-   segment wait on. */
+/* Takes as many rays as there is room for, at most what one launch may have. */
 static WaveTake take_rays(const Run *run, WaveSegment *stack, int *top) {
-    int grain = run->frame->grain, number = *top;
-    WaveTake take = wave_take(stack, top, run->frame->depth, run->plan->queue_stride, grain);
-    int rest = take.count - hd_launch_size_items(run->device->size, take.count, 1, grain);
-    if (rest > 0) {
-        *top = number;
-        stack[number].waiting += rest;
-        take.first += rest;
-        take.count -= rest;
-    }
-    return take;
+    int grain = run->frame->grain;
+    int limit = hd_launch_size_items(run->device->size, stack[*top].waiting, 1, grain);
+    return wave_take(stack, top, run->frame->depth, run->plan->queue_stride, grain, limit);
 }
 
 static HdStatus trace_batch(Run *run, int first_item, int samples, HdError *error) {

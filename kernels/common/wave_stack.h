@@ -2,9 +2,11 @@
 /* Where rays wait in a wavefront's queue, and how many of them are traced next. The host and the
    kernels of CPUs plan with the same functions.
 
-   Segments of rays of one level form a stack, in the queue too: those on top are traced first. Only
-   as many are taken as have room for all their rays that go on, on every level below: none is ever
-   without a place. */
+   Segments of rays of one level form a stack, in the queue too: those on top are traced first. As
+   many are taken as have room for all their rays that go on, on the next levels, and no more than
+   leave room for a bundle of them on every level below: none is ever without a place. Rays that go
+   on take the place of those before the last ones, if it is large enough, so that trees of
+   hundreds of levels need no more room than they are wide. */
 #ifndef HD_WAVE_STACK_H
 #define HD_WAVE_STACK_H
 
@@ -26,29 +28,58 @@ typedef struct {
     int room;         /* `count` in whole bundles */
 } WaveTake;
 
+/* Two rays for each sample of a batch have room on so many levels, and two for each that is taken
+   on fewer: what is left over of a level makes all levels below it again, so a level should be
+   taken whole even where it has more rays than the batch has samples. */
+enum { WAVE_BATCH_LEVELS = 32, WAVE_TAKE_LEVELS = 4, WAVE_NO_LIMIT = 0x7fffffff };
+
+FN int wave_lesser(int a, int b) {
+    return a < b ? a : b;
+}
+
 /* A queue of this many rays or more can be worked off. Rays come in bundles of `grain`, of which
    not all need be alive. */
 FN int wave_least_capacity(int depth, int grain) {
     return 2 * grain * (depth > 0 ? depth : 1);
 }
 
-/* Takes rays from the end of the segment on top of the stack; `top` is its number, which becomes
-   that of the next one below where nothing is left. */
-FN WaveTake wave_take(WaveSegment *stack, int *top, int depth, int capacity, int grain) {
+/* How many rays may be taken that have so many levels below them, where there is so much room. */
+FN int wave_fitting(int room, int levels, int grain) {
+    int fitting = room / (2 * grain * wave_lesser(levels, WAVE_TAKE_LEVELS)) * grain;
+    if (room - 2 * fitting < 2 * grain * (levels - 1)) /* those that go on could get stuck */
+        fitting = room / (2 * grain * levels) * grain;
+    return fitting;
+}
+
+/* The first place after those of the segments below number `number`. */
+FN int wave_end_below(const WaveSegment *stack, int number) {
+    if (number == 0 || stack[number - 1].level == 0)
+        return 0;
+    return stack[number - 1].first + stack[number - 1].waiting;
+}
+
+/* Takes rays, `limit` at most, from the end of the segment on top of the stack; `top` is its
+   number, which becomes that of the next one below where nothing is left. */
+FN WaveTake wave_take(WaveSegment *stack, int *top, int depth, int capacity, int grain, int limit) {
     WaveSegment *segment = stack + *top;
+    int first = segment->level == 0 ? 0 : segment->first;
+    int end = segment->level == 0 ? 0 : first + segment->waiting;
     WaveTake take;
     take.level = segment->level;
-    take.to = take.level == 0 ? 0 : segment->first + segment->waiting;
-    take.count = segment->waiting;
-    if (take.level < depth) {
-        int most = (capacity - take.to) / (2 * grain * (depth - take.level)) * grain;
-        take.count = most < take.count ? most : take.count;
-    }
+    take.count = wave_lesser(segment->waiting, limit);
+    if (take.level < depth)
+        take.count =
+            wave_lesser(take.count, wave_fitting(capacity - end, depth - take.level, grain));
     segment->waiting -= take.count;
     take.first = segment->first + segment->waiting;
     take.room = (take.count + grain - 1) / grain * grain;
-    if (segment->waiting == 0)
+    take.to = end;
+    if (segment->waiting == 0) {
+        int below = wave_end_below(stack, *top);
+        if (2 * take.room <= first - below)
+            take.to = below;
         *top -= 1;
+    }
     return take;
 }
 

@@ -187,8 +187,11 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         } else {
             ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES, SURVEYED, &numbers);
         }
-        if (!any_lane(ray.alive))
+        if (!any_lane(ray.alive)) {
+            if (take.level == 0)
+                set_sums(QUEUE_ARGUMENTS number, SURVEYED, &sample);
             continue;
+        }
         follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
         if (take.level == 0)
             set_sums(QUEUE_ARGUMENTS number, SURVEYED, &sample);
@@ -211,7 +214,7 @@ FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int b
     wave_put(stack, &top, 0, 0, batch);
     while (top >= 0) {
         int passing, mirrored;
-        WaveTake take = wave_take(stack, &top, view->depth, queue_stride, HD_LANES);
+        WaveTake take = wave_take(stack, &top, view->depth, queue_stride, HD_LANES, WAVE_NO_LIMIT);
         trace_take(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, first, take, &passing, &mirrored, counts);
         wave_put(stack, &top, take.level + 1, take.to, passing);
         wave_put(stack, &top, take.level + 1, take.to + take.room, mirrored);
@@ -343,11 +346,11 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
                              : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES, SURVEYED, &number);
         if (any_lane(ray.alive)) {
             follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
-            if (level == 0)
-                set_sums(QUEUE_ARGUMENTS first + i, SURVEYED, &sample);
-            else
+            if (level > 0)
                 add_to_sums(QUEUE_ARGUMENTS ray.alive, number, SURVEYED, &sample);
         }
+        if (level == 0 && i < count)
+            set_sums(QUEUE_ARGUMENTS first + i, SURVEYED, &sample);
         uint64 total =
             append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES, SURVEYED,
                             number, &sample, thread, thread_count, room, place, taken);

@@ -21,8 +21,8 @@
 typedef struct Account {
     const HdWavePlan *plan;
     const HdWaveFrame *frame;
-    int children;
-    char *waits; /* 1 for each place of the queue whose ray is still to be traced */
+    int children; /* negative: see rays_going_on */
+    char *waits;  /* 1 for each place of the queue whose ray is still to be traced */
     int64_t traced, steps;
     unsigned taken;
     int next_item;   /* the first one that is not stored */
@@ -37,6 +37,17 @@ static void leave_queue(Account *account, const HdWaveStep *step) {
     }
 }
 
+/* Negative `children`: as trees of a scene with a bound, which widen at first and then get thinner
+   for hundreds of levels. */
+static int rays_going_on(const Account *account, const HdWaveStep *step) {
+    int grain = account->frame->grain, groups = (step->count + grain - 1) / grain;
+    if (step->level >= account->frame->depth)
+        return 0;
+    if (account->children < 0)
+        return step->level < 4 ? step->count / 2 * 3 : step->count / 20 * 19;
+    return account->children * groups * grain;
+}
+
 static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
     (void)error;
     Account *account = context;
@@ -49,9 +60,7 @@ static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, Hd
         account->batch_samples += step->count;
         assert_true(step->first + step->count <= account->plan->sum_stride);
     }
-    int grain = account->frame->grain;
-    int groups = (step->count + grain - 1) / grain;
-    int going_on = step->level < account->frame->depth ? account->children * groups * grain : 0;
+    int going_on = rays_going_on(account, step);
     assert_true(step->to + going_on <= account->plan->queue_stride);
     for (int i = step->to; i < step->to + going_on; i++) {
         assert_false(account->waits[i]); /* nor is it one of those that are being read */
@@ -163,6 +172,15 @@ static void enough_memory_takes_a_step_a_level(void **state) {
     assert_true(few > steps && many > few);
 }
 
+/* A level's rest would make all levels below it again. */
+static void levels_of_deep_trees_are_taken_whole(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
+    int64_t steps;
+    run(1 << 25, &frame, -1, &steps);
+    assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
+}
+
 static void plans_keep_to_their_budget(void **state) {
     (void)state;
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
@@ -239,6 +257,7 @@ int main(void) {
         cmocka_unit_test(launches_of_any_size_trace_all_rays),
         cmocka_unit_test(launches_have_at_most_their_size),
         cmocka_unit_test(enough_memory_takes_a_step_a_level),
+        cmocka_unit_test(levels_of_deep_trees_are_taken_whole),
         cmocka_unit_test(plans_keep_to_their_budget),
         cmocka_unit_test(a_refused_queue_is_halved),
         cmocka_unit_test(a_cut_queue_is_told),
