@@ -45,6 +45,8 @@ typedef struct HdRenderOptions {
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;
+    bool has_deep_trees; /* of hundreds of levels, as where the error of a picture has a limit. No
+                            option of the command line by itself */
     struct {
         bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
@@ -69,6 +71,7 @@ typedef struct HdDevice {
     bool has_double;
     bool
         has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
+    bool has_timeout;     /* its driver may end long kernels, as where it draws a display */
     char unusable[512];   /* why nothing can run there, say no compiler for it; empty: it can */
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;

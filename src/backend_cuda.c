@@ -108,11 +108,15 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
     int arch;
     int version = query_driver_version(driver);
     HdStatus status = query_arch(driver, handle, &arch, error);
+    int has_timeout = 0;
     if (status == HD_OK)
         status = query_speed(driver, handle, device, error);
+    if (status == HD_OK)
+        status = query(driver, handle, HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT, &has_timeout, error);
     if (status != HD_OK)
         return status;
     device->nvidia_arch = arch;
+    device->has_timeout = has_timeout != 0;
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
     /* Fails where there is no compiler, so that a choice among devices can pass it over. */

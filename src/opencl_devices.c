@@ -116,6 +116,15 @@ static int find_nvidia_arch(cl_device_id device) {
     return (int)(10 * query_uint(device, CAPABILITY_MAJOR) + query_uint(device, CAPABILITY_MINOR));
 }
 
+/* Only NVIDIA's driver tells. */
+static bool has_timeout(cl_device_id id) {
+    enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
+    cl_bool told = CL_FALSE;
+    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
+        return told != CL_FALSE;
+    return (query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
+}
+
 static void describe_device(HdDevice *device, Entry entry, int index) {
     memset(device, 0, sizeof *device);
     device->backend = &hd_backend_opencl;
@@ -132,6 +141,7 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->nvidia_arch = find_nvidia_arch(entry.device);
     device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
+    device->has_timeout = has_timeout(entry.device);
     find_obstacles(entry.device, device->unusable, sizeof device->unusable);
     find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
 }
@@ -187,15 +197,6 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
     for (int i = 0; i < *count; i++)
         describe_device(&devices[i], entries[i], i);
     return status;
-}
-
-/* Only NVIDIA's driver tells. */
-static bool has_timeout(cl_device_id id) {
-    enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
-    cl_bool told = CL_FALSE;
-    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
-        return told != CL_FALSE;
-    return (query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
 }
 
 HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {

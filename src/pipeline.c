@@ -10,7 +10,9 @@ HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *opt
     if (options->pipeline != HD_PIPELINE_AUTO)
         return options->pipeline;
     bool has_many = scene != NULL && hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
-    return device->is_cpu && has_many ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
+    /* The megakernel traces a whole tree in one launch, which nothing can cut. */
+    bool must_be_cut = options->has_deep_trees && device->has_timeout && device->has_wide_atomics;
+    return (device->is_cpu ? has_many : must_be_cut) ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
 }
 
 bool hd_pipeline_is_wavefront(HdPipeline pipeline) {

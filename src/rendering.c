@@ -117,10 +117,12 @@ static HdStatus open_devices(Run *run, HdError *error) {
         .first_frame = run->resume.missing.frames[0],
         .frame_count = run->resume.missing.count,
     };
+    HdRenderOptions render = options->render;
+    render.has_deep_trees = plain.max_error > 0.0;
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
         hd_progress_prepare(&run->progress, "preparing the device");
-    HdStatus status = hd_open_devices(&run->team, &wish, &options->render, &job, &reason, error);
+    HdStatus status = hd_open_devices(&run->team, &wish, &render, &job, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",

@@ -64,6 +64,12 @@ if grep -q 'libnvrtc' "$work"/loaded.*; then
     fail "NVRTC was loaded for kernels that are kept"
 fi
 
+# ---- where the driver may end long kernels, deep trees are traced level by level
+expect_exit 0 "${fast[@]}"
+expect_stderr_contains ' threads, mega,'
+expect_exit 0 "${fast[@]}" --max-error 64
+expect_stderr_contains ' threads, wavefront,'
+
 # ---- another NVRTC by name, an entry that is damaged, a driver that refuses it
 cp "$nvrtc" "$work/libnvrtc.so.12"
 cp "$(dirname "$nvrtc")"/libnvrtc-builtins.so.12.* "$work"

@@ -35,6 +35,26 @@ static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
     assert_int_equal(hd_choose_pipeline(&cpu, &options, &scene), HD_PIPELINE_MEGA);
 }
 
+/* A display must not stand still for as long as a tree of hundreds of levels takes. */
+static void deep_trees_on_a_gpu_with_a_display_take_the_wavefront(void **state) {
+    (void)state;
+    HdDevice gpu = {.has_timeout = true, .has_wide_atomics = true}, cpu = {.is_cpu = true};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO, .has_deep_trees = true};
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_timeout = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_timeout = true;
+    gpu.has_wide_atomics = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_wide_atomics = true;
+    options.has_deep_trees = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    options.pipeline = HD_PIPELINE_MEGA;
+    options.has_deep_trees = true;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+}
+
 static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
     (void)state;
     HdDevice gpu = {.name = "a GPU"};
@@ -76,6 +96,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(auto_is_mega),
         cmocka_unit_test(many_endless_lights_on_a_cpu_take_the_wavefront),
+        cmocka_unit_test(deep_trees_on_a_gpu_with_a_display_take_the_wavefront),
         cmocka_unit_test(a_wavefront_of_groups_needs_wide_atomics),
         cmocka_unit_test(sizes_of_launches_are_checked),
     };
