@@ -91,6 +91,9 @@ def table_of(sources, part, name, what):
 
 
 def scaled_note(entries):
-    scales = sorted({entry["scale"] for entry in entries if entry["scale"] > 1})
-    return [f"Some times are those of a picture with 1/{scale} of the samples, times {scale}, as the figures tell."
-            for scale in scales]
+    found = []
+    for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
+        devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
+        found.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
+                     f"times {scale}, where the figures say so.")
+    return found
