@@ -59,6 +59,12 @@ static void format_usage(const HdCommandSpec *spec, const char *options, char te
              options, spec->operands[0] != '\0' ? " " : "", spec->operands);
 }
 
+static void print_explained(const char *heading, const HdExplained *list, int count) {
+    printf("\n%s:\n", heading);
+    for (int i = 0; i < count; i++)
+        print_entry(list[i].text, OPTION_COLUMN, list[i].meaning);
+}
+
 static void print_program(void) {
     char usage[128];
     printf("hedron %s.\n\nUsage:\n", hd_program_summary);
@@ -78,9 +84,8 @@ static void print_program(void) {
         printf("  %s\n%*s", hd_examples[i].text, EXAMPLE_COLUMN, "");
         print_wrapped(hd_examples[i].meaning, EXAMPLE_COLUMN, EXAMPLE_COLUMN);
     }
-    printf("\nExit codes:\n");
-    for (int i = 0; i < HD_EXIT_CODE_COUNT; i++)
-        print_entry(hd_exit_codes[i].text, OPTION_COLUMN, hd_exit_codes[i].meaning);
+    print_explained("Exit codes", hd_exit_codes, HD_EXIT_CODE_COUNT);
+    print_explained("Environment", hd_variables, HD_VARIABLE_COUNT);
 }
 
 static void print_command(const HdCommandSpec *spec) {

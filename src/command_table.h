@@ -49,8 +49,9 @@ typedef struct HdExplained {
     const char *text, *meaning;
 } HdExplained;
 
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 11 };
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 11, HD_VARIABLE_COUNT = 4 };
 extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
+extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
 
 #endif

@@ -99,6 +99,7 @@ void hd_print_man_page(void) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         print_command(&hd_command_specs[i]);
     print_explained("EXIT STATUS", hd_exit_codes, HD_EXIT_CODE_COUNT);
+    print_explained("ENVIRONMENT", hd_variables, HD_VARIABLE_COUNT);
     print_explained("EXAMPLES", hd_examples, HD_EXAMPLE_COUNT);
     printf(".SH SEE ALSO\n"
            ".BR ffmpeg (1)\n");

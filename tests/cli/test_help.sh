@@ -32,6 +32,16 @@ render="--frame-lines --output --set --again --crop --reference ${rendering% }"
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"
 done
+# Each variable that the program reads is explained, in the help and in the man page.
+variables=$(grep -h -o 'getenv("HEDRON_[A-Z_]*")' "$cli_folder"/../../src/*.c | grep -o 'HEDRON_[A-Z_]*' | sort -u)
+((${#variables} > 0)) || fail "the sources read no variables"
+for form in help 'help man'; do
+    # shellcheck disable=SC2086 # one or two words
+    expect_exit 0 "$hedron" $form
+    for variable in $variables; do
+        expect_stdout_contains "$variable"
+    done
+done
 for command in "$hedron render --help" "$hedron render -h" "$hedron help render" \
     "$hedron render --size 1x1 --help"; do
     # shellcheck disable=SC2086 # a command and its arguments
