@@ -213,13 +213,13 @@ static HdStatus start(Comparison *comparison, HdError *error) {
         comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
         status = hd_picture_reader_start(comparison->readers[i], comparison->curve, error);
         if (status == HD_OK && comparison->rows[i] == NULL)
-            status = hd_fail(error, HD_FAILED, "not enough memory for a row of pixels");
+            status = hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
     }
     if (status != HD_OK || comparison->options->diff == NULL)
         return status;
     comparison->errors = malloc(width * sizeof *comparison->errors);
     if (comparison->errors == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for a row of pixels");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
     return open_map(comparison, error);
 }
 

@@ -33,7 +33,7 @@ static HdStatus copy_results(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProg
     code->cubin = malloc(code->size);
     code->log = copy_log(nvrtc, program);
     if (!code->cubin || !code->log)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
     result = nvrtc->functions.cubin(program, code->cubin);
     return result == 0 ? HD_OK : fail(nvrtc, "nvrtcGetCUBIN", result, error);
 }

@@ -55,8 +55,8 @@ static HdStatus read_exactly(const File *file, unsigned char *bytes, size_t size
 static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {
     *bytes = malloc(size + 1);
     if (*bytes == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for the %zu bytes of the %s %s", size,
-                       file->what, file->path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
+                       size, file->what, file->path);
     const HdStatus status = read_exactly(file, *bytes, size, error);
     if (status != HD_OK) {
         free(*bytes);

@@ -105,7 +105,7 @@ static HdStatus fill_list(HdFrameList *list, const Range *ranges, size_t count, 
         total += ranges[i].last - ranges[i].first + 1;
     list->frames = malloc((size_t)total * sizeof *list->frames);
     if (list->frames == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for a list of %d frames", total);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d frames", total);
     for (size_t i = 0; i < count; i++)
         for (int frame = ranges[i].first; frame <= ranges[i].last; frame++)
             list->frames[list->count++] = frame;
@@ -116,7 +116,8 @@ static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count,
     size_t count = count_items(text);
     Range *ranges = calloc(count, sizeof *ranges);
     if (ranges == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for a frame list of %zu items", count);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame list of %zu items",
+                       count);
     HdStatus status = parse_items(text, frame_count, ranges, count, error);
     if (status == HD_OK) {
         count = merge_ranges(ranges, count);

@@ -82,7 +82,7 @@ HdStatus hd_heat_map_open(HdHeatMap **out, const char *path, int width, int heig
                           HdError *error) {
     HdHeatMap *map = calloc(1, sizeof *map);
     if (map == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to write %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
     map->width = width;
     map->height = height;
     memcpy(map->message, "out of memory", sizeof "out of memory");

@@ -26,8 +26,8 @@ HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error
         return status;
     image->rgba = calloc((size_t)width * (size_t)height, 4);
     if (image->rgba == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for a picture of %d x %d pixels", width,
-                       height);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture of %d x %d pixels",
+                       width, height);
     image->width = width;
     image->height = height;
     return HD_OK;
@@ -101,8 +101,9 @@ HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, 
     texture->texels =
         hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
     if (texture->texels == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory for the texture %s of %lu x %lu pixels",
-                       name, (unsigned long)width, (unsigned long)height);
+        return hd_fail(error, HD_FAILED,
+                       "out of memory: no room for the texture %s of %lu x %lu pixels", name,
+                       (unsigned long)width, (unsigned long)height);
     texture->width = (int)width;
     texture->height = (int)height;
     return HD_OK;

@@ -44,7 +44,7 @@ HdStatus hd_image_data_write(const HdFrame *frame, HdCurve curve, FILE *stream, 
                              HdError *error) {
     uint8_t *row = malloc((size_t)frame->width * 4);
     if (row == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to write %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
     bool good = write_all(frame, curve, stream, row);
     int reason = errno;
     free(row);

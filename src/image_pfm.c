@@ -31,7 +31,7 @@ static bool write_all(const HdFrame *frame, FILE *stream, unsigned char *row) {
 HdStatus hd_image_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error) {
     unsigned char *row = malloc((size_t)frame->width * 12);
     if (row == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to write %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
     bool good = write_all(frame, stream, row);
     int reason = errno;
     free(row);

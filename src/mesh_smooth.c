@@ -327,7 +327,7 @@ HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error) {
             smooth_place(&smoother, i);
         take_normals(&smoother, mesh);
     } else {
-        status = hd_fail(error, HD_FAILED, "not enough memory for the normals of %d triangles",
+        status = hd_fail(error, HD_FAILED, "out of memory: no room for the normals of %d triangles",
                          mesh->triangle_count);
     }
     free_smoother(&smoother);

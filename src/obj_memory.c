@@ -85,7 +85,7 @@ HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: reading it takes more than the %zu bytes of memory that it may take",
                        path, memory->most);
-    return hd_fail(error, HD_FAILED, "not enough memory to read the mesh %s", path);
+    return hd_fail(error, HD_FAILED, "out of memory: no room to read the mesh %s", path);
 }
 
 void hd_obj_release_all(HdObjMemory *memory) {

@@ -67,7 +67,7 @@ static HdStatus open_rows(HdPfmRows *rows, HdError *error) {
         return status;
     rows->bytes = malloc((size_t)rows->width * 12);
     if (rows->bytes == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to read %s", rows->path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", rows->path);
     return HD_OK;
 }
 
@@ -75,7 +75,7 @@ HdStatus hd_pfm_rows_open(HdPfmRows **out, FILE *file, const char *path, HdPictu
                           HdError *error) {
     HdPfmRows *rows = calloc(1, sizeof *rows);
     if (rows == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to read %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
     *rows = (HdPfmRows){.file = file, .path = path};
     HdStatus status = open_rows(rows, error);
     if (status != HD_OK) {

@@ -26,7 +26,7 @@ struct HdPictureDifference {
 HdStatus hd_difference_create(HdPictureDifference **out, bool clamps, HdError *error) {
     HdPictureDifference *difference = calloc(1, sizeof *difference);
     if (difference == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to compare pictures");
+        return hd_fail(error, HD_FAILED, "out of memory: no room to compare pictures");
     difference->clamps = clamps;
     HdStatus status = hd_quantile_create(&difference->display.pixels, error);
     if (status == HD_OK)

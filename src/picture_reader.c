@@ -66,7 +66,7 @@ static HdStatus open_format(HdPictureReader *reader, HdError *error) {
 HdStatus hd_picture_reader_open(HdPictureReader **out, const char *path, HdError *error) {
     HdPictureReader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to read %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
     reader->path = path;
     HdStatus status = open_file(reader, error);
     if (status == HD_OK)
@@ -104,7 +104,7 @@ HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError
     }
     bool has_room = reader->radiances != NULL || (reader->codes != NULL && reader->by_code != NULL);
     if (!has_room)
-        return hd_fail(error, HD_FAILED, "not enough memory to read %s", reader->path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", reader->path);
     if (reader->facts.format == HD_PICTURE_PNG)
         fill_codes(reader);
     return HD_OK;

@@ -59,7 +59,7 @@ HdStatus hd_png_rows_open(HdPngRows **out, FILE *file, const char *path, HdPictu
                           HdError *error) {
     HdPngRows *rows = calloc(1, sizeof *rows);
     if (rows == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to read %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
     *rows = (HdPngRows){.file = file, .path = path, .message = "out of memory"};
     rows->png = hd_png_create_reader(rows->message);
     if (rows->png != NULL)

@@ -18,7 +18,7 @@ enum {
 HdStatus hd_quantile_create(HdQuantile *quantile, HdError *error) {
     *quantile = (HdQuantile){.buckets = calloc(BUCKETS, sizeof *quantile->buckets)};
     if (quantile->buckets == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to sort numbers");
+        return hd_fail(error, HD_FAILED, "out of memory: no room to sort numbers");
     return HD_OK;
 }
 

@@ -76,7 +76,7 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
     if (resume->missing.frames == NULL || resume->is_finished == NULL) {
         hd_resume_free(resume);
-        return hd_fail(error, HD_FAILED, "not enough memory for a list of %zu frames", count);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
     }
     HdStatus status = look_at_frames(resume, plan, error);
     if (status != HD_OK)
@@ -95,8 +95,9 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
         status = hd_image_png_load(frame, bytes, size, plan->names[first], error);
     else
         hd_fail(error, HD_FAILED,
-                "frame %d of %s was finished, but has changed since: start the run again", number,
-                plan->names[first]);
+                "frame %d of %s was finished, but has changed since or cannot be read: start the "
+                "run again",
+                number, plan->names[first]);
     free(bytes);
     return status;
 }

@@ -407,7 +407,7 @@ static HdStatus allocate_floor(HdMesh *mesh, int divisions, HdError *error) {
     mesh->materials = calloc(1, sizeof *mesh->materials);
     if (mesh->vertices == NULL || mesh->uvs == NULL || mesh->corners == NULL ||
         mesh->corner_uvs == NULL || mesh->group_of == NULL || mesh->materials == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory for %zu triangles", triangles);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %zu triangles", triangles);
     return HD_OK;
 }
 

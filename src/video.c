@@ -160,7 +160,7 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
         return status;
     HdVideo *film = calloc(1, sizeof *film);
     if (film == NULL)
-        return hd_fail(error, HD_FAILED, "not enough memory to make the film %s", path);
+        return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s", path);
     film->width = width;
     film->height = height;
     film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
