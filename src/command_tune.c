@@ -13,7 +13,8 @@
 
 typedef struct Run {
     const HdOptions *options;
-    const HdScene *scene;
+    HdRenderOptions render; /* as for the scene */
+    const HdScene *scene;   /* of about the same work, not surveyed */
     HdDevice device;
     char note[4096]; /* about the choice of the device, worth telling; "": nothing is */
     HdTuning tuning;
@@ -116,7 +117,7 @@ static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
     HdDeviceReason reason;
     HdDeviceWish wish = {.backend = options->backend, .device = options->device};
     HdStatus status =
-        hd_open_device(&renderer, &run->device, &wish, &options->render, job, &reason, error);
+        hd_open_device(&renderer, &run->device, &wish, &run->render, job, &reason, error);
     if (status != HD_OK)
         return status;
     hd_renderer_close(renderer);
@@ -126,7 +127,7 @@ static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
 
 /* Without a folder there is nothing to be done; a folder that fails is an error. */
 static HdStatus remember(Run *run, HdError *error) {
-    HdStatus status = hd_launch_remember(&run->device, &run->options->render, run->scene,
+    HdStatus status = hd_launch_remember(&run->device, &run->render, run->scene,
                                          &run->tuning.candidates[run->tuning.best].launch, error);
     run->obstacle = status == HD_OK ? NULL : error->message;
     return status == HD_UNAVAILABLE ? HD_OK : status;
@@ -137,7 +138,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     hd_progress_prepare(&progress, "measuring");
     HdStatus status = choose_device(run, job, error);
     if (status == HD_OK)
-        status = hd_tune(&run->tuning, &run->device, &run->options->render, job, error);
+        status = hd_tune(&run->tuning, &run->device, &run->render, job, error);
     hd_progress_end(&progress);
     if (run->note[0] != '\0')
         fprintf(stderr, "hedron: %s\n", run->note);
@@ -166,8 +167,9 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     HdStatus status = hd_read_scene(&file, options, error);
     if (status != HD_OK)
         return status;
+    run = (Run){.options = options, .render = options->render, .scene = &file.scene};
+    run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
     hd_scene_drop_survey(&file.scene);
-    run = (Run){.options = options, .scene = &file.scene};
     status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);
     if (status == HD_OK) {
         HdJob job = {

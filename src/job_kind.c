@@ -30,7 +30,7 @@ void hd_job_kind(const HdScene *scene, const HdRenderOptions *options, char *tex
              "2^%d places, %s floor, 2^%d lights, 2^%d endless ones, depth 2^%d\nprecision %d, "
              "math %d, pipeline %d, %d lanes, %d "
              "threads, block %d, grid "
-             "%d\n",
+             "%d%s\n",
              HD_VERSION, hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size),
              power_of_two(samples), power_of_two(count_planes(scene)),
              power_of_two((double)hd_scene_triangle_count(scene)),
@@ -38,5 +38,6 @@ void hd_job_kind(const HdScene *scene, const HdRenderOptions *options, char *tex
              power_of_two(hd_scene_light_count(scene)),
              power_of_two(hd_scene_endless_light_count(scene)), power_of_two(scene->depth),
              (int)options->precision, (int)options->math, (int)options->pipeline, options->lanes,
-             options->threads, options->block, options->grid);
+             options->threads, options->block, options->grid,
+             options->has_deep_trees ? ", deep trees" : "");
 }

@@ -148,7 +148,9 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
     if (status == HD_OK && has_limits)
         status = try_registers(tuner, &launch, error);
     for (int i = 0; status == HD_OK && tuner->options->pipeline == HD_PIPELINE_AUTO && i < 2; i++) {
-        if (pipelines[i] == suits)
+        bool is_too_long = pipelines[i] == HD_PIPELINE_MEGA &&
+                           hd_megakernel_is_too_long(tuner->device, tuner->options);
+        if (pipelines[i] == suits || is_too_long)
             continue;
         launch.pipeline = pipelines[i];
         status = try(tuner, &launch, error);

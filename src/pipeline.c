@@ -5,14 +5,19 @@
  * queue. */
 enum { MANY_LIGHTS = 100 };
 
+bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *options) {
+    return options->has_deep_trees && device->has_timeout && !device->is_cpu;
+}
+
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
                               const HdScene *scene) {
     if (options->pipeline != HD_PIPELINE_AUTO)
         return options->pipeline;
     bool has_many = scene != NULL && hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
-    /* The megakernel traces a whole tree in one launch, which nothing can cut. */
-    bool must_be_cut = options->has_deep_trees && device->has_timeout && device->has_wide_atomics;
-    return (device->is_cpu ? has_many : must_be_cut) ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
+    bool is_wavefront =
+        device->is_cpu ? has_many
+                       : hd_megakernel_is_too_long(device, options) && device->has_wide_atomics;
+    return is_wavefront ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
 }
 
 bool hd_pipeline_is_wavefront(HdPipeline pipeline) {

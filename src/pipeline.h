@@ -13,6 +13,10 @@
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
                               const HdScene *scene);
 
+/* Whether the megakernel could keep that device, which may be drawing a display, for too long: it
+   traces a whole tree in one launch, which nothing can cut. */
+bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *options);
+
 /* True for both kinds of wavefront. */
 bool hd_pipeline_is_wavefront(HdPipeline pipeline);
 

@@ -96,10 +96,11 @@ static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError
     return status;
 }
 
-static void note_device(const Run *run, const HdDevice *device, const char *why) {
+static void note_device(const HdDevice *device, const char *why, const HdRenderOptions *render,
+                        const HdScene *scene) {
     HdLaunch launch;
     hd_note_device(device, why);
-    if (hd_launch_recall(&launch, device, &run->options->render, run->rendering->scene))
+    if (hd_launch_recall(&launch, device, render, scene))
         hd_note_launch(&launch);
 }
 
@@ -118,7 +119,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
         .frame_count = run->resume.missing.count,
     };
     HdRenderOptions render = options->render;
-    render.has_deep_trees = plain.max_error > 0.0;
+    render.has_deep_trees = hd_scene_has_deep_trees(&plain);
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
         hd_progress_prepare(&run->progress, "preparing the device");
@@ -132,7 +133,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
     if (reason.note[0] != '\0' && !options->quiet)
         fprintf(stderr, "hedron: %s\n", reason.note);
     for (int i = 0; i < run->team.count && options->verbose; i++)
-        note_device(run, &run->team.devices[i], reason.why);
+        note_device(&run->team.devices[i], reason.why, &render, &plain);
     return HD_OK;
 }
 

@@ -9,6 +9,12 @@ bool hd_scene_is_surveyed(const HdScene *scene) {
     return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
 }
 
+bool hd_scene_has_deep_trees(const HdScene *scene) {
+    enum { FEW_LEVELS = 64 };
+    const double small_cutoff = 1e-4; /* that does not end trees long before */
+    return scene->depth > FEW_LEVELS && (scene->max_error > 0.0 || scene->cutoff <= small_cutoff);
+}
+
 void hd_scene_drop_survey(HdScene *scene) {
     enum { USUAL_DEPTH = 16 };
     if (scene->max_error > 0.0 && scene->depth > USUAL_DEPTH)

@@ -150,7 +150,10 @@ int hd_edge_light_count(const HdSolid *solid);
 /* Pixels come with bounds of what was left out and with identities (HdFrame). */
 bool hd_scene_is_surveyed(const HdScene *scene);
 
-/* Makes it a scene of about the same work that is not: to learn how fast a device is. */
+/* A sample's rays may go on for hundreds of levels. */
+bool hd_scene_has_deep_trees(const HdScene *scene);
+
+/* Makes it a scene of about the same work that is not surveyed: to learn how fast a device is. */
 void hd_scene_drop_survey(HdScene *scene);
 
 /* The mean of the corners. */

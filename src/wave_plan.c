@@ -34,7 +34,9 @@ static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     int least = wave_least_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
-    size_t useful = (size_t)wave_least_capacity(needs->depth, round_up(batch, needs->grain));
+    size_t levels = needs->depth > 0 ? (size_t)needs->depth : 1;
+    size_t useful = 2 * levels * (size_t)round_up(batch, needs->grain);
+    useful = useful < MAX_STRIDE ? useful : MAX_STRIDE;
     fitting = fitting < useful ? fitting : useful;
     return fitting > (size_t)least ? (int)fitting : least;
 }

@@ -45,10 +45,8 @@ FN int wave_least_capacity(int depth, int grain) {
 
 /* How many rays may be taken that have so many levels below them, where there is so much room. */
 FN int wave_fitting(int room, int levels, int grain) {
-    int fitting = room / (2 * grain * wave_lesser(levels, WAVE_TAKE_LEVELS)) * grain;
-    if (room - 2 * fitting < 2 * grain * (levels - 1)) /* those that go on could get stuck */
-        fitting = room / (2 * grain * levels) * grain;
-    return fitting;
+    int pairs = room / (2 * grain);
+    return grain * wave_lesser(pairs / wave_lesser(levels, WAVE_TAKE_LEVELS), pairs - (levels - 1));
 }
 
 /* The first place after those of the segments below number `number`. */

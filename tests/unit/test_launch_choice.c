@@ -162,6 +162,25 @@ static void what_cannot_be_used_is_told(void **state) {
     expect_contains(tuning.candidates[1].failure, "64-bit integer atomics");
 }
 
+static double likes_mega(const HdRenderOptions *asked) {
+    return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 2.0 : 1.0;
+}
+
+static void a_display_is_not_kept_by_deep_trees(void **state) {
+    (void)state;
+    fake.trace_seconds = likes_mega;
+    device.has_timeout = true;
+    tune();
+    assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
+    options.has_deep_trees = true;
+    tune();
+    for (int i = 0; i < tuning.count; i++)
+        assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_WAVEFRONT);
+    device.has_timeout = false;
+    tune();
+    assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
+}
+
 static void a_device_that_fails_is_an_error(void **state) {
     (void)state;
     fake.is_missing = true;
@@ -315,6 +334,15 @@ static void other_texts_are_ignored(void **state) {
     }
 }
 
+static void deep_trees_are_another_kind_of_job(void **state) {
+    (void)state;
+    remember();
+    options.has_deep_trees = true;
+    assert_false(is_recalled());
+    remember();
+    assert_true(is_recalled());
+}
+
 static void without_a_folder_nothing_is_remembered(void **state) {
     (void)state;
     setenv("HEDRON_CACHE", "off", 1);
@@ -379,6 +407,7 @@ int main(void) {
         TEST(what_the_options_fix_stays),
         TEST(noise_decides_nothing),
         TEST(what_cannot_be_used_is_told),
+        TEST(a_display_is_not_kept_by_deep_trees),
         TEST(a_device_that_fails_is_an_error),
         TEST(what_was_unlucky_is_measured_again),
         TEST(a_choice_is_remembered),
@@ -386,6 +415,7 @@ int main(void) {
         TEST(options_of_a_run_win),
         TEST(nonsense_is_ignored),
         TEST(other_texts_are_ignored),
+        TEST(deep_trees_are_another_kind_of_job),
         TEST(without_a_folder_nothing_is_remembered),
         TEST(what_is_remembered_is_opened),
         TEST(limits_of_registers_suit_the_device),

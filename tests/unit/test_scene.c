@@ -629,6 +629,22 @@ static void test_free_clears(void **state) {
 }
 
 /* What is wrong in one place, or was before, keeps no other check from being made. */
+static void test_deep_trees(void **state) {
+    (void)state;
+    HdScene scene = {.depth = 400, .cutoff = 0.01};
+    assert_false(hd_scene_has_deep_trees(&scene)); /* the cut-off ends them */
+    scene.cutoff = 0.0;
+    assert_true(hd_scene_has_deep_trees(&scene));
+    scene.cutoff = 0.01;
+    scene.max_error = 1.0;
+    assert_true(hd_scene_has_deep_trees(&scene));
+    scene.depth = 20;
+    assert_false(hd_scene_has_deep_trees(&scene));
+    scene.depth = 400;
+    hd_scene_drop_survey(&scene);
+    assert_false(hd_scene_has_deep_trees(&scene));
+}
+
 static void test_no_problem_hides_another(void **state) {
     (void)state;
     static HdProblems problems;
@@ -682,6 +698,7 @@ int main(void) {
         cmocka_unit_test(test_no_problem_follows_from_another),
         cmocka_unit_test(test_the_eye_never_at_the_target),
         cmocka_unit_test(test_refracting_solids_overlap_nothing),
+        cmocka_unit_test(test_deep_trees),
         cmocka_unit_test(test_no_problem_hides_another),
         cmocka_unit_test(test_free_clears),
     };
