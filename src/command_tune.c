@@ -143,7 +143,7 @@ static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     if (run->note[0] != '\0')
         fprintf(stderr, "hedron: %s\n", run->note);
     if (status == HD_INTERRUPTED)
-        return hd_fail(error, status, "interrupted; nothing is remembered");
+        hd_fail(error, status, "interrupted; nothing is remembered");
     return status;
 }
 
@@ -167,7 +167,8 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     HdStatus status = hd_read_scene(&file, options, error);
     if (status != HD_OK)
         return status;
-    run = (Run){.options = options, .render = options->render, .scene = &file.scene};
+    run = (Run){.options = options, .scene = &file.scene};
+    run.render = options->render;
     run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
     hd_scene_drop_survey(&file.scene);
     status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);

@@ -68,6 +68,9 @@ fi
 expect_exit 0 "${fast[@]}"
 expect_stderr_contains ' threads, mega,'
 expect_exit 0 "${fast[@]}" --max-error 64
+expect_stderr_contains ' threads, mega,'
+deep=("$hedron" render --size 32x24 --frames 0 -o picture.data --backend cuda --math fast --verbose)
+expect_exit 0 "${deep[@]}" --max-error 64
 expect_stderr_contains ' threads, wavefront,'
 
 # ---- another NVRTC by name, an entry that is damaged, a driver that refuses it
