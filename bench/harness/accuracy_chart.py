@@ -4,11 +4,11 @@ import math
 from functools import partial
 
 from harness import accuracy_front, accuracy_points, accuracy_settings, charts, report
+from harness.chart_names import Names
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
 MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
 LEAST = 1e-4  # of 255: what is less is drawn there
-SIDES = (("left", 0.8, 0.6), ("right", -0.8, -0.7))  # of the front where its names stand, in turns
 
 
 def chart_name(label, error):
@@ -30,17 +30,20 @@ def caption(result, points, error):
                      made, "Times are medians of frames next to the one that is judged."]).strip()
 
 
-def labels(points, error):
-    """Those on the front are named, and what is recommended in words of its own."""
-    named = accuracy_front.front(points, error)
-    named += [point for point in points if point["recommended"] and point not in named]
+def labels(points, error, ranges):
+    """Those on the front are named where there is room, and what is recommended in words of its own."""
+    named = [point for point in points if point["recommended"]]
+    named += [point for point in accuracy_front.front(points, error) if point not in named]
+    names = Names(ranges, [(point["ms"], point[error]) for point in points])
     lines = []
     for place, point in enumerate(named):
         word = f" ({point['recommended']})" if point["recommended"] else ""
-        name = charts.quoted(charts.plain(point["name"] + word, 40))
-        to, right, up = SIDES[place % len(SIDES)]
-        lines.append(f"set label {place + 10} {name} at {point['ms']!r}, {point[error]!r} {to} "
-                     f"offset character {right}, {up} noenhanced font ',11'")
+        name = charts.plain(point["name"] + word, 40)
+        where = names.place((point["ms"], point[error]), name, bool(word))
+        if where:
+            to, right, up = where
+            lines.append(f"set label {place + 10} {charts.quoted(name)} at {point['ms']!r}, {point[error]!r} {to} "
+                         f"offset character {right}, {up} noenhanced font ',11'")
     return lines
 
 
@@ -60,14 +63,15 @@ def chart(result, label, error):
     commands = charts.style(result, f"{ERRORS[error].capitalize()} against time, {charts.device_title(device)}",
                             caption(result, points, error), rows)
     times, errors = [point["ms"] for point in points], [point[error] for point in points]
+    x_range, y_range = (min(times) / 1.5, max(times) * 2.5), (min(errors) / 1.6, max(errors) * 1.6)
     commands += [
         "set logscale xy", f"set xtics {ticks(times)}", f"set ytics {ticks(errors)}",
-        f"set xrange [{min(times) / 1.5!r}:{max(times) * 2.5!r}]",
-        f"set yrange [{min(errors) / 1.6!r}:{max(errors) * 1.6!r}]",
+        f"set xrange [{x_range[0]!r}:{x_range[1]!r}]",
+        f"set yrange [{y_range[0]!r}:{y_range[1]!r}]",
         "set xlabel 'milliseconds for each frame (logarithmic)'",
         f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
         f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced",
-        *labels(points, error),
+        *labels(points, error, (x_range, y_range)),
         "$front << END", *(f"{each['ms']!r} {each[error]!r}" for each in accuracy_front.front(points, error)), "END",
     ]
     plots = ["$front using 1:2 with lines linewidth 2.5 linecolor rgb '#999999' title 'the best front'"]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The charts of bench/stability: shares of failures against the scale and against the offset."""
+import math
+
 from harness import charts
 from harness import stability_methods as methods
 from harness import stability_pictures as pictures
@@ -25,9 +27,9 @@ def lines(counts, study, cases, what):
 
 
 def least_share(found):
-    """Below all that was seen: what did not fail at all is drawn there."""
+    """Below all that was seen: what did not fail at all is drawn there, between two powers of ten, whose names have room."""
     shares = [y for both in found.values() for points in both for _, y in points if y]
-    return min(shares, default=1e-3) / 3
+    return 10.0 ** math.floor(math.log10(min(shares, default=1e-3))) / 3
 
 
 def data(name, points, floor):
