@@ -45,8 +45,8 @@ typedef struct HdRenderOptions {
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;
-    bool has_deep_trees; /* hd_scene_has_deep_trees of the scene that is to be rendered. No option
-                            of the command line by itself */
+    bool has_deep_trees; /* hd_scene_has_deep_trees of the scene that is to be rendered; counts
+                            where the pipeline is left open. No option of the command line */
     struct {
         bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the

@@ -23,11 +23,11 @@ typedef struct Renderer {
     HdCudaDriver driver;
     char name[256];
     HdCuDevice device;
-    int arch;        /* 61 stands for sm_61 */
-    int units;       /* multiprocessors */
-    int has_timeout; /* the driver ends kernels that take too long */
-    int launch_work; /* of a launch; 0: by measurement */
-    HdNvrtc nvrtc;   /* once kernels were compiled */
+    int arch;         /* 61 stands for sm_61 */
+    int units;        /* multiprocessors */
+    bool has_timeout; /* HdDevice.has_timeout */
+    int launch_work;  /* of a launch; 0: by measurement */
+    HdNvrtc nvrtc;    /* once kernels were compiled */
     HdKernelCache kernels;
     HdCudaCode code;     /* of the module */
     HdKernelShape shape; /* of the module, if there is one */
@@ -173,9 +173,6 @@ static HdStatus open_device(Renderer *renderer, int index, HdError *error) {
     if (status == HD_OK)
         status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_MULTIPROCESSOR_COUNT,
                        &renderer->units, error);
-    if (status == HD_OK)
-        status = query(&renderer->driver, renderer->device, HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT,
-                       &renderer->has_timeout, error);
     return status;
 }
 
@@ -264,7 +261,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
                           HdError *error) {
     Renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
     hd_kernel_cache_begin(&renderer->kernels, device);
     renderer->shape = (HdKernelShape){
@@ -279,6 +276,7 @@ static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options
     renderer->grid = options->grid;
     renderer->queue_bytes = options->test.queue_bytes;
     renderer->launch_work = options->test.launch_work;
+    renderer->has_timeout = device->has_timeout;
     HdStatus status = open_device(renderer, device->index, error);
     renderer->shape.register_limit =
         hd_register_limit(&renderer->shape, renderer->arch, options->registers);

@@ -42,6 +42,7 @@ enum {
 typedef struct Renderer {
     char name[256];
     HdOpenclDevice device;
+    bool has_timeout; /* HdDevice.has_timeout */
     HdKernelCache kernels;
     HdKernelShape shape; /* of the program, if there is one */
     HdPipeline pipeline;
@@ -152,9 +153,10 @@ static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *optio
                             HdError *error) {
     Renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     snprintf(renderer->name, sizeof renderer->name, "%s", device->name);
     hd_kernel_cache_begin(&renderer->kernels, device);
+    renderer->has_timeout = device->has_timeout;
     HdStatus status = hd_opencl_find(&renderer->device, device->index, error);
     if (status == HD_OK) {
         choose_shape(renderer, options);
@@ -245,8 +247,7 @@ static HdStatus opencl_upload(void *state, const HdSceneTables *tables, HdError 
                          .memory = (double)renderer->device.memory,
                          .at_once = (double)renderer->device.max_allocation};
     renderer->depth = tables->depth;
-    const double longest =
-        renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    const double longest = renderer->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
     renderer->flights.size = renderer->launch_work > 0
                                  ? hd_launch_size_fixed(renderer->launch_work)
                                  : hd_launch_size_start(renderer->device.compute_units, longest);

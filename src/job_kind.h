@@ -10,8 +10,8 @@ enum { HD_JOB_KIND_LENGTH = 512 };
 
 /* Writes lines of text that are the same for jobs whose measurements serve each other: those of the
    same version of the program, with the same options, whose scenes have as many planes, triangles,
-   lights and samples, and are as deep, rounded to powers of two. `capacity` is at least
-   HD_JOB_KIND_LENGTH. */
+   instances, lights, lights that no distance ends and samples, and are as deep, rounded to powers
+   of two, a floor or none, and deep trees or not. `capacity` is at least HD_JOB_KIND_LENGTH. */
 void hd_job_kind(const HdScene *scene, const HdRenderOptions *options, char *text, int capacity);
 
 #endif

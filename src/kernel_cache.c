@@ -46,7 +46,7 @@ static HdStatus store_binary(const HdKernelCache *cache, const unsigned char *bi
     size_t capacity = sizeof cache->stamp + sizeof cache->maker + size;
     char *entry = malloc(capacity);
     if (entry == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
     int length = snprintf(entry, capacity, "%s\n%s\n", cache->stamp, cache->maker);
     memcpy(entry + length, binary, size);
     HdStatus status = hd_cache_put(cache->backend, cache->key, entry, (size_t)length + size, error);

@@ -214,7 +214,6 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
         .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
         .nvidia_arch = find_nvidia_arch(id),
         .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
-        .has_timeout = has_timeout(id),
         .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
                          (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
         .memory = query_ulong(id, CL_DEVICE_GLOBAL_MEM_SIZE),

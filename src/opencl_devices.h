@@ -11,7 +11,6 @@ typedef struct HdOpenclDevice {
     bool is_cpu;
     int nvidia_arch; /* as HdDevice's */
     int compute_units;
-    bool has_timeout;    /* the driver may end kernels that take too long */
     int native_width[2]; /* lanes of a register, by HdPrecision */
     cl_ulong memory, max_allocation;
 } HdOpenclDevice;

@@ -73,7 +73,8 @@ const HdOptionSpec hd_option_specs[HD_OPTION_SPEC_COUNT] = {
     {HD_OPTION_PIPELINE, "--pipeline", NULL, "NAME", "auto mega wavefront wavefront-uncompacted",
      false, 0, 0, MEASURING,
      "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
-     "wavefront-uncompacted: with its dead rays, for comparison (default auto: the faster one)"},
+     "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
+     "and scene)"},
     {HD_OPTION_BLOCK, "--block", NULL, "N", NULL, false, HD_BLOCK_STEP, HD_MAX_BLOCK, MEASURING,
      "threads of a GPU's work group, a multiple of 32 (default: what suits it)"},
     {HD_OPTION_GRID, "--grid", NULL, "N", NULL, false, 1, HD_MAX_GRID, MEASURING,

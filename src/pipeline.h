@@ -8,8 +8,8 @@
 
 /* What `options` come to on that device: never HD_PIPELINE_AUTO. Where they leave the choice, a CPU
    takes the wavefront for a scene whose shading has most of the time (docs/performance.md), a GPU
-   whose driver may end long kernels for deep trees (docs/backends.md, Launches),
-   and otherwise the megakernel is taken. `scene` may be NULL: not known. */
+   with 64-bit atomics whose driver may end long kernels for deep trees (docs/backends.md,
+   Launches), and otherwise the megakernel is taken. `scene` may be NULL: not known. */
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
                               const HdScene *scene);
 

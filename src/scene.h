@@ -150,7 +150,8 @@ int hd_edge_light_count(const HdSolid *solid);
 /* Pixels come with bounds of what was left out and with identities (HdFrame). */
 bool hd_scene_is_surveyed(const HdScene *scene);
 
-/* A sample's rays may go on for hundreds of levels. */
+/* A sample's rays may go on for more than 64 levels, and are not ended long before by the cut-off.
+   To be asked before the survey is dropped. */
 bool hd_scene_has_deep_trees(const HdScene *scene);
 
 /* Makes it a scene of about the same work that is not surveyed: to learn how fast a device is. */

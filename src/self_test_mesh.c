@@ -42,7 +42,9 @@ static HdStatus allocate(HdMesh *mesh, bool is_ball, HdError *error) {
         mesh->group_of = calloc(TRIANGLES, sizeof *mesh->group_of);
         has_room = has_room && mesh->group_of != NULL;
     }
-    return has_room ? HD_OK : hd_fail(error, HD_FAILED, "out of memory");
+    return has_room
+               ? HD_OK
+               : hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
 }
 
 static void place_points(HdMesh *mesh, bool is_ball) {

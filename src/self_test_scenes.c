@@ -28,7 +28,7 @@ static HdPath fixed(HdVec3 point) {
 static HdStatus add_lights(HdScene *scene, HdError *error) {
     scene->lights = calloc(LIGHTS, sizeof *scene->lights);
     if (scene->lights == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
     scene->light_count = LIGHTS;
     scene->lights[0] = (HdLight){.position = hd_vec3(1.5, -2.5, 3.0),
                                  .intensity = hd_vec3(1.0, 0.9, 0.7),
@@ -42,7 +42,7 @@ static HdStatus add_lights(HdScene *scene, HdError *error) {
 static HdStatus add_cube(HdScene *scene, bool refracts, bool lit_from_behind, HdError *error) {
     scene->solids = calloc(1, sizeof *scene->solids);
     if (scene->solids == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
     scene->solid_count = 1;
     HdSolid *cube = &scene->solids[0];
     *cube = (HdSolid){.kind = HD_HEXAHEDRON,
@@ -70,7 +70,7 @@ static HdStatus add_cube(HdScene *scene, bool refracts, bool lit_from_behind, Hd
 static HdStatus add_texture(HdTexture *texture, HdError *error) {
     texture->texels = calloc((size_t)TEXTURE_WIDTH * TEXTURE_HEIGHT * 3, sizeof(uint16_t));
     if (texture->texels == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
     texture->width = TEXTURE_WIDTH;
     texture->height = TEXTURE_HEIGHT;
     for (int i = 0; i < TEXTURE_WIDTH * TEXTURE_HEIGHT * 3; i++)
@@ -116,7 +116,7 @@ static void set_materials(HdScene *scene, bool refracts, bool lit_from_behind) {
 static HdStatus place_meshes(HdScene *scene, HdError *error) {
     scene->instances = calloc(INSTANCES, sizeof *scene->instances);
     if (scene->instances == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
     scene->instance_count = INSTANCES;
     HdInstance *instances = scene->instances;
     instances[0] = (HdInstance){.mesh = BALL,
@@ -143,7 +143,7 @@ static HdStatus add_meshes(HdScene *scene, bool refracts, bool lit_from_behind, 
     scene->meshes = calloc(MESHES, sizeof *scene->meshes);
     scene->pictures = calloc(1, sizeof *scene->pictures);
     if (scene->meshes == NULL || scene->pictures == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory");
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the test of the kernels");
     scene->mesh_count = MESHES;
     scene->picture_count = 1;
     HdStatus status = add_texture(&scene->pictures[0].texture, error);

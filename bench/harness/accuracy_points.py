@@ -4,7 +4,7 @@ from pathlib import Path
 from statistics import median
 
 from harness import accuracy_error, accuracy_front, accuracy_settings, program as programs, summary
-from harness.program import Interrupted, Problem
+from harness.program import Interrupted
 
 SCENE = "built-in"
 FRAMES = "0-3"  # the first gives the error and warms up; its neighbours give the time

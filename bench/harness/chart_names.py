@@ -29,15 +29,19 @@ class Names:
     def mark(x, y):
         return (x - MARK, y - MARK / 2, x + MARK, y + MARK / 2)
 
-    def place(self, point, name, must):
-        """(alignment, characters to the right, up), or None where there is no room; what must be named is."""
+    def box(self, point, name, side):
         x, y = self.position(point)
         width = LETTER * (len(name) + 1)
-        for side in SIDES:
-            left = x + side[1] - (width if side[0] == "right" else 0)
-            box = (left, y + side[2] - LINE / 2, left + width, y + side[2] + LINE / 2)
-            inside = 0 <= box[0] and box[2] <= PLOT[0] and 0 <= box[1] and box[3] <= PLOT[1]
-            if inside and not any(overlap(box, other) for other in self.taken):
-                self.taken.append(box)
-                return side
-        return SIDES[0] if must else None
+        left = x + side[1] - (width if side[0] == "right" else 0)
+        return (left, y + side[2] - LINE / 2, left + width, y + side[2] + LINE / 2)
+
+    def is_free(self, box):
+        inside = 0 <= box[0] and box[2] <= PLOT[0] and 0 <= box[1] and box[3] <= PLOT[1]
+        return inside and not any(overlap(box, other) for other in self.taken)
+
+    def place(self, point, name, must):
+        """(alignment, characters to the right, up), or None where there is no room; what must be named is."""
+        side = next((each for each in SIDES if self.is_free(self.box(point, name, each))), SIDES[0] if must else None)
+        if side:
+            self.taken.append(self.box(point, name, side))
+        return side

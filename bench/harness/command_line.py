@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What the programs of bench/ have in common towards the one who calls them."""
+import math
 import os
 import sys
 
 
 def whole_number(text):
     """For argparse: 1 or more; "1e6" will do."""
-    number = int(float(text))
-    if number < 1 or number != float(text):
+    number = float(text)
+    if not 1 <= number < math.inf or number != int(number):
         raise ValueError
-    return number
+    return int(number)
 
 
 whole_number.__name__ = "number from 1 on"  # argparse's message uses it

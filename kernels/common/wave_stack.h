@@ -6,7 +6,7 @@
    many are taken as have room for all their rays that go on, on the next levels, and no more than
    leave room for a bundle of them on every level below: none is ever without a place. Rays that go
    on take the place of those before the last ones, if it is large enough, so that trees of
-   hundreds of levels need no more room than they are wide. */
+   hundreds of levels need little more room than they are wide. */
 #ifndef HD_WAVE_STACK_H
 #define HD_WAVE_STACK_H
 
@@ -43,7 +43,8 @@ FN int wave_least_capacity(int depth, int grain) {
     return 2 * grain * (depth > 0 ? depth : 1);
 }
 
-/* How many rays may be taken that have so many levels below them, where there is so much room. */
+/* How many rays may be taken that have so many levels below them, 1 or more, where there is so much
+   room: a bundle or more where that is at least wave_least_capacity(levels, grain). */
 FN int wave_fitting(int room, int levels, int grain) {
     int pairs = room / (2 * grain);
     return grain * wave_lesser(pairs / wave_lesser(levels, WAVE_TAKE_LEVELS), pairs - (levels - 1));
