@@ -19,7 +19,7 @@ static int round_up(int count, int grain) {
 
 /* Samples whose rays and sums fit, if each had two rays on as many levels as are likely. */
 static int batch_samples(const HdWaveNeeds *needs, size_t ray_bytes) {
-    size_t places = 2 * (size_t)wave_lesser(needs->depth > 0 ? needs->depth : 1, WAVE_BATCH_LEVELS);
+    size_t places = (size_t)wave_least_capacity(wave_lesser(needs->depth, WAVE_BATCH_LEVELS), 1);
     size_t fitting = needs->bytes / (places * ray_bytes + WAVE_SUMS * sizeof(int64_t));
     size_t most = MAX_STRIDE / places;
     fitting = fitting < most ? fitting : most;
@@ -34,8 +34,8 @@ static int queue_places(const HdWaveNeeds *needs, int batch, size_t ray_bytes) {
     int least = wave_least_capacity(needs->depth, needs->grain);
     size_t sums = WAVE_SUMS * sizeof(int64_t) * (size_t)batch;
     size_t fitting = needs->bytes > sums ? (needs->bytes - sums) / ray_bytes : 0;
-    size_t levels = needs->depth > 0 ? (size_t)needs->depth : 1;
-    size_t useful = 2 * levels * (size_t)round_up(batch, needs->grain);
+    size_t useful =
+        (size_t)wave_least_capacity(needs->depth, 1) * (size_t)round_up(batch, needs->grain);
     useful = useful < MAX_STRIDE ? useful : MAX_STRIDE;
     fitting = fitting < useful ? fitting : useful;
     return fitting > (size_t)least ? (int)fitting : least;

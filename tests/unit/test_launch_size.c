@@ -92,6 +92,13 @@ static Frame run_tail_frame(HdLaunchSize *size, double each) {
     return frame;
 }
 
+static Frame run_tail_frames(HdLaunchSize *size, int count, double each) {
+    Frame frame = {0};
+    for (int i = 0; i < count; i++)
+        frame = run_tail_frame(size, each);
+    return frame;
+}
+
 /* Cutting does not pay there: it soon costs less than the frame, and never more than three times.
  */
 static void slow_threads_are_not_cut_for(void **state) {
@@ -117,15 +124,10 @@ static void slow_threads_are_not_cut_for(void **state) {
 static void slow_threads_are_forgotten(void **state) {
     (void)state;
     HdLaunchSize size = hd_launch_size_start(5, HD_LAUNCH_SECONDS);
-    Frame frame = {0};
     tail = 0.3;
-    for (int i = 0; i < 20; i++)
-        frame = run_tail_frame(&size, 1e-8);
-    assert_true(frame.longest > 0.3);
+    assert_true(run_tail_frames(&size, 20, 1e-8).longest > 0.3);
     tail = 0.0;
-    for (int i = 0; i < 40; i++)
-        frame = run_tail_frame(&size, 1e-8);
-    assert_true(frame.longest < HD_LAUNCH_SECONDS);
+    assert_true(run_tail_frames(&size, 40, 1e-8).longest < HD_LAUNCH_SECONDS);
 }
 
 /* Where nothing ends a kernel, launches may last ten times as long: the same frame is one launch.
@@ -133,11 +135,8 @@ static void slow_threads_are_forgotten(void **state) {
 static void free_devices_are_cut_less(void **state) {
     (void)state;
     HdLaunchSize size = hd_launch_size_start(132, HD_LAUNCH_SECONDS_FREE);
-    Frame frame = {0};
     tail = 0.06;
-    for (int i = 0; i < 12; i++)
-        frame = run_tail_frame(&size, 4e-10);
-    assert_int_equal(frame.launches, 1);
+    assert_int_equal(run_tail_frames(&size, 12, 4e-10).launches, 1);
 }
 
 static void launches_at_most_double(void **state) {

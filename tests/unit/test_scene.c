@@ -628,7 +628,6 @@ static void test_free_clears(void **state) {
     hd_scene_free(&scene);
 }
 
-/* What is wrong in one place, or was before, keeps no other check from being made. */
 static void test_deep_trees(void **state) {
     (void)state;
     HdScene scene = {.depth = 400, .cutoff = 0.01};
@@ -645,6 +644,7 @@ static void test_deep_trees(void **state) {
     assert_false(hd_scene_has_deep_trees(&scene));
 }
 
+/* What is wrong in one place, or was before, keeps no other check from being made. */
 static void test_no_problem_hides_another(void **state) {
     (void)state;
     static HdProblems problems;
