@@ -1,32 +1,32 @@
 # SPDX-License-Identifier: MIT
 # The program 'hedron'. All of it but its main function is a library, so that tests can call it.
 add_library(hedron_program STATIC
-    src/command_check.c
-    src/command_classic.c
-    src/command_compare.c
-    src/command_convert.c
-    src/command_devices.c
-    src/command_help.c
-    src/command_render.c
-    src/command_scene.c
-    src/command_table.c
-    src/command_tune.c
-    src/completion.c
-    src/json_device_text.c
-    src/man_page.c
-    src/option_table.c
-    src/option_values.c
-    src/options.c
-    src/progress.c
-    src/rendering.c
-    src/rendering_notes.c
-    src/statistics.c)
+    src/cli/check.c
+    src/cli/classic.c
+    src/cli/compare.c
+    src/cli/convert.c
+    src/cli/devices.c
+    src/cli/command_help.c
+    src/cli/render.c
+    src/cli/load_scene.c
+    src/cli/command_table.c
+    src/cli/tune.c
+    src/cli/completion.c
+    src/input/json/json_device_text.c
+    src/cli/man_page.c
+    src/cli/option_table.c
+    src/cli/option_values.c
+    src/cli/options.c
+    src/cli/progress.c
+    src/cli/rendering.c
+    src/cli/notes.c
+    src/cli/statistics.c)
 target_include_directories(hedron_program SYSTEM PUBLIC ${JANSSON_INCLUDE_DIR})
 target_link_libraries(hedron_program PUBLIC hedron_scene_file ${JANSSON_LIBRARY})
 target_compile_definitions(hedron_program PUBLIC HD_VERSION="${PROJECT_VERSION}")
 hedron_compile_options(hedron_program)
 
-add_executable(hedron src/main.c)
+add_executable(hedron src/cli/main.c)
 target_link_libraries(hedron PRIVATE hedron_program)
 hedron_compile_options(hedron)
 install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

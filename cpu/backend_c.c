@@ -5,19 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../kernels/common/scene_tables.h"
-#include "../src/backend.h"
-#include "../src/clock.h"
-#include "../src/device_room.h"
-#include "../src/interrupt.h"
-#include "../src/kernel_source.h"
-#include "../src/large_memory.h"
-#include "../src/pipeline.h"
-#include "../src/processors.h"
-#include "../src/thread_pool.h"
-#include "../src/wave_plan.h"
+#include "device/kernel_source.h"
+#include "device/pipeline.h"
+#include "device/renderer.h"
+#include "device/wave_plan.h"
 #include "instruction_set.h"
 #include "kernel.h"
+#include "kernels/common/scene_tables.h"
+#include "system/clock.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+#include "system/processors.h"
+#include "system/thread_pool.h"
+#include "tables/room.h"
 
 /* A thread's rays should stay in its processor's own cache. */
 enum { QUEUE_BYTES = 512 << 10 };

@@ -3,7 +3,7 @@
 #ifndef HD_INSTRUCTION_SET_H
 #define HD_INSTRUCTION_SET_H
 
-#include "../src/backend.h"
+#include "device/renderer.h"
 #include "kernel.h"
 
 typedef struct HdCpuBuild {

@@ -2,8 +2,8 @@
 /* Entry point for plain C, named by HD_KERNEL_NAME. */
 #include "kernel.h"
 
-#include "../kernels/common/wavefront.h"
 #include "kernel_tables.h"
+#include "kernels/common/wavefront.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */
 #define APART static __attribute__((noinline))

@@ -4,8 +4,8 @@
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 
-#include "../src/compiled_scene.h"
-#include "../src/frame.h"
+#include "image/frame.h"
+#include "tables/tables.h"
 
 /* The queue that a thread works off its rays with (kernels/common/wavefront.h). */
 typedef struct HdCpuQueue {

@@ -3,7 +3,7 @@
 #ifndef HD_KERNEL_TABLES_H
 #define HD_KERNEL_TABLES_H
 
-#include "../kernels/common/scene_tables.h"
+#include "kernels/common/scene_tables.h"
 
 #define HD_TABLE_FROM_SCENE(type, name)                                                            \
     const type *name = scene[HD_TABLE_##name].data;                                                \

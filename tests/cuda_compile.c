@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/cuda_compile.h"
+#include "device/cuda/compile.h"
 
 enum { SKIPPED = 77, USAGE = 2 };
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Compiles only if src/cuda_api.h declares what NVIDIA's headers declare. Built where a toolkit is
-   installed; there is nothing to run. */
+/* Compiles only if src/device/cuda/api.h declares what NVIDIA's headers declare. Built where a
+   toolkit is installed; there is nothing to run. */
 #include <cuda.h>
 #include <nvrtc.h>
 
-#include "../src/cuda_api.h"
+#include "device/cuda/api.h"
 
 /* An enumeration is compatible with the integer type that the compiler gives it, so that ours
  * match. */

@@ -3,8 +3,8 @@
    error. The same picture of 8-bit colours in every form. */
 #include <cmath>
 
-#include "../../kernels/common/texture.h"
 #include "check.h"
+#include "kernels/common/texture.h"
 
 enum { SIDE = 1024, THREADS = 256, LOOKUPS = 64, TIMED_ROUNDS = 20 };
 enum { THREAD_COUNT = 1 << 18 };

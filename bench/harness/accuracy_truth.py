@@ -3,7 +3,7 @@
 from harness import accuracy_error
 from harness.program import Interrupted, Problem
 
-# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: src/sample_set.h.
+# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: src/render/samples.h.
 SAMPLE_ERROR, SAMPLE_SIDE = 2.2, 32
 SIDE_QUICKLY = 16
 # Steps of 255 that may be left out of it: the first one that is affordable, or the last.

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "../../cpu/kernel_tables.h"
-#include "../../kernels/common/render.h"
+#include "cpu/kernel_tables.h"
+#include "kernels/common/render.h"
 
 #define QUOTED_(name)  #name
 #define QUOTED(name)   QUOTED_(name)

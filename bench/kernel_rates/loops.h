@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "../../src/compiled_scene.h"
+#include "tables/tables.h"
 
 /* Which bundles of rays a search is given. HD_RAYS_SOLID + n: primary rays that all meet solid n.
  */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/scene_file.h"
 #include "processor_time.h"
-#include "scene_file.h"
 
 enum { PEAK_ROUNDS = 1 << 16 };
 

@@ -15,10 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../cpu/instruction_set.h"
 #include "../kernel_rates/processor_time.h"
+#include "cpu/instruction_set.h"
 #include "rival.h"
-#include "thread_pool.h"
+#include "system/thread_pool.h"
 #include "walks.h"
 
 #ifdef HD_CPU_X86

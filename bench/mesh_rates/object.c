@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../kernels/common/scene_tables.h"
 #include "../../tests/conformance/mesh_builder.h"
-#include "thread_pool.h"
+#include "kernels/common/scene_tables.h"
+#include "system/thread_pool.h"
 
 const double hd_object_tangent = 0.6;
 const double hd_object_filter[3] = {0.9, 0.6, 0.3};

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-#include "../../src/compiled_scene.h"
-#include "../../src/scene.h"
+#include "scene/scene.h"
+#include "tables/tables.h"
 
 typedef struct HdObject {
     HdScene scene;

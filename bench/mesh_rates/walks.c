@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "../../cpu/kernel_tables.h"
-#include "../../kernels/common/render.h"
+#include "cpu/kernel_tables.h"
+#include "kernels/common/render.h"
 
 typedef struct Start {
     Vec3 origin, direction;

@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../cpu/instruction_set.h"
 #include "../kernel_rates/measures.h"
+#include "cpu/instruction_set.h"
 #include "order.h"
 
 #ifdef HD_CPU_X86

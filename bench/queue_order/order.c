@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "../../cpu/kernel_tables.h"
-#include "../../kernels/common/wavefront.h"
 #include "../kernel_rates/processor_time.h"
+#include "cpu/kernel_tables.h"
+#include "kernels/common/wavefront.h"
 
 /* A level's rays: up to two runs of places. */
 typedef struct Queue {

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "../../src/compiled_scene.h"
+#include "tables/tables.h"
 
 /* What stands behind what in the queue of a level. */
 typedef enum HdQueueOrder {

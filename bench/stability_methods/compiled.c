@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene_triangles.h"
+#include "scene/triangulate/scene.h"
 
 enum { DISC_SIDES = 16, DEPTH = 1000 };
 

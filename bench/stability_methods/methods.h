@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
+#include "base/vector.h"
 #include "triangle_tests.h"
-#include "vec3.h"
 
 /* Whether this processor runs the tests that are compiled with contraction. */
 bool hd_can_contract(void);

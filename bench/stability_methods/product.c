@@ -2,8 +2,8 @@
 /* HD_PRODUCT names the table; HD_DOUBLE is 0 or 1. */
 #include "product.h"
 
-#include "../../cpu/kernel_tables.h"
-#include "../../kernels/common/ray_tree.h"
+#include "cpu/kernel_tables.h"
+#include "kernels/common/ray_tree.h"
 
 static Vec3 rounded(HdVec3 v) {
     return vec3_splat((real)v.x, (real)v.y, (real)v.z);

@@ -4,7 +4,7 @@
 #ifndef HD_BENCH_PRODUCT_H
 #define HD_BENCH_PRODUCT_H
 
-#include "compiled_scene.h"
+#include "tables/tables.h"
 
 /* A face that a path met. */
 typedef struct HdBounce {

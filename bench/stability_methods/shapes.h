@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "platonic.h"
+#include "scene/platonic.h"
 
 enum { HD_MOST_SHAPE_VERTICES = 64, HD_MOST_SHAPE_TRIANGLES = 256 };
 

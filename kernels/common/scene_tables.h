@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
-   (src/compile_tables.inc), a backend copies them as they are.
+   (src/tables/builder.inc), a backend copies them as they are.
 
    Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
    it has no padding in float and in double. "Object" is a solid, the floor or, last of all, one

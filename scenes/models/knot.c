@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "trigonometry.h"
+#include "base/trigonometry.h"
 
 /* The curve goes TURNS times about the axis and WINDINGS times about the ring while t goes once
    from 0 to 2 pi. */

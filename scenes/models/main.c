@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atomic_file.h"
-#include "interrupt.h"
 #include "model.h"
+#include "system/atomic_file.h"
+#include "system/interrupt.h"
 
 static const HdModel *const models[] = {&hd_model_sphere, &hd_model_knot, &hd_model_soup};
 enum { MODEL_COUNT = sizeof models / sizeof models[0] };

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "interrupt.h"
+#include "system/interrupt.h"
 
 enum { DECIMALS = 6, MILLION = 1000000, LONGEST_LINE = 256 };
 

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "trigonometry.h"
+#include "base/trigonometry.h"
 
 /* Bumps about the directions in which all three waves are high or low. */
 static const double bump_height = 0.08, bump_frequency = 8;

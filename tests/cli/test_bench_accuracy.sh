@@ -111,7 +111,7 @@ expect_python 'cuda:0 c:0 None' 'import importlib.machinery, importlib.util' \
     'print(*(name and name["label"] for name in names))'
 # What is stated of the reference's samples is what the program states of them.
 expect_python True 'from harness.accuracy_truth import SAMPLE_ERROR' \
-    "print(f'#define HD_REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n' in open('$project/src/sample_set.h', encoding='utf-8').read())"
+    "print(f'#define HD_REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n' in open('$project/src/render/samples.h', encoding='utf-8').read())"
 
 # ---- a tiny run
 expect_exit 0 "$hedron" check "$project/bench/scenes/few.json"

@@ -33,7 +33,7 @@ for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"
 done
 # Each variable that the program reads is explained, in the help and in the man page.
-variables=$(grep -h -o 'getenv("HEDRON_[A-Z_]*")' "$cli_folder"/../../src/*.c | grep -o 'HEDRON_[A-Z_]*' | sort -u)
+variables=$(grep -rh -o 'getenv("HEDRON_[A-Z_]*")' "$cli_folder"/../../src | grep -o 'HEDRON_[A-Z_]*' | sort -u)
 ((${#variables} > 0)) || fail "the sources read no variables"
 for form in help 'help man'; do
     # shellcheck disable=SC2086 # one or two words

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image.h"
+#include "image/picture.h"
 #include "scenes.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };

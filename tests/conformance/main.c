@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "backend.h"
+#include "device/renderer.h"
 #include "flights.h"
-#include "image.h"
+#include "image/picture.h"
 #include "render_scene.h"
 #include "scenes.h"
 #include "truths.h"

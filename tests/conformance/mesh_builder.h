@@ -3,7 +3,7 @@
 #ifndef HD_CONFORMANCE_MESH_BUILDER_H
 #define HD_CONFORMANCE_MESH_BUILDER_H
 
-#include "scene.h"
+#include "scene/scene.h"
 
 /* Makes room in a scene; the caller frees it with the scene. */
 void build_meshes(HdScene *scene, int meshes, int instances, int pictures);

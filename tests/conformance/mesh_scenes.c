@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "mesh_builder.h"
+#include "scene/triangulate/scene.h"
 #include "scene_builder.h"
-#include "scene_triangles.h"
 
 /* All of these need the same of the kernels (few planes, a depth of at most 8, refraction), so that
    devices that compile them do so once. */

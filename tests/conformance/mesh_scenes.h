@@ -3,8 +3,8 @@
 #ifndef HD_CONFORMANCE_MESH_SCENES_H
 #define HD_CONFORMANCE_MESH_SCENES_H
 
-#include "camera.h"
-#include "scene.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 void bumpy_sphere(HdScene *scene, HdCamera *camera);
 void many_instances(HdScene *scene, HdCamera *camera);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "refinement.h"
+#include "render/adaptive.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);

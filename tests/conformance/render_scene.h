@@ -5,9 +5,9 @@
 
 #include <stdbool.h>
 
-#include "backend.h"
-#include "camera.h"
-#include "scene.h"
+#include "device/renderer.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 /* What renders the frames. */
 typedef struct Target {

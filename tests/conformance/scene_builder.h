@@ -3,8 +3,8 @@
 #ifndef HD_CONFORMANCE_SCENE_BUILDER_H
 #define HD_CONFORMANCE_SCENE_BUILDER_H
 
-#include "camera.h"
-#include "scene.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 /* An empty scene with room for solids and lights; the caller frees it. */
 void build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,

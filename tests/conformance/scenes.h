@@ -3,8 +3,8 @@
 #ifndef HD_CONFORMANCE_SCENES_H
 #define HD_CONFORMANCE_SCENES_H
 
-#include "camera.h"
-#include "scene.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 typedef struct ConformanceFrame {
     const char *name;

@@ -5,9 +5,9 @@
 
 #include <stdbool.h>
 
-#include "camera.h"
 #include "render_scene.h"
-#include "scene.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 typedef struct Check {
     const Target *target;

@@ -2,7 +2,7 @@
 /* Where rays go: projection, samples, mirrors, edges and corners. */
 #include <math.h>
 
-#include "camera.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "camera.h"
+#include "base/trigonometry.h"
+#include "scene/camera.h"
+#include "scene/triangulate/scene.h"
 #include "scene_builder.h"
-#include "scene_triangles.h"
-#include "trigonometry.h"
 #include "truth_check.h"
 #include "truths.h"
 

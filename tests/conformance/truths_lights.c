@@ -2,7 +2,7 @@
 /* Edge lights: the discs that are seen, and what the lights give. */
 #include <math.h>
 
-#include "camera.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"

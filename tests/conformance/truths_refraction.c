@@ -3,7 +3,7 @@
    kernels' formula. */
 #include <math.h>
 
-#include "camera.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"

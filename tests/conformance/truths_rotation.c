@@ -2,9 +2,9 @@
 /* A scene that is turned as a whole gives the picture that it gave before. */
 #include <math.h>
 
-#include "camera.h"
+#include "base/trigonometry.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
-#include "trigonometry.h"
 #include "truth_check.h"
 #include "truths.h"
 

@@ -2,7 +2,7 @@
 /* Phong's formula and the transmittance on the way to a light. */
 #include <math.h>
 
-#include "camera.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"

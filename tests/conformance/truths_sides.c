@@ -2,7 +2,7 @@
 /* What a face does on either side: inner reflection and transmission, and light from behind. */
 #include <math.h>
 
-#include "camera.h"
+#include "scene/camera.h"
 #include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"

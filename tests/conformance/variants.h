@@ -4,7 +4,7 @@
 #ifndef HD_CONFORMANCE_VARIANTS_H
 #define HD_CONFORMANCE_VARIANTS_H
 
-#include "backend.h"
+#include "device/renderer.h"
 
 typedef struct Variant {
     enum { FOR_CPUS, FOR_PLAIN_C, FOR_GPUS, FOR_CUDA, FOR_CPUS_AS_GPUS } kind;

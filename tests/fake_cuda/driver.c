@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/cuda_api.h"
+#include "device/cuda/api.h"
 
 /* A handle must point somewhere. */
 static char anything;

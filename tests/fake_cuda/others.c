@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Every function of the driver that driver.c does not have: it succeeds and does nothing. */
-#include "../../src/cuda_api.h"
+#include "device/cuda/api.h"
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* none of them uses any */
 

@@ -17,9 +17,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../kernels/common/encode.h"
-#include "../../kernels/common/scene_tables.h"
-#include "../../src/cuda_api.h"
+#include "device/cuda/api.h"
+#include "kernels/common/encode.h"
+#include "kernels/common/scene_tables.h"
 
 enum { MAX_OPERATIONS = 4096, MAX_ARGUMENTS = 32, FIRST_FAILING = 3 };
 enum {

@@ -2,14 +2,14 @@
 /* The classic input. Input: a byte that picks the variant, and the text. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "classic_input.h"
+#include "input/classic_read.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz.h"
-#include "paths.h"
 #include "scene_work.h"
+#include "system/path.h"
 
 static char *print(const HdClassicInput *input, size_t *size) {
     static HdError error;

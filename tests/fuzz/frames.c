@@ -2,8 +2,8 @@
 /* Lists of frames. Input: two bytes, the length of the sequence, and the list. */
 #include <stdlib.h>
 
-#include "frame_list.h"
 #include "fuzz.h"
+#include "scene/frame_list.h"
 
 static void check_list(const HdFrameList *list, int frame_count) {
     fuzz_expect(list->count >= 1 && list->count <= frame_count, "a list of a wrong length");

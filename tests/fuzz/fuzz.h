@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /* 0, as libFuzzer wants it. Ends the process where the library broke its contract. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

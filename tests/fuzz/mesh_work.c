@@ -3,10 +3,10 @@
 
 #include <math.h>
 
+#include "base/problems.h"
 #include "fuzz.h"
-#include "mesh_obj.h"
-#include "problems.h"
-#include "thread_pool.h"
+#include "mesh/obj/read.h"
+#include "system/thread_pool.h"
 
 enum { MOST_BYTES = 64 << 20, MOST_TRIANGLES = 20000 };
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "output_kind.h"
-#include "paths.h"
+#include "image/file_kind.h"
+#include "system/path.h"
 
 static void check_name(const char *name, const char *pattern) {
     const size_t length = strlen(name);

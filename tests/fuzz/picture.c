@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "fuzz.h"
-#include "image_files.h"
-#include "picture_reader.h"
+#include "image/picture_formats.h"
+#include "image/row_reader.h"
 #include "png_sums.h"
 
 /* Reading more takes the campaign's time. */

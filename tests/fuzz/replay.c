@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "fuzz.h"
-#include "hash.h"
 
 enum { MOST_BYTES = 1 << 20 };
 

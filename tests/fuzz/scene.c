@@ -3,14 +3,14 @@
    and read back. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "scene_file.h"
+#include "input/scene_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/problems.h"
 #include "fuzz.h"
-#include "problems.h"
 #include "scene_work.h"
 
 static HdStatus parse(HdSceneFile *file, const char *text, size_t size, HdError *error) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene_work.h"
 
-#include "camera.h"
-#include "compiled_scene.h"
 #include "fuzz.h"
+#include "scene/camera.h"
+#include "tables/tables.h"
 
 /* Compiling more takes the campaign's time. */
 enum { MOST_SOLIDS = 8, MOST_LIGHTS = 2000 };

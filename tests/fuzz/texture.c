@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "image.h"
-#include "image_files.h"
+#include "image/picture.h"
+#include "image/picture_formats.h"
 #include "png_sums.h"
 
 /* Allocating more takes the campaign's time. */

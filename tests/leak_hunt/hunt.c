@@ -8,7 +8,7 @@
 #include "../conformance/scene_builder.h"
 #include "hunt_random.h"
 #include "hunt_skins.h"
-#include "platonic.h"
+#include "scene/platonic.h"
 
 /* Where things are along y, and what they show. The floor and the background have one radiance of
    their own in red and green; the light adds to the floor's green. */

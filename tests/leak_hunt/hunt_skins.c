@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "hunt_random.h"
-#include "platonic.h"
+#include "scene/platonic.h"
 
 static void *allocate(size_t count, size_t size) {
     void *memory = calloc(count, size);

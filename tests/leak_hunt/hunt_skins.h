@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "scene.h"
+#include "scene/scene.h"
 
 /* Half the picture's width at distance 1. */
 #define HUNT_TANGENT 0.5

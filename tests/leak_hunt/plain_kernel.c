@@ -2,7 +2,7 @@
 /* The plain C kernels with the test of Moeller and Trumbore (1997, Fast, Minimum Storage
    Ray/Triangle Intersection) in place of their own: what the hunt must find leaks with. */
 #define cross_triangle exact_cross_triangle
-#include "../../kernels/common/triangle.h"
+#include "kernels/common/triangle.h"
 #undef cross_triangle
 
 /* The same as kernels/common/triangle.h says. */
@@ -23,4 +23,4 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 
-#include "../../cpu/kernel.c"
+#include "cpu/kernel.c"

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "hierarchy.h"
+#include "mesh/hierarchy.h"
 
 /* The next of a fixed row of numbers, from 0 to below 1. */
 static inline double next_number(uint64_t *state) {

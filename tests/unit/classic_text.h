@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "classic_input.h"
 #include "expect.h"
+#include "input/classic_read.h"
 
 /* The official example of the task. */
 static const char official[] =

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "device/kernel_cache.h"
 #include "expect.h"
-#include "kernel_cache.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 

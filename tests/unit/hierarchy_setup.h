@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-#include "hierarchy.h"
-#include "large_memory.h"
+#include "mesh/hierarchy.h"
+#include "system/machine.h"
 
 static HdError error;
 static HdThreadPool *pool;

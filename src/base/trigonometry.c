@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/trigonometry.h"
+
+#include <math.h>
+
+/* Cody and Waite's method: pi/2 in three parts of 33 bits each, so that k times a part is exact for
+   |k| < 2^20. The fourth part would be below 1e-31. */
+#define HALF_PI_1 0x1.921fb544p+0
+#define HALF_PI_2 0x1.0b4611a6p-34
+#define HALF_PI_3 0x1.3198a2ep-69
+
+#define TWO_OVER_PI (2.0 / HD_PI)
+
+/* Above this k would no longer be below 2^20 = 1.04e6. */
+static const double largest_reduced = 1e6;
+
+/* Taylor's series; the first term left out is below 1e-19 on [-pi/4, pi/4]. All factorials up to
+   18! are exact in double. */
+static double sine_near_zero(double x) {
+    const double y = x * x;
+    double sum = 1.0 / 355687428096000.0;
+    sum = sum * y - 1.0 / 1307674368000.0;
+    sum = sum * y + 1.0 / 6227020800.0;
+    sum = sum * y - 1.0 / 39916800.0;
+    sum = sum * y + 1.0 / 362880.0;
+    sum = sum * y - 1.0 / 5040.0;
+    sum = sum * y + 1.0 / 120.0;
+    sum = sum * y - 1.0 / 6.0;
+    return x + x * (y * sum);
+}
+
+static double cosine_near_zero(double x) {
+    const double y = x * x;
+    double sum = -1.0 / 6402373705728000.0;
+    sum = sum * y + 1.0 / 20922789888000.0;
+    sum = sum * y - 1.0 / 87178291200.0;
+    sum = sum * y + 1.0 / 479001600.0;
+    sum = sum * y - 1.0 / 3628800.0;
+    sum = sum * y + 1.0 / 40320.0;
+    sum = sum * y - 1.0 / 720.0;
+    sum = sum * y + 1.0 / 24.0;
+    sum = sum * y - 1.0 / 2.0;
+    return 1.0 + y * sum;
+}
+
+void hd_sine_cosine(double x, double *sine, double *cosine) {
+    if (!isfinite(x)) {
+        *sine = *cosine = (double)NAN;
+        return;
+    }
+    /* Working on |x| makes the sine exactly odd and the cosine exactly even. */
+    double rest = fabs(x);
+    if (rest > largest_reduced)
+        rest = fmod(rest, 2.0 * HD_PI); /* exact for the double 2 pi; off by what that is off */
+    const double quotient = floor(rest * TWO_OVER_PI + 0.5);
+    rest = ((rest - quotient * HALF_PI_1) - quotient * HALF_PI_2) - quotient * HALF_PI_3;
+    const double s = sine_near_zero(rest);
+    const double c = cosine_near_zero(rest);
+    const int quadrant = (int)quotient & 3;
+    const double absolute_sine = (quadrant & 1) ? c : s;
+    const double absolute_cosine = (quadrant & 1) ? s : c;
+    const double upper = (quadrant & 2) ? -absolute_sine : absolute_sine;
+    *sine = signbit(x) ? -upper : upper;
+    *cosine = (quadrant == 1 || quadrant == 2) ? -absolute_cosine : absolute_cosine;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* Vectors of the host, in double precision. */
+#ifndef HD_BASE_VECTOR_H
+#define HD_BASE_VECTOR_H
+
+#include <math.h>
+
+typedef struct HdVec3 {
+    double x, y, z;
+} HdVec3;
+
+static inline HdVec3 hd_vec3(double x, double y, double z) {
+    return (HdVec3){x, y, z};
+}
+static inline HdVec3 hd_add(HdVec3 a, HdVec3 b) {
+    return hd_vec3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline HdVec3 hd_sub(HdVec3 a, HdVec3 b) {
+    return hd_vec3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline HdVec3 hd_scale(HdVec3 a, double s) {
+    return hd_vec3(a.x * s, a.y * s, a.z * s);
+}
+static inline double hd_dot(HdVec3 a, HdVec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline HdVec3 hd_cross(HdVec3 a, HdVec3 b) {
+    return hd_vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+static inline double hd_length(HdVec3 a) {
+    return sqrt(hd_dot(a, a));
+}
+static inline HdVec3 hd_normalize(HdVec3 a) {
+    return hd_scale(a, 1.0 / hd_length(a));
+}
+
+#endif

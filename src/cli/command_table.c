@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli/command_table.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "image/file_kind.h"
+
+const char hd_program_summary[] =
+    "renders mirrored, transparent platonic solids with lights along their edges";
+
+const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
+    {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", NULL, 1,
+     "render a scene, or the built-in one, to films and pictures",
+     "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
+     "the name of each output.\n\n"
+     "OUT is a picture (" HD_PICTURE_ENDINGS "), a numbered sequence of pictures such as "
+     "out/%04d.png or out/####.png, or a film (" HD_FILM_ENDINGS
+     "; made by FFmpeg). A picture without a number takes "
+     "a single frame. Several -o give several outputs of one run. Without -o the output is the one "
+     "that the scene names, else hedron.mp4, or hedron.png for a single frame.\n\n"
+     "A numbered sequence of .png that was begun before goes on: frames whose pictures are there, "
+     "whole and with the same pixels, are not rendered again, and a film beside them is made of "
+     "all.\n\n"
+     "--set reaches every value of the scene file by its path, for example --set "
+     "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
+     "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
+     "--samples, --depth and --cutoff come last."},
+    {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", NULL, -1,
+     "look for mistakes in scenes without rendering",
+     "Reads each scene (-: standard input) and its texture, and prints a line about each that is "
+     "right, or every mistake that is in it; one wrong scene makes the exit code 2. Notes tell "
+     "what is allowed and seldom meant."},
+    {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, NULL, 1,
+     "turn a classic input into a scene file",
+     "Reads the input of the classic mode from a file, or from standard input, and writes the same "
+     "scene as JSON. 'hedron render' makes the same pictures of it, byte for byte."},
+    {HD_COMMAND_DEVICES, "devices", "", NULL, NULL, 0,
+     "list backends and devices, and what is missing",
+     "Lists backends and devices; for what is missing, the reason."},
+    {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", NULL, 1,
+     "measure what suits a device and a scene best, and remember it",
+     "Measures, on the device that 'hedron render' would take for SCENE.json (-: standard input) "
+     "or "
+     "the built-in scene, which pipeline is the fastest, with how many lanes on a CPU, and on a "
+     "GPU "
+     "in which groups and with how many registers. What --pipeline, --lanes, --block or --grid "
+     "fix is left as it is. Prints a line for each candidate, its time for a picture and the ratio "
+     "to the device's default, and remembers the best in the cache folder: 'hedron render' uses it "
+     "for scenes of this kind and size with the same options, and says so with --verbose. The "
+     "bytes of strict pictures do not depend on it."},
+    {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, NULL, 2,
+     "tell how far two pictures are apart",
+     "Compares two pictures of the same size, PNG (8 or 16 bits) or PFM, in two spaces. Display: "
+     "the "
+     "values clamped to 0..1 and on the curve, in steps of 255. Linear: light, 1 is white; clamped "
+     "to 0..1 as well if one of them is a PNG. Prints RMSE, PSNR, mean and largest error with its "
+     "pixel, the error that one pixel in 1000 exceeds, and the shares of pixels off by more than 1 "
+     "and 8 steps of 255. The error of a pixel is that of its worst channel.\n\n"
+     "The exit code is 1 if a value is NaN or infinite, or if the largest display error is above "
+     "--fail-above. Without --curve the curve is sRGB if a PNG says so or both are PFM, else "
+     "linear, as 'hedron render' writes them.\n\n"
+     "The heat map of --diff shows the display error of each pixel on a logarithmic scale: black "
+     "below 1/4 of a step of 255, dark violet at 1/4, then purple (1), red (4), orange (16), "
+     "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
+     "NaN and infinite values."},
+    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL,
+     "render check convert devices tune compare help man completion", 1, "explain a command",
+     "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
+     "of this program."},
+    {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, NULL, 0,
+     "the classic mode: a configuration on standard input",
+     "In the classic mode standard output has one line for each frame and nothing else: frame TAB "
+     "milliseconds TAB rays."},
+};
+
+const HdCommandSpec *hd_command_named(const char *name) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdCommandSpec *hd_command_spec(HdCommand command) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].command == command)
+            return &hd_command_specs[i];
+    return NULL;
+}
+
+const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT] = {
+    {"0", "done"},
+    {"1", "failed"},
+    {"2", "wrong usage or input"},
+    {"3", "no such backend, device or program (FFmpeg)"},
+    {"129, 130, 143", "interrupted by SIGHUP, SIGINT or SIGTERM"},
+};
+
+const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
+    {"hedron render -o film.mp4", "the built-in scene, all frames"},
+    {"hedron render scene.json -o out/%04d.png -o film.mkv", "pictures and a film in one run"},
+    {"hedron render scene.json -o big.png --frames 0 --size 1920x1080 --samples 4",
+     "one frame, large"},
+    {"hedron render scene.json --set camera.field_of_view=40 --set image.exposure=2",
+     "values of the scene replaced"},
+    {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
+     "times and rays of each frame, a line of JSON each"},
+    {"hedron check scene.json", "mistakes of a scene"},
+    {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
+    {"hedron compare a.png b.png --diff heat.png --fail-above 1",
+     "how far apart two pictures are, where, and whether that is too much"},
+    {"hedron convert old.in -o scene.json", "from the classic input to JSON"},
+    {"hedron --default | hedron --cpu --frames 0-2", "the classic mode"},
+    {"source <(hedron help completion)", "completion for this bash"},
+};
+
+const HdExplained hd_variables[HD_VARIABLE_COUNT] = {
+    {"HEDRON_CACHE", "folder of compiled kernels and of what was measured (default "
+                     "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron); off: none"},
+    {"HEDRON_NVRTC", "file of the NVRTC library that compiles for CUDA (default: the newest one "
+                     "that suits the driver)"},
+    {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 120)"},
+    {"HEDRON_STOP_PATIENCE", "seconds from a signal to the end, whatever hangs (default 1.5)"},
+};

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* The program's commands as a table, and the texts that help and man page share. */
+#ifndef HD_CLI_COMMAND_TABLE_H
+#define HD_CLI_COMMAND_TABLE_H
+
+/* Each is a bit, for the options to tell which commands they belong to. */
+typedef enum HdCommand {
+    HD_COMMAND_CLASSIC = 1, /* no command at all */
+    HD_COMMAND_RENDER = 2,
+    HD_COMMAND_CHECK = 4,
+    HD_COMMAND_CONVERT = 8,
+    HD_COMMAND_DEVICES = 16,
+    HD_COMMAND_TUNE = 32,
+    HD_COMMAND_HELP = 64,
+    HD_COMMAND_VERSION = 128,
+    HD_COMMAND_COMPARE = 256
+} HdCommand;
+
+/* What there is help about, apart from commands: the man page and the completion script. */
+typedef enum HdHelpForm { HD_HELP_TEXT, HD_HELP_MAN, HD_HELP_COMPLETION } HdHelpForm;
+
+typedef struct HdHelpTopic {
+    HdHelpForm form;
+    HdCommand command; /* of HD_HELP_TEXT; HD_COMMAND_CLASSIC: the program as a whole */
+} HdHelpTopic;
+
+typedef struct HdCommandSpec {
+    HdCommand command;
+    const char *name;        /* NULL: the classic mode */
+    const char *operands;    /* as the usage shows them; "" where there are none */
+    const char *ending;      /* of the files that are operands; NULL: any, or no files */
+    const char *words;       /* operands that are fixed words, separated by spaces; NULL: none */
+    int most_operands;       /* -1: any number */
+    const char *summary;     /* half a sentence for lists */
+    const char *description; /* paragraphs, separated by empty lines */
+} HdCommandSpec;
+
+enum { HD_COMMAND_SPEC_COUNT = 8 };
+extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
+
+/* NULL where no command has that name. */
+const HdCommandSpec *hd_command_named(const char *name);
+const HdCommandSpec *hd_command_spec(HdCommand command);
+
+/* The program in half a sentence. */
+extern const char hd_program_summary[];
+
+typedef struct HdExplained {
+    const char *text, *meaning;
+} HdExplained;
+
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 11, HD_VARIABLE_COUNT = 4 };
+extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
+extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
+extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
+
+#endif

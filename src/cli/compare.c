@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: MIT */
+#include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/commands.h"
+#include "image/difference.h"
+#include "image/file_kind.h"
+#include "image/heat_map.h"
+#include "image/row_reader.h"
+#include "input/json/json_device_text.h"
+#include "system/interrupt.h"
+#include "system/path.h"
+
+enum { PICTURES = 2, FIGURE_WIDTH = 20 };
+
+typedef struct Comparison {
+    const HdOptions *options;
+    const char *names[PICTURES];
+    HdPictureReader *readers[PICTURES];
+    HdPictureFacts facts[PICTURES];
+    HdCurve curve;
+    HdPictureValue *rows[PICTURES];
+    double *errors; /* of a row; NULL without a heat map */
+    HdHeatMap *map; /* NULL: none is asked for, or it is written */
+    HdPictureDifference *difference;
+    HdPictureFigures figures;
+} Comparison;
+
+static const char *const formats[] = {"PNG", "PFM"}; /* by HdPictureFormat */
+static const char *const curve_names[] = {"linear", "srgb"};
+static const char *const channel_names[] = {"red", "green", "blue"};
+
+/* ---- text ---- */
+
+static void print_picture(const Comparison *comparison, int i) {
+    const HdPictureFacts *facts = &comparison->facts[i];
+    printf("%-7s %s: %s, %d bits, %d x %d pixels\n", i == 0 ? "first" : "second",
+           comparison->names[i], formats[facts->format], facts->bits, facts->width, facts->height);
+}
+
+static void print_figures(const char *name, const char *unit, double display, double linear) {
+    const double values[] = {display, linear};
+    printf("%-20s", name);
+    for (int i = 0; i < 2; i++) {
+        char text[32];
+        if (isnan(values[i]))
+            snprintf(text, sizeof text, "none");
+        else if (isinf(values[i]))
+            snprintf(text, sizeof text, "identical");
+        else
+            snprintf(text, sizeof text, "%.6g%s", values[i], unit);
+        printf("%*s", FIGURE_WIDTH, text);
+    }
+    printf("\n");
+}
+
+static void format_place(const HdDifferenceFigures *figures, char text[64]) {
+    if (figures->channel < 0)
+        snprintf(text, 64, "nowhere");
+    else
+        snprintf(text, 64, "%d, %d %s", figures->x, figures->y, channel_names[figures->channel]);
+}
+
+static void print_place(const HdDifferenceFigures *display, const HdDifferenceFigures *linear) {
+    char places[2][64];
+    format_place(display, places[0]);
+    format_place(linear, places[1]);
+    printf("%-20s%*s%*s\n", "  at x, y", FIGURE_WIDTH, places[0], FIGURE_WIDTH, places[1]);
+}
+
+static void print_share(const char *name, double share) {
+    char text[32] = "none";
+    if (!isnan(share))
+        snprintf(text, sizeof text, "%.6g %%", 100.0 * share);
+    printf("%-20s%*s\n", name, FIGURE_WIDTH, text);
+}
+
+static void print_text(const Comparison *comparison) {
+    const HdPictureFigures *figures = &comparison->figures;
+    const HdDifferenceFigures *display = &figures->display, *linear = &figures->linear;
+    for (int i = 0; i < PICTURES; i++)
+        print_picture(comparison, i);
+    printf("%-7s %s\n\n", "curve", curve_names[comparison->curve]);
+    printf("%-20s%*s%*s\n", "", FIGURE_WIDTH, "display, 0..255", FIGURE_WIDTH, "linear, 0..1");
+    print_figures("RMSE", "", display->rmse, linear->rmse);
+    print_figures("PSNR", " dB", display->psnr, linear->psnr);
+    print_figures("mean error", "", display->mean, linear->mean);
+    print_figures("99.9th percentile", "", display->p999, linear->p999);
+    print_figures("largest error", "", display->largest, linear->largest);
+    print_place(display, linear);
+    print_share("pixels off by > 1", figures->above_1);
+    print_share("pixels off by > 8", figures->above_8);
+    if (figures->not_finite[0] + figures->not_finite[1] > 0)
+        printf("%-20s%*" PRIu64 "%*" PRIu64 "\n", "NaN or infinite", FIGURE_WIDTH,
+               figures->not_finite[0], FIGURE_WIDTH, figures->not_finite[1]);
+    if (figures->identical)
+        printf("\nThe pictures are identical.\n");
+}
+
+/* ---- JSON ---- */
+
+static json_t *number_or_null(double value) {
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *describe_place(const HdDifferenceFigures *figures) {
+    if (figures->channel < 0)
+        return json_null();
+    return json_pack("{s:i, s:i, s:s}", "x", figures->x, "y", figures->y, "channel",
+                     channel_names[figures->channel]);
+}
+
+static json_t *describe_figures(const HdDifferenceFigures *figures) {
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "rmse", number_or_null(figures->rmse),
+                     "psnr", number_or_null(figures->psnr), "mean", number_or_null(figures->mean),
+                     "p999", number_or_null(figures->p999), "largest",
+                     number_or_null(figures->largest), "at", describe_place(figures));
+}
+
+static json_t *describe_picture(const Comparison *comparison, int i) {
+    const HdPictureFacts *facts = &comparison->facts[i];
+    return json_pack("{s:o, s:s, s:i, s:I}", "file", hd_json_device_text(comparison->names[i]),
+                     "format", formats[facts->format], "bits", facts->bits, "not_finite",
+                     (json_int_t)comparison->figures.not_finite[i]);
+}
+
+static HdStatus print_json(const Comparison *comparison, HdError *error) {
+    const HdPictureFigures *figures = &comparison->figures;
+    json_t *root =
+        json_pack("{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o}", "first",
+                  describe_picture(comparison, 0), "second", describe_picture(comparison, 1),
+                  "width", comparison->facts[0].width, "height", comparison->facts[0].height,
+                  "curve", curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels,
+                  "identical", figures->identical, "display", describe_figures(&figures->display),
+                  "linear", describe_figures(&figures->linear), "above_1",
+                  number_or_null(figures->above_1), "above_8", number_or_null(figures->above_8));
+    if (root == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the figures");
+    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF)
+        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
+}
+
+/* ---- what is compared ---- */
+
+static HdStatus check_sizes(const Comparison *comparison, HdError *error) {
+    const HdPictureFacts *first = &comparison->facts[0], *second = &comparison->facts[1];
+    if (first->width == second->width && first->height == second->height)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "%s has %d x %d pixels, but %s has %d x %d; expected the same size",
+                   comparison->names[0], first->width, first->height, comparison->names[1],
+                   second->width, second->height);
+}
+
+/* PFM is on no curve, and shown on the one that most pictures are on. */
+static HdStatus choose_curve(Comparison *comparison, HdError *error) {
+    const HdPictureFacts *facts = comparison->facts;
+    const bool is_png[] = {facts[0].format == HD_PICTURE_PNG, facts[1].format == HD_PICTURE_PNG};
+    if (comparison->options->has_curve)
+        comparison->curve = comparison->options->curve;
+    else if (is_png[0] && is_png[1] && facts[0].curve != facts[1].curve)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s says that it is on the sRGB curve, and %s does not, which stands for "
+                       "linear; expected both on one curve, or --curve",
+                       comparison->names[facts[0].curve == HD_CURVE_SRGB ? 0 : 1],
+                       comparison->names[facts[0].curve == HD_CURVE_SRGB ? 1 : 0]);
+    else if (is_png[0] || is_png[1])
+        comparison->curve = facts[is_png[0] ? 0 : 1].curve;
+    else
+        comparison->curve = HD_CURVE_SRGB;
+    return HD_OK;
+}
+
+static HdStatus open_pictures(Comparison *comparison, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
+        status = hd_picture_reader_open(&comparison->readers[i], comparison->names[i], error);
+        if (status == HD_OK)
+            comparison->facts[i] = *hd_picture_reader_facts(comparison->readers[i]);
+    }
+    if (status == HD_OK)
+        status = check_sizes(comparison, error);
+    if (status == HD_OK)
+        status = choose_curve(comparison, error);
+    return status;
+}
+
+static HdStatus open_map(Comparison *comparison, HdError *error) {
+    char path[HD_MAX_PATH];
+    HdStatus status = hd_path_expand_home(comparison->options->diff, path, error);
+    if (status != HD_OK)
+        return status;
+    for (int i = 0; i < PICTURES; i++)
+        if (hd_path_is_same(path, comparison->names[i]))
+            return hd_fail(error, HD_BAD_INPUT, "--diff %s would replace the picture %s", path,
+                           comparison->names[i]);
+    return hd_heat_map_open(&comparison->map, path, comparison->facts[0].width,
+                            comparison->facts[0].height, error);
+}
+
+static HdStatus start(Comparison *comparison, HdError *error) {
+    const HdPictureFacts *facts = comparison->facts;
+    const size_t width = (size_t)facts[0].width;
+    const bool clamps = facts[0].format == HD_PICTURE_PNG || facts[1].format == HD_PICTURE_PNG;
+    HdStatus status = hd_difference_create(&comparison->difference, clamps, error);
+    for (int i = 0; i < PICTURES && status == HD_OK; i++) {
+        comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);
+        status = hd_picture_reader_start(comparison->readers[i], comparison->curve, error);
+        if (status == HD_OK && comparison->rows[i] == NULL)
+            status = hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+    }
+    if (status != HD_OK || comparison->options->diff == NULL)
+        return status;
+    comparison->errors = malloc(width * sizeof *comparison->errors);
+    if (comparison->errors == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a row of pixels");
+    return open_map(comparison, error);
+}
+
+static HdStatus compare_row(Comparison *comparison, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < PICTURES && status == HD_OK; i++)
+        status = hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error);
+    if (status != HD_OK)
+        return status;
+    hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1],
+                          comparison->facts[0].width, comparison->errors);
+    return comparison->map != NULL ? hd_heat_map_add_row(comparison->map, comparison->errors, error)
+                                   : HD_OK;
+}
+
+static HdStatus compare_rows(Comparison *comparison, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int y = 0; y < comparison->facts[0].height && status == HD_OK; y++) {
+        if (hd_interrupt_signal() != 0)
+            return hd_fail(error, HD_INTERRUPTED, "interrupted after %d rows", y);
+        status = compare_row(comparison, error);
+    }
+    if (status == HD_OK && comparison->map != NULL) {
+        HdHeatMap *map = comparison->map;
+        comparison->map = NULL;
+        status = hd_heat_map_commit(map, error);
+    }
+    return status;
+}
+
+/* ---- the command ---- */
+
+/* What makes the exit code 1. */
+static HdStatus judge(const Comparison *comparison, HdError *error) {
+    const HdPictureFigures *figures = &comparison->figures;
+    const double limit = comparison->options->fail_above;
+    const HdDifferenceFigures *display = &figures->display;
+    if (figures->not_finite[0] + figures->not_finite[1] > 0)
+        return hd_fail(error, HD_FAILED,
+                       "%" PRIu64 " values of %s and %" PRIu64 " of %s are NaN or infinite",
+                       figures->not_finite[0], comparison->names[0], figures->not_finite[1],
+                       comparison->names[1]);
+    if (limit >= 0.0 && display->largest > limit)
+        return hd_fail(error, HD_FAILED,
+                       "the largest error is %.6g of 255, at x %d, y %d in %s; --fail-above "
+                       "allows %.6g",
+                       display->largest, display->x, display->y, channel_names[display->channel],
+                       limit);
+    return HD_OK;
+}
+
+static void close_all(Comparison *comparison) {
+    for (int i = 0; i < PICTURES; i++) {
+        hd_picture_reader_close(comparison->readers[i]);
+        free(comparison->rows[i]);
+    }
+    free(comparison->errors);
+    hd_heat_map_discard(comparison->map);
+    hd_difference_free(comparison->difference);
+}
+
+static HdStatus report(Comparison *comparison, HdError *error) {
+    hd_difference_figures(comparison->difference, &comparison->figures);
+    if (!comparison->options->json)
+        print_text(comparison);
+    else if (print_json(comparison, error) != HD_OK)
+        return HD_FAILED;
+    return judge(comparison, error);
+}
+
+HdStatus hd_command_compare(const HdOptions *options, HdError *error) {
+    Comparison comparison = {
+        .options = options,
+        .names = {options->operands[0], options->operands[1]},
+    };
+    HdStatus status = open_pictures(&comparison, error);
+    if (status == HD_OK)
+        status = start(&comparison, error);
+    if (status == HD_OK)
+        status = compare_rows(&comparison, error);
+    if (status == HD_OK)
+        status = report(&comparison, error);
+    close_all(&comparison);
+    return status;
+}

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "cli/commands.h"
+#include "input/json/json_device_text.h"
+
+static void print_device(const HdDevice *device) {
+    printf("  %d  %s\n", device->index, device->name);
+    printf("     %s\n", device->driver);
+    if (device->unusable[0] != '\0')
+        printf("     cannot be used: %s\n", device->unusable);
+    printf("     %s, double precision: %s, strict arithmetic: %s%s\n",
+           device->is_cpu ? "CPU" : "GPU", device->has_double ? "yes" : "no",
+           device->not_strict[0] == '\0' ? "yes" : "no, ", device->not_strict);
+}
+
+static void print_backend(const HdBackend *backend, const HdDevice *devices, int count,
+                          const char *obstacle) {
+    printf("%s\n", backend->name);
+    if (obstacle != NULL)
+        printf("  not available: %s\n", obstacle);
+    for (int i = 0; i < count; i++)
+        print_device(&devices[i]);
+}
+
+static json_t *text_or_null(const char *text) {
+    return text[0] != '\0' ? hd_json_device_text(text) : json_null();
+}
+
+static json_t *describe_device(const HdDevice *device) {
+    return json_pack(
+        "{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:o}", "backend", device->backend->name,
+        "index", device->index, "name", hd_json_device_text(device->name), "driver",
+        hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
+        device->compute_units, "clock_mhz", device->clock_mhz, "has_double", device->has_double,
+        "unusable", text_or_null(device->unusable), "not_strict", text_or_null(device->not_strict));
+}
+
+static json_t *describe_backend(const HdBackend *backend, const HdDevice *devices, int count,
+                                const char *obstacle) {
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        if (json_array_append_new(list, describe_device(&devices[i])) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+    return json_pack("{s:s, s:b, s:o, s:o}", "name", backend->name, "available", obstacle == NULL,
+                     "reason", obstacle != NULL ? hd_json_device_text(obstacle) : json_null(),
+                     "devices", list);
+}
+
+static HdStatus print_json(json_t *backends, HdError *error) {
+    json_t *root = json_pack("{s:o}", "backends", backends);
+    if (root == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the list of devices");
+    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF)
+        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
+}
+
+HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
+    static HdDevice devices[HD_MAX_DEVICES];
+    json_t *list = json_array();
+    bool list_failed = false;
+    for (int i = 0; i < HD_BACKEND_COUNT; i++) {
+        const HdBackend *backend = hd_backends[i];
+        int count = 0;
+        bool found = backend->enumerate(devices, HD_MAX_DEVICES, &count, error) == HD_OK;
+        const char *obstacle = found ? NULL : error->message;
+        if (!options->json)
+            print_backend(backend, devices, count, obstacle);
+        else if (json_array_append_new(list, describe_backend(backend, devices, count, obstacle)))
+            list_failed = true;
+    }
+    if (options->json && !list_failed)
+        return print_json(list, error);
+    json_decref(list);
+    return list_failed ? hd_fail(error, HD_FAILED, "out of memory: no room for the list of devices")
+                       : HD_OK;
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/statistics.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "input/json/json_device_text.h"
+#include "system/interrupt.h"
+#include "system/patience.h"
+
+/* Nanoseconds are enough for a run of days. */
+enum { SIGNIFICANT_DIGITS = 12 };
+
+/* Writing waits where the file is a pipe whose reader is slow, and opening where it has none. */
+static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
+    if (errno == EINTR && hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while writing the statistics to %s",
+                       statistics->name);
+    return hd_fail(error, HD_FAILED, "cannot write the statistics to %s: %s", statistics->name,
+                   strerror(errno));
+}
+
+static HdStatus check_begin(const char *path, const char *name, HdError *error) {
+    static const char expected[] = "{\"frame\"";
+    char begin[sizeof expected - 1] = "";
+    struct stat found;
+    if (stat(path, &found) != 0 || !S_ISREG(found.st_mode))
+        return HD_OK;
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL)
+        return HD_OK;
+    size_t count = fread(begin, 1, sizeof begin, stream);
+    fclose(stream);
+    if (count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '%s', which has other JSON in it, expected a new file or one "
+                       "with statistics",
+                       name);
+    return HD_OK;
+}
+
+HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutputPlan *plan,
+                             int frame_number, HdError *error) {
+    char file[HD_MAX_PATH], output[HD_MAX_PATH];
+    if (strcmp(path, "-") == 0)
+        return HD_OK;
+    HdStatus status = hd_path_expand_home(path, file, error);
+    if (status == HD_OK && scene != NULL && hd_path_is_same(file, scene))
+        return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is the scene", path);
+    for (int i = 0; i < plan->count && status == HD_OK; i++) {
+        status = hd_output_file(plan->names[i], frame_number, output, error);
+        if (status == HD_OK && hd_path_is_same(file, output))
+            return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
+    }
+    return status == HD_OK ? check_begin(file, path, error) : status;
+}
+
+static HdStatus open_file(HdStatistics *statistics, HdError *error) {
+    errno = EINTR;
+    int descriptor = hd_interrupt_signal() != 0
+                         ? -1
+                         : open(statistics->name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return fail_to_write(statistics, error);
+    statistics->stream = fdopen(descriptor, "w");
+    if (statistics->stream != NULL)
+        return HD_OK;
+    HdStatus status = fail_to_write(statistics, error);
+    close(descriptor);
+    return status;
+}
+
+HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error) {
+    memset(statistics, 0, sizeof *statistics);
+    if (strcmp(path, "-") == 0) {
+        snprintf(statistics->name, sizeof statistics->name, "standard output");
+        statistics->stream = stdout;
+        return HD_OK;
+    }
+    HdStatus status = hd_path_expand_home(path, statistics->name, error);
+    if (status == HD_OK)
+        status = hd_path_make_parents(statistics->name, error);
+    return status == HD_OK ? open_file(statistics, error) : status;
+}
+
+/* By the keys of docs/formats.md. */
+static json_t *describe_seconds(const HdFrameTimes *times) {
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "prepare", times->prepare.seconds, "trace",
+                     times->trace.seconds, "copy", times->copy.seconds, "convert",
+                     times->convert.seconds, "store", times->store.seconds, "film",
+                     times->film.seconds);
+}
+
+static json_t *describe_begin(const HdSpan *span) {
+    return span->began < 0.0 ? json_null() : json_real(span->began);
+}
+
+static json_t *describe_begins(const HdFrameTimes *times) {
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "prepare", describe_begin(&times->prepare),
+                     "trace", describe_begin(&times->trace), "copy", describe_begin(&times->copy),
+                     "convert", describe_begin(&times->convert), "store",
+                     describe_begin(&times->store), "film", describe_begin(&times->film));
+}
+
+/* Of GPUs only. */
+static json_t *describe_launch(const HdFrameTimes *times) {
+    return times->longest_launch < 0.0 ? json_null() : json_real(1e3 * times->longest_launch);
+}
+
+/* json_pack gives up as a whole where a part is missing. */
+static json_t *describe_frame(const HdRunFacts *facts, const HdStoredFrame *stored) {
+    const HdFrame *frame = stored->frame;
+    return json_pack(
+        "{s:i, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:{s:I, s:I, s:I}, s:I, s:I}",
+        "frame", stored->number, "backend", facts->device->backend->name, "index",
+        facts->device->index, "device", hd_json_device_text(facts->device->name), "renderer",
+        hd_json_device_text(facts->renderer), "width", frame->width, "height", frame->height,
+        "samples", facts->scene->samples_per_side, "depth", facts->scene->depth, "seconds",
+        describe_seconds(&stored->times), "began", describe_begins(&stored->times),
+        "longest_launch_ms", describe_launch(&stored->times), "rays", "primary",
+        (json_int_t)frame->primary_rays, "mirrored", (json_int_t)frame->mirrored_rays,
+        "transmitted", (json_int_t)frame->transmitted_rays, "shadow_tests",
+        (json_int_t)frame->shadow_tests, "clamps", (json_int_t)frame->clamps);
+}
+
+/* Of surveyed scenes only. */
+static bool add_bound(json_t *line, const HdFrame *frame) {
+    return !frame->has_bound ||
+           json_object_set_new(line, "missing",
+                               json_pack("{s:f, s:f}", "largest", frame->largest_bound, "mean",
+                                         frame->mean_bound)) == 0;
+}
+
+/* Nothing was traced for it. */
+static json_t *describe_finished(const HdStoredFrame *stored) {
+    return json_pack("{s:i, s:b}", "frame", stored->number, "resumed", 1);
+}
+
+HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
+                           const HdStoredFrame *stored, HdError *error) {
+    json_t *line = stored->was_finished ? describe_finished(stored) : describe_frame(facts, stored);
+    if (line != NULL && !stored->was_finished && !add_bound(line, stored->frame)) {
+        json_decref(line);
+        line = NULL;
+    }
+    if (line == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a line of statistics");
+    bool can_write = hd_wait_to_write(fileno(statistics->stream));
+    errno = can_write ? 0 : EINTR;
+    bool failed =
+        !can_write || json_dumpf(line, statistics->stream,
+                                 JSON_COMPACT | JSON_REAL_PRECISION(SIGNIFICANT_DIGITS)) != 0;
+    json_decref(line);
+    if (failed || fputc('\n', statistics->stream) == EOF || fflush(statistics->stream) != 0)
+        return fail_to_write(statistics, error);
+    return HD_OK;
+}
+
+HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error) {
+    if (statistics->stream == stdout)
+        return HD_OK;
+    errno = 0;
+    return fclose(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
+}

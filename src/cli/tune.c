@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "choice/one_device.h"
+#include "choice/tuning.h"
+#include "cli/commands.h"
+#include "cli/load_scene.h"
+#include "cli/progress.h"
+#include "device/pipeline.h"
+#include "input/json/json_device_text.h"
+#include "scene/frame_list.h"
+
+typedef struct Run {
+    const HdOptions *options;
+    HdRenderOptions render; /* as for the scene */
+    const HdScene *scene;   /* of about the same work, not surveyed */
+    HdDevice device;
+    char note[4096]; /* about the choice of the device, worth telling; "": nothing is */
+    HdTuning tuning;
+    const char *obstacle; /* why nothing is remembered; NULL: the best is */
+} Run;
+
+/* ---- text ---- */
+
+static double ratio(const HdTuning *tuning, int index) {
+    return tuning->candidates[index].seconds / tuning->candidates[0].seconds;
+}
+
+static void print_heading(const Run *run) {
+    const HdDevice *device = &run->device;
+    printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options), device->backend->name,
+           device->index, device->name, device->driver);
+    printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
+           run->scene->samples_per_side, run->scene->samples_per_side);
+    printf("%-52s %10s %7s\n", "candidate", "ms", "ratio");
+}
+
+static void print_candidate(const HdTuning *tuning, int index) {
+    const HdTuningCandidate *candidate = &tuning->candidates[index];
+    char name[128];
+    hd_launch_describe(&candidate->launch, name, sizeof name);
+    if (candidate->failure[0] == '\0')
+        printf("%-52s %10.3f %7.3f\n", name, 1e3 * candidate->seconds, ratio(tuning, index));
+    else
+        printf("%-52s cannot be used: %s\n", name, candidate->failure);
+}
+
+static void print_table(const Run *run) {
+    char name[128];
+    print_heading(run);
+    for (int i = 0; i < run->tuning.count; i++)
+        print_candidate(&run->tuning, i);
+    hd_launch_describe(&run->tuning.candidates[run->tuning.best].launch, name, sizeof name);
+    printf("\nthe best: %s; ", name);
+    if (run->obstacle == NULL)
+        printf("remembered for scenes of this kind\n");
+    else
+        printf("not remembered: %s\n", run->obstacle);
+}
+
+/* ---- JSON ---- */
+
+static json_t *number_or_null(int number) {
+    return number > 0 ? json_integer(number) : json_null();
+}
+
+static json_t *describe_candidate(const HdTuning *tuning, int index) {
+    const HdTuningCandidate *candidate = &tuning->candidates[index];
+    const HdLaunch *launch = &candidate->launch;
+    bool works = candidate->failure[0] == '\0';
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "pipeline",
+                     hd_pipeline_name(launch->pipeline), "lanes", number_or_null(launch->lanes),
+                     "block", number_or_null(launch->block), "grid", number_or_null(launch->grid),
+                     "registers", number_or_null(launch->registers), "ms",
+                     works ? json_real(1e3 * candidate->seconds) : json_null(), "ratio",
+                     works ? json_real(ratio(tuning, index)) : json_null(), "failure",
+                     works ? json_null() : hd_json_device_text(candidate->failure));
+}
+
+static json_t *describe_candidates(const HdTuning *tuning) {
+    json_t *list = json_array();
+    for (int i = 0; i < tuning->count; i++)
+        if (json_array_append_new(list, describe_candidate(tuning, i)) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+    return list;
+}
+
+static HdStatus print_json(const Run *run, HdError *error) {
+    const HdDevice *device = &run->device;
+    const HdTuning *tuning = &run->tuning;
+    json_t *root = json_pack(
+        "{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}", "scene",
+        hd_json_device_text(hd_scene_name(run->options)), "backend", device->backend->name, "index",
+        device->index, "name", hd_json_device_text(device->name), "driver",
+        hd_json_device_text(device->driver), "width", tuning->width, "height", tuning->height,
+        "samples", run->scene->samples_per_side, "candidates", describe_candidates(tuning), "best",
+        tuning->best, "remembered", run->obstacle == NULL, "reason",
+        run->obstacle != NULL ? hd_json_device_text(run->obstacle) : json_null());
+    if (root == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the candidates");
+    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF)
+        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
+}
+
+/* ---- the command ---- */
+
+/* The device that 'hedron render' would take. */
+static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
+    const HdOptions *options = run->options;
+    HdRenderer *renderer;
+    HdDeviceReason reason;
+    HdDeviceWish wish = {.backend = options->backend, .device = options->device};
+    HdStatus status =
+        hd_open_device(&renderer, &run->device, &wish, &run->render, job, &reason, error);
+    if (status != HD_OK)
+        return status;
+    hd_renderer_close(renderer);
+    snprintf(run->note, sizeof run->note, "%s", reason.note);
+    return HD_OK;
+}
+
+/* Without a folder there is nothing to be done; a folder that fails is an error. */
+static HdStatus remember(Run *run, HdError *error) {
+    HdStatus status = hd_launch_remember(&run->device, &run->render, run->scene,
+                                         &run->tuning.candidates[run->tuning.best].launch, error);
+    run->obstacle = status == HD_OK ? NULL : error->message;
+    return status == HD_UNAVAILABLE ? HD_OK : status;
+}
+
+static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
+    HdProgress progress = hd_progress_start(hd_progress_form(false), 1);
+    hd_progress_prepare(&progress, "measuring");
+    HdStatus status = choose_device(run, job, error);
+    if (status == HD_OK)
+        status = hd_tune(&run->tuning, &run->device, &run->render, job, error);
+    hd_progress_end(&progress);
+    if (run->note[0] != '\0')
+        fprintf(stderr, "hedron: %s\n", run->note);
+    if (status == HD_INTERRUPTED)
+        hd_fail(error, status, "interrupted; nothing is remembered");
+    return status;
+}
+
+static HdStatus tune(Run *run, const HdJob *job, HdError *error) {
+    HdStatus status = measure(run, job, error);
+    if (status != HD_OK)
+        return status;
+    status = remember(run, error);
+    if (!run->options->json) {
+        print_table(run);
+        return status;
+    }
+    HdStatus printed = print_json(run, error);
+    return status == HD_OK ? printed : status;
+}
+
+HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
+    static Run run;
+    HdSceneFile file;
+    HdFrameList frames;
+    HdStatus status = hd_read_scene(&file, options, error);
+    if (status != HD_OK)
+        return status;
+    run = (Run){.options = options, .scene = &file.scene};
+    run.render = options->render;
+    run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
+    hd_scene_drop_survey(&file.scene);
+    status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);
+    if (status == HD_OK) {
+        HdJob job = {
+            .scene = &file.scene,
+            .first_frame = frames.frames[0],
+            .frame_count = frames.count,
+        };
+        status = tune(&run, &job, error);
+        hd_frame_list_free(&frames);
+    }
+    hd_scene_file_free(&file);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/* The part of NVIDIA's driver interface and of its run-time compiler that is used here, declared by
+   us and loaded while the program runs, so that it is built on any machine. Where a toolkit is
+   installed, tests/cuda_headers_check.c compares the declarations with NVIDIA's. */
+#ifndef HD_DEVICE_CUDA_API_H
+#define HD_DEVICE_CUDA_API_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+
+/* ---- driver ---- */
+
+typedef unsigned int HdCuResult; /* enumerations are as wide and as signed as this */
+typedef unsigned int HdCuAttribute;
+typedef int HdCuDevice;
+typedef unsigned long long HdCuPointer; /* to memory of the device */
+typedef struct CUctx_st *HdCuContext;
+typedef struct CUmod_st *HdCuModule;
+typedef struct CUfunc_st *HdCuFunction;
+typedef struct CUstream_st *HdCuStream;
+typedef struct CUevent_st *HdCuEvent;
+
+enum {
+    HD_CU_SUCCESS = 0,
+    HD_CU_ERROR_OUT_OF_MEMORY = 2,
+    HD_CU_ERROR_DEVICE_UNAVAILABLE = 46,
+    HD_CU_ERROR_ECC_UNCORRECTABLE = 214,
+    HD_CU_ERROR_NVLINK_UNCORRECTABLE = 220,
+    HD_CU_ERROR_ILLEGAL_ADDRESS = 700,
+    HD_CU_ERROR_LAUNCH_TIMEOUT = 702,
+    HD_CU_ERROR_CONTEXT_IS_DESTROYED = 709,
+    HD_CU_ERROR_HARDWARE_STACK_ERROR = 714,
+    HD_CU_ERROR_ILLEGAL_INSTRUCTION = 715,
+    HD_CU_ERROR_MISALIGNED_ADDRESS = 716,
+    HD_CU_ERROR_INVALID_ADDRESS_SPACE = 717,
+    HD_CU_ERROR_INVALID_PC = 718,
+    HD_CU_ERROR_LAUNCH_FAILED = 719,
+    HD_CU_DEVICE_CLOCK_KHZ = 13,
+    HD_CU_DEVICE_MULTIPROCESSOR_COUNT = 16,
+    HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT = 17,
+    HD_CU_DEVICE_CAPABILITY_MAJOR = 75,
+    HD_CU_DEVICE_CAPABILITY_MINOR = 76,
+    HD_CU_FUNCTION_MAX_THREADS = 0,
+    HD_CU_FUNCTION_LOCAL_BYTES = 3,
+    HD_CU_FUNCTION_REGISTERS = 4,
+    HD_CU_EVENT_BLOCKING_SYNC = 1,
+    HD_CU_EVENT_DISABLE_TIMING = 2,
+    HD_CU_STREAM_NON_BLOCKING = 1
+};
+
+/* X(member, symbol, parameters); all return HdCuResult. The suffix _v2 belongs to the symbol: the
+   names without it are older functions with other types. */
+#define HD_CUDA_FUNCTIONS(X)                                                                       \
+    X(init, cuInit, (unsigned int flags))                                                          \
+    X(driver_version, cuDriverGetVersion, (int *version))                                          \
+    X(error_name, cuGetErrorName, (HdCuResult code, const char **text))                            \
+    X(error_string, cuGetErrorString, (HdCuResult code, const char **text))                        \
+    X(device_count, cuDeviceGetCount, (int *count))                                                \
+    X(device_get, cuDeviceGet, (HdCuDevice * device, int index))                                   \
+    X(device_name, cuDeviceGetName, (char *name, int capacity, HdCuDevice device))                 \
+    X(device_attribute, cuDeviceGetAttribute,                                                      \
+      (int *value, HdCuAttribute attribute, HdCuDevice device))                                    \
+    X(context_retain, cuDevicePrimaryCtxRetain, (HdCuContext * context, HdCuDevice device))        \
+    X(context_release, cuDevicePrimaryCtxRelease_v2, (HdCuDevice device))                          \
+    X(context_push, cuCtxPushCurrent_v2, (HdCuContext context))                                    \
+    X(context_pop, cuCtxPopCurrent_v2, (HdCuContext * context))                                    \
+    X(module_load, cuModuleLoadData, (HdCuModule * module, const void *image))                     \
+    X(module_unload, cuModuleUnload, (HdCuModule module))                                          \
+    X(module_function, cuModuleGetFunction,                                                        \
+      (HdCuFunction * function, HdCuModule module, const char *name))                              \
+    X(function_attribute, cuFuncGetAttribute,                                                      \
+      (int *value, HdCuAttribute attribute, HdCuFunction function))                                \
+    X(memory_info, cuMemGetInfo_v2, (size_t * available, size_t * total))                          \
+    X(memory_alloc, cuMemAlloc_v2, (HdCuPointer * pointer, size_t bytes))                          \
+    X(memory_free, cuMemFree_v2, (HdCuPointer pointer))                                            \
+    X(host_alloc, cuMemHostAlloc, (void **data, size_t bytes, unsigned int flags))                 \
+    X(host_free, cuMemFreeHost, (void *data))                                                      \
+    X(copy_to_device_async, cuMemcpyHtoDAsync_v2,                                                  \
+      (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream))                         \
+    X(copy_to_host_async, cuMemcpyDtoHAsync_v2,                                                    \
+      (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))                               \
+    X(context_synchronize, cuCtxSynchronize, (void))                                               \
+    X(stream_create, cuStreamCreate, (HdCuStream * stream, unsigned int flags))                    \
+    X(stream_synchronize, cuStreamSynchronize, (HdCuStream stream))                                \
+    X(stream_wait_event, cuStreamWaitEvent,                                                        \
+      (HdCuStream stream, HdCuEvent event, unsigned int flags))                                    \
+    X(stream_destroy, cuStreamDestroy_v2, (HdCuStream stream))                                     \
+    X(launch, cuLaunchKernel,                                                                      \
+      (HdCuFunction function, unsigned int grid_x, unsigned int grid_y, unsigned int grid_z,       \
+       unsigned int block_x, unsigned int block_y, unsigned int block_z,                           \
+       unsigned int shared_bytes, HdCuStream stream, void **arguments, void **extra))              \
+    X(event_create, cuEventCreate, (HdCuEvent * event, unsigned int flags))                        \
+    X(event_record, cuEventRecord, (HdCuEvent event, HdCuStream stream))                           \
+    X(event_synchronize, cuEventSynchronize, (HdCuEvent event))                                    \
+    X(event_elapsed, cuEventElapsedTime, (float *milliseconds, HdCuEvent start, HdCuEvent end))    \
+    X(event_destroy, cuEventDestroy_v2, (HdCuEvent event))
+
+#define HD_CUDA_MEMBER(member, symbol, parameters) HdCuResult(*member) parameters;
+typedef struct HdCudaDriver {
+    HD_CUDA_FUNCTIONS(HD_CUDA_MEMBER)
+} HdCudaDriver;
+#undef HD_CUDA_MEMBER
+
+/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it does not start. The
+   library stays loaded. */
+HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
+
+/* Fails with the names of the function and of the error, and says so where it means that the device
+   is lost: no call of this process will succeed on it. */
+HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResult code,
+                      HdError *error);
+
+/* "CUDA_ERROR_OUT_OF_MEMORY" */
+const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code);
+
+/* ---- NVRTC ---- */
+
+typedef unsigned int HdNvrtcResult;
+typedef struct _nvrtcProgram *HdNvrtcProgram;
+
+/* X(type, member, symbol, parameters) */
+#define HD_NVRTC_FUNCTIONS(X)                                                                      \
+    X(const char *, error_string, nvrtcGetErrorString, (HdNvrtcResult code))                       \
+    X(HdNvrtcResult, version, nvrtcVersion, (int *major, int *minor))                              \
+    X(HdNvrtcResult, arch_count, nvrtcGetNumSupportedArchs, (int *count))                          \
+    X(HdNvrtcResult, list_archs, nvrtcGetSupportedArchs, (int *archs))                             \
+    X(HdNvrtcResult, create_program, nvrtcCreateProgram,                                           \
+      (HdNvrtcProgram * program, const char *source, const char *name, int header_count,           \
+       const char *const *headers, const char *const *header_names))                               \
+    X(HdNvrtcResult, destroy_program, nvrtcDestroyProgram, (HdNvrtcProgram * program))             \
+    X(HdNvrtcResult, compile_program, nvrtcCompileProgram,                                         \
+      (HdNvrtcProgram program, int option_count, const char *const *options))                      \
+    X(HdNvrtcResult, log_size, nvrtcGetProgramLogSize, (HdNvrtcProgram program, size_t * size))    \
+    X(HdNvrtcResult, log, nvrtcGetProgramLog, (HdNvrtcProgram program, char *log))                 \
+    X(HdNvrtcResult, cubin_size, nvrtcGetCUBINSize, (HdNvrtcProgram program, size_t * size))       \
+    X(HdNvrtcResult, cubin, nvrtcGetCUBIN, (HdNvrtcProgram program, char *cubin))
+
+#define HD_NVRTC_MEMBER(type, member, symbol, parameters) type(*member) parameters;
+typedef struct HdNvrtcFunctions {
+    HD_NVRTC_FUNCTIONS(HD_NVRTC_MEMBER)
+} HdNvrtcFunctions;
+#undef HD_NVRTC_MEMBER
+
+/* Returns the first symbol that the library lacks, or NULL. */
+const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library);
+
+#endif

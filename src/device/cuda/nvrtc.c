@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "device/cuda/nvrtc.h"
+
+#include <glob.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "system/dynamic_library.h"
+
+enum { MAX_PATH = 4096, MAX_ARCHS = 256 };
+
+typedef struct Search {
+    int arch, driver_major;
+    bool has_best;
+    HdNvrtc best;
+    char found[512]; /* what was found and does not fit, for people */
+} Search;
+
+/* NVRTC opens its helper by name and relies on the loader to look in NVRTC's own folder, which it
+   does not do when a sanitizer stands between. A library that is loaded already is found by its
+   name. */
+static void load_builtins(const HdNvrtc *nvrtc) {
+    char name[64];
+    snprintf(name, sizeof name, "libnvrtc-builtins.so.%d.%d", nvrtc->major, nvrtc->minor);
+    hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
+}
+
+static bool load(HdNvrtc *nvrtc, const char *path) {
+    *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
+    if (!nvrtc->library)
+        return false;
+    const HdNvrtcFunctions *functions = &nvrtc->functions;
+    if (!hd_nvrtc_load_functions(&nvrtc->functions, nvrtc->library) &&
+        functions->version(&nvrtc->major, &nvrtc->minor) == 0)
+        return true;
+    hd_nvrtc_close(nvrtc);
+    return false;
+}
+
+/* Fills the architectures, in ascending order, and returns their number. */
+static int list_archs(const HdNvrtc *nvrtc, int archs[MAX_ARCHS]) {
+    int count = 0;
+    if (nvrtc->functions.arch_count(&count) != 0 || count < 1 || count > MAX_ARCHS)
+        return 0;
+    return nvrtc->functions.list_archs(archs) == 0 ? count : 0;
+}
+
+static bool contains(const int *archs, int count, int arch) {
+    for (int i = 0; i < count; i++)
+        if (archs[i] == arch)
+            return true;
+    return false;
+}
+
+static void note(Search *search, const HdNvrtc *nvrtc, const int *archs, int count) {
+    char text[64];
+    snprintf(text, sizeof text, "NVRTC %d.%d for sm_%d to sm_%d", nvrtc->major, nvrtc->minor,
+             count ? archs[0] : 0, count ? archs[count - 1] : 0);
+    size_t length = strlen(search->found);
+    if (!strstr(search->found, text))
+        snprintf(search->found + length, sizeof search->found - length, "%s%s", length ? ", " : "",
+                 text);
+}
+
+static bool is_better(const Search *search, const HdNvrtc *nvrtc) {
+    const HdNvrtc *best = &search->best;
+    int limit = search->driver_major;
+    bool fits = limit == 0 || nvrtc->major <= limit;
+    bool best_fits = limit == 0 || best->major <= limit;
+    if (!search->has_best || fits != best_fits)
+        return !search->has_best || fits;
+    return nvrtc->major != best->major ? nvrtc->major > best->major : nvrtc->minor > best->minor;
+}
+
+static void consider(Search *search, const char *path) {
+    HdNvrtc nvrtc;
+    if (!load(&nvrtc, path))
+        return;
+    int archs[MAX_ARCHS];
+    int count = list_archs(&nvrtc, archs);
+    if (!contains(archs, count, search->arch)) {
+        note(search, &nvrtc, archs, count);
+    } else if (is_better(search, &nvrtc)) {
+        HdNvrtc worse = search->best;
+        search->best = nvrtc;
+        nvrtc = worse;
+        search->has_best = true;
+    }
+    hd_nvrtc_close(&nvrtc);
+}
+
+static void consider_pattern(Search *search, const char *pattern) {
+    glob_t paths;
+    if (glob(pattern, 0, NULL, &paths) == 0)
+        for (size_t i = 0; i < paths.gl_pathc; i++)
+            consider(search, paths.gl_pathv[i]);
+    globfree(&paths);
+}
+
+static void consider_below(Search *search, const char *variable, const char *pattern) {
+    const char *folder = getenv(variable);
+    char path[MAX_PATH];
+    if (!folder || !folder[0])
+        return;
+    int length = snprintf(path, sizeof path, "%s/%s", folder, pattern);
+    if (length > 0 && length < MAX_PATH)
+        consider_pattern(search, path);
+}
+
+static void search_everywhere(Search *search) {
+    static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
+                                        "libnvrtc.so"};
+    static const char *const patterns[] = {
+        "/usr/local/cuda*/lib64/libnvrtc.so*",
+        "/usr/local/lib/python3*/dist-packages/nvidia/*/lib/libnvrtc.so*",
+        "/usr/local/lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*",
+        "/usr/lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*",
+    };
+    static const char *const below[][2] = {
+        {"CUDA_HOME", "lib64/libnvrtc.so*"},
+        {"CUDA_PATH", "lib64/libnvrtc.so*"},
+        {"HOME", ".local/lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*"},
+        {"VIRTUAL_ENV", "lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        consider(search, names[i]);
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        consider_pattern(search, patterns[i]);
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
+        consider_below(search, below[i][0], below[i][1]);
+}
+
+static const char *package_for(int arch) {
+    if (arch < 50)
+        return "NVRTC 11 (of the CUDA toolkit 11)";
+    if (arch < 75)
+        return "NVRTC 12 (pip install nvidia-cuda-nvrtc-cu12)";
+    return "a current NVRTC (pip install nvidia-cuda-nvrtc)";
+}
+
+static HdStatus fail(const Search *search, const char *device, const char *path, HdError *error) {
+    if (path && !search->found[0])
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "%s cannot be loaded as an NVRTC library, version 11.2 or newer", path);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "no NVRTC library here compiles for %s (sm_%d); found: %s; install %s or "
+                   "name its libnvrtc.so in HEDRON_NVRTC",
+                   device, search->arch, search->found[0] ? search->found : "none",
+                   package_for(search->arch));
+}
+
+HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
+                       const char *path, HdError *error) {
+    Search search = {.arch = arch, .driver_major = driver_major};
+    const char *named = path ? path : getenv("HEDRON_NVRTC");
+    if (named && !named[0])
+        named = NULL;
+    if (named)
+        consider(&search, named);
+    else
+        search_everywhere(&search);
+    if (!search.has_best)
+        return fail(&search, device, named, error);
+    *nvrtc = search.best;
+    load_builtins(nvrtc);
+    return HD_OK;
+}
+
+void hd_nvrtc_close(HdNvrtc *nvrtc) {
+    hd_library_close(nvrtc->library);
+    *nvrtc = (HdNvrtc){0};
+}

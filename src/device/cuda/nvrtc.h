@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* Finds, among the NVRTC libraries of this machine, the one to compile for a device with. */
+#ifndef HD_DEVICE_CUDA_NVRTC_H
+#define HD_DEVICE_CUDA_NVRTC_H
+
+#include "device/cuda/api.h"
+
+typedef struct HdNvrtc {
+    HdNvrtcFunctions functions;
+    int major, minor;
+    void *library; /* owned */
+} HdNvrtc;
+
+/* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
+   (`driver_major`, 0: unknown) before one that is. Looked at: the file `path`; if that is NULL, the
+   file that HEDRON_NVRTC names; if there is none, the loader's folders, $CUDA_HOME, $CUDA_PATH,
+   /usr/local/cuda* and Python's packages. Where there is none, the message says what was found and
+   what to install. `device` is its name. */
+HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
+                       const char *path, HdError *error);
+void hd_nvrtc_close(HdNvrtc *nvrtc);
+
+#endif

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels that one renderer compiles while the program runs, kept on disk (cache_folder.h).
+   What was compiled is stored only after it was accepted: with strict arithmetic, when it has
+   rendered the frames of self_test.h rightly. An entry tells so and by what it was compiled; one
+   that does not tell what this program would, is compiled anew. */
+#ifndef HD_DEVICE_KERNEL_CACHE_H
+#define HD_DEVICE_KERNEL_CACHE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "device/kernel_source.h"
+
+enum { HD_KERNEL_KEY_LENGTH = 4096 };
+
+/* Hands out the binary of compiled kernels, the caller's to free; NULL where that cannot be. */
+typedef unsigned char *HdKernelReader(const void *context, size_t *size);
+
+struct HdKernelCache {
+    const char *backend;
+    char device[640];               /* name and driver, a part of every key */
+    char key[HD_KERNEL_KEY_LENGTH]; /* of the kernels in use */
+    char stamp[160];                /* what their entry says of their test */
+    char maker[80];                 /* what compiled them; "": nobody knows */
+    char note[1024];                /* where they came from, for people; "": there are none yet */
+    bool is_untested;               /* compiled anew and not yet accepted */
+    bool is_cautious;               /* optimised little (HdKernelShape), and not kept */
+    HdKernelReader *read;           /* until they are accepted, */
+    const void *context;            /* with this */
+};
+
+/* For one device. There is nothing to free. */
+void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
+
+/* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
+   they depend on, apart from the device. True where they are there; `*binary` is the caller's to
+   free. Otherwise the caller compiles. */
+bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, const void *source,
+                          size_t source_size, const char *options, const char *driver,
+                          unsigned char **binary, size_t *size);
+
+/* What was found is of no use: the driver refuses it, and the reason. The caller compiles. */
+void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason);
+
+/* The kernels of `shape`, which were not found, are compiled, by `maker`. They are read once they
+   are accepted: a driver may have more to hand out when they have run. */
+void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
+                              HdKernelReader *read, const void *context, const char *maker,
+                              double seconds);
+
+/* The compiled kernels are in order: stores them, if that can be. Those that are optimised little
+   are not: a driver may optimise what it loads, and a newer compiler may need no caution. */
+void hd_kernel_cache_accept(HdKernelCache *cache);
+
+#endif

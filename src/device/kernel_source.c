@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/kernel_source.h"
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "kernels/common/scene_tables.h"
+
+void hd_kernel_defines(const HdKernelShape *shape,
+                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]) {
+    const struct {
+        const char *name;
+        int value;
+    } list[HD_KERNEL_DEFINE_COUNT] = {
+        {"HD_LANES", shape->lanes},
+        {"HD_DOUBLE", shape->precision == HD_PRECISION_DOUBLE},
+        {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
+        {"HD_GROUP_SIZE", shape->group_size},
+        {"HD_WAVEFRONT", shape->wavefront},
+        {"HD_PLANE_BOUND", shape->needs.plane_bound},
+        {"HD_DEPTH_BOUND", shape->needs.depth_bound},
+        {"HD_NODE_STACK", shape->needs.node_stack_bound},
+        /* A wide node has at most as many children as lanes, and is no deeper than others. */
+        {"HD_WIDE_STACK", shape->needs.node_stack_bound * shape->lanes},
+        {"HD_REFRACTS", shape->needs.refracts},
+        {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
+        {"HD_SURVEYED", shape->needs.surveyed},
+        {"HD_STRICT", shape->math == HD_MATH_STRICT},
+    };
+    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
+        snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
+}
+
+int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
+    enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
+    int few = 64, many = 128;
+    bool takes_many = nvidia_arch >= 70 && shape->precision == HD_PRECISION_FLOAT;
+    if (asked > 0)
+        return asked;
+    int limit = takes_many ? many : few;
+    int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
+    return share < limit ? share : limit;
+}
+
+const char *hd_kernel_tracing(const HdKernelShape *shape) {
+    if (!shape->wavefront)
+        return "hedron_render";
+    return shape->group_size > 0 ? "hedron_trace_take" : "hedron_render_by_waves";
+}
+
+const char *hd_kernel_storing(const HdKernelShape *shape) {
+    return shape->wavefront && shape->group_size > 0 ? "hedron_store_batch" : NULL;
+}
+
+int hd_kernel_bound(int count) {
+    int bound = 8;
+    while (bound < count)
+        bound *= 2;
+    return bound;
+}
+
+/* Deep enough for nearly all meshes, so that few builds differ in it. */
+static int stack_bound(int count) {
+    enum { USUAL = 32 };
+    return hd_kernel_bound(count < USUAL ? USUAL : count);
+}
+
+HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
+    return (HdKernelNeeds){
+        .plane_bound = hd_kernel_bound(tables->plane_count),
+        .depth_bound = hd_kernel_bound(tables->depth),
+        .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
+        .refracts = tables->refracts,
+        .lit_from_behind = tables->lit_from_behind,
+        .surveyed = tables->surveyed,
+    };
+}
+
+bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
+    return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
+           a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
+           a->lit_from_behind == b->lit_from_behind && a->surveyed == b->surveyed;
+}
+
+bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {
+    if (shape->is_cautious)
+        return false;
+    shape->is_cautious = true;
+    shape->needs = (HdKernelNeeds){0};
+    return true;
+}
+
+void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs) {
+    bool has_other_scene = shape->needs.plane_bound > 0;
+    shape->is_cautious = shape->is_cautious && !has_other_scene;
+    shape->needs = *needs;
+}
+
+void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
+    snprintf(text, (size_t)capacity,
+             "built for up to %d planes and depth %d, %s refraction, %s, %s%s", needs->plane_bound,
+             needs->depth_bound, needs->refracts ? "with" : "without",
+             needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
+             needs->node_stack_bound > 0 ? "meshes" : "no meshes",
+             needs->surveyed ? ", with surveys" : "");
+}
+
+int hd_kernel_item_count(int width, int height, int pixels_per_item) {
+    int64_t columns = ((int64_t)width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t rows = ((int64_t)height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t items = columns * rows * (HD_BLOCK_PIXELS / pixels_per_item);
+    return items > INT_MAX ? INT_MAX : (int)items;
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels' text, embedded in the program, and how it is specialised. */
+#ifndef HD_DEVICE_KERNEL_SOURCE_H
+#define HD_DEVICE_KERNEL_SOURCE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "device/renderer.h"
+
+/* NUL-terminated, all #includes resolved, with #line directives. */
+extern const unsigned char hd_opencl_source[];
+extern const size_t hd_opencl_source_size; /* without the NUL */
+extern const unsigned char hd_cuda_source[];
+extern const size_t hd_cuda_source_size;
+
+/* What a build for one scene can do; what it cannot is not compiled in. */
+typedef struct HdKernelNeeds {
+    int plane_bound, depth_bound; /* private arrays are this large */
+    int node_stack_bound;         /* likewise; 0: there are no meshes */
+    bool refracts;
+    bool lit_from_behind;
+    bool surveyed; /* pixels come with their survey */
+} HdKernelNeeds;
+
+/* What the text is specialised by. */
+typedef struct HdKernelShape {
+    int lanes;
+    int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
+    int group_size;      /* most threads of a group that share items; 0: none do */
+    bool wavefront;      /* the kernels of that pipeline, or those of the other one */
+    HdKernelNeeds needs;
+    HdPrecision precision;
+    HdMath math;
+    int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
+    bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
+} HdKernelShape;
+
+/* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
+   that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
+   are in flight. On an H200 the limit 128 is the best for floats and 64 for doubles, spills and
+   all. A block's threads share 65536 registers, so that large blocks get fewer. */
+int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
+
+enum { HD_KERNEL_DEFINE_COUNT = 13, HD_KERNEL_DEFINE_LENGTH = 40 };
+
+/* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
+   -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */
+void hd_kernel_defines(const HdKernelShape *shape,
+                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
+
+/* The kernel that traces rays, and the one that stores the pixels of a batch; NULL: there is none.
+ */
+const char *hd_kernel_tracing(const HdKernelShape *shape);
+const char *hd_kernel_storing(const HdKernelShape *shape);
+
+/* A bound that scenes of similar size share, so that one build serves them all: the least power of
+   two that is at least 8 and `count`. */
+int hd_kernel_bound(int count);
+
+/* What a scene needs, its numbers rounded up by hd_kernel_bound. */
+HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
+bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
+
+/* Makes a shape cautious and its needs those of no scene, so that the next upload compiles. False
+   where it is cautious already. */
+bool hd_kernel_shape_be_cautious(HdKernelShape *shape);
+
+/* The needs of a scene to be compiled for. Caution ends with the scene that called for it. */
+void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs);
+
+/* One line for people. */
+void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);
+
+/* Work items of a frame: blocks of 8 x 8 pixels, partly outside of the picture at its right and
+   lower border, times the items of a block. */
+int hd_kernel_item_count(int width, int height, int pixels_per_item);
+
+#endif

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/opencl/devices.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_PLATFORMS = 32 };
+
+typedef struct Entry {
+    cl_platform_id platform;
+    cl_device_id device;
+} Entry;
+
+/* A query that fails is answered with "no": an OpenCL 1.0 device does not know every question. */
+static cl_ulong query(cl_device_id device, cl_device_info what, size_t size) {
+    cl_ulong wide = 0;
+    cl_uint narrow = 0;
+    void *value = size == sizeof wide ? (void *)&wide : (void *)&narrow;
+    if (clGetDeviceInfo(device, what, size, value, NULL) != CL_SUCCESS)
+        return 0;
+    return size == sizeof wide ? wide : narrow;
+}
+
+static cl_ulong query_ulong(cl_device_id device, cl_device_info what) {
+    return query(device, what, sizeof(cl_ulong));
+}
+
+static cl_uint query_uint(cl_device_id device, cl_device_info what) {
+    return (cl_uint)query(device, what, sizeof(cl_uint));
+}
+
+static void copy_trimmed(char *text, size_t capacity, const char *from) {
+    while (isspace((unsigned char)*from))
+        from++;
+    size_t length = strlen(from);
+    while (length > 0 && isspace((unsigned char)from[length - 1]))
+        length--;
+    snprintf(text, capacity, "%.*s", (int)length, from);
+}
+
+/* Strings are asked for whole: a buffer that is too small is an error in OpenCL. */
+static void query_text(cl_device_id device, cl_device_info what, char *text, size_t capacity) {
+    text[0] = '\0';
+    size_t size = 0;
+    if (clGetDeviceInfo(device, what, 0, NULL, &size) != CL_SUCCESS || size == 0)
+        return;
+    char *whole = calloc(size + 1, 1);
+    if (whole && clGetDeviceInfo(device, what, size, whole, NULL) == CL_SUCCESS)
+        copy_trimmed(text, capacity, whole);
+    free(whole);
+}
+
+static void query_platform_name(cl_platform_id platform, char *text, size_t capacity) {
+    text[0] = '\0';
+    size_t size = 0;
+    if (clGetPlatformInfo(platform, CL_PLATFORM_NAME, 0, NULL, &size) != CL_SUCCESS || size == 0)
+        return;
+    char *whole = calloc(size + 1, 1);
+    if (whole && clGetPlatformInfo(platform, CL_PLATFORM_NAME, size, whole, NULL) == CL_SUCCESS)
+        copy_trimmed(text, capacity, whole);
+    free(whole);
+}
+
+static void add_reason(char *reasons, size_t capacity, bool ok, const char *reason) {
+    if (ok)
+        return;
+    size_t length = strlen(reasons);
+    snprintf(reasons + length, capacity - length, "%s%s", length ? ", " : "", reason);
+}
+
+/* Why no kernel of ours can run; empty: one can. */
+static void find_obstacles(cl_device_id device, char *reasons, size_t capacity) {
+    reasons[0] = '\0';
+    char version[64];
+    int major = 0, minor = 0;
+    query_text(device, CL_DEVICE_VERSION, version, sizeof version);
+    bool is_known = sscanf(version, "OpenCL %d.%d", &major, &minor) == 2;
+    bool is_12 = is_known && (major > 1 || (major == 1 && minor >= 2));
+    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_AVAILABLE), "it is not available");
+    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_COMPILER_AVAILABLE),
+               "its driver has no compiler");
+    add_reason(reasons, capacity, is_12, "it is older than OpenCL 1.2");
+    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_ENDIAN_LITTLE),
+               "it is not little-endian");
+}
+
+static bool is_full_profile(cl_device_id device) {
+    char profile[64];
+    query_text(device, CL_DEVICE_PROFILE, profile, sizeof profile);
+    return strcmp(profile, "FULL_PROFILE") == 0;
+}
+
+static void find_strict_obstacles(cl_device_id device, char *reasons, size_t capacity) {
+    find_obstacles(device, reasons, capacity);
+    cl_ulong single = query_ulong(device, CL_DEVICE_SINGLE_FP_CONFIG);
+    add_reason(reasons, capacity, is_full_profile(device), "it has the embedded profile only");
+    add_reason(reasons, capacity, single & CL_FP_FMA, "no fused multiply-add");
+    add_reason(reasons, capacity, single & CL_FP_DENORM, "no denormal numbers");
+    add_reason(reasons, capacity, single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT,
+               "no correctly rounded division and square root");
+}
+
+static bool has_extension(cl_device_id device, const char *name) {
+    char extensions[8192];
+    query_text(device, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
+    return strstr(extensions, name) != NULL;
+}
+
+/* NVIDIA's extensions: the build option -cl-nv-maxrregcount, and the question for the version. */
+static int find_nvidia_arch(cl_device_id device) {
+    enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
+    if (!has_extension(device, "cl_nv_compiler_options"))
+        return 0;
+    return (int)(10 * query_uint(device, CAPABILITY_MAJOR) + query_uint(device, CAPABILITY_MINOR));
+}
+
+/* Only NVIDIA's driver tells. */
+static bool has_timeout(cl_device_id id) {
+    enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
+    cl_bool told = CL_FALSE;
+    if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
+        return told != CL_FALSE;
+    return (query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
+}
+
+static void describe_device(HdDevice *device, Entry entry, int index) {
+    memset(device, 0, sizeof *device);
+    device->backend = &hd_backend_opencl;
+    device->index = index;
+    char platform[80], version[80], driver[48];
+    query_platform_name(entry.platform, platform, sizeof platform);
+    query_text(entry.device, CL_DEVICE_VERSION, version, sizeof version);
+    query_text(entry.device, CL_DRIVER_VERSION, driver, sizeof driver);
+    query_text(entry.device, CL_DEVICE_NAME, device->name, sizeof device->name);
+    snprintf(device->driver, sizeof device->driver, "%s, %s, driver %s", platform, version, driver);
+    device->is_cpu = query_ulong(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
+    device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
+    device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    device->nvidia_arch = find_nvidia_arch(entry.device);
+    device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
+    device->has_timeout = has_timeout(entry.device);
+    find_obstacles(entry.device, device->unusable, sizeof device->unusable);
+    find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
+}
+
+static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint *count,
+                               HdError *error) {
+    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, count);
+    if (code != CL_SUCCESS || *count == 0)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "no OpenCL platform is installed (the ICD loader reports %s); a "
+                       "graphics driver or the package pocl-opencl-icd brings one",
+                       code == CL_SUCCESS ? "none" : hd_opencl_error_name(code));
+    if (*count > MAX_PLATFORMS)
+        *count = MAX_PLATFORMS;
+    return HD_OK;
+}
+
+static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *error) {
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint platform_count = 0;
+    *count = 0;
+    HdStatus status = list_platforms(platforms, &platform_count, error);
+    if (status != HD_OK)
+        return status;
+    const cl_device_type types =
+        CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
+    cl_int last_code = CL_DEVICE_NOT_FOUND;
+    for (cl_uint p = 0; p < platform_count && *count < capacity; p++) {
+        cl_device_id devices[HD_MAX_DEVICES];
+        cl_uint found = 0;
+        cl_int code = clGetDeviceIDs(platforms[p], types, HD_MAX_DEVICES, devices, &found);
+        if (code != CL_SUCCESS) {
+            last_code = code;
+            continue;
+        }
+        for (cl_uint d = 0; d < found && d < HD_MAX_DEVICES && *count < capacity; d++)
+            entries[(*count)++] = (Entry){platforms[p], devices[d]};
+    }
+    if (*count > 0)
+        return HD_OK;
+    char name[80];
+    query_platform_name(platforms[0], name, sizeof name);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "none of the %u installed OpenCL platforms (%s%s) has a device: %s",
+                   (unsigned)platform_count, name, platform_count > 1 ? ", ..." : "",
+                   hd_opencl_error_name(last_code));
+}
+
+HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
+    Entry entries[HD_MAX_DEVICES];
+    int limit = capacity < HD_MAX_DEVICES ? capacity : HD_MAX_DEVICES;
+    HdStatus status = list_devices(entries, limit, count, error);
+    for (int i = 0; i < *count; i++)
+        describe_device(&devices[i], entries[i], i);
+    return status;
+}
+
+HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
+    Entry entries[HD_MAX_DEVICES];
+    int count;
+    HdStatus status = list_devices(entries, HD_MAX_DEVICES, &count, error);
+    if (status != HD_OK)
+        return status;
+    if (index < 0 || index >= count)
+        return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
+                       count - 1);
+    cl_device_id id = entries[index].device;
+    *device = (HdOpenclDevice){
+        .id = id,
+        .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
+        .nvidia_arch = find_nvidia_arch(id),
+        .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
+        .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
+                         (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
+        .memory = query_ulong(id, CL_DEVICE_GLOBAL_MEM_SIZE),
+        .max_allocation = query_ulong(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+    };
+    return HD_OK;
+}

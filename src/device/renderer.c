@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: MIT */
+/* The registry of backends, and the checks that every backend relies on. */
+#include "device/renderer.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "device/kernel_cache.h"
+#include "device/pipeline.h"
+#include "device/self_test.h"
+#include "kernels/common/scene_tables.h"
+
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
+                                                        &hd_backend_c};
+
+struct HdRenderer {
+    const HdBackend *backend;
+    void *state; /* of the backend */
+    HdDevice device;
+    HdRenderOptions options;
+    bool has_scene;
+    bool has_failed;
+    double longest_launch; /* seconds; negative: none is known */
+    int in_flight;
+    struct {
+        int width, height, floats;
+        bool wants_radiance;
+    } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
+};
+
+const HdBackend *hd_backend_find(const char *name) {
+    for (int i = 0; i < HD_BACKEND_COUNT; i++)
+        if (strcmp(hd_backends[i]->name, name) == 0)
+            return hd_backends[i];
+    return NULL;
+}
+
+HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error) {
+    int lanes = options->lanes;
+    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
+        return hd_fail(error, HD_BAD_INPUT, "the number of lanes must be 1, 4, 8 or 16, not %d",
+                       lanes);
+    if (options->threads < 0 || options->threads > HD_MAX_THREADS)
+        return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
+                       (int)HD_MAX_THREADS, options->threads);
+    int block = options->block;
+    if (block < 0 || block > HD_MAX_BLOCK || block % HD_BLOCK_STEP != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the threads of a block must be 0 or a multiple of %d up to %d, not %d",
+                       (int)HD_BLOCK_STEP, (int)HD_MAX_BLOCK, block);
+    if (options->grid < 0 || options->grid > HD_MAX_GRID)
+        return hd_fail(error, HD_BAD_INPUT, "the blocks of a grid must be 0 to %d, not %d",
+                       (int)HD_MAX_GRID, options->grid);
+    int registers = options->registers;
+    if (registers != 0 && (registers < HD_MIN_REGISTERS || registers > HD_MAX_REGISTERS))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the registers of a thread must be 0 or %d to %d, not %d",
+                       (int)HD_MIN_REGISTERS, (int)HD_MAX_REGISTERS, registers);
+    if ((int)options->pipeline < 0 || options->pipeline >= HD_PIPELINE_COUNT)
+        return hd_fail(error, HD_BAD_INPUT, "unknown pipeline %d", (int)options->pipeline);
+    if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)
+        return hd_fail(error, HD_BAD_INPUT, "unknown precision %d", (int)options->precision);
+    if (options->math != HD_MATH_STRICT && options->math != HD_MATH_FAST)
+        return hd_fail(error, HD_BAD_INPUT, "unknown arithmetic %d", (int)options->math);
+    return HD_OK;
+}
+
+const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
+    if (device->unusable[0] != '\0')
+        return device->unusable;
+    if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
+        return device->not_strict;
+    if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
+        return "the device has no double precision";
+    bool has_groups = !device->is_cpu || options->test.groups;
+    if (options->lanes > 1 && has_groups)
+        return "several lanes need a CPU";
+    if (has_groups && !device->has_wide_atomics &&
+        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
+        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
+    return NULL;
+}
+
+/* Says which backend failed, if it did. */
+static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError *error) {
+    if (status != HD_OK)
+        hd_error_prefix(error, backend->name);
+    return status;
+}
+
+/* And that it is not the fault of what was asked for. */
+static HdStatus note_failure(HdRenderer *renderer, HdStatus status, HdError *error) {
+    if (status != HD_OK && status != HD_INTERRUPTED)
+        renderer->has_failed = true;
+    return name_backend(renderer->backend, status, error);
+}
+
+HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
+                          const HdRenderOptions *options, HdError *error) {
+    *renderer = NULL;
+    HdStatus status = hd_render_options_check(options, error);
+    if (status != HD_OK)
+        return status;
+    const char *obstacle = hd_device_obstacle(device, options);
+    if (obstacle != NULL)
+        return hd_fail(error, HD_UNAVAILABLE, "%s: %s cannot do this: %s", device->backend->name,
+                       device->name, obstacle);
+    HdRenderer *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+    opened->backend = device->backend;
+    opened->longest_launch = -1.0;
+    opened->device = *device;
+    opened->options = *options;
+    opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
+    status = opened->backend->open(device, &opened->options, &opened->state, error);
+    if (status != HD_OK) {
+        free(opened);
+        return name_backend(device->backend, status, error);
+    }
+    *renderer = opened;
+    return HD_OK;
+}
+
+static HdStatus check_tables(const HdTable *table, int count, int expected, const char *what,
+                             HdError *error) {
+    if (count != expected)
+        return hd_fail(error, HD_BAD_INPUT, "a %s has %d tables, not %d", what, expected, count);
+    for (int i = 0; i < count; i++)
+        if (table[i].bytes > 0 && !table[i].data)
+            return hd_fail(error, HD_BAD_INPUT, "table %d of the %s has %zu bytes and no data", i,
+                           what, table[i].bytes);
+    return HD_OK;
+}
+
+static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precision, const char *what,
+                                HdError *error) {
+    if (precision != renderer->options.precision)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the tables of the %s are not in the precision of the renderer", what);
+    return HD_OK;
+}
+
+static HdKernelCache *kernels_of(const HdRenderer *renderer) {
+    return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
+}
+
+/* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
+static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables *tables,
+                                      HdError *error) {
+    const HdBackend *backend = renderer->backend;
+    HdError later;
+    bool is_wrong;
+    if (!backend->be_cautious(renderer->state))
+        return HD_UNAVAILABLE;
+    HdStatus status = backend->upload(renderer->state, tables, &later);
+    if (status == HD_OK)
+        status =
+            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, &later);
+    if (status == HD_INTERRUPTED)
+        *error = later;
+    return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;
+}
+
+/* The tables are on the device. If its kernels are new, they prove themselves first. */
+static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tables,
+                                 HdError *error) {
+    const HdBackend *backend = renderer->backend;
+    HdKernelCache *kernels = kernels_of(renderer);
+    HdStatus status = HD_OK;
+    bool is_wrong;
+    if (kernels == NULL || !kernels->is_untested)
+        return HD_OK;
+    if (renderer->options.math == HD_MATH_STRICT) {
+        status =
+            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, error);
+        if (is_wrong)
+            status = test_cautious_kernels(renderer, tables, error);
+        if (status == HD_OK)
+            status = backend->upload(renderer->state, tables, error);
+    }
+    if (status == HD_OK)
+        hd_kernel_cache_accept(kernels);
+    return status;
+}
+
+/* Must hold for `what` to be done. */
+static HdStatus check_in_flight(const HdRenderer *renderer, int most, const char *what,
+                                HdError *error) {
+    if (renderer->in_flight > most)
+        return hd_fail(error, HD_BAD_INPUT, "%s while %d frames were under way, at most %d may be",
+                       what, renderer->in_flight, most);
+    return HD_OK;
+}
+
+HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
+    HdStatus status =
+        check_tables(tables->table, tables->table_count, HD_SCENE_TABLE_COUNT, "scene", error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, 0, "a scene was uploaded", error);
+    if (status == HD_OK)
+        status = check_precision(renderer, tables->precision, "scene", error);
+    if (status == HD_OK && tables->node_stack > 0 && tables->lanes != hd_renderer_lanes(renderer))
+        status = hd_fail(error, HD_BAD_INPUT, "a scene was compiled for %d lanes, not %d",
+                         tables->lanes, hd_renderer_lanes(renderer));
+    if (status == HD_OK &&
+        (tables->plane_count < 0 || tables->depth < 0 || tables->depth > HD_MAX_DEPTH))
+        status = hd_fail(error, HD_BAD_INPUT, "a scene cannot have %d planes and the depth %d",
+                         tables->plane_count, tables->depth);
+    if (status != HD_OK)
+        return status;
+    renderer->has_scene = false;
+    status = renderer->backend->upload(renderer->state, tables, error);
+    if (status == HD_OK)
+        status = test_new_kernels(renderer, tables, error);
+    renderer->has_scene = status == HD_OK;
+    return note_failure(renderer, status, error);
+}
+
+/* Kernels count work items and the values of a picture in int, whole blocks at a time. */
+static HdStatus check_size(int width, int height, HdError *error) {
+    if (width < 1 || height < 1 || width > HD_MAX_IMAGE_SIDE || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "a frame of %d x %d pixels is not possible: 1 to %d",
+                       width, height, (int)HD_MAX_IMAGE_SIDE);
+    int64_t columns = (width + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t rows = (height + HD_BLOCK_SIDE - 1) / HD_BLOCK_SIDE;
+    int64_t limit = INT_MAX / 3 / HD_BLOCK_PIXELS;
+    if (columns * rows > limit)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels is too large: at most about %lld million pixels",
+                       width, height, (long long)(limit * HD_BLOCK_PIXELS / 1000000));
+    return HD_OK;
+}
+
+static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTables *tables,
+                                   HdError *error) {
+    if (!renderer->has_scene)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was asked for before a scene was uploaded");
+    HdStatus status =
+        check_tables(tables->table, tables->table_count, HD_FRAME_TABLE_COUNT, "frame", error);
+    if (status == HD_OK)
+        status = check_precision(renderer, tables->precision, "frame", error);
+    return status == HD_OK ? check_size(tables->width, tables->height, error) : status;
+}
+
+static HdStatus check_room(const HdFrame *frame, int width, int height, int floats,
+                           bool wants_radiance, HdError *error) {
+    if (frame->floats != floats)
+        return hd_fail(error, HD_BAD_INPUT, "a frame of %d floats a pixel was given for one of %d",
+                       frame->floats, floats);
+    if (!frame->rgb || frame->width != width || frame->height != height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
+                       frame->height, width, height);
+    if (!frame->rgba && !wants_radiance)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was given that has no room for 8 bits");
+    return HD_OK;
+}
+
+HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
+                            const HdFrameWish *wish, HdError *error) {
+    HdStatus status = check_frame_tables(renderer, tables, error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
+    if (status != HD_OK)
+        return status;
+    status = renderer->backend->submit(renderer->state, tables, wish, error);
+    if (status != HD_OK)
+        return note_failure(renderer, status, error);
+    int place = renderer->in_flight++;
+    renderer->flights[place].width = tables->width;
+    renderer->flights[place].height = tables->height;
+    renderer->flights[place].floats = tables->floats;
+    renderer->flights[place].wants_radiance = wish->radiance;
+    return HD_OK;
+}
+
+static void note_longest_launch(HdRenderer *renderer) {
+    const HdBackend *backend = renderer->backend;
+    double seconds =
+        backend->longest_launch != NULL ? backend->longest_launch(renderer->state) : -1.0;
+    if (seconds > renderer->longest_launch)
+        renderer->longest_launch = seconds;
+}
+
+double hd_renderer_take_longest_launch(HdRenderer *renderer) {
+    double seconds = renderer->longest_launch;
+    renderer->longest_launch = -1.0;
+    return seconds;
+}
+
+HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
+    if (renderer->in_flight == 0)
+        return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
+    HdStatus status =
+        check_room(frame, renderer->flights[0].width, renderer->flights[0].height,
+                   renderer->flights[0].floats, renderer->flights[0].wants_radiance, error);
+    if (status != HD_OK)
+        return status;
+    status = renderer->backend->collect(renderer->state, frame, error);
+    if (status == HD_OK)
+        note_longest_launch(renderer);
+    renderer->in_flight--;
+    for (int i = 0; i < renderer->in_flight; i++)
+        renderer->flights[i] = renderer->flights[i + 1];
+    return note_failure(renderer, status, error);
+}
+
+bool hd_renderer_has_failed(const HdRenderer *renderer) {
+    return renderer->has_failed;
+}
+
+void hd_renderer_drop(HdRenderer *renderer) {
+    if (renderer->in_flight > 0)
+        renderer->backend->drop(renderer->state);
+    renderer->in_flight = 0;
+}
+
+HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           HdFrame *frame, HdError *error) {
+    static const HdFrameWish radiance = {.radiance = true};
+    HdStatus status = backend->submit(renderer, tables, &radiance, error);
+    return status == HD_OK ? backend->collect(renderer, frame, error) : status;
+}
+
+HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
+    HdStatus status = check_frame_tables(renderer, tables, error);
+    if (status == HD_OK)
+        status = check_room(frame, tables->width, tables->height, tables->floats, true, error);
+    if (status == HD_OK)
+        status = check_in_flight(renderer, 0, "a frame was rendered", error);
+    if (status != HD_OK)
+        return status;
+    status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
+    if (status == HD_OK)
+        note_longest_launch(renderer);
+    return note_failure(renderer, status, error);
+}
+
+const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
+    return &renderer->device;
+}
+
+int hd_renderer_lanes(const HdRenderer *renderer) {
+    const HdBackend *backend = renderer->backend;
+    return backend->lanes != NULL ? backend->lanes(renderer->state) : 1;
+}
+
+void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
+    if (capacity < 1)
+        return;
+    text[0] = '\0';
+    renderer->backend->describe(renderer->state, text, capacity);
+}
+
+const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
+    const HdKernelCache *kernels = kernels_of(renderer);
+    return kernels != NULL ? kernels->note : "";
+}
+
+void hd_renderer_close(HdRenderer *renderer) {
+    if (!renderer)
+        return;
+    hd_renderer_drop(renderer);
+    renderer->backend->close(renderer->state);
+    free(renderer);
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/self_test.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "device/self_test_scenes.h"
+#include "scene/camera.h"
+
+static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor", "mesh"};
+
+/* By precision, refraction and light from behind. They change with the kernels, on purpose only:
+   the unit test of this file tells the new ones. */
+static const uint64_t solid_hashes[2][2][2] = {
+    [HD_PRECISION_FLOAT] = {{0x6976dab3c6898a8d, 0x2295cc689183a32e},
+                            {0x6fd7bd912e908f02, 0x76fa52a3ffabe176}},
+    [HD_PRECISION_DOUBLE] = {{0xcb3e76d8233c38a1, 0x493807fe4e186eae},
+                             {0xc7762e262fcbfb9e, 0xa870879512629fb4}},
+};
+static const uint64_t floor_hashes[2] = {
+    [HD_PRECISION_FLOAT] = 0x58d0366f784664e9,
+    [HD_PRECISION_DOUBLE] = 0x7fec99e0bbfce896,
+};
+
+static const uint64_t mesh_hashes[2][2][2] = {
+    [HD_PRECISION_FLOAT] = {{0x95a0162d30bc0853, 0x488d9bc96fa6efe2},
+                            {0x276a388e625bd696, 0x352fd69c103f1858}},
+    [HD_PRECISION_DOUBLE] = {{0x2ea394852fba7df0, 0x40940231115d73ba},
+                             {0xdeaba96c4276c3ad, 0x5dc4df7957b098ea}},
+};
+
+static uint64_t expected_hash(HdSelfTestFrame frame, HdPrecision precision, bool refracts,
+                              bool lit_from_behind) {
+    if (frame == HD_SELF_TEST_FLOOR)
+        return floor_hashes[precision];
+    return frame == HD_SELF_TEST_MESH ? mesh_hashes[precision][refracts][lit_from_behind]
+                                      : solid_hashes[precision][refracts][lit_from_behind];
+}
+
+static int count_frames(bool has_meshes) {
+    return has_meshes ? HD_SELF_TEST_FRAMES : HD_SELF_TEST_FRAMES_WITHOUT_MESHES;
+}
+
+void hd_self_test_stamp(const HdKernelShape *shape, char *text, size_t capacity) {
+    const HdKernelNeeds *needs = &shape->needs;
+    if (shape->math != HD_MATH_STRICT) {
+        snprintf(text, capacity, "not tested, for the arithmetic is fast");
+        return;
+    }
+    size_t length = 0;
+    int count = count_frames(needs->node_stack_bound > 0);
+    for (int frame = 0; frame < count && length < capacity; frame++)
+        length += (size_t)snprintf(text + length, capacity - length, "%s%016" PRIx64 "%s",
+                                   frame == 0 ? "passed the self-test (" : ", ",
+                                   expected_hash((HdSelfTestFrame)frame, shape->precision,
+                                                 needs->refracts, needs->lit_from_behind),
+                                   frame + 1 < count ? "" : ")");
+}
+
+static int greater(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* The tables claim to need what `like` does, so that they are rendered by the same kernels. */
+static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScene *scene,
+                        const HdSceneTables *like, HdError *error) {
+    HdCamera camera;
+    HdStatus status = hd_camera_at(&camera, scene, 0, error);
+    if (status == HD_OK)
+        status = hd_compile_scene(tables, scene, like->precision, like->lanes, error);
+    if (status != HD_OK)
+        return status;
+    tables->plane_count = greater(tables->plane_count, like->plane_count);
+    tables->depth = greater(tables->depth, like->depth);
+    tables->node_stack = greater(tables->node_stack, like->node_stack);
+    tables->refracts = like->refracts;
+    tables->lit_from_behind = like->lit_from_behind;
+    tables->surveyed = like->surveyed;
+    status = hd_compile_frame(view, scene, &camera, like->precision, error);
+    view->floats = like->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
+    if (status != HD_OK)
+        hd_scene_tables_free(tables);
+    return status;
+}
+
+/* Without what else surveyed pixels come with. */
+static void keep_radiance(HdFrame *image) {
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+        memmove(image->rgb + 3 * pixel, image->rgb + (size_t)image->floats * pixel,
+                3 * sizeof *image->rgb);
+    image->floats = 3;
+}
+
+static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *scene,
+                       const HdSceneTables *like, uint64_t *hash, HdError *error) {
+    HdSceneTables tables;
+    HdFrameTables view;
+    HdFrame image;
+    HdStatus status = compile(&tables, &view, scene, like, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
+    if (status == HD_OK) {
+        status = backend->upload(renderer, &tables, error);
+        if (status == HD_OK)
+            status = hd_backend_render(backend, renderer, &view, &image, error);
+        keep_radiance(&image);
+        *hash = hd_frame_hash(&image);
+        hd_frame_free(&image);
+    }
+    hd_frame_tables_free(&view);
+    hd_scene_tables_free(&tables);
+    return status;
+}
+
+static HdStatus test_frame(const HdBackend *backend, void *renderer, const HdDevice *device,
+                           HdSelfTestFrame frame, const HdSceneTables *like, bool *is_wrong,
+                           HdError *error) {
+    HdScene scene;
+    uint64_t hash = 0, expected = expected_hash(frame, like->precision, like->refracts,
+                                                like->lit_from_behind);
+    HdStatus status =
+        hd_self_test_scene(&scene, frame, like->refracts, like->lit_from_behind, error);
+    if (status != HD_OK)
+        return status;
+    status = render(backend, renderer, &scene, like, &hash, error);
+    hd_scene_free(&scene);
+    *is_wrong = status == HD_OK && hash != expected;
+    if (*is_wrong)
+        status = hd_fail(error, HD_UNAVAILABLE,
+                         "%s (%s) computes wrongly: the kernels that were compiled for it render "
+                         "the test frame '%s' with the hash %016" PRIx64 ", expected %016" PRIx64
+                         "; another version of its driver or compiler may do better",
+                         device->name, device->driver, frame_names[frame], hash, expected);
+    return status;
+}
+
+HdStatus hd_self_test(const HdBackend *backend, void *renderer, const HdDevice *device,
+                      const HdSceneTables *scene, bool *is_wrong, HdError *error) {
+    HdStatus status = HD_OK;
+    *is_wrong = false;
+    int count = count_frames(scene->node_stack > 0);
+    for (int frame = 0; status == HD_OK && frame < count; frame++)
+        status =
+            test_frame(backend, renderer, device, (HdSelfTestFrame)frame, scene, is_wrong, error);
+    return status;
+}

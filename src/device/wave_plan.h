@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/* How a wavefront (kernels/common/wavefront.h) fits into memory, and in which order a device with
+   groups of threads traces its levels. */
+#ifndef HD_DEVICE_WAVE_PLAN_H
+#define HD_DEVICE_WAVE_PLAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "device/launch_size.h"
+#include "tables/tables.h"
+
+enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
+
+typedef struct HdWaveNeeds {
+    size_t bytes; /* to be used at most, unless the least that works is more */
+    HdPrecision precision;
+    int depth;
+    int grain;           /* rays of a bundle or of a group of threads */
+    int samples;         /* of a frame, or of all that one queue is used for at a time */
+    int samples_at_once; /* a batch has whole multiples of this; divides `samples` */
+} HdWaveNeeds;
+
+typedef struct HdWavePlan {
+    int queue_stride; /* rays that the queue has room for */
+    int sum_stride;   /* samples of a batch */
+    size_t real_bytes, int_bytes, sum_bytes;
+} HdWavePlan;
+
+/* What a device with that much memory should give to its queue: an eighth, at most a GiB. */
+size_t hd_wave_budget(uint64_t device_memory);
+
+HdWavePlan hd_wave_plan(const HdWaveNeeds *needs);
+
+/* Halves the bytes that a queue may use, for a device that refused it; false where these are
+   HD_WAVE_LEAST_BYTES already. */
+enum { HD_WAVE_LEAST_BYTES = 1 << 20 };
+bool hd_wave_halve(HdWaveNeeds *needs);
+
+/* For the line about a renderer: that the queue was cut to so many bytes. */
+void hd_wave_tell_cut(size_t bytes, char *text, int capacity);
+
+/* The samples of so many items, or as many of them as can be counted. */
+int hd_wave_samples(int items, int samples_per_item);
+
+/* The groups of threads of the largest launch; `grid` is the most there may be, 0: what suits. Each
+   has counts of its own. The first launch of a frame must have them all. */
+int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid);
+
+/* One launch: rays of a level, or samples of a batch for level 0. */
+typedef struct HdWaveStep {
+    int first_item; /* of the batch */
+    int level, first, count, to;
+    unsigned taken_before; /* what the counter of taken places is as yet */
+    bool is_first;         /* of the frame */
+} HdWaveStep;
+
+/* How the steps are carried out. Both functions must do so in the order of the calls. */
+typedef struct HdWaveDevice {
+    void *context;
+    /* Traces the step's rays, waits, and tells the counter of taken places in *taken. */
+    HdStatus (*trace)(void *context, const HdWaveStep *step, unsigned *taken, HdError *error);
+    /* Stores the pixels of a finished batch. */
+    HdStatus (*store)(void *context, int first_item, int item_count, HdError *error);
+    const HdLaunchSize *size; /* of the steps, in rays; the device may change it meanwhile */
+} HdWaveDevice;
+
+typedef struct HdWaveFrame {
+    int items, samples_per_item;
+    int depth, grain; /* as the plan was made for */
+} HdWaveFrame;
+
+/* Traces all items of a frame, a batch at a time; the counter of taken places must be 0 before.
+   HD_INTERRUPTED where a signal came first. */
+HdStatus hd_wave_run(const HdWavePlan *plan, const HdWaveFrame *frame, const HdWaveDevice *device,
+                     HdError *error);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* How far two pictures of one size are apart. */
+#ifndef HD_IMAGE_DIFFERENCE_H
+#define HD_IMAGE_DIFFERENCE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "image/picture_value.h"
+
+/* Of one space, over the pixels that are compared. The error of a channel is how far its two values
+   are apart, that of a pixel the largest of its three. All are NaN where no pixel is compared. */
+typedef struct HdDifferenceFigures {
+    double rmse, mean; /* over the channels */
+    double psnr;       /* dB below the largest value that the space shows; infinite for rmse 0 */
+    double largest;    /* of the channels */
+    int x, y, channel; /* of `largest`, the first one from the top left; -1 where it is 0 */
+    double p999;       /* no more than one pixel in 1000 is above; as hd_quantile_above */
+} HdDifferenceFigures;
+
+typedef struct HdPictureFigures {
+    uint64_t pixels;             /* compared: all six values are finite */
+    uint64_t not_finite[2];      /* values of the first and the second picture */
+    HdDifferenceFigures display; /* in steps of 255 */
+    HdDifferenceFigures linear;  /* 1 is white */
+    double above_1, above_8;     /* shares of the pixels with a larger display error */
+    bool identical;              /* all values are finite and alike in both spaces */
+} HdPictureFigures;
+
+typedef struct HdPictureDifference HdPictureDifference;
+
+/* `clamps` says that linear values are clamped to 0..1 before they are compared, since one of the
+   pictures holds no others. */
+HdStatus hd_difference_create(HdPictureDifference **difference, bool clamps, HdError *error);
+
+/* Takes the next row of both pictures, from the top; 3 values a pixel. `errors`, if not NULL, gets
+   the display error of each pixel in steps of 255; NaN where the pixel is not compared. */
+void hd_difference_add_row(HdPictureDifference *difference, const HdPictureValue *first,
+                           const HdPictureValue *second, int width, double *errors);
+
+void hd_difference_figures(const HdPictureDifference *difference, HdPictureFigures *figures);
+
+/* NULL is allowed. */
+void hd_difference_free(HdPictureDifference *difference);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+#include "image/frame.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+
+HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error) {
+    return hd_frame_create_with(frame, width, height, HD_RADIANCE_FLOATS, error);
+}
+
+HdStatus hd_frame_create_with(HdFrame *frame, int width, int height, int floats, HdError *error) {
+    memset(frame, 0, sizeof *frame);
+    frame->rgb = calloc((size_t)width * (size_t)height * (size_t)floats, sizeof *frame->rgb);
+    if (frame->rgb == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame of %d x %d pixels",
+                       width, height);
+    frame->width = width;
+    frame->height = height;
+    frame->floats = floats;
+    return HD_OK;
+}
+
+void hd_frame_free(HdFrame *frame) {
+    free(frame->rgb);
+    memset(frame, 0, sizeof *frame);
+}
+
+void hd_frame_set_counts(HdFrame *frame, int samples, const HdRayCounts *counts, int count) {
+    frame->primary_rays = (uint64_t)frame->width * (uint64_t)frame->height * (uint64_t)samples;
+    frame->mirrored_rays = frame->transmitted_rays = 0;
+    frame->shadow_tests = frame->clamps = 0;
+    for (int i = 0; i < count; i++) {
+        frame->mirrored_rays += counts[i].mirrored_rays;
+        frame->transmitted_rays += counts[i].transmitted_rays;
+        frame->shadow_tests += counts[i].shadow_tests;
+        frame->clamps += counts[i].clamps;
+    }
+}
+
+uint64_t hd_frame_rays(const HdFrame *frame) {
+    return frame->primary_rays + frame->mirrored_rays + frame->transmitted_rays;
+}
+
+/* The bytes of an integer, the lowest first. */
+static uint64_t hash_integer(uint64_t hash, uint64_t value, int bytes) {
+    unsigned char low_first[8];
+    for (int i = 0; i < bytes; i++)
+        low_first[i] = (unsigned char)(value >> (8 * i) & 0xff);
+    return hd_hash_bytes(hash, low_first, (size_t)bytes);
+}
+
+uint64_t hd_frame_hash(const HdFrame *frame) {
+    uint64_t hash = HD_HASH_START;
+    size_t values = (size_t)frame->width * (size_t)frame->height * (size_t)frame->floats;
+    hash = hash_integer(hash, (uint32_t)frame->width, 4);
+    hash = hash_integer(hash, (uint32_t)frame->height, 4);
+    hash = hash_integer(hash, hd_frame_rays(frame), 8);
+    hash = hash_integer(hash, frame->shadow_tests, 8);
+    hash = hash_integer(hash, frame->clamps, 8);
+    return hd_hash_bytes(hash, frame->rgb, values * sizeof *frame->rgb);
+}

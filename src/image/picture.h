@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures in files. */
+#ifndef HD_IMAGE_PICTURE_H
+#define HD_IMAGE_PICTURE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "image/curve.h"
+#include "image/frame.h"
+#include "scene/scene.h"
+#include "system/atomic_file.h"
+
+/* Eight bits a channel, row by row from the top: r, g, b, a. */
+typedef struct HdImage8 {
+    int width, height;
+    uint8_t *rgba; /* owned; width * height * 4 */
+} HdImage8;
+
+/* How a picture stores values; PFM is always linear, and only PNG has more than 8 bits. */
+typedef struct HdPictureStyle {
+    HdCurve curve;
+    int bits; /* 8 or 16 */
+} HdPictureStyle;
+
+/* Allocates a picture of width * height; 1..65535 each. */
+HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error);
+void hd_image8_free(HdImage8 *image);
+
+/* As hd_curve_encode8; alpha 255. `image` has the frame's size. */
+void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
+
+/* Writes a frame in the format of the path's ending (hd_output_kind): PNG, PFM, or else the data
+   format; a film's ending is an error. It is written under a temporary name beside `path` that is
+   then renamed; missing folders are made. On failure nothing is left behind under either name, and
+   a file that was there before is untouched. The data format: int32 width, int32 height, then r g b
+   a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk
+   where the values are on that curve. PFM: float, little endian, rows from the bottom. A frame that
+   is encoded already must be so on the style's curve; only what has 8 bits can be made of it. */
+HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
+                          HdError *error);
+
+/* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. A PNG
+   gets the mark of `fingerprint` (picture_mark.h); NULL: none. On failure nothing is left of
+   `file`. */
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
+                            const uint64_t *fingerprint, const char *path, HdError *error);
+
+/* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
+   values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */
+HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error);
+
+/* The same from memory; `name` is for messages. */
+HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                           const char *name, HdCurve curve, HdError *error);
+
+/* Frees what the texture owns and clears it; it may be clear already. */
+void hd_texture_clear(HdTexture *texture);
+
+#endif

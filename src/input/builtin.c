@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+#include "input/builtin.h"
+
+#include <string.h>
+
+#include "image/picture.h"
+#include "system/path.h"
+
+/* Made by the build from scenes/default.json, scenes/classic.in and scenes/floor.png. */
+extern const unsigned char hd_default_scene[], hd_default_classic[], hd_default_texture[];
+extern const size_t hd_default_scene_size, hd_default_classic_size, hd_default_texture_size;
+
+const char *hd_default_scene_text(size_t *size) {
+    *size = hd_default_scene_size;
+    return (const char *)hd_default_scene;
+}
+
+HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
+    return hd_classic_parse(input, (const char *)hd_default_classic, hd_default_classic_size,
+                            "the built-in configuration", HD_CLASSIC_DEFAULT_VARIANT, error);
+}
+
+bool hd_texture_path_is_relative(const char *path) {
+    const bool is_at_home = path[0] == '~' && (path[1] == '\0' || path[1] == '/');
+    return path[0] != '\0' && path[0] != '/' && !is_at_home &&
+           strcmp(path, HD_BUILTIN_TEXTURE) != 0;
+}
+
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {
+    char expanded[HD_MAX_PATH];
+    if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return hd_texture_decode(&scene->floor.texture, hd_default_texture, hd_default_texture_size,
+                                 "the built-in texture", curve, error);
+    HdStatus status = hd_path_expand_home(path, expanded, error);
+    if (status != HD_OK)
+        return status;
+    return hd_texture_read(&scene->floor.texture, expanded, curve, error);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* The scenes and the texture that are part of the program. */
+#ifndef HD_INPUT_BUILTIN_H
+#define HD_INPUT_BUILTIN_H
+
+#include <stdbool.h>
+
+#include "image/curve.h"
+#include "input/classic_read.h"
+
+/* The texture path that stands for the embedded texture. */
+#define HD_BUILTIN_TEXTURE "builtin:floor"
+
+/* Whether the path of a texture counts from some folder: it is there, not absolute, not in the home
+   folder ("~", "~/..."; "~name" is a name like others) and not the embedded texture. */
+bool hd_texture_path_is_relative(const char *path);
+
+/* The default scene, JSON (docs/formats.md) of `*size` bytes. */
+const char *hd_default_scene_text(size_t *size);
+
+/* The most colourful configuration that the classic input can tell, without its texture. */
+HdStatus hd_default_input(HdClassicInput *input, HdError *error);
+
+/* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder),
+   whose numbers are on `curve`. */
+HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error);
+
+#endif

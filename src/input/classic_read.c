@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT */
+#include "input/classic_read.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "input/tokens.h"
+
+/* What the input leaves open. Lengths are in circumradii of the solid. */
+static const double classic_diffuse = 0.5;
+static const double classic_floor_specular = 0.5;
+static const int classic_shininess = 64;
+static const double classic_rim_width = 0.04;
+static const double classic_rim_colour = 0.03;
+static const double classic_rim_specular = 0.2;
+static const double classic_disc_radius = 0.02;
+static const double classic_disc_radiance = 4.0;
+static const double classic_edge_power = 0.7; /* of all edge lights of one solid together */
+
+typedef void ReadComponent(HdTokenReader *reader, const char *what, double *value);
+
+static void read_three(HdTokenReader *reader, const char *what, const char *const parts[3],
+                       ReadComponent *read, HdVec3 *value) {
+    double *const component[3] = {&value->x, &value->y, &value->z};
+    for (int i = 0; i < 3; i++) {
+        char name[48];
+        snprintf(name, sizeof name, "%s%s", what, parts[i]);
+        read(reader, name, component[i]);
+    }
+}
+
+static void read_point(HdTokenReader *reader, const char *what, HdVec3 *value) {
+    static const char *const parts[3] = {" x", " y", " z"};
+    read_three(reader, what, parts, hd_read_number, value);
+}
+
+static void read_colour(HdTokenReader *reader, const char *what, ReadComponent *read,
+                        HdVec3 *value) {
+    static const char *const parts[3] = {"'s red", "'s green", "'s blue"};
+    read_three(reader, what, parts, read, value);
+}
+
+static void enter(HdTokenReader *reader, const char *name, int number) {
+    if (number == 0)
+        snprintf(reader->where, sizeof reader->where, "%s: ", name);
+    else
+        snprintf(reader->where, sizeof reader->where, "%s %d: ", name, number);
+}
+
+static void leave(HdTokenReader *reader) {
+    reader->where[0] = '\0';
+}
+
+static void read_flight(HdTokenReader *reader, const char *name, HdCylinderPath *path) {
+    enter(reader, name, 0);
+    hd_read_number(reader, "r0", &path->r0);
+    hd_read_number(reader, "z0", &path->z0);
+    hd_read_number(reader, "phi0", &path->phi0);
+    hd_read_number(reader, "r amplitude", &path->r_amplitude);
+    hd_read_number(reader, "z amplitude", &path->z_amplitude);
+    hd_read_number(reader, "r frequency", &path->r_frequency);
+    hd_read_number(reader, "z frequency", &path->z_frequency);
+    hd_read_number(reader, "phi frequency", &path->phi_frequency);
+    hd_read_number(reader, "r phase", &path->r_phase);
+    hd_read_number(reader, "z phase", &path->z_phase);
+    leave(reader);
+}
+
+static HdVec3 grey(double value) {
+    return hd_vec3(value, value, value);
+}
+
+static HdMaterial classic_material(void) {
+    return (HdMaterial){.mirror_tint = {1.0, 1.0, 1.0},
+                        .diffuse = classic_diffuse,
+                        .shininess = classic_shininess,
+                        .index_of_refraction = 1.0};
+}
+
+static void fill_solid(HdSolid *solid) {
+    solid->face.specular = solid->face.transmission;
+    solid->rim_width = classic_rim_width * solid->circumradius;
+    solid->rim = classic_material();
+    solid->rim.colour = grey(classic_rim_colour);
+    solid->rim.specular = classic_rim_specular;
+    const int count = hd_edge_light_count(solid);
+    solid->lights.colour_count = 1;
+    solid->lights.colours[0] = grey(1.0);
+    solid->lights.intensity = count > 0 ? classic_edge_power / count : 0.0;
+    solid->lights.falloff.distance = solid->circumradius;
+    solid->lights.disc_radius = classic_disc_radius * solid->circumradius;
+    solid->lights.disc_radiance = classic_disc_radiance;
+}
+
+static void read_solid(HdTokenReader *reader, HdSolidKind kind, int number, HdSolid *solid) {
+    /* So many on an edge reach the limit even on the solid with the fewest edges. */
+    static const int most_per_edge = HD_MAX_LIGHTS / 6;
+    solid->kind = kind;
+    solid->face = classic_material();
+    enter(reader, "solid", number);
+    read_point(reader, "centre", &solid->centre);
+    read_colour(reader, "colour", hd_read_share, &solid->face.colour);
+    hd_read_number(reader, "radius", &solid->circumradius);
+    hd_read_share(reader, "reflection", &solid->face.reflection);
+    hd_read_share(reader, "transparency", &solid->face.transmission);
+    hd_read_int(reader, "number of lights per edge", 0, most_per_edge, &solid->lights.per_edge);
+    leave(reader);
+    fill_solid(solid);
+}
+
+static void read_floor(HdTokenReader *reader, HdClassicInput *input) {
+    static const char *const names[4] = {"corner 1", "corner 2", "corner 3", "corner 4"};
+    HdFloor *floor = &input->scene.floor;
+    floor->present = true;
+    floor->material = classic_material();
+    floor->material.specular = classic_floor_specular;
+    enter(reader, "floor", 0);
+    for (int i = 0; i < 4; i++)
+        read_point(reader, names[i], &floor->corners[i]);
+    hd_read_path(reader, "texture path", input->texture_path);
+    read_colour(reader, "tint", hd_read_share, &floor->material.colour);
+    hd_read_share(reader, "reflection", &floor->material.reflection);
+    leave(reader);
+}
+
+static void *allocate(HdTokenReader *reader, size_t count, size_t size) {
+    void *memory = calloc(count, size);
+    if (memory == NULL && reader->status == HD_OK)
+        reader->status =
+            hd_fail(reader->error, HD_FAILED, "%s: no memory for the scene", reader->name);
+    return memory;
+}
+
+static void read_solids(HdTokenReader *reader, const HdSolidKind *kinds, HdScene *scene) {
+    scene->solids = allocate(reader, HD_CLASSIC_SOLIDS, sizeof *scene->solids);
+    if (scene->solids == NULL)
+        return;
+    scene->solid_count = HD_CLASSIC_SOLIDS;
+    for (int i = 0; i < HD_CLASSIC_SOLIDS; i++)
+        read_solid(reader, kinds[i], i + 1, &scene->solids[i]);
+}
+
+static void read_lights(HdTokenReader *reader, HdScene *scene) {
+    int count = 0;
+    hd_read_int(reader, "number of lights", 0, HD_CLASSIC_MAX_LIGHTS, &count);
+    scene->lights = allocate(reader, HD_CLASSIC_MAX_LIGHTS, sizeof *scene->lights);
+    if (scene->lights == NULL)
+        return;
+    scene->light_count = count;
+    for (int i = 0; i < count; i++) {
+        enter(reader, "light", i + 1);
+        read_point(reader, "position", &scene->lights[i].position);
+        read_colour(reader, "colour", hd_read_number, &scene->lights[i].intensity);
+        leave(reader);
+    }
+}
+
+static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]) {
+    char prefix[HD_MAX_PATH];
+    hd_read_path(reader, "output path", pattern);
+    if (reader->status != HD_OK)
+        return;
+    reader->status = hd_pattern_check(pattern, reader->error);
+    if (reader->status != HD_OK) {
+        snprintf(prefix, sizeof prefix, "%s:%d: output path", reader->name, reader->line);
+        hd_error_prefix(reader->error, prefix);
+    }
+}
+
+static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdClassicInput *input) {
+    HdScene *scene = &input->scene;
+    scene->exposure = 1.0;
+    hd_read_int(reader, "number of frames", 1, HD_MAX_FRAMES, &scene->frame_count);
+    read_output_pattern(reader, input->output_pattern);
+    hd_read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
+    hd_read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
+    hd_read_number(reader, "field of view", &scene->field_of_view_degrees);
+    read_flight(reader, "eye", &scene->eye.cylinder);
+    read_flight(reader, "target", &scene->target.cylinder);
+    read_solids(reader, kinds, scene);
+    read_floor(reader, input);
+    read_lights(reader, scene);
+    hd_read_int(reader, "recursion depth", 0, HD_MAX_DEPTH, &scene->depth);
+    hd_read_int(reader, "square root of the number of rays per pixel", 1, HD_MAX_SAMPLES_PER_SIDE,
+                &scene->samples_per_side);
+    hd_read_end(reader);
+    if (reader->status != HD_OK)
+        return;
+    reader->status = hd_scene_validate(scene, reader->error);
+    if (reader->status != HD_OK)
+        hd_error_prefix(reader->error, reader->name);
+}
+
+const HdSolidKind *hd_classic_variant_kinds(int variant) {
+    static const HdSolidKind kinds[HD_CLASSIC_VARIANTS][HD_CLASSIC_SOLIDS] = {
+        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON},
+        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_DODECAHEDRON},
+        {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_ICOSAHEDRON},
+        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+        {HD_TETRAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+        {HD_TETRAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON},
+        {HD_HEXAHEDRON, HD_OCTAHEDRON, HD_ICOSAHEDRON},
+        {HD_HEXAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+        {HD_OCTAHEDRON, HD_DODECAHEDRON, HD_ICOSAHEDRON},
+    };
+    return variant >= 1 && variant <= HD_CLASSIC_VARIANTS ? kinds[variant - 1] : NULL;
+}
+
+static bool is_json(const char *text, size_t size) {
+    static const char before[] = " \t\r\n\xef\xbb\xbf"; /* white space and the byte order mark */
+    size_t start = 0;
+    while (start < size && text[start] != '\0' && strchr(before, text[start]) != NULL)
+        start++;
+    return start < size && text[start] == '{';
+}
+
+HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, const char *name,
+                          int variant, HdError *error) {
+    *input = (HdClassicInput){0};
+    const HdSolidKind *kinds = hd_classic_variant_kinds(variant);
+    if (kinds == NULL)
+        return hd_fail(error, HD_BAD_INPUT, "the variant is %d, expected 1 to %d", variant,
+                       HD_CLASSIC_VARIANTS);
+    if (text == NULL) /* an empty input may come without memory */
+        text = "";
+    if (is_json(text, size))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s: this looks like a scene file, which 'hedron render FILE' renders",
+                       name);
+    HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
+    read_input(&reader, kinds, input);
+    if (reader.status != HD_OK)
+        hd_classic_free(input);
+    return reader.status;
+}
+
+void hd_classic_free(HdClassicInput *input) {
+    hd_scene_free(&input->scene);
+    *input = (HdClassicInput){0};
+}

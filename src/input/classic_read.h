@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* The classic task's input: numbers and paths in a fixed order, separated by white space:
+     number of frames
+     output path with one %d
+     width height field-of-view
+     the eye's path and the target's, each: r0 z0 phi0, amplitudes of r and z, frequencies of r, z
+       and phi, phases of r and z
+     three solids, each: centre(3) colour(3) radius reflection transparency lights-per-edge
+     floor: four corners(12) texture-path tint(3) reflection
+     number of lights (0 to 4), then each: position(3) colour(3)
+     depth, square root of the number of rays per pixel
+   Which solids the three are is not part of the text: the variant, 1 to 10, tells. */
+#ifndef HD_INPUT_CLASSIC_READ_H
+#define HD_INPUT_CLASSIC_READ_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "scene/scene.h"
+#include "system/path.h"
+
+enum {
+    HD_CLASSIC_SOLIDS = 3,
+    HD_CLASSIC_MAX_LIGHTS = 4,
+    HD_CLASSIC_VARIANTS = 10,
+    HD_CLASSIC_DEFAULT_VARIANT = 4
+};
+
+typedef struct HdClassicInput {
+    HdScene scene;
+    char output_pattern[HD_MAX_PATH]; /* as in the text: "~" is not replaced */
+    char texture_path[HD_MAX_PATH];   /* likewise */
+} HdClassicInput;
+
+/* The kinds of the three solids of a variant; NULL where there is no such variant. */
+const HdSolidKind *hd_classic_variant_kinds(int variant);
+
+/* Reads `size` bytes of text, which need not end in a zero byte, and fills in what the classic
+   input does not say (materials, rims, the light of the edges). Messages call the text `name`. The
+   texture is not read: scene.floor.texture is empty. On failure `input` is left empty. */
+HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, const char *name,
+                          int variant, HdError *error);
+
+void hd_classic_free(HdClassicInput *input);
+
+/* Writes the same format; reading it back gives the same numbers. Fails with HD_BAD_INPUT where the
+   format cannot hold the scene: not three solids, no floor, more than four lights, or a path with
+   white space. Of materials and lights it keeps what the format has. */
+HdStatus hd_classic_print(FILE *out, const HdClassicInput *input, HdError *error);
+
+#endif

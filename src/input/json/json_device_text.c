@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+#include "input/json/json_device_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+json_t *hd_json_device_text(const char *bytes) {
+    json_t *text = json_string(bytes); /* refuses what is no UTF-8 */
+    if (text != NULL)
+        return text;
+    size_t length = strlen(bytes);
+    char *ascii = malloc(length + 1);
+    if (ascii == NULL)
+        return NULL;
+    for (size_t i = 0; i <= length; i++)
+        ascii[i] = (unsigned char)bytes[i] < 128 ? bytes[i] : '?';
+    text = json_string(ascii);
+    free(ascii);
+    return text;
+}

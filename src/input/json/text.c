@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+#include "input/json/text.h"
+
+#include <stdbool.h>
+
+typedef struct Counter {
+    int values, depth;
+    bool is_in_string, is_escaped;
+} Counter;
+
+static void take_in_string(Counter *counter, char c) {
+    if (counter->is_escaped)
+        counter->is_escaped = false;
+    else if (c == '\\')
+        counter->is_escaped = true;
+    else if (c == '"')
+        counter->is_in_string = false;
+}
+
+/* What opens has a first value at most, and each comma stands before another one. */
+static void take(Counter *counter, char c) {
+    if (counter->is_in_string) {
+        take_in_string(counter, c);
+        return;
+    }
+    const bool opens = c == '[' || c == '{';
+    counter->is_in_string = c == '"';
+    counter->values += opens || c == ',';
+    counter->depth += opens;
+    counter->depth -= (c == ']' || c == '}') && counter->depth > 0;
+}
+
+static HdStatus fail_at(const char *text, size_t position, const char *name, const char *what,
+                        int most, HdError *error) {
+    int line = 1, column = 1;
+    for (size_t i = 0; i < position; i++) {
+        column = text[i] == '\n' ? 1 : column + 1;
+        line += text[i] == '\n';
+    }
+    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s, expected at most %d", name, line, column,
+                   what, most);
+}
+
+HdStatus hd_json_check_limits(const char *text, size_t size, const char *name, HdError *error) {
+    Counter counter = {.values = 1};
+    for (size_t i = 0; i < size; i++) {
+        take(&counter, text[i]);
+        if (counter.values > HD_MAX_JSON_VALUES)
+            return fail_at(text, i, name, "there are too many values", HD_MAX_JSON_VALUES, error);
+        if (counter.depth > HD_MAX_JSON_DEPTH)
+            return fail_at(text, i, name, "there are too many arrays and objects in each other",
+                           HD_MAX_JSON_DEPTH, error);
+    }
+    return HD_OK;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+#include "input/notes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "image/file_kind.h"
+#include "scene/camera.h"
+
+/* Degrees. Every angle in radians is less. */
+static const double narrow_field_of_view = 5.0;
+
+/* The cosine between a floor's normal and the z axis; below it the floor is rather a wall. */
+static const double steepest_floor = 0.5;
+
+static bool is_black(HdVec3 colour) {
+    return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
+}
+
+static bool glows(const HdMaterial *material) {
+    return material->ambient > 0.0 && !is_black(material->colour);
+}
+
+static bool edges_light(const HdEdgeLights *lights) {
+    return lights->per_edge > 0 && lights->intensity > 0.0;
+}
+
+static bool edges_show(const HdEdgeLights *lights) {
+    return lights->per_edge > 0 && lights->disc_radius > 0.0 && lights->disc_radiance > 0.0;
+}
+
+static bool meshes_give_light(const HdScene *scene) {
+    bool is_lit = false;
+    for (int i = 0; i < scene->mesh_count; i++)
+        for (int k = 0; k < scene->meshes[i].material_count; k++) {
+            const HdMeshMaterial *material = &scene->meshes[i].materials[k];
+            is_lit |= glows(&material->material) || !is_black(material->emission);
+        }
+    for (int i = 0; i < scene->instance_count; i++)
+        is_lit |= scene->instances[i].has_material && glows(&scene->instances[i].material);
+    return is_lit;
+}
+
+static bool gives_light(const HdScene *scene) {
+    bool is_lit = !is_black(scene->background);
+    for (int i = 0; i < scene->light_count; i++)
+        is_lit |= !is_black(scene->lights[i].intensity);
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdSolid *solid = &scene->solids[i];
+        is_lit |= edges_light(&solid->lights) || edges_show(&solid->lights) || glows(&solid->face);
+        is_lit |= solid->rim_width > 0.0 && glows(&solid->rim);
+    }
+    is_lit |= meshes_give_light(scene);
+    return is_lit || (scene->floor.present && glows(&scene->floor.material));
+}
+
+static void note_edge_lights(const HdSolid *solid, int index, HdProblems *notes) {
+    const HdEdgeLights *lights = &solid->lights;
+    HdPlatonic platonic;
+    if (lights->per_edge == 0)
+        return;
+    hd_platonic(solid->kind, &platonic);
+    const double gap = platonic.edge_length * solid->circumradius / lights->per_edge;
+    if (!edges_light(lights) && !edges_show(lights))
+        hd_problem(notes,
+                   "solids[%d].edge_lights neither light nor show: they lack an intensity, and a "
+                   "disc_radius with a disc_radiance",
+                   index);
+    else if (edges_show(lights) && 2.0 * lights->disc_radius > gap)
+        hd_problem(notes,
+                   "solids[%d].edge_lights overlap: their discs are %.3g wide, and from light to "
+                   "light it is %.3g",
+                   index, 2.0 * lights->disc_radius, gap);
+}
+
+static void note_eye_below_floor(const HdScene *scene, HdProblems *notes) {
+    const HdVec3 *corner = scene->floor.corners;
+    if (!scene->floor.present)
+        return;
+    HdVec3 normal =
+        hd_normalize(hd_cross(hd_sub(corner[2], corner[0]), hd_sub(corner[3], corner[1])));
+    if (normal.z < 0.0)
+        normal = hd_scale(normal, -1.0);
+    const HdVec3 eye = hd_path_point(&scene->eye, 0, scene->frame_count);
+    if (normal.z > steepest_floor && hd_dot(normal, hd_sub(eye, corner[0])) < 0.0)
+        hd_problem(notes, "camera.eye is below the floor in frame 0");
+}
+
+void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
+    if (!gives_light(scene))
+        hd_problem(notes, "every picture is black: there is no light, no ambient material, no disc "
+                          "of an edge light, and the background is black");
+    if (scene->field_of_view_degrees < narrow_field_of_view)
+        hd_problem(notes, "camera.field_of_view is %.6g, which are degrees, not radians",
+                   scene->field_of_view_degrees);
+    note_eye_below_floor(scene, notes);
+    for (int i = 0; i < scene->solid_count; i++)
+        note_edge_lights(&scene->solids[i], i, notes);
+}
+
+void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems) {
+    const char *path = file->output.path;
+    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_name_is_film(path) ||
+        hd_pattern_has_number(path))
+        return;
+    hd_problem(problems,
+               "output.path is \"%s\", which names one picture, but camera.frames is %d, expected "
+               "#### in the name, or a film",
+               path, file->scene.frame_count);
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* What is wrong with the JSON of a scene, told with its place. */
+#ifndef HD_INPUT_REPORT_H
+#define HD_INPUT_REPORT_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "base/problems.h"
+#include "input/fields.h"
+#include "input/json/json_path.h"
+#include "input/read.h"
+
+typedef struct HdSceneReport {
+    const HdSceneSource *source;
+    HdProblems *problems;
+    char path[HD_JSON_PATH_SIZE]; /* of the value that is read */
+    /* What is wrong in these places makes the checks of the whole scene meaningless for them. */
+    bool is_view_wrong, is_floor_wrong, is_solid_wrong[HD_MAX_SOLIDS];
+} HdSceneReport;
+
+/* The problem of the value at the path, as "is -1, expected ..."; what comes from a change says so.
+ */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void hd_report(HdSceneReport *report, const char *format, ...);
+
+/* The value at the path is not what was expected. */
+void hd_report_value(HdSceneReport *report, const json_t *value, const char *expected);
+
+/* The same with what the field expects; `is_part`: of a number of its vector. */
+void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value,
+                     bool is_part);
+
+/* The value at the path is a word that seems to mean another one. */
+void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *meant);
+
+/* The value is none of the field's choices; tells the one that may be meant, or all of them. */
+void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value);
+
+/* Tells every key of the object at the path that its type does not know. */
+void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, const json_t *json);
+
+#endif

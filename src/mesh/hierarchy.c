@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh/hierarchy.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/hierarchy_split.h"
+#include "mesh/hierarchy_subtree.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+
+/* The top of the hierarchy is built level by level, all threads at work on all items of a level.
+   What has become small enough is built as a subtree by one thread. Neither the sizes nor the order
+   of items depend on the number of threads: every partition is stable. Nor does anything depend on
+   the caller's floating-point environment: what is rounded is computed by the threads. */
+enum {
+    MOST_PIECES = 256, /* of a level, about */
+    LEAST_PIECE = 4096,
+    MOST_TASKS = MOST_PIECES * HD_MAX_HIERARCHY_DEPTH + 1,
+    MOST_CHUNKS = 2 * MOST_PIECES
+};
+
+/* A node of the top: a child that is not negative is another one, otherwise it is ~ a task. */
+typedef struct TopNode {
+    HdBounds box[2];
+    int child[2], axis;
+} TopNode;
+
+/* A subtree. */
+typedef struct Task {
+    HdGroup group;
+    HdItem *items, *spare;
+    HdBranch branch;
+    int node_count, first_node;
+} Task;
+
+/* A task in the order in which they are begun. */
+typedef struct Turn {
+    int items, task;
+} Turn;
+
+/* A node of the level that is being divided. */
+typedef struct Open {
+    HdGroup group;
+    int *link; /* where its parent holds its number */
+    HdBinning binning;
+    HdSplit split;
+    int first_chunk, chunk_count;
+} Open;
+
+/* A piece of an open node, or of all items. */
+typedef struct Chunk {
+    const Open *open;
+    int begin, end;
+    int left, right; /* where its items go */
+    HdBounds box;
+    HdBounds centres[2];
+} Chunk;
+
+typedef struct Build {
+    const HdBox *boxes;
+    int count, piece;
+    const HdHierarchyOptions *options;
+    HdLanes unit;
+    void *memory;           /* two items for each box, later the nodes of the hierarchy */
+    HdItem *items, *others; /* `others` takes what is moved */
+    HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
+    int32_t *order;
+    TopNode *tops;
+    Task *tasks;
+    Turn *turns;
+    Open *opens, *next_opens;
+    Chunk *chunks;
+    HdBins *bins; /* of each chunk */
+    int root, top_count, task_count, open_count, next_open_count, chunk_count;
+    HdBuildNode *result;
+} Build;
+
+static bool is_interrupted(void) {
+    return hd_interrupt_signal() != 0;
+}
+
+static HdStatus run(Build *build, HdThreadPool *pool, int count, HdThreadWork *work,
+                    HdError *error) {
+    if (!hd_thread_pool_run(pool, count, work, build, is_interrupted))
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while a hierarchy was built");
+    return HD_OK;
+}
+
+static void load_chunk(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    Chunk *chunk = &build->chunks[number];
+    chunk->box = hd_bounds_empty();
+    for (int i = chunk->begin; i < chunk->end; i++) {
+        const float *lower = build->boxes[i].lower, *upper = build->boxes[i].upper;
+        HdItem *item = &build->items[i];
+        item->lower.parts.xyz[0] = lower[0];
+        item->lower.parts.xyz[1] = lower[1];
+        item->lower.parts.xyz[2] = lower[2];
+        item->lower.parts.tag = i | HD_ITEM_TAG;
+        item->upper.lanes = (HdLanes){upper[0], upper[1], upper[2], 0.0F};
+        hd_bounds_add(&chunk->box, item->lower.lanes, item->upper.lanes);
+    }
+}
+
+static void bound_centres(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    Chunk *chunk = &build->chunks[number];
+    HdBounds centres = hd_bounds_empty();
+    for (int i = chunk->begin; i < chunk->end; i++) {
+        const HdLanes centre = hd_item_centre(&build->items[i], build->unit);
+        hd_bounds_add(&centres, centre, centre);
+    }
+    chunk->centres[0] = centres;
+}
+
+/* See hd_item_centre. */
+static HdLanes find_unit(const HdBounds *box) {
+    float largest = 0.0F;
+    for (int axis = 0; axis < 3; axis++) {
+        largest = fmaxf(largest, fabsf(box->lower[axis]));
+        largest = fmaxf(largest, fabsf(box->upper[axis]));
+    }
+    int exponent;
+    (void)frexpf(largest, &exponent);
+    if (exponent > 126)
+        exponent = 126;
+    if (exponent < -126)
+        exponent = -126;
+    const float unit = ldexpf(1.0F, -exponent);
+    return (HdLanes){unit, unit, unit, 0.0F};
+}
+
+static void cut(Build *build, int first, int count, const Open *open) {
+    const int pieces = (count + build->piece - 1) / build->piece;
+    for (int i = 0; i < pieces; i++) {
+        Chunk *chunk = &build->chunks[build->chunk_count++];
+        chunk->open = open;
+        chunk->begin = first + (int)((int64_t)count * i / pieces);
+        chunk->end = first + (int)((int64_t)count * (i + 1) / pieces);
+    }
+}
+
+/* Makes a task or an open node of a group that lies in `others` until they are swapped. */
+static void hand_on(Build *build, const HdGroup *group, int *link) {
+    if (group->count > build->piece) {
+        Open *open = &build->next_opens[build->next_open_count++];
+        open->group = *group;
+        open->link = link;
+        return;
+    }
+    *link = ~build->task_count;
+    build->tasks[build->task_count++] =
+        (Task){.group = *group, .items = build->others, .spare = build->items};
+}
+
+static void swap(Build *build) {
+    HdItem *items = build->items;
+    build->items = build->others;
+    build->others = items;
+    Open *opens = build->opens;
+    build->opens = build->next_opens;
+    build->next_opens = opens;
+    build->open_count = build->next_open_count;
+    build->next_open_count = 0;
+}
+
+static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
+    cut(build, 0, build->count, NULL);
+    HdStatus status = run(build, pool, build->chunk_count, load_chunk, error);
+    if (status != HD_OK)
+        return status;
+    HdGroup root = {.first = 0, .count = build->count, .depth = 1};
+    root.box = root.centres = hd_bounds_empty();
+    for (int i = 0; i < build->chunk_count; i++)
+        hd_bounds_merge(&root.box, &build->chunks[i].box);
+    build->unit = find_unit(&root.box);
+    status = run(build, pool, build->chunk_count, bound_centres, error);
+    if (status != HD_OK)
+        return status;
+    for (int i = 0; i < build->chunk_count; i++)
+        hd_bounds_merge(&root.centres, &build->chunks[i].centres[0]);
+    /* As if they had been moved. */
+    swap(build);
+    hand_on(build, &root, &build->root);
+    swap(build);
+    return HD_OK;
+}
+
+static void bin_chunk(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    const Chunk *chunk = &build->chunks[number];
+    const HdBinning binning = hd_binning_of(&chunk->open->group, build->unit);
+    hd_bins_clear(&build->bins[number], &binning);
+    hd_bins_add(&build->bins[number], &binning, build->items + chunk->begin,
+                chunk->end - chunk->begin);
+}
+
+static void plan_moves(const Build *build, const Open *open) {
+    int left = open->group.first, right = left + open->split.left_count;
+    for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++) {
+        Chunk *chunk = &build->chunks[i];
+        chunk->left = left;
+        chunk->right = right;
+        for (int bin = 0; bin < open->binning.count; bin++)
+            *(bin < open->split.bin ? &left : &right) +=
+                build->bins[i].count[bin][open->split.axis];
+    }
+}
+
+static void choose_split(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    Open *open = &build->opens[number];
+    open->split.axis = -1;
+    if (hd_group_is_deep(&open->group, build->options))
+        return;
+    open->binning = hd_binning_of(&open->group, build->unit);
+    HdBins all;
+    hd_bins_clear(&all, &open->binning);
+    for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
+        hd_bins_merge(&all, &open->binning, &build->bins[i]);
+    open->split = hd_bins_choose(&all, &open->binning);
+    if (open->split.axis >= 0)
+        plan_moves(build, open);
+}
+
+static void move_chunk(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    Chunk *chunk = &build->chunks[number];
+    const Open *open = chunk->open;
+    if (open->split.axis < 0)
+        return;
+    int place[2] = {chunk->left, chunk->right};
+    HdBounds centres[2] = {hd_bounds_empty(), hd_bounds_empty()};
+    for (int i = chunk->begin; i < chunk->end; i++) {
+        const HdItem *item = &build->items[i];
+        const int side = hd_bin_on(&open->binning, item, open->split.axis) >= open->split.bin;
+        const HdLanes centre = hd_item_centre(item, build->unit);
+        build->others[place[side]++] = *item;
+        hd_bounds_add(&centres[side], centre, centre);
+    }
+    chunk->centres[0] = centres[0];
+    chunk->centres[1] = centres[1];
+}
+
+static void divide(Build *build, const Open *open) {
+    const HdSplit *split = &open->split;
+    const HdGroup *group = &open->group;
+    HdGroup sides[2] = {
+        {group->first, split->left_count, group->depth + 1, split->left, {{0}, {0}}},
+        {group->first + split->left_count,
+         group->count - split->left_count,
+         group->depth + 1,
+         split->right,
+         {{0}, {0}}}};
+    TopNode *top = &build->tops[build->top_count];
+    *open->link = build->top_count++;
+    top->axis = split->axis;
+    for (int side = 0; side < 2; side++) {
+        top->box[side] = sides[side].box;
+        sides[side].centres = hd_bounds_empty();
+        for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
+            hd_bounds_merge(&sides[side].centres, &build->chunks[i].centres[side]);
+        hand_on(build, &sides[side], &top->child[side]);
+    }
+}
+
+/* What cannot be divided so stays where it is. */
+static void leave_undivided(Build *build, const Open *open) {
+    *open->link = ~build->task_count;
+    build->tasks[build->task_count++] =
+        (Task){.group = open->group, .items = build->items, .spare = build->others};
+}
+
+static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
+    build->chunk_count = 0;
+    for (int i = 0; i < build->open_count; i++) {
+        Open *open = &build->opens[i];
+        open->first_chunk = build->chunk_count;
+        cut(build, open->group.first, open->group.count, open);
+        open->chunk_count = build->chunk_count - open->first_chunk;
+    }
+    HdStatus status = run(build, pool, build->chunk_count, bin_chunk, error);
+    if (status == HD_OK)
+        status = run(build, pool, build->open_count, choose_split, error);
+    if (status == HD_OK)
+        status = run(build, pool, build->chunk_count, move_chunk, error);
+    if (status != HD_OK)
+        return status;
+    for (int i = 0; i < build->open_count; i++) {
+        const Open *open = &build->opens[i];
+        if (open->split.axis >= 0)
+            divide(build, open);
+        else
+            leave_undivided(build, open);
+    }
+    swap(build);
+    return HD_OK;
+}
+
+static void build_task(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    Task *task = &build->tasks[build->turns[number].task];
+    const int first = task->group.first, end = first + task->group.count;
+    HdSubtree subtree = {build->options, build->unit,          task->items,
+                         task->spare,    build->nodes + first, 0};
+    task->branch = hd_subtree_build(&subtree, &task->group);
+    task->node_count = subtree.node_count;
+    for (int i = first; i < end; i++)
+        build->order[i] = task->items[i].lower.parts.tag & ~HD_ITEM_TAG;
+}
+
+static int larger_first(const void *a, const void *b) {
+    const Turn *x = a, *y = b;
+    return (x->items < y->items) - (x->items > y->items);
+}
+
+static HdStatus build_subtrees(Build *build, HdThreadPool *pool, HdError *error) {
+    for (int i = 0; i < build->task_count; i++)
+        build->turns[i] = (Turn){build->tasks[i].group.count, i};
+    qsort(build->turns, (size_t)build->task_count, sizeof *build->turns, larger_first);
+    return run(build, pool, build->task_count, build_task, error);
+}
+
+static void copy_task(void *context, int thread, int number) {
+    (void)thread;
+    const Build *build = context;
+    const Task *task = &build->tasks[build->turns[number].task];
+    const HdBuildNode *from = build->nodes + task->group.first;
+    HdBuildNode *to = build->result + task->first_node;
+    for (int i = 0; i < task->node_count; i++) {
+        to[i] = from[i];
+        for (int side = 0; side < 2; side++)
+            if (to[i].child[side] >= 0)
+                to[i].child[side] += task->first_node;
+    }
+}
+
+/* Gives the nodes below `top` their numbers, depth first from *next on, and writes those of the
+   top. Returns the height. */
+static int place(Build *build, int top, int *next, int32_t *child) {
+    if (top < 0) {
+        Task *task = &build->tasks[~top];
+        task->first_node = *next;
+        *next += task->node_count;
+        *child = task->branch.child + (task->branch.child >= 0 ? task->first_node : 0);
+        return task->branch.height;
+    }
+    const TopNode *node = &build->tops[top];
+    const int number = (*next)++;
+    int32_t children[2];
+    const int left = place(build, node->child[0], next, &children[0]);
+    const int right = place(build, node->child[1], next, &children[1]);
+    build->result[number] =
+        (HdBuildNode){{hd_bounds_box(&node->box[0]), hd_bounds_box(&node->box[1])},
+                      {children[0], children[1]},
+                      node->axis};
+    *child = number;
+    return 1 + (left > right ? left : right);
+}
+
+/* A root above a single leaf. */
+static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_t leaf) {
+    const HdBounds none = hd_bounds_empty();
+    const int32_t empty_leaf = ~0;
+    hierarchy->node_count = hierarchy->depth = 1;
+    hierarchy->nodes[0] = (HdBuildNode){
+        {hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)}, {leaf, empty_leaf}, 0};
+}
+
+/* The nodes take the place of the items, which need more room and are no longer needed: memory that
+   is new to the program takes longer to get than to fill. */
+static HdStatus assemble(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool, HdError *error) {
+    int32_t root;
+    int count = 0;
+    hierarchy->nodes = build->result = build->memory;
+    build->memory = NULL;
+    hierarchy->depth = place(build, build->root, &count, &root);
+    hierarchy->node_count = count;
+    if (root < 0) {
+        make_root_of_leaf(build, hierarchy, root);
+        return HD_OK;
+    }
+    const HdStatus status = run(build, pool, build->task_count, copy_task, error);
+    HdBuildNode *less = realloc(hierarchy->nodes, (size_t)count * sizeof *less);
+    if (less != NULL)
+        hierarchy->nodes = less;
+    return status;
+}
+
+static bool allocate(Build *build, HdHierarchy *hierarchy) {
+    _Static_assert(sizeof(HdBuildNode) <= 2 * sizeof(HdItem), "nodes take the place of items");
+    const size_t count = (size_t)build->count;
+    build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
+    build->nodes = hd_large_allocate(count * sizeof *build->nodes);
+    build->tops = hd_large_allocate(MOST_TASKS * sizeof *build->tops);
+    build->tasks = hd_large_allocate(MOST_TASKS * sizeof *build->tasks);
+    build->turns = hd_large_allocate(MOST_TASKS * sizeof *build->turns);
+    build->opens = hd_large_allocate(MOST_PIECES * sizeof *build->opens);
+    build->next_opens = hd_large_allocate(MOST_PIECES * sizeof *build->next_opens);
+    build->chunks = hd_large_allocate(MOST_CHUNKS * sizeof *build->chunks);
+    build->bins = hd_large_allocate(MOST_CHUNKS * sizeof *build->bins);
+    hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
+    if (build->memory == NULL || build->nodes == NULL || build->tops == NULL ||
+        build->tasks == NULL || build->turns == NULL || build->opens == NULL ||
+        build->next_opens == NULL || build->chunks == NULL || build->bins == NULL ||
+        hierarchy->order == NULL)
+        return false;
+    build->items = build->memory;
+    build->others = build->items + count;
+    build->order = hierarchy->order;
+    return true;
+}
+
+static void free_build(Build *build) {
+    free(build->memory);
+    free(build->nodes);
+    free(build->tops);
+    free(build->tasks);
+    free(build->turns);
+    free(build->opens);
+    free(build->next_opens);
+    free(build->chunks);
+    free(build->bins);
+}
+
+static HdStatus build_all(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool,
+                          HdError *error) {
+    if (!allocate(build, hierarchy))
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a hierarchy over %d boxes",
+                       build->count);
+    HdStatus status = load(build, pool, error);
+    while (status == HD_OK && build->open_count > 0)
+        status = divide_level(build, pool, error);
+    if (status == HD_OK)
+        status = build_subtrees(build, pool, error);
+    if (status == HD_OK)
+        status = assemble(build, hierarchy, pool, error);
+    return status;
+}
+
+HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int count,
+                            const HdHierarchyOptions *options, HdThreadPool *pool, HdError *error) {
+    Build build = {.boxes = boxes, .count = count, .options = options};
+    build.piece = (count + MOST_PIECES - 1) / MOST_PIECES;
+    if (build.piece < LEAST_PIECE)
+        build.piece = LEAST_PIECE;
+    *hierarchy = (HdHierarchy){0};
+    const HdStatus status = build_all(&build, hierarchy, pool, error);
+    free_build(&build);
+    if (status != HD_OK)
+        hd_hierarchy_free(hierarchy);
+    return status;
+}
+
+void hd_hierarchy_free(HdHierarchy *hierarchy) {
+    free(hierarchy->nodes);
+    free(hierarchy->order);
+    *hierarchy = (HdHierarchy){0};
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/hierarchy.h"
+#include "system/machine.h"
+
+enum { MOST_WIDTH = 16 };
+
+/* A wide node waits for at most width - 1 others on each level above its own. */
+enum { MOST_WAITING = HD_MAX_HIERARCHY_DEPTH * (MOST_WIDTH - 1) + 1 };
+
+/* A node of the binary hierarchy that becomes a wide one. */
+typedef struct Waiting {
+    int node, depth;
+} Waiting;
+
+/* Until all wide nodes are known, a child is the place where the binary hierarchy has it: twice the
+   number of the parent, and 1 more for the second child. */
+enum { MISSING = -1 };
+
+static const HdBox *box_at(const HdHierarchy *hierarchy, int place) {
+    return &hierarchy->nodes[place / 2].box[place % 2];
+}
+
+static int32_t child_at(const HdHierarchy *hierarchy, int place) {
+    return hierarchy->nodes[place / 2].child[place % 2];
+}
+
+static double half_area(const HdBox *box) {
+    const double x = (double)box->upper[0] - (double)box->lower[0];
+    const double y = (double)box->upper[1] - (double)box->lower[1];
+    const double z = (double)box->upper[2] - (double)box->lower[2];
+    return x * (y + z) + y * z;
+}
+
+/* The places of one wide node's children, in the order of their items. */
+typedef struct Children {
+    int count;
+    int32_t places[MOST_WIDTH];
+    double areas[MOST_WIDTH]; /* negative: it cannot be opened */
+} Children;
+
+static void set(Children *children, int at, const HdHierarchy *hierarchy, int place) {
+    const bool is_leaf = child_at(hierarchy, place) < 0;
+    children->places[at] = place;
+    children->areas[at] = is_leaf ? -1.0 : half_area(box_at(hierarchy, place));
+}
+
+static void insert(Children *children, int at, const HdHierarchy *hierarchy, int place) {
+    for (int i = children->count++; i > at; i--) {
+        children->places[i] = children->places[i - 1];
+        children->areas[i] = children->areas[i - 1];
+    }
+    set(children, at, hierarchy, place);
+}
+
+static int find_largest(const Children *children) {
+    int largest = 0;
+    for (int i = 1; i < children->count; i++)
+        if (children->areas[i] > children->areas[largest])
+            largest = i;
+    return largest;
+}
+
+static Children gather(const HdHierarchy *hierarchy, int node, int width) {
+    Children children;
+    children.count = 2;
+    set(&children, 0, hierarchy, 2 * node);
+    set(&children, 1, hierarchy, 2 * node + 1);
+    while (children.count < width) {
+        const int largest = find_largest(&children);
+        if (children.areas[largest] < 0.0)
+            break;
+        const int opened = child_at(hierarchy, children.places[largest]);
+        set(&children, largest, hierarchy, 2 * opened);
+        insert(&children, largest + 1, hierarchy, 2 * opened + 1);
+    }
+    return children;
+}
+
+static bool grow(HdWideHierarchy *wide, int *capacity, int most) {
+    if (wide->node_count < *capacity)
+        return true;
+    const size_t bytes = (size_t)wide->width * sizeof *wide->child;
+    const int doubled = *capacity > most / 2 ? most : 2 * *capacity;
+    int32_t *child = hd_large_allocate((size_t)doubled * bytes);
+    if (child == NULL)
+        return false;
+    memcpy(child, wide->child, (size_t)wide->node_count * bytes);
+    free(wide->child);
+    wide->child = child;
+    *capacity = doubled;
+    return true;
+}
+
+/* Decides on all wide nodes, depth first. False: out of memory. */
+static bool merge(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int capacity) {
+    Waiting waiting[MOST_WAITING];
+    int waiting_count = 0;
+    waiting[waiting_count++] = (Waiting){0, 1};
+    while (waiting_count > 0) {
+        const Waiting current = waiting[--waiting_count];
+        if (!grow(wide, &capacity, hierarchy->node_count))
+            return false;
+        const int number = wide->node_count++;
+        wide->root_of[current.node] = number;
+        if (wide->depth < current.depth)
+            wide->depth = current.depth;
+        const Children children = gather(hierarchy, current.node, wide->width);
+        int32_t *places = wide->child + (size_t)number * (size_t)wide->width;
+        for (int i = 0; i < wide->width; i++)
+            places[i] = i < children.count ? children.places[i] : MISSING;
+        for (int i = children.count - 1; i >= 0; i--)
+            if (child_at(hierarchy, places[i]) >= 0)
+                waiting[waiting_count++] =
+                    (Waiting){child_at(hierarchy, places[i]), current.depth + 1};
+    }
+    return true;
+}
+
+/* Puts boxes and numbers where the places are. */
+static void fill_node(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int number) {
+    const int width = wide->width;
+    float *bounds = wide->bounds + (size_t)number * 6 * (size_t)width;
+    int32_t *children = wide->child + (size_t)number * (size_t)width;
+    for (int i = 0; i < width; i++) {
+        HdBox box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        int32_t child = ~0;
+        if (children[i] != MISSING) {
+            box = *box_at(hierarchy, children[i]);
+            child = child_at(hierarchy, children[i]);
+        }
+        children[i] = child < 0 ? child : wide->root_of[child];
+        for (int axis = 0; axis < 3; axis++) {
+            bounds[axis * width + i] = box.lower[axis];
+            bounds[(3 + axis) * width + i] = box.upper[axis];
+        }
+    }
+}
+
+static bool widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy) {
+    const size_t width = (size_t)wide->width;
+    /* What is enough if all nodes become full; if not, it grows. */
+    const int guess = hierarchy->node_count / (wide->width - 1) + 1;
+    wide->root_of = hd_large_allocate((size_t)hierarchy->node_count * sizeof *wide->root_of);
+    wide->child = hd_large_allocate((size_t)guess * width * sizeof *wide->child);
+    if (wide->root_of == NULL || wide->child == NULL)
+        return false;
+    for (int i = 0; i < hierarchy->node_count; i++)
+        wide->root_of[i] = -1;
+    if (!merge(wide, hierarchy, guess))
+        return false;
+    const size_t count = (size_t)wide->node_count;
+    int32_t *less = realloc(wide->child, count * width * sizeof *less);
+    if (less != NULL)
+        wide->child = less;
+    wide->bounds = hd_large_allocate(count * 6 * width * sizeof *wide->bounds);
+    if (wide->bounds == NULL)
+        return false;
+    for (int i = 0; i < wide->node_count; i++)
+        fill_node(wide, hierarchy, i);
+    return true;
+}
+
+HdStatus hd_hierarchy_widen(HdWideHierarchy *wide, const HdHierarchy *hierarchy, int width,
+                            HdError *error) {
+    *wide = (HdWideHierarchy){.width = width};
+    if (widen(wide, hierarchy))
+        return HD_OK;
+    hd_wide_hierarchy_free(wide);
+    return hd_fail(error, HD_FAILED, "out of memory: no room for %d nodes of %d children",
+                   hierarchy->node_count, width);
+}
+
+void hd_wide_hierarchy_free(HdWideHierarchy *wide) {
+    free(wide->bounds);
+    free(wide->child);
+    free(wide->root_of);
+    *wide = (HdWideHierarchy){0};
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh/obj/words.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/limits.h"
+
+enum {
+    MOST_SHOWN = 80,
+    LONGEST_NUMBER = 64,  /* longer ones might leave the range of double on their way */
+    FIRST_LOST_POWER = 20 /* fast_obj takes powers of ten from here on, both ways, for 0 */
+};
+
+int hd_span_shown(HdSpan span) {
+    const ptrdiff_t length = span.end - span.begin;
+    int shown = length < MOST_SHOWN ? (int)length : MOST_SHOWN;
+    while (shown > 0 && shown < length && ((unsigned char)span.begin[shown] & 0xc0) == 0x80)
+        shown--;
+    return shown;
+}
+
+bool hd_span_is(HdSpan span, const char *text) {
+    const size_t length = strlen(text);
+    return (size_t)(span.end - span.begin) == length && memcmp(span.begin, text, length) == 0;
+}
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+HdSpan hd_next_word(HdSpan *line) {
+    const char *at = line->begin;
+    while (at < line->end && is_blank(*at))
+        at++;
+    const char *begin = at;
+    while (at < line->end && !is_blank(*at))
+        at++;
+    line->begin = at;
+    return (HdSpan){begin, at};
+}
+
+HdSpan hd_rest(HdSpan line) {
+    while (line.begin < line.end && is_blank(*line.begin))
+        line.begin++;
+    while (line.begin < line.end && is_blank(line.end[-1]))
+        line.end--;
+    return line;
+}
+
+static bool is_digit(const char *at, const char *end) {
+    return at < end && *at >= '0' && *at <= '9';
+}
+
+static const char *skip_sign(const char *at, const char *end) {
+    return at < end && (*at == '-' || *at == '+') ? at + 1 : at;
+}
+
+/* Reads "e-12" and the like, or nothing. NULL: something else. */
+static const char *read_power(const char *at, const char *end, int *power) {
+    *power = 0;
+    if (at == end || (*at != 'e' && *at != 'E'))
+        return at;
+    const char *digits = skip_sign(++at, end);
+    if (!is_digit(digits, end))
+        return NULL;
+    const bool is_negative = *at == '-';
+    for (at = digits; is_digit(at, end); at++)
+        *power = *power < 10000 ? 10 * *power + (*at - '0') : *power;
+    if (is_negative)
+        *power = -*power;
+    return at;
+}
+
+/* Reads digits with a point among them. NULL: there are no digits. */
+static const char *read_mantissa(const char *at, const char *end, double *mantissa) {
+    double scale = 1.0;
+    bool has_digits = false;
+    *mantissa = 0.0;
+    for (; is_digit(at, end); at++, has_digits = true)
+        *mantissa = 10.0 * *mantissa + (*at - '0');
+    if (at < end && *at == '.')
+        at++;
+    for (; is_digit(at, end); at++, has_digits = true) {
+        *mantissa = 10.0 * *mantissa + (*at - '0');
+        scale *= 10.0;
+    }
+    *mantissa /= scale;
+    return has_digits ? at : NULL;
+}
+
+const char *hd_number_fault(HdSpan word, double *value) {
+    int power = 0;
+    if (word.end - word.begin > LONGEST_NUMBER)
+        return "a number of at most 64 characters";
+    const char *at = read_mantissa(skip_sign(word.begin, word.end), word.end, value);
+    if (at != NULL)
+        at = read_power(at, word.end, &power);
+    if (at != word.end)
+        return "a decimal number";
+    if (power != 0 && *value != 0.0)
+        *value *= pow(10.0, power);
+    if (*value > HD_MAX_NUMBER)
+        return "a number from -1e12 to 1e12";
+    if ((power >= FIRST_LOST_POWER || power <= -FIRST_LOST_POWER) && *value >= HD_MIN_LENGTH)
+        return "a power of ten from -19 to 19";
+    if (*word.begin == '-')
+        *value = -*value;
+    return NULL;
+}
+
+const char *hd_name_fault(HdSpan name) {
+    if (name.begin == name.end)
+        return "a name";
+    for (const char *at = name.begin; at < name.end; at++)
+        if ((unsigned char)*at < ' ' || *at == 0x7f)
+            return "a name without control characters";
+    return NULL;
+}
+
+static bool is_separator(char c) {
+    return c == '/' || c == '\\';
+}
+
+const char *hd_file_name_fault(HdSpan name) {
+    if (hd_name_fault(name) != NULL)
+        return hd_name_fault(name);
+    if (is_separator(*name.begin) || (name.end - name.begin > 1 && name.begin[1] == ':'))
+        return "a name that counts from this file's folder";
+    for (const char *at = name.begin; at < name.end;) {
+        const char *end = at;
+        while (end < name.end && !is_separator(*end))
+            end++;
+        if (hd_span_is((HdSpan){at, end}, ".."))
+            return "a name in this file's folder or below it";
+        at = end < name.end ? end + 1 : end;
+    }
+    return NULL;
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh/polygon.h"
+
+/* A corner in the plane in which the polygon runs counterclockwise. */
+typedef struct Point {
+    double u, v;
+} Point;
+
+/* A ring of the corners that are left. */
+typedef struct Ring {
+    int count;
+    Point point[HD_MAX_CONCAVE_CORNERS];
+    int16_t next[HD_MAX_CONCAVE_CORNERS], last[HD_MAX_CONCAVE_CORNERS];
+    bool is_convex[HD_MAX_CONCAVE_CORNERS];
+    bool is_ear[HD_MAX_CONCAVE_CORNERS];
+} Ring;
+
+/* Newell's: twice the area, as a normal; right for corners in one plane, a mean for others. */
+static HdVec3 normal_of(const HdVec3 *corners, int count) {
+    HdVec3 sum = {0.0, 0.0, 0.0};
+    for (int i = 1; i + 1 < count; i++)
+        sum = hd_add(sum,
+                     hd_cross(hd_sub(corners[i], corners[0]), hd_sub(corners[i + 1], corners[0])));
+    return sum;
+}
+
+/* Drops the coordinate along which the normal is longest, and mirrors what would run clockwise. */
+static Point project(HdVec3 corner, HdVec3 normal) {
+    const double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
+    double sign = normal.z;
+    Point point = {corner.x, corner.y};
+    if (x >= y && x >= z) {
+        sign = normal.x;
+        point = (Point){corner.y, corner.z};
+    } else if (y >= z) {
+        sign = normal.y;
+        point = (Point){corner.z, corner.x};
+    }
+    if (sign < 0.0)
+        point.u = -point.u;
+    return point;
+}
+
+/* Twice the area: positive where a, b, c run counterclockwise. */
+static double turn(Point a, Point b, Point c) {
+    return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+/* Whether the triangles from the first corner cover the polygon. */
+static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal) {
+    const Point tip = project(corners[0], normal);
+    for (int i = 1; i + 1 < count; i++)
+        if (!(turn(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
+            return false;
+    return true;
+}
+
+static void cut_fan(int count, int32_t (*triangles)[3]) {
+    for (int i = 1; i + 1 < count; i++) {
+        triangles[i - 1][0] = 0;
+        triangles[i - 1][1] = i;
+        triangles[i - 1][2] = i + 1;
+    }
+}
+
+static bool is_same(Point a, Point b) {
+    return a.u == b.u && a.v == b.v;
+}
+
+/* Corners at the place of one of the triangle's do not count: bridges to holes have them twice. */
+static bool has_inside(const Ring *ring, int last, int corner, int next) {
+    const Point a = ring->point[last], b = ring->point[corner], c = ring->point[next];
+    for (int i = ring->next[next]; i != last; i = ring->next[i]) {
+        const Point p = ring->point[i];
+        if (ring->is_convex[i] || is_same(p, a) || is_same(p, b) || is_same(p, c))
+            continue;
+        if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0)
+            return true;
+    }
+    return false;
+}
+
+static void look_at_bend(Ring *ring, int corner) {
+    const int last = ring->last[corner], next = ring->next[corner];
+    ring->is_convex[corner] = turn(ring->point[last], ring->point[corner], ring->point[next]) > 0.0;
+}
+
+static void look_for_ear(Ring *ring, int corner) {
+    ring->is_ear[corner] = ring->is_convex[corner] &&
+                           !has_inside(ring, ring->last[corner], corner, ring->next[corner]);
+}
+
+/* A corner to cut off: an ear, or, where there is none, as of what crosses itself, `from`. */
+static int find_ear(const Ring *ring, int from) {
+    int i = from;
+    do {
+        if (ring->is_ear[i])
+            return i;
+        i = ring->next[i];
+    } while (i != from);
+    return from;
+}
+
+static void cut_off(Ring *ring, int corner, int32_t triangle[3]) {
+    const int16_t last = ring->last[corner], next = ring->next[corner];
+    triangle[0] = last;
+    triangle[1] = corner;
+    triangle[2] = next;
+    ring->next[last] = next;
+    ring->last[next] = last;
+    ring->count--;
+    look_at_bend(ring, last);
+    look_at_bend(ring, next);
+    look_for_ear(ring, last);
+    look_for_ear(ring, next);
+}
+
+static void fill_ring(Ring *ring, const HdVec3 *corners, int count, HdVec3 normal) {
+    ring->count = count;
+    for (int i = 0; i < count; i++) {
+        ring->point[i] = project(corners[i], normal);
+        ring->next[i] = (int16_t)((i + 1) % count);
+        ring->last[i] = (int16_t)((i + count - 1) % count);
+    }
+    for (int i = 0; i < count; i++)
+        look_at_bend(ring, i);
+    for (int i = 0; i < count; i++)
+        look_for_ear(ring, i);
+}
+
+static void cut_ears(const HdVec3 *corners, int count, HdVec3 normal, int32_t (*triangles)[3]) {
+    Ring ring;
+    int at = 0;
+    fill_ring(&ring, corners, count, normal);
+    for (int i = 0; i < count - 2; i++) {
+        at = find_ear(&ring, at);
+        cut_off(&ring, at, triangles[i]);
+        at = ring.next[at]; /* the ring's: what was cut off still knows its neighbours */
+    }
+}
+
+bool hd_polygon_cut(const HdVec3 *corners, int count, int32_t (*triangles)[3]) {
+    const HdVec3 normal = normal_of(corners, count);
+    if (count == 3 || is_fan(corners, count, normal)) {
+        cut_fan(count, triangles);
+        return true;
+    }
+    if (count > HD_MAX_CONCAVE_CORNERS)
+        return false;
+    cut_ears(corners, count, normal, triangles);
+    return true;
+}

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT */
+/* Around each place the triangles that share an edge there, and do not crease at it, make a class.
+   Each class has one normal. Every sum is taken in the order of the triangles, so the bytes do not
+   depend on anything but the mesh. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angle.h"
+#include "base/hash.h"
+#include "base/trigonometry.h"
+#include "mesh/mesh.h"
+
+enum {
+    /* Of triangles at one edge each is compared with so many that follow: proper meshes have two,
+       and thousands at one edge shall not take millions of comparisons. */
+    MOST_AT_EDGE = 16,
+    /* Of a hash table with half of its slots in use, for a vertex on average: it needs about one.
+     */
+    MOST_PROBES = 32
+};
+
+/* What rounding may take from the cosine between two normals. */
+static const double cosine_tolerance = 1e-12;
+
+/* A corner of a triangle as its place sees it. */
+typedef struct Incident {
+    int32_t corner; /* 3 times the triangle plus 0..2 */
+    int32_t class;  /* number of an incident of the same class, its own for the first */
+    HdVec3 normal;  /* of the triangle, unit; 0: it has no area */
+    double angle;
+    int32_t place_of_normal; /* for the first of a class; -1: none */
+    HdVec3 sum;
+} Incident;
+
+/* An edge from the place to another one, as one triangle has it. */
+typedef struct Edge {
+    int32_t other;    /* the place at its far end */
+    int32_t incident; /* the triangle's */
+} Edge;
+
+typedef struct Smoother {
+    const HdMesh *mesh;
+    double least_cosine;
+    int place_count;
+    int32_t *place_of; /* of each vertex */
+    int32_t *begin;    /* of each place, into corners; one more for the end */
+    int32_t *corners;  /* place by place */
+    int most_incidents;
+    Incident *incidents;
+    Edge *edges;
+    HdVec3 *normals;
+    int normal_count;
+    int32_t (*corner_normals)[3];
+} Smoother;
+
+static void free_smoother(Smoother *smoother) {
+    free(smoother->place_of);
+    free(smoother->begin);
+    free(smoother->corners);
+    free(smoother->incidents);
+    free(smoother->edges);
+    free(smoother->normals);
+    free(smoother->corner_normals);
+}
+
+static void *allocate(size_t count, size_t size) {
+    return malloc(count > 0 ? count * size : size);
+}
+
+/* -0 and 0 are one place. */
+static HdVec3 without_negative_zero(HdVec3 a) {
+    return hd_vec3(a.x + 0.0, a.y + 0.0, a.z + 0.0);
+}
+
+/* A vertex on its way to be sorted. */
+typedef struct Placed {
+    HdVec3 point;
+    int32_t vertex;
+} Placed;
+
+static int compare_placed(const void *first, const void *second) {
+    const Placed *a = first, *b = second;
+    if (a->point.x != b->point.x)
+        return a->point.x < b->point.x ? -1 : 1;
+    if (a->point.y != b->point.y)
+        return a->point.y < b->point.y ? -1 : 1;
+    if (a->point.z != b->point.z)
+        return a->point.z < b->point.z ? -1 : 1;
+    return (a->vertex > b->vertex) - (a->vertex < b->vertex);
+}
+
+static bool is_same_place(HdVec3 a, HdVec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Of each vertex the first one at its place, by sorting: slower than by hashing, but never slow. */
+static bool find_first_by_sorting(const HdMesh *mesh, int32_t *first) {
+    const size_t count = (size_t)mesh->vertex_count;
+    Placed *placed = allocate(count, sizeof *placed);
+    if (placed == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        placed[i] = (Placed){mesh->vertices[i], (int32_t)i};
+    qsort(placed, count, sizeof *placed, compare_placed);
+    for (size_t i = 0; i < count; i++) {
+        const bool is_new = i == 0 || !is_same_place(placed[i - 1].point, placed[i].point);
+        first[placed[i].vertex] = is_new ? placed[i].vertex : first[placed[i - 1].vertex];
+    }
+    free(placed);
+    return true;
+}
+
+/* The slot that has a vertex at the place or is free for one. */
+static size_t find_slot(const HdMesh *mesh, const int32_t *table, size_t slots, HdVec3 point,
+                        size_t *probes) {
+    size_t slot = hd_hash_bytes(HD_HASH_START, &point, sizeof point) & (slots - 1);
+    for (; table[slot] >= 0 && !is_same_place(point, mesh->vertices[table[slot]]); ++*probes)
+        slot = (slot + 1) & (slots - 1);
+    return slot;
+}
+
+/* The same by hashing; false: vertices collide, as those of a mesh made for it do, or there is too
+   little memory. */
+static bool find_first_by_hashing(const HdMesh *mesh, int32_t *first) {
+    const size_t most_probes = MOST_PROBES * ((size_t)mesh->vertex_count + 16);
+    size_t slots = 16, probes = 0;
+    while (slots < 2 * (size_t)mesh->vertex_count)
+        slots *= 2;
+    int32_t *table = malloc(slots * sizeof *table); /* a vertex of the place; -1: empty */
+    if (table == NULL)
+        return false;
+    memset(table, -1, slots * sizeof *table);
+    for (int32_t i = 0; i < mesh->vertex_count && probes <= most_probes; i++) {
+        const HdVec3 point = without_negative_zero(mesh->vertices[i]);
+        const size_t slot = find_slot(mesh, table, slots, point, &probes);
+        if (table[slot] < 0)
+            table[slot] = i;
+        first[i] = table[slot];
+    }
+    free(table);
+    return probes <= most_probes;
+}
+
+/* Numbers the places in the order in which the vertices first name them. */
+static bool find_places(Smoother *smoother) {
+    int32_t *place_of = smoother->place_of;
+    if (!find_first_by_hashing(smoother->mesh, place_of) &&
+        !find_first_by_sorting(smoother->mesh, place_of))
+        return false;
+    for (int32_t i = 0; i < smoother->mesh->vertex_count; i++)
+        place_of[i] = place_of[i] == i ? smoother->place_count++ : place_of[place_of[i]];
+    return true;
+}
+
+static int32_t place_at(const Smoother *smoother, int32_t corner) {
+    return smoother->place_of[smoother->mesh->corners[corner / 3][corner % 3]];
+}
+
+/* Lists the corners of each place, in ascending order. */
+static void list_corners(Smoother *smoother) {
+    const int32_t corner_count = 3 * smoother->mesh->triangle_count;
+    int32_t *begin = smoother->begin;
+    memset(begin, 0, ((size_t)smoother->place_count + 1) * sizeof *begin);
+    for (int32_t i = 0; i < corner_count; i++)
+        begin[place_at(smoother, i) + 1]++;
+    for (int i = 0; i < smoother->place_count; i++) {
+        if (begin[i + 1] > smoother->most_incidents)
+            smoother->most_incidents = begin[i + 1];
+        begin[i + 1] += begin[i];
+    }
+    for (int32_t i = 0; i < corner_count; i++)
+        smoother->corners[begin[place_at(smoother, i)]++] = i;
+    /* Each begin is now its place's end, which is the begin of the next. */
+    memmove(begin + 1, begin, (size_t)smoother->place_count * sizeof *begin);
+    begin[0] = 0;
+}
+
+static HdVec3 corner_point(const Smoother *smoother, int32_t triangle, int side) {
+    return smoother->mesh->vertices[smoother->mesh->corners[triangle][side % 3]];
+}
+
+static Incident make_incident(const Smoother *smoother, int32_t corner, int32_t number) {
+    const int32_t triangle = corner / 3;
+    const HdVec3 point = corner_point(smoother, triangle, corner % 3);
+    const HdVec3 next = hd_sub(corner_point(smoother, triangle, corner % 3 + 1), point);
+    const HdVec3 last = hd_sub(corner_point(smoother, triangle, corner % 3 + 2), point);
+    const HdVec3 across = hd_cross(next, last);
+    const double length = hd_length(across);
+    Incident incident = {.corner = corner, .class = number, .place_of_normal = -1};
+    if (length > 0.0) {
+        incident.normal = hd_scale(across, 1.0 / length);
+        incident.angle = hd_angle(next, last);
+    }
+    return incident;
+}
+
+static int compare_edges(const void *first, const void *second) {
+    const Edge *a = first, *b = second;
+    if (a->other != b->other)
+        return a->other < b->other ? -1 : 1;
+    return (a->incident > b->incident) - (a->incident < b->incident);
+}
+
+static int32_t class_of(Incident *incidents, int32_t number) {
+    while (incidents[number].class != number) {
+        incidents[number].class = incidents[incidents[number].class].class;
+        number = incidents[number].class;
+    }
+    return number;
+}
+
+/* The first incident of a class stands for it. */
+static void unite(Incident *incidents, int32_t a, int32_t b) {
+    const int32_t first = class_of(incidents, a), second = class_of(incidents, b);
+    if (first < second)
+        incidents[second].class = first;
+    else
+        incidents[first].class = second;
+}
+
+static void unite_at_edges(const Smoother *smoother, int edge_count) {
+    const Edge *edges = smoother->edges;
+    Incident *incidents = smoother->incidents;
+    for (int i = 0; i < edge_count; i++) {
+        for (int j = i + 1; j < edge_count && j <= i + MOST_AT_EDGE; j++) {
+            if (edges[j].other != edges[i].other)
+                break;
+            const Incident *a = &incidents[edges[i].incident], *b = &incidents[edges[j].incident];
+            if (hd_dot(a->normal, b->normal) >= smoother->least_cosine)
+                unite(incidents, edges[i].incident, edges[j].incident);
+        }
+    }
+}
+
+/* Triangles without an area belong to nobody: they have no normal to be compared. */
+static int list_edges(const Smoother *smoother, int incident_count) {
+    int count = 0;
+    for (int32_t i = 0; i < incident_count; i++) {
+        const int32_t corner = smoother->incidents[i].corner;
+        const int32_t first = corner - corner % 3;
+        if (smoother->incidents[i].angle == 0.0)
+            continue;
+        for (int32_t side = 1; side <= 2; side++)
+            smoother->edges[count++] = (Edge){place_at(smoother, first + (corner + side) % 3), i};
+    }
+    qsort(smoother->edges, (size_t)count, sizeof *smoother->edges, compare_edges);
+    return count;
+}
+
+static bool is_zero(HdVec3 a) {
+    return a.x == 0.0 && a.y == 0.0 && a.z == 0.0;
+}
+
+static void add_normals(Smoother *smoother, int incident_count) {
+    Incident *incidents = smoother->incidents;
+    for (int32_t i = 0; i < incident_count; i++) {
+        Incident *class = &incidents[class_of(incidents, i)];
+        class->sum = hd_add(class->sum, hd_scale(incidents[i].normal, incidents[i].angle));
+    }
+    for (int32_t i = 0; i < incident_count; i++) {
+        if (incidents[i].class != i || is_zero(incidents[i].sum))
+            continue;
+        incidents[i].place_of_normal = smoother->normal_count;
+        smoother->normals[smoother->normal_count++] = hd_normalize(incidents[i].sum);
+    }
+    for (int32_t i = 0; i < incident_count; i++) {
+        const int32_t corner = incidents[i].corner;
+        smoother->corner_normals[corner / 3][corner % 3] =
+            incidents[class_of(incidents, i)].place_of_normal;
+    }
+}
+
+static void smooth_place(Smoother *smoother, int place) {
+    const int32_t begin = smoother->begin[place];
+    const int count = smoother->begin[place + 1] - begin;
+    for (int32_t i = 0; i < count; i++)
+        smoother->incidents[i] = make_incident(smoother, smoother->corners[begin + i], i);
+    unite_at_edges(smoother, list_edges(smoother, count));
+    add_normals(smoother, count);
+}
+
+static bool prepare(Smoother *smoother) {
+    const size_t vertices = (size_t)smoother->mesh->vertex_count;
+    const size_t corners = 3 * (size_t)smoother->mesh->triangle_count;
+    smoother->place_of = allocate(vertices, sizeof *smoother->place_of);
+    smoother->begin = allocate(vertices + 1, sizeof *smoother->begin);
+    smoother->corners = allocate(corners, sizeof *smoother->corners);
+    /* At most one normal for each corner; memory that is not touched is not taken. */
+    smoother->normals = allocate(corners, sizeof *smoother->normals);
+    smoother->corner_normals = allocate(corners, sizeof(int32_t));
+    if (smoother->place_of == NULL || smoother->begin == NULL || smoother->corners == NULL ||
+        smoother->normals == NULL || smoother->corner_normals == NULL || !find_places(smoother))
+        return false;
+    list_corners(smoother);
+    const size_t most = (size_t)smoother->most_incidents;
+    smoother->incidents = allocate(most, sizeof *smoother->incidents);
+    smoother->edges = allocate(2 * most, sizeof *smoother->edges);
+    return smoother->incidents != NULL && smoother->edges != NULL;
+}
+
+/* Hands the results to the mesh. */
+static void take_normals(Smoother *smoother, HdMesh *mesh) {
+    const size_t count = (size_t)smoother->normal_count;
+    HdVec3 *normals = realloc(smoother->normals, (count > 0 ? count : 1) * sizeof *normals);
+    free(mesh->normals);
+    free(mesh->corner_normals);
+    mesh->normals = normals != NULL ? normals : smoother->normals;
+    mesh->normal_count = smoother->normal_count;
+    mesh->corner_normals = smoother->corner_normals;
+    smoother->normals = NULL;
+    smoother->corner_normals = NULL;
+}
+
+static double least_cosine(double crease_degrees) {
+    double sine, cosine;
+    if (crease_degrees >= 180.0)
+        return -2.0; /* below every cosine: nothing creases */
+    hd_sine_cosine(crease_degrees * (HD_PI / 180.0), &sine, &cosine);
+    return cosine - cosine_tolerance;
+}
+
+HdStatus hd_mesh_smooth(HdMesh *mesh, double crease_degrees, HdError *error) {
+    Smoother smoother = {.mesh = mesh, .least_cosine = least_cosine(crease_degrees)};
+    HdStatus status = HD_OK;
+    if (prepare(&smoother)) {
+        for (int i = 0; i < smoother.place_count; i++)
+            smooth_place(&smoother, i);
+        take_normals(&smoother, mesh);
+    } else {
+        status = hd_fail(error, HD_FAILED, "out of memory: no room for the normals of %d triangles",
+                         mesh->triangle_count);
+    }
+    free_smoother(&smoother);
+    return status;
+}

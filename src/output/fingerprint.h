@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* What decides the pixels of a run's frames, as one number: when it is the same, so are they. */
+#ifndef HD_OUTPUT_FINGERPRINT_H
+#define HD_OUTPUT_FINGERPRINT_H
+
+#include <stdint.h>
+
+#include "image/picture.h"
+#include "input/scene_file.h"
+#include "tables/tables.h"
+
+/* Of frames of a scene whose files are loaded, as strict arithmetic renders them and PNG pictures
+   of that style hold them: every field of the scene file (scene_fields.h) but names of files and
+   what becomes of the frames, what the files hold, what the command line changed, precision, curve
+   and bits, and the text of this program. Which device renders it, and how, changes no strict
+   pixel. The frame's own number is left to hd_picture_fingerprint. */
+uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
+                            const HdPictureStyle *style);
+
+#endif

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+#include "output/resume.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/file_kind.h"
+#include "image/mark.h"
+#include "image/picture_formats.h"
+#include "system/file_bytes.h"
+#include "system/interrupt.h"
+
+static const int64_t MAX_PICTURE_BYTES = INT64_C(1) << 36;
+
+static bool may_be_resumed(const HdOutputPlan *plan) {
+    bool has_films = false, has_pictures = false;
+    for (int i = 0; i < plan->count; i++) {
+        HdOutputKind kind = hd_output_kind(plan->names[i]);
+        if (hd_output_is_film(kind))
+            has_films = true;
+        else if (kind == HD_OUTPUT_PNG && hd_pattern_has_number(plan->names[i]))
+            has_pictures = true;
+        else
+            return false;
+    }
+    return plan->is_marked && plan->resumes && has_pictures &&
+           (!has_films || plan->style.picture.bits == 8);
+}
+
+/* A file that cannot be read is not finished, for whatever reason. `*bytes` is the caller's to free
+   then too. */
+static bool read_whole(const HdOutputPlan *plan, const char *name, int number,
+                       unsigned char **bytes, size_t *size) {
+    char path[HD_MAX_PATH];
+    HdError ignored;
+    *bytes = NULL;
+    return hd_output_file(name, number, path, &ignored) == HD_OK &&
+           hd_file_read(path, "picture", MAX_PICTURE_BYTES, bytes, size, &ignored) == HD_OK &&
+           hd_picture_is_whole(*bytes, *size, hd_picture_fingerprint(plan->fingerprint, number));
+}
+
+static bool is_finished(const HdOutputPlan *plan, int number) {
+    bool whole = true;
+    for (int i = 0; i < plan->count && whole; i++) {
+        unsigned char *bytes = NULL;
+        size_t size;
+        if (hd_name_is_film(plan->names[i]))
+            continue;
+        whole = read_whole(plan, plan->names[i], number, &bytes, &size);
+        free(bytes);
+    }
+    return whole;
+}
+
+static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdError *error) {
+    const bool may_be = may_be_resumed(plan);
+    for (int i = 0; i < resume->all->count; i++) {
+        const int number = resume->all->frames[i];
+        if (hd_interrupt_signal() != 0)
+            return hd_fail(error, HD_INTERRUPTED, "interrupted after 0 of %d frames",
+                           resume->all->count);
+        resume->is_finished[i] = may_be && is_finished(plan, number);
+        if (resume->is_finished[i])
+            resume->finished_count++;
+        else
+            resume->missing.frames[resume->missing.count++] = number;
+    }
+    return HD_OK;
+}
+
+HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFrameList *frames,
+                        HdError *error) {
+    const size_t count = (size_t)frames->count;
+    *resume = (HdResume){.all = frames};
+    resume->missing.frames = malloc(count * sizeof *resume->missing.frames);
+    resume->is_finished = calloc(count, sizeof *resume->is_finished);
+    if (resume->missing.frames == NULL || resume->is_finished == NULL) {
+        hd_resume_free(resume);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
+    }
+    HdStatus status = look_at_frames(resume, plan, error);
+    if (status != HD_OK)
+        hd_resume_free(resume);
+    return status;
+}
+
+HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error) {
+    unsigned char *bytes;
+    size_t size;
+    int first = 0;
+    while (hd_name_is_film(plan->names[first]))
+        first++;
+    HdStatus status = HD_FAILED;
+    if (read_whole(plan, plan->names[first], number, &bytes, &size))
+        status = hd_image_png_load(frame, bytes, size, plan->names[first], error);
+    else
+        hd_fail(error, HD_FAILED,
+                "frame %d of %s was finished, but has changed since or cannot be read: start the "
+                "run again",
+                number, plan->names[first]);
+    free(bytes);
+    return status;
+}
+
+int hd_resume_first_missing(const HdResume *resume) {
+    int place = 0;
+    while (place < resume->all->count && resume->is_finished[place])
+        place++;
+    return place;
+}
+
+void hd_resume_free(HdResume *resume) {
+    hd_frame_list_free(&resume->missing);
+    free(resume->is_finished);
+    *resume = (HdResume){0};
+}

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "output/stages.h"
+
+#include <limits.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "system/warnings.h"
+
+typedef struct Worker {
+    HdStages *stages;
+    int stage;
+    pthread_t thread;
+} Worker;
+
+/* Of an item under way. */
+typedef struct Slot {
+    bool given;
+    unsigned taken, done; /* by stage */
+} Slot;
+
+struct HdStages {
+    pthread_mutex_t mutex;
+    pthread_cond_t room_made; /* or something else that takers wait for */
+    pthread_cond_t work_made[HD_MAX_STAGES];
+    HdStage list[HD_MAX_STAGES];
+    int next[HD_MAX_STAGES]; /* the first item that the stage has not taken */
+    int count;
+    int room;
+    Slot *slots;          /* by item modulo room */
+    bool *is_back;        /* by item: taken and given back */
+    const bool *is_ready; /* by item: given from the start; NULL: none */
+    int item_count;       /* at the end only those before the first that was not given */
+    int first_fresh;      /* the first item that was never taken */
+    int back_count;
+    int given_until; /* the items before it are given */
+    int gone;        /* items that went through all stages, and so did those before them */
+    int limit;       /* the first item that failed; INT_MAX: none */
+    bool stopped;
+    bool ended; /* no more items come */
+    HdStatus status;
+    HdError error;
+    Worker *workers;
+    int worker_count;
+};
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static Slot *slot_of(const HdStages *stages, int item) {
+    return &stages->slots[item % stages->room];
+}
+
+static bool is_ready(const HdStages *stages, int item) {
+    return stages->is_ready != NULL && item < stages->item_count && stages->is_ready[item];
+}
+
+/* The end of the items that are wanted. */
+static int wanted_end(const HdStages *stages) {
+    return least(stages->item_count, stages->limit);
+}
+
+static int first_not_given(HdStages *stages) {
+    int item = stages->given_until, end = stages->gone + stages->room;
+    while (is_ready(stages, item) || (item < end && slot_of(stages, item)->given))
+        item++;
+    stages->given_until = item;
+    return item;
+}
+
+/* What the stage can take: the next item, or with several threads, which keep no order, the first
+   of those that are there. Negative: none. */
+static int find_work(const HdStages *stages, int stage) {
+    const HdStage *what = &stages->list[stage];
+    int first = stages->next[stage];
+    int end = least(stages->gone + stages->room, wanted_end(stages));
+    for (int item = first; item < (what->threads == 1 ? least(end, first + 1) : end); item++) {
+        const Slot *slot = slot_of(stages, item);
+        if ((slot->given || is_ready(stages, item)) && (slot->taken >> stage & 1) == 0 &&
+            (slot->done & what->after) == what->after)
+            return item;
+    }
+    return -1;
+}
+
+static void take_work(HdStages *stages, int stage, int item) {
+    int end = stages->gone + stages->room;
+    slot_of(stages, item)->taken |= 1u << stage;
+    while (stages->next[stage] < end &&
+           (slot_of(stages, stages->next[stage])->taken >> stage & 1) != 0)
+        stages->next[stage]++;
+}
+
+/* Nothing is left for the stage, now or later. */
+static bool is_over(const HdStages *stages, int stage) {
+    return stages->next[stage] >= (stages->ended ? wanted_end(stages) : stages->limit);
+}
+
+static void wake_all(HdStages *stages) {
+    for (int i = 0; i < stages->count; i++)
+        pthread_cond_broadcast(&stages->work_made[i]);
+    pthread_cond_broadcast(&stages->room_made);
+}
+
+/* Of several failures that of the earliest item counts, for an earlier one may still come. */
+static void note_failure(HdStages *stages, int item, const HdError *error) {
+    if (item >= stages->limit)
+        return;
+    stages->limit = item;
+    stages->status = error->status;
+    stages->error = *error;
+    wake_all(stages);
+}
+
+static void wake_first_stages(HdStages *stages) {
+    for (int i = 0; i < stages->count; i++)
+        if (stages->list[i].after == 0)
+            pthread_cond_broadcast(&stages->work_made[i]);
+}
+
+static void note_success(HdStages *stages, int stage, int item) {
+    const unsigned all = (1u << stages->count) - 1;
+    slot_of(stages, item)->done |= 1u << stage;
+    for (int i = stage + 1; i < stages->count; i++)
+        if ((stages->list[i].after >> stage & 1) != 0)
+            pthread_cond_broadcast(&stages->work_made[i]);
+    while (slot_of(stages, stages->gone)->done == all) {
+        *slot_of(stages, stages->gone) = (Slot){0};
+        stages->gone++;
+        if (stages->given_until < stages->gone)
+            stages->given_until = stages->gone;
+        pthread_cond_broadcast(&stages->room_made);
+        if (is_ready(stages, stages->gone + stages->room - 1))
+            wake_first_stages(stages);
+    }
+}
+
+static void *worker_main(void *argument) {
+    const Worker *worker = argument;
+    HdStages *stages = worker->stages;
+    const HdStage *stage = &stages->list[worker->stage];
+    HdError error;
+    pthread_mutex_lock(&stages->mutex);
+    while (!is_over(stages, worker->stage)) {
+        int item = find_work(stages, worker->stage);
+        if (item < 0) {
+            pthread_cond_wait(&stages->work_made[worker->stage], &stages->mutex);
+            continue;
+        }
+        take_work(stages, worker->stage, item);
+        pthread_mutex_unlock(&stages->mutex);
+        HdStatus status = stage->work(stage->context, item, &error);
+        pthread_mutex_lock(&stages->mutex);
+        if (status == HD_OK)
+            note_success(stages, worker->stage, item);
+        else
+            note_failure(stages, item, &error);
+    }
+    pthread_mutex_unlock(&stages->mutex);
+    return NULL;
+}
+
+static void skip_ready(HdStages *stages) {
+    while (is_ready(stages, stages->first_fresh))
+        stages->first_fresh++;
+}
+
+static HdStages *create(const HdStage *list, int count, int item_count, const bool *is_ready,
+                        int room) {
+    int threads = list[0].threads;
+    for (int i = 1; i < count; i++)
+        threads += list[i].threads;
+    HdStages *stages = calloc(1, sizeof *stages);
+    if (stages == NULL)
+        return NULL;
+    stages->slots = calloc((size_t)room, sizeof *stages->slots);
+    stages->is_back = calloc((size_t)item_count + 1, sizeof *stages->is_back);
+    stages->workers = calloc((size_t)threads, sizeof *stages->workers);
+    stages->count = count;
+    stages->item_count = item_count;
+    stages->is_ready = is_ready;
+    skip_ready(stages);
+    stages->room = room;
+    stages->limit = INT_MAX;
+    memcpy(stages->list, list, (size_t)count * sizeof *list);
+    pthread_mutex_init(&stages->mutex, NULL);
+    pthread_cond_init(&stages->room_made, NULL);
+    for (int i = 0; i < count; i++)
+        pthread_cond_init(&stages->work_made[i], NULL);
+    return stages;
+}
+
+static void destroy(HdStages *stages) {
+    for (int i = 0; i < stages->count; i++)
+        pthread_cond_destroy(&stages->work_made[i]);
+    pthread_cond_destroy(&stages->room_made);
+    pthread_mutex_destroy(&stages->mutex);
+    free(stages->workers);
+    free(stages->slots);
+    free(stages->is_back);
+    free(stages);
+}
+
+static void join_all(HdStages *stages) {
+    pthread_mutex_lock(&stages->mutex);
+    stages->ended = true;
+    stages->item_count = first_not_given(stages);
+    wake_all(stages);
+    pthread_mutex_unlock(&stages->mutex);
+    for (int i = 0; i < stages->worker_count; i++)
+        pthread_join(stages->workers[i].thread, NULL);
+}
+
+/* Returns 0 or what went wrong, as errno would. */
+static int start_worker(HdStages *stages, int stage) {
+    Worker *worker = &stages->workers[stages->worker_count];
+    *worker = (Worker){.stages = stages, .stage = stage};
+    int reason = pthread_create(&worker->thread, NULL, worker_main, worker);
+    if (reason == 0)
+        stages->worker_count++;
+    return reason;
+}
+
+/* Every stage has one thread already, and could do with it. */
+static void start_more(HdStages *stages) {
+    int reason = 0, wanted = 0;
+    for (int i = 0; i < stages->count; i++) {
+        wanted += stages->list[i].threads;
+        for (int j = 1; j < stages->list[i].threads && reason == 0; j++)
+            reason = start_worker(stages, i);
+    }
+    if (reason != 0)
+        hd_fallback_note("the system refused threads for the outputs (%s): %d of %d do it",
+                         strerror(reason), stages->worker_count, wanted);
+}
+
+HdStatus hd_stages_start(HdStages **out, const HdStage *list, int count, int item_count,
+                         const bool *is_ready, int room, HdError *error) {
+    HdStages *stages = create(list, count, item_count, is_ready, room);
+    int reason = 0;
+    *out = NULL;
+    if (stages == NULL || stages->slots == NULL || stages->is_back == NULL ||
+        stages->workers == NULL) {
+        if (stages != NULL)
+            destroy(stages);
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the stages of a run");
+    }
+    for (int i = 0; i < count && reason == 0; i++)
+        reason = start_worker(stages, i);
+    if (reason == 0) {
+        start_more(stages);
+        *out = stages;
+        return HD_OK;
+    }
+    int started = stages->worker_count;
+    pthread_mutex_lock(&stages->mutex);
+    stages->limit = 0; /* not even what is ready is wanted */
+    pthread_mutex_unlock(&stages->mutex);
+    join_all(stages);
+    destroy(stages);
+    return hd_fail(
+        error, HD_FAILED,
+        "cannot start thread %d of at least %d for the outputs: %s; --threads leaves more of "
+        "them to the outputs",
+        started + 1, count, strerror(reason));
+}
+
+/* The first item that is there to be taken. */
+static int first_to_take(const HdStages *stages) {
+    for (int item = stages->gone; stages->back_count > 0 && item < stages->first_fresh; item++)
+        if (stages->is_back[item])
+            return item;
+    return stages->first_fresh;
+}
+
+/* Items that were never taken; no more than there is room for need be counted. */
+static int count_fresh(const HdStages *stages) {
+    int count = 0, end = wanted_end(stages);
+    for (int item = stages->first_fresh; item < end && count < stages->room; item++)
+        count += !is_ready(stages, item);
+    return count;
+}
+
+static bool can_take(const HdStages *stages, const HdTaker *taker, int item) {
+    int end = wanted_end(stages);
+    if (item >= end || item >= stages->gone + stages->room + taker->ahead)
+        return false;
+    return taker->wants == NULL ||
+           taker->wants(taker->context,
+                        least(count_fresh(stages) + stages->back_count, stages->room));
+}
+
+static int take(HdStages *stages, int item) {
+    if (item == stages->first_fresh) {
+        stages->first_fresh++;
+        skip_ready(stages);
+    } else {
+        stages->is_back[item] = false;
+        stages->back_count--;
+    }
+    return item;
+}
+
+int hd_stages_take(HdStages *stages, const HdTaker *taker, bool waits) {
+    int taken = -1;
+    pthread_mutex_lock(&stages->mutex);
+    while (!stages->stopped && first_not_given(stages) < wanted_end(stages)) {
+        int item = first_to_take(stages);
+        if (can_take(stages, taker, item)) {
+            taken = take(stages, item);
+            break;
+        }
+        if (!waits)
+            break;
+        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    }
+    pthread_mutex_unlock(&stages->mutex);
+    return taken;
+}
+
+bool hd_stages_wait(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    while (!stages->stopped && item < stages->limit && item >= stages->gone + stages->room)
+        pthread_cond_wait(&stages->room_made, &stages->mutex);
+    bool is_wanted = !stages->stopped && item < stages->limit;
+    pthread_mutex_unlock(&stages->mutex);
+    return is_wanted;
+}
+
+void hd_stages_give(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    *slot_of(stages, item) = (Slot){.given = true};
+    wake_first_stages(stages);
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_give_back(HdStages *stages, int item) {
+    pthread_mutex_lock(&stages->mutex);
+    stages->is_back[item] = true;
+    stages->back_count++;
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_ask_again(HdStages *stages) {
+    pthread_mutex_lock(&stages->mutex);
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_fail(HdStages *stages, int item, const HdError *error) {
+    pthread_mutex_lock(&stages->mutex);
+    note_failure(stages, item, error);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+void hd_stages_stop(HdStages *stages) {
+    pthread_mutex_lock(&stages->mutex);
+    stages->stopped = true;
+    pthread_cond_broadcast(&stages->room_made);
+    pthread_mutex_unlock(&stages->mutex);
+}
+
+HdStatus hd_stages_end(HdStages *stages, HdError *error) {
+    join_all(stages);
+    HdStatus status = stages->status;
+    if (status != HD_OK)
+        *error = stages->error;
+    destroy(stages);
+    return status;
+}

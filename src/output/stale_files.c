@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "output/stale_files.h"
+
+#include <dirent.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "image/file_kind.h"
+#include "system/atomic_file.h"
+
+typedef struct Search {
+    const char *output; /* as the plan names it */
+    const HdFrameList *frames;
+    char folder[HD_MAX_PATH]; /* with its last slash; empty: the current one */
+} Search;
+
+/* Returns the length of the folder, its slash included. */
+static size_t folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
+}
+
+static bool is_in_folder(const Search *search, const char *path) {
+    const size_t length = folder_length(path);
+    return strlen(search->folder) == length && memcmp(search->folder, path, length) == 0;
+}
+
+static bool is_of_frame(const Search *search, const char *entry, int frame) {
+    char path[HD_MAX_PATH];
+    HdError ignored;
+    return hd_output_file(search->output, frame, path, &ignored) == HD_OK &&
+           is_in_folder(search, path) && hd_temporary_belongs(entry, path + strlen(search->folder));
+}
+
+static bool is_of_run(const Search *search, const char *entry) {
+    if (hd_name_is_film(search->output))
+        return is_of_frame(search, entry, 0);
+    for (int i = 0; i < search->frames->count; i++)
+        if (is_of_frame(search, entry, search->frames->frames[i]))
+            return true;
+    return false;
+}
+
+static void search_folder(const Search *search) {
+    const struct dirent *entry;
+    DIR *folder = opendir(search->folder[0] != '\0' ? search->folder : ".");
+    if (folder == NULL)
+        return;
+    while ((entry = readdir(folder)) != NULL) {
+        char path[HD_MAX_PATH + sizeof entry->d_name];
+        if (strstr(entry->d_name, ".tmp-") == NULL || !is_of_run(search, entry->d_name))
+            continue;
+        snprintf(path, sizeof path, "%s%s", search->folder, entry->d_name);
+        hd_temporary_remove_stale(path);
+    }
+    closedir(folder);
+}
+
+/* Frames that follow each other lie mostly in one folder. */
+static void search_output(const char *output, const HdFrameList *frames) {
+    Search search = {.output = output, .frames = frames};
+    char path[HD_MAX_PATH];
+    HdError ignored;
+    for (int i = 0; i < frames->count; i++) {
+        if (hd_output_file(output, frames->frames[i], path, &ignored) != HD_OK)
+            continue;
+        if (i > 0 && is_in_folder(&search, path))
+            continue;
+        const size_t length = folder_length(path);
+        memcpy(search.folder, path, length);
+        search.folder[length] = '\0';
+        search_folder(&search);
+    }
+}
+
+void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
+    for (int i = 0; i < plan->count; i++)
+        search_output(plan->names[i], frames);
+}

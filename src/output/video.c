@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "output/video.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "image/file_kind.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
+#include "system/interrupt.h"
+
+struct HdVideo {
+    HdChild ffmpeg;
+    int width, height;
+    long frames;
+    char path[HD_MAX_PATH];
+    char temporary[HD_MAX_PATH]; /* empty: there is no file */
+    int lock;                    /* of that file; -1: there is none */
+    char ffprobe[HD_MAX_PATH];
+};
+
+static HdStatus check_settings(const char *path, int width, int height, int frames_per_second,
+                               HdError *error) {
+    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
+                       path, width, height, HD_MAX_IMAGE_SIDE);
+    if (!hd_name_is_film(path))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
+    if (frames_per_second < 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the film %s has %d frames a second, expected at least 1", path,
+                       frames_per_second);
+    return HD_OK;
+}
+
+/* What FFmpeg is told about the file, by the film's kind. */
+/* clang-format off */
+static const char *const mp4_arguments[] = {
+    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+    "-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p",
+    "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
+    "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL};
+
+/* Every frame is a key frame, so that players can jump to it. The container is given no random
+   number, so that the same frames make the same bytes. */
+static const char *const mkv_arguments[] = {
+    "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb",
+    "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "pc",
+    "-fflags", "+bitexact", "-f", "matroska", NULL};
+
+/* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
+static const char *const sliced_arguments[] = {
+    "-level", "3", "-slices", "16", "-slicecrc", "1", NULL};
+static const char *const whole_arguments[] = {"-level", "1", NULL};
+
+/* A palette for each frame: one for all would keep every frame in memory until the last. The ordered
+   dither keeps still what does not move, and compresses well. */
+static const char gif_filters[] =
+    "split[seen][painted];"
+    "[seen]palettegen=stats_mode=single:reserve_transparent=0[palette];"
+    "[painted][palette]paletteuse=new=1:dither=bayer:bayer_scale=4";
+static const char *const gif_arguments[] = {
+    "-filter_complex", gif_filters, "-loop", "0", "-f", "gif", NULL};
+/* clang-format on */
+
+enum { MAX_ARGUMENTS = 64, MIN_SLICED_SIDE = 64 };
+
+typedef struct Arguments {
+    size_t count;
+    const char *words[MAX_ARGUMENTS + 1]; /* NULL after the last */
+} Arguments;
+
+static void append(Arguments *arguments, const char *const *words) {
+    while (*words != NULL && arguments->count < MAX_ARGUMENTS)
+        arguments->words[arguments->count++] = *words++;
+}
+
+static void append_kind(Arguments *arguments, const HdVideo *video) {
+    HdOutputKind kind = hd_output_kind(video->path);
+    if (kind == HD_OUTPUT_MP4) {
+        append(arguments, mp4_arguments);
+    } else if (kind == HD_OUTPUT_GIF) {
+        append(arguments, gif_arguments);
+    } else {
+        bool sliced = video->width >= MIN_SLICED_SIDE && video->height >= MIN_SLICED_SIDE;
+        append(arguments, sliced ? sliced_arguments : whole_arguments);
+        append(arguments, mkv_arguments);
+    }
+}
+
+/* "file:" keeps FFmpeg from reading a protocol or an option into the name. */
+static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_second,
+                             HdError *error) {
+    char size[32], rate[16], target[HD_MAX_PATH + 8];
+    snprintf(size, sizeof size, "%dx%d", video->width, video->height);
+    snprintf(rate, sizeof rate, "%d", frames_per_second);
+    snprintf(target, sizeof target, "file:%s", video->temporary);
+    /* clang-format off */
+    const char *const start[] = {
+        ffmpeg, "-nostdin", "-hide_banner", "-nostats", "-loglevel", "error", "-y",
+        "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", size, "-framerate", rate,
+        "-i", "pipe:0", NULL};
+    /* clang-format on */
+    const char *const end[] = {target, NULL};
+    Arguments arguments = {0};
+    append(&arguments, start);
+    append_kind(&arguments, video);
+    append(&arguments, end);
+    return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
+}
+
+static void remove_file(HdVideo *video) {
+    if (video->temporary[0] != '\0')
+        hd_temporary_remove(video->temporary);
+    video->temporary[0] = '\0';
+    if (video->lock >= 0)
+        close(video->lock);
+    video->lock = -1;
+}
+
+/* FFmpeg is given a name that exists: so it is taken against other processes. */
+static HdStatus reserve_file(HdVideo *video, HdError *error) {
+    HdStatus status = hd_temporary_create(video->path, video->temporary, &video->lock, error);
+    if (status != HD_OK) {
+        video->temporary[0] = '\0';
+        video->lock = -1;
+    }
+    return status;
+}
+
+static HdStatus open_film(HdVideo *video, const char *path, int frames_per_second, HdError *error) {
+    char ffmpeg[HD_MAX_PATH];
+    HdStatus status = hd_child_find("ffmpeg", ffmpeg, error);
+    if (status == HD_OK)
+        status = hd_child_find("ffprobe", video->ffprobe, error);
+    if (status == HD_OK && strlen(path) >= HD_MAX_PATH)
+        status = hd_fail(error, HD_BAD_INPUT,
+                         "the name of the film %s is too long, expected fewer than %d bytes", path,
+                         HD_MAX_PATH);
+    if (status != HD_OK)
+        return status;
+    memcpy(video->path, path, strlen(path) + 1);
+    status = reserve_file(video, error);
+    if (status == HD_OK)
+        status = start_ffmpeg(video, ffmpeg, frames_per_second, error);
+    return status;
+}
+
+HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
+                       int frames_per_second, HdError *error) {
+    *video = NULL;
+    HdStatus status = check_settings(path, width, height, frames_per_second, error);
+    if (status != HD_OK)
+        return status;
+    HdVideo *film = calloc(1, sizeof *film);
+    if (film == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s", path);
+    film->width = width;
+    film->height = height;
+    film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
+    status = open_film(film, path, frames_per_second, error);
+    if (status == HD_OK)
+        *video = film;
+    else
+        hd_video_abort(film);
+    return status;
+}
+
+static HdStatus fail_interrupted(const HdVideo *video, const char *program, HdError *error) {
+    return hd_fail(error, HD_INTERRUPTED, "interrupted while %s worked on %s", program,
+                   video->path);
+}
+
+/* FFmpeg's words on a file that is gone mislead. */
+static void blame_folder(const HdVideo *video, HdError *error) {
+    HdError gone;
+    if (hd_temporary_check(video->temporary, video->path, &gone) != HD_OK)
+        *error = gone;
+}
+
+static HdStatus fail_stuck(const HdVideo *video, const char *program, const char *when,
+                           HdChild *child, HdError *error) {
+    return hd_fail(
+        error, HD_FAILED,
+        "%s stood still for %d s %s of %s and was ended (HEDRON_FFMPEG_PATIENCE sets the "
+        "seconds); it said: %s",
+        program, child->patience_s, when, video->path, hd_child_said(child));
+}
+
+static HdStatus fail_early(HdVideo *video, HdError *error) {
+    char how[64];
+    if (video->ffmpeg.is_stuck) {
+        hd_child_stop(&video->ffmpeg);
+        snprintf(how, sizeof how, "at frame %ld", video->frames);
+        return fail_stuck(video, "FFmpeg", how, &video->ffmpeg, error);
+    }
+    hd_child_end(&video->ffmpeg, HD_CHILD_SILENCE_MS, how);
+    hd_fail(error, HD_FAILED,
+            "FFmpeg ended early (%s) while it was given frame %ld of %s; it said: %s", how,
+            video->frames, video->path, hd_child_said(&video->ffmpeg));
+    blame_folder(video, error);
+    return HD_FAILED;
+}
+
+HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error) {
+    if (frame->width != video->width || frame->height != video->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame of %d x %d pixels for the film %s, expected %d x %d", frame->width,
+                       frame->height, video->path, video->width, video->height);
+    if (video->ffmpeg.pid == 0)
+        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld, it takes no more frames",
+                       video->path, video->frames);
+    if (!hd_child_send(&video->ffmpeg, frame->rgba,
+                       (size_t)frame->width * (size_t)frame->height * 4))
+        return hd_interrupt_signal() != 0 ? fail_interrupted(video, "FFmpeg", error)
+                                          : fail_early(video, error);
+    video->frames++;
+    return HD_OK;
+}
+
+static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
+    char how[64];
+    if (video->ffmpeg.pid == 0)
+        return hd_fail(error, HD_FAILED, "the film %s failed at frame %ld", video->path,
+                       video->frames);
+    if (video->frames == 0)
+        return hd_fail(error, HD_FAILED, "the film %s has no frames, expected at least 1",
+                       video->path);
+    if (hd_child_end(&video->ffmpeg, HD_CHILD_WHILE_IT_WORKS, how))
+        return HD_OK;
+    if (hd_interrupt_signal() != 0)
+        return fail_interrupted(video, "FFmpeg", error);
+    if (video->ffmpeg.is_stuck)
+        return fail_stuck(video, "FFmpeg", "after the last frame", &video->ffmpeg, error);
+    return hd_fail(error, HD_FAILED, "FFmpeg could not make %s (%s); it said: %s", video->path, how,
+                   hd_child_said(&video->ffmpeg));
+}
+
+/* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
+static HdStatus count_frames(HdVideo *video, HdError *error) {
+    char target[HD_MAX_PATH + 8], how[64], *end;
+    HdChild ffprobe;
+    snprintf(target, sizeof target, "file:%s", video->temporary);
+    /* clang-format off */
+    const char *const arguments[] = {
+        video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
+        "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
+    /* clang-format on */
+    HdStatus status = hd_child_start(&ffprobe, arguments, false, NULL, error);
+    if (status != HD_OK)
+        return status;
+    bool done = hd_child_end(&ffprobe, HD_CHILD_WHILE_IT_WORKS, how);
+    if (!done && hd_interrupt_signal() != 0)
+        return fail_interrupted(video, "ffprobe", error);
+    if (ffprobe.is_stuck)
+        return fail_stuck(video, "ffprobe", "while it counted the frames", &ffprobe, error);
+    const char *answer = hd_child_said(&ffprobe);
+    long found = strtol(answer, &end, 10);
+    if (!done || *end != '\0')
+        return hd_fail(error, HD_FAILED,
+                       "ffprobe could not count the frames of %s (%s), expected %ld; it said: %s",
+                       video->path, how, video->frames, answer);
+    if (found != video->frames)
+        return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld", found,
+                       video->path, video->frames);
+    return HD_OK;
+}
+
+HdStatus hd_video_close(HdVideo *video, HdError *error) {
+    HdStatus status = end_ffmpeg(video, error);
+    if (status == HD_OK)
+        status = count_frames(video, error);
+    if (status == HD_FAILED)
+        blame_folder(video, error);
+    if (status == HD_OK) {
+        status = hd_temporary_publish(video->temporary, video->path, error);
+        video->temporary[0] = '\0';
+    }
+    hd_video_abort(video);
+    return status;
+}
+
+void hd_video_abort(HdVideo *video) {
+    hd_child_stop(&video->ffmpeg);
+    remove_file(video);
+    free(video);
+}

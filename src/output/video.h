@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* A film made by FFmpeg's programs from raw frames. */
+#ifndef HD_OUTPUT_VIDEO_H
+#define HD_OUTPUT_VIDEO_H
+
+#include "base/error.h"
+#include "image/picture.h"
+
+typedef struct HdVideo HdVideo;
+
+/* Finds FFmpeg ("ffmpeg" and "ffprobe" in PATH), makes missing folders, and starts FFmpeg without a
+   shell, writing to a temporary name beside `path`. The path's ending (hd_output_kind) must be a
+   film's and tells what is made: MP4, H.264, yuv420p, BT.709, an odd width or height padded by one
+   pixel; MKV, FFV1, the frames' RGB without loss; GIF, a palette for each frame, ordered dither,
+   repeating for ever, times rounded to centiseconds. Frames are 8-bit RGBA of one size, alpha 255.
+   HD_UNAVAILABLE where FFmpeg is missing. */
+HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
+                       int frames_per_second, HdError *error);
+
+/* Hands over one frame; blocks while FFmpeg is busy. An FFmpeg that ended early is an error that
+   quotes the end of what it said, never a signal. */
+HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error);
+
+/* Ends the film: waits for FFmpeg, checks its exit code, counts the frames of the file with ffprobe
+   against the frames added, renames the file to its final name. Frees `video` in every case; on
+   failure no file is left. */
+HdStatus hd_video_close(HdVideo *video, HdError *error);
+
+/* Stops FFmpeg, removes the temporary file, frees `video`. */
+void hd_video_abort(HdVideo *video);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* Frames of surveyed scenes: each pixel gets the samples that it needs, and each sample the rays.
+ */
+#ifndef HD_RENDER_ADAPTIVE_H
+#define HD_RENDER_ADAPTIVE_H
+
+#include "device/renderer.h"
+
+typedef struct HdRefinement HdRefinement;
+
+/* For a scene that was uploaded to the renderer and is surveyed (hd_scene_is_surveyed); both must
+   live on. Errors of the picture are judged on `curve`. */
+HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
+                              HdPrecision precision, HdCurve curve, HdError *error);
+
+/* Renders a frame, none being under way: fills radiance (3 floats a pixel), counts, time and what
+   is known of the error. The same bytes come of it everywhere, whatever was rendered before.
+
+   Adaptive sampling (after Whitted 1980, section 6) begins with one sample a pixel. A pixel gets 4
+   where a neighbour's identity or its picture differs, or where a neighbour has turned out to be
+   uneven; then 16, 64, ... up to all of the grid's, as long as the means of the quarters of its
+   samples differ, or those of its neighbours do. */
+HdStatus hd_refinement_render(HdRefinement *refinement, const HdCamera *camera, HdFrame *frame,
+                              HdError *error);
+
+/* NULL is allowed. */
+void hd_refinement_free(HdRefinement *refinement);
+
+#endif

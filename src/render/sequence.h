@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* Renders the frames of a scene and stores them. */
+#ifndef HD_RENDER_SEQUENCE_H
+#define HD_RENDER_SEQUENCE_H
+
+#include "device/renderer.h"
+#include "output/frame_store.h"
+#include "output/outputs.h"
+#include "render/tracer_pace.h"
+#include "scene/frame_list.h"
+#include "scene/scene.h"
+
+typedef struct HdSequence {
+    const HdScene *scene;
+    const HdFrameList *frames;
+    const HdResume *resume; /* which of them are finished; NULL: none */
+    HdPrecision precision;
+    const HdOutputPlan *outputs;  /* one that hd_outputs_check accepted */
+    HdRenderer *const *renderers; /* open */
+    int renderer_count;           /* 1 to HD_MOST_TRACERS; may be 0 where nothing is missing */
+    /* Called once the scene is on a renderer, before its first frame. With several renderers both
+       this and the next function are called on other threads. */
+    void (*uploaded)(void *context, int renderer, const HdSceneTables *tables);
+    /* One of several renderers failed: others make its frames. */
+    void (*dropped)(void *context, int renderer, const HdError *error);
+    /* Called after each frame is stored, in their order, but on another thread, while later frames
+       are rendered. Must return HD_OK to go on. */
+    HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);
+    void *context;
+} HdSequence;
+
+/* Renders what is missing with one renderer, or with several together, and makes films of all:
+   which renderer makes a frame makes no difference to its bytes. A renderer that fails ends the
+   sequence only if it is the last one. The error is that of the first frame that failed; the frames
+   before it are stored, those after it are not, though they may have been rendered. HD_INTERRUPTED
+   after SIGINT, SIGTERM or SIGHUP: pictures that were finished stay, and so do films that were; the
+   others are dropped. */
+HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error);
+
+#endif

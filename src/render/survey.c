@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/survey.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/growth.h"
+#include "scene/light_bound.h"
+#include "system/chunks.h"
+#include "system/clock.h"
+
+/* Entries of one submission, at most; lists are worked off in parts. */
+enum { MOST_ENTRIES = HD_LISTED_WIDTH << 15 };
+
+/* Cut-offs, as parts of what a dark pixel may miss: the first one, the factor to the next one, and
+   the last one, with which no sample can miss too much that has so many rays at most. */
+#define FIRST_CUTOFF (1.0 / 64.0)
+#define NEXT_CUTOFF  (1.0 / 8.0)
+#define LAST_CUTOFF  (1.0 / MOST_RAYS)
+
+/* Of a sample, on the mean of a pass: where there are more already, smaller cut-offs come to no
+   end. A bundle cannot be interrupted. */
+#define MOST_RAYS 1048576.0
+
+/* Small limits are approached from this one, so that each pass tells what the next one costs. */
+#define EASY_LIMIT 1.0
+
+/* A smaller cut-off is of no use where the bound stays above this part of what it was: depth or
+   weight ended the rays. */
+#define PROGRESS 0.99F
+
+void hd_surveyor_free(HdSurveyor *surveyor) {
+    free(surveyor->entries);
+    free(surveyor->open);
+    hd_frame_free(&surveyor->frame);
+    surveyor->entries = surveyor->open = NULL;
+    surveyor->entry_room = surveyor->open_room = surveyor->frame_rows = 0;
+}
+
+int hd_survey_depth(const HdScene *scene) {
+    HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
+    double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
+    return hd_depth_for_bound(scene, limit * LAST_CUTOFF);
+}
+
+static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {
+    if (rows <= surveyor->frame_rows)
+        return HD_OK;
+    hd_frame_free(&surveyor->frame);
+    HdStatus status =
+        hd_frame_create_with(&surveyor->frame, HD_LISTED_WIDTH, rows, HD_SURVEY_FLOATS, error);
+    surveyor->frame_rows = status == HD_OK ? rows : 0;
+    return status;
+}
+
+static HdStatus reserve(HdSurveyor *surveyor, int count, HdError *error) {
+    int at_once = count < MOST_ENTRIES ? count : MOST_ENTRIES;
+    surveyor->entries = hd_reserved(surveyor->entries, 2 * sizeof *surveyor->entries, at_once,
+                                    &surveyor->entry_room);
+    surveyor->open =
+        hd_reserved(surveyor->open, sizeof *surveyor->open, count, &surveyor->open_room);
+    if (surveyor->entries == NULL || surveyor->open == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d pixels", count);
+    return reserve_frame(surveyor, (at_once + HD_LISTED_WIDTH - 1) / HD_LISTED_WIDTH, error);
+}
+
+static void add_counts(HdSurveyor *surveyor, int count, int samples, double seconds) {
+    const HdFrame *frame = &surveyor->frame;
+    surveyor->sums.primary_rays += (uint64_t)count * (uint64_t)samples;
+    surveyor->sums.mirrored_rays += frame->mirrored_rays;
+    surveyor->sums.transmitted_rays += frame->transmitted_rays;
+    surveyor->sums.shadow_tests += frame->shadow_tests;
+    surveyor->sums.clamps += frame->clamps;
+    surveyor->sums.trace_seconds += seconds;
+}
+
+static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, int samples,
+                       double cutoff, HdError *error) {
+    HdFrameTables tables;
+    const HdSampleList list = {
+        .entries = surveyor->entries,
+        .entry_count = count,
+        .places = surveyor->samples->places,
+        .place_count = surveyor->samples->count,
+        .grid_side = surveyor->samples->grid_side,
+        .samples = samples,
+        .bound_cutoff = cutoff,
+    };
+    HdStatus status = hd_compile_listed_frame(&tables, surveyor->scene, camera, surveyor->precision,
+                                              &list, error);
+    if (status != HD_OK)
+        return status;
+    surveyor->frame.height = tables.height;
+    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
+    hd_frame_tables_free(&tables);
+    return status;
+}
+
+static float darkest(const float rgb[3]) {
+    float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
+    return least < rgb[2] ? least : rgb[2];
+}
+
+static bool is_within(const HdSurveyor *surveyor, const HdSurvey *survey) {
+    double limit = surveyor->scene->max_error;
+    return !(limit > 0.0) ||
+           (double)survey->bound <=
+               hd_error_budget_radiance(&surveyor->budget, limit, (double)darkest(survey->rgb));
+}
+
+/* Requests of one submission. */
+typedef struct Part {
+    HdSurveyor *surveyor;
+    const HdSurveyRequest *requests;
+    HdSurvey *surveys;
+    const int *open; /* numbers of the requests */
+    bool is_first;   /* of several passes */
+} Part;
+
+static void list_entries(void *context, int first, int end) {
+    const Part *part = context;
+    for (int i = first; i < end; i++) {
+        const HdSurveyRequest *request = &part->requests[part->open[i]];
+        part->surveyor->entries[2 * (size_t)i] = request->pixel;
+        part->surveyor->entries[2 * (size_t)i + 1] = request->first;
+    }
+}
+
+/* Chooses the requests that are not within the limit. */
+static int take_surveys(void *context, int first, int end, int *still_open) {
+    const Part *part = context;
+    const float *values = part->surveyor->frame.rgb;
+    int left = 0;
+    for (int i = first; i < end; i++) {
+        int number = part->open[i];
+        HdSurvey *survey = &part->surveys[number];
+        float before = survey->bound;
+        memcpy(survey, values + HD_SURVEY_FLOATS * (size_t)i, sizeof *survey);
+        bool goes_on = part->is_first || survey->bound < PROGRESS * before;
+        if (goes_on && !is_within(part->surveyor, survey))
+            still_open[left++] = number;
+    }
+    return left;
+}
+
+/* Of the requests that are open, in place: those that are not within the limit stay. */
+static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
+                            const HdSurveyRequest *requests, int *open_count, int samples,
+                            double cutoff, bool is_first, HdSurvey *surveys, HdError *error) {
+    int left = 0;
+    for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
+        int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
+        int *open = surveyor->open + from;
+        Part part = {surveyor, requests, surveys, open, is_first};
+        double start = hd_monotonic_seconds();
+        hd_chunks_run(surveyor->threads, count, list_entries, &part);
+        HdStatus status = submit(surveyor, camera, count, samples, cutoff, error);
+        if (status != HD_OK)
+            return status;
+        add_counts(surveyor, count, samples, hd_monotonic_seconds() - start);
+        int open_still = hd_chunks_choose(surveyor->threads, count, take_surveys, &part, open);
+        memmove(surveyor->open + left, open, sizeof *open * (size_t)open_still);
+        left += open_still;
+    }
+    *open_count = left;
+    return HD_OK;
+}
+
+static double rays_so_far(const HdSurveyor *surveyor) {
+    const HdFrame *sums = &surveyor->sums;
+    return (double)(sums->primary_rays + sums->mirrored_rays + sums->transmitted_rays);
+}
+
+/* Passes with smaller and smaller cut-offs, until none of the `count` requests is open. */
+static HdStatus close_requests(HdSurveyor *surveyor, const HdCamera *camera,
+                               const HdSurveyRequest *requests, int count, int samples,
+                               HdSurvey *surveys, HdError *error) {
+    double limit = surveyor->scene->max_error;
+    double easy = limit > 0.0 && limit < EASY_LIMIT ? EASY_LIMIT : limit;
+    double cutoff = FIRST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, easy, 0.0);
+    double last = LAST_CUTOFF * hd_error_budget_radiance(&surveyor->budget, limit, 0.0);
+    bool is_first = true;
+    while (count > 0) {
+        double before = rays_so_far(surveyor), tried = (double)count * samples;
+        HdStatus status = survey_open(surveyor, camera, requests, &count, samples, cutoff, is_first,
+                                      surveys, error);
+        if (status != HD_OK)
+            return status;
+        if (cutoff <= last || rays_so_far(surveyor) - before > tried * MOST_RAYS * NEXT_CUTOFF)
+            break;
+        cutoff = cutoff * NEXT_CUTOFF > last ? cutoff * NEXT_CUTOFF : last;
+        is_first = false;
+    }
+    return HD_OK;
+}
+
+HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
+                        const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
+                        HdError *error) {
+    if (count == 0)
+        return HD_OK;
+    HdStatus status = reserve(surveyor, count, error);
+    if (status != HD_OK)
+        return status;
+    for (int i = 0; i < count; i++)
+        surveyor->open[i] = i;
+    return close_requests(surveyor, camera, requests, count, samples, surveys, error);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* Renders listed samples of a surveyed scene, so often with a smaller cut-off that what was left
+   out of each of them stays within bounds. */
+#ifndef HD_RENDER_SURVEY_H
+#define HD_RENDER_SURVEY_H
+
+#include "device/renderer.h"
+#include "render/error_budget.h"
+#include "render/samples.h"
+#include "system/thread_pool.h"
+
+/* Samples of a pixel that follow each other in the set: their means. */
+typedef struct HdSurvey {
+    float rgb[3]; /* radiance times exposure */
+    float bound;  /* of what is missing from any channel */
+    float identity;
+} HdSurvey;
+
+typedef struct HdSurveyRequest {
+    int pixel; /* x | y << 16 */
+    int first; /* sample in the set */
+} HdSurveyRequest;
+
+typedef struct HdSurveyor {
+    const HdScene *scene; /* uploaded; surveyed */
+    HdPrecision precision;
+    HdRenderer *renderer; /* no frame is under way */
+    const HdSampleSet *samples;
+    HdErrorBudget budget;
+    HdThreadPool *threads; /* for the host's work */
+    HdFrame sums;          /* counts and time of all passes so far; without pixels */
+    int *entries, *open;   /* the surveyor's own from here on */
+    int entry_room, open_room;
+    HdFrame frame;
+    int frame_rows; /* that it has room for */
+} HdSurveyor;
+
+/* Gives up what the surveyor owns itself. */
+void hd_surveyor_free(HdSurveyor *surveyor);
+
+/* How deep a scene with such a limit must be, so that what lies beyond is worth little of it. */
+int hd_survey_depth(const HdScene *scene);
+
+/* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
+   (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays
+   before, or so many rays of a sample are needed that they come to no end: then it says by how
+   much. */
+HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
+                        const HdSurveyRequest *requests, int count, int samples, HdSurvey *surveys,
+                        HdError *error);
+
+#endif

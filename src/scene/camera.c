@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene/camera.h"
+
+#include <math.h>
+
+#include "base/trigonometry.h"
+
+/* Frame `frame_count` gets exactly the double 2 pi. */
+static double flight_time(int frame, int frame_count) {
+    return 2.0 * HD_PI * ((double)frame / (double)frame_count);
+}
+
+static double oscillation(double base, double amplitude, double angle) {
+    double sine, cosine;
+    hd_sine_cosine(angle, &sine, &cosine);
+    return base + amplitude * sine;
+}
+
+/* The horizontal unit vector away from the z axis at the path's angle phi. */
+static HdVec3 outward_on_cylinder(const HdCylinderPath *path, double t) {
+    HdVec3 outward = {0.0, 0.0, 0.0};
+    hd_sine_cosine(path->phi0 + path->phi_frequency * t, &outward.y, &outward.x);
+    return outward;
+}
+
+static HdVec3 outward_at(const HdPath *path, double t) {
+    if (!path->is_fixed)
+        return outward_on_cylinder(&path->cylinder, t);
+    const double size = fmax(fabs(path->point.x), fabs(path->point.y));
+    if (!(size > 0.0))
+        return hd_vec3(1.0, 0.0, 0.0);
+    return hd_normalize(hd_vec3(path->point.x / size, path->point.y / size, 0.0));
+}
+
+HdVec3 hd_path_point(const HdPath *path, int frame, int frame_count) {
+    const HdCylinderPath *law = &path->cylinder;
+    if (path->is_fixed)
+        return path->point;
+    const double t = flight_time(frame, frame_count);
+    const double r = oscillation(law->r0, law->r_amplitude, law->r_frequency * t + law->r_phase);
+    const double z = oscillation(law->z0, law->z_amplitude, law->z_frequency * t + law->z_phase);
+    const HdVec3 outward = outward_on_cylinder(law, t);
+    return hd_vec3(r * outward.x, r * outward.y, z);
+}
+
+static bool is_finite(HdVec3 a) {
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+static double largest_component(HdVec3 a) {
+    return fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
+}
+
+/* `path` supplies phi where the view is vertical and the picture could be turned any way. */
+static void set_basis(HdCamera *camera, HdVec3 view, const HdPath *path, double t) {
+    static const double vertical = 1e-9;
+    /* Brought near 1 first, so that the squares neither overflow nor vanish. */
+    const double size = largest_component(view);
+    camera->forward = hd_normalize(hd_vec3(view.x / size, view.y / size, view.z / size));
+    const HdVec3 sideways = hd_cross(camera->forward, hd_vec3(0.0, 0.0, 1.0));
+    if (hd_length(sideways) >= vertical) {
+        camera->right = hd_normalize(sideways);
+        camera->up = hd_cross(camera->right, camera->forward);
+        return;
+    }
+    const double sign = camera->forward.z > 0.0 ? 1.0 : -1.0;
+    camera->forward = hd_vec3(0.0, 0.0, sign);
+    camera->up = hd_scale(outward_at(path, t), sign);
+    camera->right = hd_cross(camera->forward, camera->up);
+}
+
+HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError *error) {
+    /* Eye and target closer than this, compared with their coordinates, differ by rounding only. */
+    static const double same_place = 1e-13;
+    const HdVec3 eye = hd_path_point(&scene->eye, frame, scene->frame_count);
+    const HdVec3 target = hd_path_point(&scene->target, frame, scene->frame_count);
+    const HdVec3 view = hd_sub(target, eye);
+    if (!is_finite(eye) || !is_finite(target) || !is_finite(view))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "frame %d: the eye or the target is too far away for a number", frame);
+    const double scale = fmax(largest_component(eye), largest_component(target));
+    if (largest_component(view) <= same_place * scale)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "frame %d: the eye is at the target (%.15g, %.15g, %.15g), "
+                       "expected two different points",
+                       frame, eye.x, eye.y, eye.z);
+
+    double sine, cosine;
+    hd_sine_cosine(scene->field_of_view_degrees * (HD_PI / 360.0), &sine, &cosine);
+    camera->eye = eye;
+    camera->tangent_of_half_fov = sine / cosine;
+    set_basis(camera, view, &scene->eye, flight_time(frame, scene->frame_count));
+    return HD_OK;
+}

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "scene/frame_list.h"
+
+#include <limits.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Both ends belong to it. */
+typedef struct Range {
+    int first, last;
+} Range;
+
+static HdStatus fail_item(const char *item, size_t length, const char *what, int frame_count,
+                          HdError *error) {
+    if (frame_count == 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the frame list has \"%.*s\", %s; the scene has one frame, 0",
+                       (int)(length < 1000 ? length : 1000), item, what);
+    int shown = length < 1000 ? (int)length : 1000;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "the frame list has \"%.*s\", %s; expected frames or ascending ranges within "
+                   "0-%d",
+                   shown, item, what, frame_count - 1);
+}
+
+/* Moves `*text` past the digits; a number beyond int stays at INT_MAX, which no sequence holds. */
+static bool read_number(const char **text, const char *end, int *number) {
+    const char *start = *text;
+    *number = 0;
+    for (; *text < end && **text >= '0' && **text <= '9'; (*text)++) {
+        int digit = **text - '0';
+        *number = *number > (INT_MAX - digit) / 10 ? INT_MAX : *number * 10 + digit;
+    }
+    return *text > start;
+}
+
+static bool read_range(const char *text, const char *end, Range *range) {
+    if (!read_number(&text, end, &range->first))
+        return false;
+    range->last = range->first;
+    if (text == end)
+        return true;
+    if (*text++ != '-')
+        return false;
+    return read_number(&text, end, &range->last) && text == end;
+}
+
+static HdStatus parse_item(const char *item, size_t length, int frame_count, Range *range,
+                           HdError *error) {
+    if (length == 0)
+        return fail_item(item, length, "an empty item", frame_count, error);
+    if (!read_range(item, item + length, range))
+        return fail_item(item, length, "which is neither a frame nor a range", frame_count, error);
+    if (range->first >= frame_count || range->last >= frame_count)
+        return fail_item(item, length, "which lies outside the sequence", frame_count, error);
+    if (range->first > range->last)
+        return fail_item(item, length, "a descending range", frame_count, error);
+    return HD_OK;
+}
+
+static size_t count_items(const char *text) {
+    size_t count = 1;
+    for (; *text != '\0'; text++)
+        count += *text == ',';
+    return count;
+}
+
+static HdStatus parse_items(const char *text, int frame_count, Range *ranges, size_t count,
+                            HdError *error) {
+    HdStatus status = HD_OK;
+    for (size_t i = 0; i < count && status == HD_OK; i++) {
+        size_t length = strcspn(text, ",");
+        status = parse_item(text, length, frame_count, &ranges[i], error);
+        text += length + 1;
+    }
+    return status;
+}
+
+static int compare_ranges(const void *a, const void *b) {
+    const Range *left = a, *right = b;
+    return (left->first > right->first) - (left->first < right->first);
+}
+
+/* Leaves ascending ranges that share no frame and returns how many there are. */
+static size_t merge_ranges(Range *ranges, size_t count) {
+    size_t kept = 1;
+    qsort(ranges, count, sizeof *ranges, compare_ranges);
+    for (size_t i = 1; i < count; i++) {
+        Range *previous = &ranges[kept - 1];
+        if (ranges[i].first > previous->last)
+            ranges[kept++] = ranges[i];
+        else if (ranges[i].last > previous->last)
+            previous->last = ranges[i].last;
+    }
+    return kept;
+}
+
+static HdStatus fill_list(HdFrameList *list, const Range *ranges, size_t count, HdError *error) {
+    int total = 0; /* at most the frames of the sequence, hence an int */
+    for (size_t i = 0; i < count; i++)
+        total += ranges[i].last - ranges[i].first + 1;
+    list->frames = malloc((size_t)total * sizeof *list->frames);
+    if (list->frames == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d frames", total);
+    for (size_t i = 0; i < count; i++)
+        for (int frame = ranges[i].first; frame <= ranges[i].last; frame++)
+            list->frames[list->count++] = frame;
+    return HD_OK;
+}
+
+static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count, HdError *error) {
+    size_t count = count_items(text);
+    Range *ranges = calloc(count, sizeof *ranges);
+    if (ranges == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame list of %zu items",
+                       count);
+    HdStatus status = parse_items(text, frame_count, ranges, count, error);
+    if (status == HD_OK) {
+        count = merge_ranges(ranges, count);
+        status = fill_list(list, ranges, count, error);
+    }
+    free(ranges);
+    return status;
+}
+
+HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error) {
+    *list = (HdFrameList){0};
+    if (frame_count < 1)
+        return hd_fail(error, HD_BAD_INPUT, "the sequence has %d frames, expected at least 1",
+                       frame_count);
+    if (text != NULL)
+        return parse_text(list, text, frame_count, error);
+    Range all = {0, frame_count - 1};
+    return fill_list(list, &all, 1, error);
+}
+
+void hd_frame_list_free(HdFrameList *list) {
+    free(list->frames);
+    *list = (HdFrameList){0};
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* Lists of frames such as "0-9,20". */
+#ifndef HD_SCENE_FRAME_LIST_H
+#define HD_SCENE_FRAME_LIST_H
+
+#include "base/error.h"
+
+typedef struct HdFrameList {
+    int count;
+    int *frames; /* owned; ascending, each once */
+} HdFrameList;
+
+/* Parses `text` (numbers and ascending ranges, separated by commas; overlaps are merged) against a
+   sequence of `frame_count` frames; NULL stands for all of them. */
+HdStatus hd_frame_list_parse(HdFrameList *list, const char *text, int frame_count, HdError *error);
+void hd_frame_list_free(HdFrameList *list);
+
+#endif

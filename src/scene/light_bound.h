@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* What light there can be at most in a scene, before exposure and for each channel: the ground of
+   every bound of what was left out. */
+#ifndef HD_SCENE_LIGHT_BOUND_H
+#define HD_SCENE_LIGHT_BOUND_H
+
+#include "scene/scene.h"
+
+/* The intensities of all lights, added up: no point gets more light. */
+HdVec3 hd_light_bound(const HdScene *scene);
+
+/* No ray sees more radiance, however deep its tree of rays, up to HD_MAX_DEPTH. A surface that
+   shows at most s by itself and sends on a share q of what its rays see shows at most s / (1 - q)
+   where all that it sees does likewise, unless background or discs show more; and never more than
+   these and s for each level. */
+HdVec3 hd_radiance_bound(const HdScene *scene);
+
+/* How deep a ray of weight 1 can go until what it can add is below `bound`, which is positive: up
+   to HD_MAX_DEPTH. */
+int hd_depth_for_bound(const HdScene *scene, double bound);
+
+#endif

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene/platonic.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/trigonometry.h"
+
+typedef struct Points {
+    int count;
+    HdVec3 point[HD_MAX_VERTICES];
+} Points;
+
+static void add_point(Points *points, double x, double y, double z) {
+    points->point[points->count++] = hd_normalize(hd_vec3(x, y, z));
+}
+
+/* The even corners of the cube, or their opposites. */
+static void add_tetrahedron(Points *points, double sign) {
+    add_point(points, sign, sign, sign);
+    add_point(points, sign, -sign, -sign);
+    add_point(points, -sign, sign, -sign);
+    add_point(points, -sign, -sign, sign);
+}
+
+static void add_cube(Points *points) {
+    for (int i = 0; i < 8; i++)
+        add_point(points, (i & 4) ? -1.0 : 1.0, (i & 2) ? -1.0 : 1.0, (i & 1) ? -1.0 : 1.0);
+}
+
+static void add_axes(Points *points) {
+    for (int i = 0; i < 2; i++) {
+        const double sign = i ? -1.0 : 1.0;
+        add_point(points, sign, 0.0, 0.0);
+        add_point(points, 0.0, sign, 0.0);
+        add_point(points, 0.0, 0.0, sign);
+    }
+}
+
+/* (0, +-a, +-b) and its cyclic permutations. */
+static void add_rectangles(Points *points, double a, double b) {
+    for (int i = 0; i < 4; i++) {
+        const double p = (i & 2) ? -a : a;
+        const double q = (i & 1) ? -b : b;
+        add_point(points, 0.0, p, q);
+        add_point(points, q, 0.0, p);
+        add_point(points, p, q, 0.0);
+    }
+}
+
+static void list_vertices(HdSolidKind kind, Points *points) {
+    const double phi = (1.0 + sqrt(5.0)) / 2.0;
+    points->count = 0;
+    switch (kind) {
+    case HD_TETRAHEDRON:
+        add_tetrahedron(points, 1.0);
+        break;
+    case HD_HEXAHEDRON:
+        add_cube(points);
+        break;
+    case HD_OCTAHEDRON:
+        add_axes(points);
+        break;
+    case HD_DODECAHEDRON:
+        /* Of the two such dodecahedra this is the dual of the icosahedron below. */
+        add_cube(points);
+        add_rectangles(points, phi, 1.0 / phi);
+        break;
+    case HD_ICOSAHEDRON:
+    case HD_SOLID_KIND_COUNT:
+        add_rectangles(points, 1.0, phi);
+        break;
+    }
+}
+
+static HdSolidKind dual_of(HdSolidKind kind) {
+    switch (kind) {
+    case HD_TETRAHEDRON:
+        return HD_TETRAHEDRON;
+    case HD_HEXAHEDRON:
+        return HD_OCTAHEDRON;
+    case HD_OCTAHEDRON:
+        return HD_HEXAHEDRON;
+    case HD_DODECAHEDRON:
+        return HD_ICOSAHEDRON;
+    case HD_ICOSAHEDRON:
+    case HD_SOLID_KIND_COUNT:
+        break;
+    }
+    return HD_DODECAHEDRON;
+}
+
+static bool is_opposite(HdVec3 a, HdVec3 b) {
+    return a.x == -b.x && a.y == -b.y && a.z == -b.z;
+}
+
+/* Puts opposite points side by side; of each pair the first stays before all later pairs. */
+static void pair_opposites(Points *points) {
+    for (int i = 0; i < points->count; i += 2) {
+        int other = i + 1;
+        while (!is_opposite(points->point[i], points->point[other]))
+            other++;
+        const HdVec3 opposite = points->point[other];
+        for (int j = other; j > i + 1; j--)
+            points->point[j] = points->point[j - 1];
+        points->point[i + 1] = opposite;
+    }
+}
+
+/* The face normals are the vertices of the dual. */
+static void list_normals(HdSolidKind kind, Points *points) {
+    if (kind == HD_TETRAHEDRON) { /* its own dual, turned round */
+        points->count = 0;
+        add_tetrahedron(points, -1.0);
+    } else {
+        list_vertices(dual_of(kind), points);
+        pair_opposites(points);
+    }
+}
+
+static double inradius_of(const Points *vertices, HdVec3 normal) {
+    double largest = 0.0;
+    for (int i = 0; i < vertices->count; i++)
+        largest = fmax(largest, hd_dot(vertices->point[i], normal));
+    return largest;
+}
+
+/* One bit for every face that the vertex lies on. */
+static uint32_t faces_at(const HdPlatonic *solid, int vertex) {
+    uint32_t faces = 0;
+    for (int i = 0; i < solid->face_count; i++) {
+        const double distance = hd_dot(solid->face_normal[i], solid->vertex[vertex]);
+        if (fabs(distance - solid->inradius) < 1e-9)
+            faces |= UINT32_C(1) << i;
+    }
+    return faces;
+}
+
+/* True where `set` has exactly two bits; then `pair` tells which. */
+static int is_pair(uint32_t set, int pair[2]) {
+    int count = 0;
+    for (int i = 0; i < HD_MAX_FACES; i++) {
+        if ((set >> i) & 1U) {
+            if (count < 2)
+                pair[count] = i;
+            count++;
+        }
+    }
+    return count == 2;
+}
+
+/* Two vertices that share exactly two faces are the ends of the edge between these faces. */
+static void find_edges(HdPlatonic *solid) {
+    solid->edge_count = 0;
+    for (int a = 0; a < solid->vertex_count; a++) {
+        const uint32_t faces_of_a = faces_at(solid, a);
+        for (int b = a + 1; b < solid->vertex_count; b++) {
+            HdPlatonicEdge edge = {.vertex = {a, b}};
+            if (is_pair(faces_of_a & faces_at(solid, b), edge.face))
+                solid->edge[solid->edge_count++] = edge;
+        }
+    }
+}
+
+void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
+    Points vertices, normals;
+    *solid = (HdPlatonic){0};
+    list_vertices(kind, &vertices);
+    list_normals(kind, &normals);
+    solid->vertex_count = vertices.count;
+    for (int i = 0; i < vertices.count; i++)
+        solid->vertex[i] = vertices.point[i];
+    solid->face_count = normals.count;
+    for (int i = 0; i < normals.count; i++)
+        solid->face_normal[i] = normals.point[i];
+    solid->inradius = inradius_of(&vertices, normals.point[0]);
+    find_edges(solid);
+
+    const HdPlatonicEdge first = solid->edge[0];
+    solid->edge_length =
+        hd_length(hd_sub(solid->vertex[first.vertex[0]], solid->vertex[first.vertex[1]]));
+    solid->sine_of_dihedral =
+        hd_length(hd_cross(solid->face_normal[first.face[0]], solid->face_normal[first.face[1]]));
+}
+
+/* Turns about the axis that follows `u` and `v` in the cyclic order x, y, z. */
+static void rotate_plane(double *u, double *v, double sine, double cosine) {
+    const double turned = cosine * *u - sine * *v;
+    *v = sine * *u + cosine * *v;
+    *u = turned;
+}
+
+void hd_rotate_points(HdVec3 *points, int count, HdVec3 degrees) {
+    HdVec3 sine, cosine;
+    if (degrees.x == 0.0 && degrees.y == 0.0 && degrees.z == 0.0)
+        return;
+    hd_sine_cosine(degrees.x * (HD_PI / 180.0), &sine.x, &cosine.x);
+    hd_sine_cosine(degrees.y * (HD_PI / 180.0), &sine.y, &cosine.y);
+    hd_sine_cosine(degrees.z * (HD_PI / 180.0), &sine.z, &cosine.z);
+    for (int i = 0; i < count; i++) {
+        rotate_plane(&points[i].y, &points[i].z, sine.x, cosine.x);
+        rotate_plane(&points[i].z, &points[i].x, sine.y, cosine.y);
+        rotate_plane(&points[i].x, &points[i].y, sine.z, cosine.z);
+    }
+}
+
+void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees) {
+    hd_rotate_points(solid->vertex, solid->vertex_count, degrees);
+    hd_rotate_points(solid->face_normal, solid->face_count, degrees);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* The five platonic solids about the origin with circumradius 1, in fixed orientations:
+   tetrahedron  vertices at alternate corners of an axis-parallel cube, (1,1,1)/sqrt(3) among them
+   hexahedron   faces perpendicular to the axes
+   octahedron   vertices on the axes
+   dodecahedron eight of its vertices are those of the axis-parallel cube
+   icosahedron  vertices (0, +-1, +-phi) and their cyclic permutations, scaled
+   See H. S. M. Coxeter, Regular Polytopes, section 3.7. */
+#ifndef HD_SCENE_PLATONIC_H
+#define HD_SCENE_PLATONIC_H
+
+#include "base/vector.h"
+
+typedef enum HdSolidKind {
+    HD_TETRAHEDRON,
+    HD_HEXAHEDRON,
+    HD_OCTAHEDRON,
+    HD_DODECAHEDRON,
+    HD_ICOSAHEDRON,
+    HD_SOLID_KIND_COUNT
+} HdSolidKind;
+
+enum { HD_MAX_FACES = 20, HD_MAX_VERTICES = 20, HD_MAX_EDGES = 30 };
+
+typedef struct HdPlatonicEdge {
+    int vertex[2];
+    int face[2];
+} HdPlatonicEdge;
+
+typedef struct HdPlatonic {
+    int face_count, vertex_count, edge_count;
+    HdVec3 vertex[HD_MAX_VERTICES];
+    HdVec3 face_normal[HD_MAX_FACES]; /* unit, outward; but in a tetrahedron, which has no opposite
+                                         faces, face 2i + 1 is opposite to face 2i: its normal is
+                                         the other's, negated bit by bit */
+    HdPlatonicEdge edge[HD_MAX_EDGES];
+    double inradius;         /* of the circumradius 1 */
+    double edge_length;      /* likewise */
+    double sine_of_dihedral; /* sine of the angle between two neighbouring faces */
+} HdPlatonic;
+
+/* Fills `solid`. Every value follows from square roots alone, so it is the same on every system. */
+void hd_platonic(HdSolidKind kind, HdPlatonic *solid);
+
+/* Turns points about the x axis, then the y axis, then the z axis, counterclockwise as seen from
+   the axis's tip. Angles of 0 leave every bit as it is. */
+void hd_rotate_points(HdVec3 *points, int count, HdVec3 degrees);
+
+/* Turns the solid likewise. */
+void hd_platonic_rotate(HdPlatonic *solid, HdVec3 degrees);
+
+#endif

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+
+#include "image/picture.h"
+
+bool hd_scene_is_surveyed(const HdScene *scene) {
+    return scene->sampling != HD_SAMPLING_GRID || scene->max_error > 0.0;
+}
+
+bool hd_scene_has_deep_trees(const HdScene *scene) {
+    enum { FEW_LEVELS = 64 };
+    const double small_cutoff = 1e-4; /* that does not end trees long before */
+    return scene->depth > FEW_LEVELS && (scene->max_error > 0.0 || scene->cutoff <= small_cutoff);
+}
+
+void hd_scene_drop_survey(HdScene *scene) {
+    enum { USUAL_DEPTH = 16 };
+    if (scene->max_error > 0.0 && scene->depth > USUAL_DEPTH)
+        scene->depth = USUAL_DEPTH;
+    scene->sampling = HD_SAMPLING_GRID;
+    scene->max_error = 0.0;
+}
+
+int hd_edge_light_count(const HdSolid *solid) {
+    HdPlatonic platonic;
+    hd_platonic(solid->kind, &platonic);
+    return platonic.edge_count * solid->lights.per_edge;
+}
+
+HdVec3 hd_floor_centre(const HdFloor *floor) {
+    HdVec3 sum = floor->corners[0];
+    for (int i = 1; i < 4; i++)
+        sum = hd_add(sum, floor->corners[i]);
+    return hd_scale(sum, 0.25);
+}
+
+int hd_scene_light_count(const HdScene *scene) {
+    int count = scene->light_count;
+    for (int i = 0; i < scene->solid_count; i++)
+        count += hd_edge_light_count(&scene->solids[i]);
+    return count;
+}
+
+static int is_endless(const HdFalloff *falloff) {
+    return falloff->end > 0.0 ? 0 : 1;
+}
+
+int hd_scene_endless_light_count(const HdScene *scene) {
+    int count = 0;
+    for (int i = 0; i < scene->light_count; i++)
+        count += is_endless(&scene->lights[i].falloff);
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdEdgeLights *lights = &scene->solids[i].lights;
+        if (lights->intensity > 0.0)
+            count += is_endless(&lights->falloff) * hd_edge_light_count(&scene->solids[i]);
+    }
+    return count;
+}
+
+int64_t hd_scene_triangle_count(const HdScene *scene) {
+    int64_t count = 0;
+    for (int i = 0; i < scene->mesh_count; i++)
+        count += scene->meshes[i].triangle_count;
+    return count;
+}
+
+void hd_scene_drop_meshes(HdScene *scene) {
+    for (int i = 0; i < scene->mesh_count; i++)
+        hd_mesh_free(&scene->meshes[i]);
+    for (int i = 0; i < scene->picture_count; i++)
+        hd_texture_clear(&scene->pictures[i].texture);
+    free(scene->meshes);
+    free(scene->instances);
+    free(scene->pictures);
+    scene->meshes = NULL;
+    scene->instances = NULL;
+    scene->pictures = NULL;
+    scene->mesh_count = scene->instance_count = scene->picture_count = 0;
+}
+
+void hd_scene_free(HdScene *scene) {
+    free(scene->solids);
+    free(scene->lights);
+    hd_texture_clear(&scene->floor.texture);
+    hd_scene_drop_meshes(scene);
+    *scene = (HdScene){0};
+}

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* flock */
+
+#include "system/atomic_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "system/known_folders.h"
+#include "system/leftovers.h"
+
+enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
+
+static HdStatus check_target(const char *path, HdError *error) {
+    struct stat found;
+    size_t length = strlen(path);
+    if (length == 0 || path[length - 1] == '/')
+        return hd_fail(error, HD_BAD_INPUT, "cannot write \"%s\": expected the name of a file",
+                       path);
+    if (length >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write \"%s\": the name has %zu bytes, expected fewer than %d", path,
+                       length, HD_MAX_PATH);
+    if (stat(path, &found) == 0 && !S_ISREG(found.st_mode))
+        return hd_fail(error, HD_BAD_INPUT, "cannot write %s: it exists and is not a regular file",
+                       path);
+    return HD_OK;
+}
+
+/* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
+static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
+                               HdError *error) {
+    const char *slash = strrchr(path, '/');
+    int folder_length = slash == NULL ? 0 : (int)(slash - path) + 1;
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder_length, path,
+                          MAX_NAME, path + folder_length, (long)getpid(), attempt);
+    if (length < 0 || length >= HD_MAX_PATH)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
+                       path, length, HD_MAX_PATH);
+    return HD_OK;
+}
+
+/* The temporary name is cut to fit, so that the final one would be found too long only at the end.
+ */
+static HdStatus check_length(const char *path, HdError *error) {
+    const char *slash = strrchr(path, '/');
+    const char *name = slash == NULL ? path : slash + 1;
+    char folder[HD_MAX_PATH] = ".";
+    if (slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    long most = pathconf(folder, _PC_NAME_MAX);
+    if (most > 0 && strlen(name) > (size_t)most)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot write \"%s\": the name of the file has %zu bytes, expected at most "
+                       "%ld",
+                       path, strlen(name), most);
+    return HD_OK;
+}
+
+bool hd_temporary_belongs(const char *name, const char *final_name) {
+    size_t length = strlen(final_name);
+    long process;
+    int attempt, used = 0;
+    if (length > MAX_NAME)
+        length = MAX_NAME;
+    if (strncmp(name, final_name, length) != 0)
+        return false;
+    name += length;
+    return sscanf(name, ".tmp-%ld-%d%n", &process, &attempt, &used) == 2 && name[used] == '\0';
+}
+
+/* Between its making and its locking the file looks like one that was left behind. Where a file
+   system has no locks, none can be held, and nothing is removed. */
+static bool lock(int descriptor) {
+    struct stat found;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return false;
+    return fstat(descriptor, &found) != 0 || found.st_nlink > 0;
+}
+
+void hd_temporary_remove_stale(const char *temporary) {
+    struct stat found, named;
+    int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0)
+        return;
+    /* Another process may have removed it and given its name to a file of its own meanwhile. */
+    if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) &&
+        flock(descriptor, LOCK_EX | LOCK_NB) == 0 && lstat(temporary, &named) == 0 &&
+        named.st_dev == found.st_dev && named.st_ino == found.st_ino)
+        unlink(temporary);
+    close(descriptor);
+}
+
+/* Of a folder that was there, or of a temporary file. */
+static HdStatus fail_without(const char *path, const char *temporary, HdError *error) {
+    char folder[HD_MAX_PATH] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash != NULL)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    if (access(folder, F_OK) != 0)
+        return hd_fail(error, HD_FAILED,
+                       "cannot write %s: its folder %s is gone; it was there before", path, folder);
+    return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", path, temporary);
+}
+
+static HdStatus fail_to_create(const char *path, const char *temporary, int reason,
+                               HdError *error) {
+    if (reason == ENOENT && hd_known_folders_has(path))
+        return fail_without(path, temporary, error);
+    return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path, temporary,
+                   strerror(reason));
+}
+
+HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
+                             HdError *error) {
+    HdStatus status = check_target(path, error);
+    if (status == HD_OK && !hd_known_folders_has(path))
+        status = hd_path_make_parents(path, error);
+    if (status == HD_OK)
+        status = check_length(path, error);
+    /* A process id comes back after a crash, and containers that share a folder repeat them. */
+    for (int attempt = 0; status == HD_OK && attempt < MAX_ATTEMPTS; attempt++) {
+        status = temporary_name(path, attempt, temporary, error);
+        if (status != HD_OK)
+            break;
+        *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (*descriptor >= 0 && lock(*descriptor)) {
+            hd_leftovers_add_file(temporary);
+            hd_known_folders_add(path);
+            return HD_OK;
+        }
+        if (*descriptor >= 0)
+            close(*descriptor);
+        else if (errno != EEXIST)
+            return fail_to_create(path, temporary, errno, error);
+    }
+    if (status != HD_OK)
+        return status;
+    return hd_fail(error, HD_FAILED, "cannot write %s: all %d temporary names up to %s are taken",
+                   path, MAX_ATTEMPTS, temporary);
+}
+
+HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *error) {
+    if (access(temporary, F_OK) != 0 && errno == ENOENT)
+        return fail_without(path, temporary, error);
+    return HD_OK;
+}
+
+void hd_temporary_remove(const char *temporary) {
+    unlink(temporary);
+    hd_leftovers_forget_file(temporary);
+}
+
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error) {
+    if (rename(temporary, path) == 0) {
+        hd_leftovers_forget_file(temporary);
+        return HD_OK;
+    }
+    int reason = errno;
+    hd_temporary_remove(temporary);
+    if (reason == ENOENT)
+        return fail_without(path, temporary, error);
+    return hd_fail(error, HD_FAILED, "cannot rename %s to %s: %s", temporary, path,
+                   strerror(reason));
+}
+
+HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error) {
+    int descriptor = -1;
+    HdStatus status = hd_temporary_create(path, file->temporary, &descriptor, error);
+    if (status != HD_OK)
+        return status;
+    memcpy(file->path, path, strlen(path) + 1);
+    file->lock = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    file->stream = file->lock >= 0 ? fdopen(descriptor, "wb") : NULL;
+    if (file->stream != NULL)
+        return HD_OK;
+    int reason = errno;
+    close(descriptor);
+    if (file->lock >= 0)
+        close(file->lock);
+    hd_temporary_remove(file->temporary);
+    return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
+}
+
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
+    /* The stream remembers a write that failed, but not why; closing may succeed after it. */
+    int reason = ferror(file->stream) ? EIO : 0;
+    if (fclose(file->stream) != 0)
+        reason = errno;
+    file->stream = NULL;
+    HdStatus status = HD_OK;
+    if (reason == 0)
+        status = hd_temporary_publish(file->temporary, file->path, error);
+    else
+        hd_temporary_remove(file->temporary);
+    close(file->lock);
+    return reason == 0
+               ? status
+               : hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
+}
+
+void hd_atomic_file_discard(HdAtomicFile *file) {
+    fclose(file->stream);
+    file->stream = NULL;
+    hd_temporary_remove(file->temporary);
+    close(file->lock);
+}

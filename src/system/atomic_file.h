@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/* Files that appear under their name only once they are complete. */
+#ifndef HD_SYSTEM_ATOMIC_FILE_H
+#define HD_SYSTEM_ATOMIC_FILE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "system/path.h"
+
+/* Makes missing folders, but not one that was there earlier in the run and is gone, and an empty
+   file beside `path`, "NAME.tmp-PID-N", that no other process uses. It does not outlive the program
+   (leftovers.h), unless that is killed; then the descriptor, by which the file is locked, tells
+   that it may be removed. The caller closes the descriptor, once the file has its final name. A
+   `path` that stands for a folder or a device is refused, because renaming would replace it. */
+HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
+                             HdError *error);
+
+/* HD_FAILED where somebody removed the temporary file, or its folder, which the message tells. */
+HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *error);
+
+void hd_temporary_remove(const char *temporary);
+
+/* Whether `name` is one that a temporary file of `final_name` may have, both without folders. */
+bool hd_temporary_belongs(const char *name, const char *final_name);
+
+/* Removes a temporary file that no process has locked. */
+void hd_temporary_remove_stale(const char *temporary);
+
+/* Renames the temporary file to its final name; removes it where that fails. */
+HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error);
+
+typedef struct HdAtomicFile {
+    FILE *stream; /* for the caller to write to */
+    int lock;     /* a descriptor */
+    char path[HD_MAX_PATH];
+    char temporary[HD_MAX_PATH];
+} HdAtomicFile;
+
+HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error);
+
+/* Closes the file and gives it its final name. On failure, a write that failed earlier included,
+   the temporary file is gone and a file that was there before is untouched. */
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error);
+
+/* Closes and removes the temporary file. */
+void hd_atomic_file_discard(HdAtomicFile *file);
+
+#endif

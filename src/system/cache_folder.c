@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "system/cache_folder.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "system/atomic_file.h"
+#include "system/cache_limit.h"
+
+/* Then follow the key and the payload. Folders are not shared among machines of different byte
+   order, and if they were, the magic number would differ. */
+typedef struct Header {
+    uint64_t magic;
+    uint32_t version;
+    uint32_t key_bytes;
+    uint64_t payload_bytes;
+    uint64_t checksum; /* of the header with this field 0, the key and the payload */
+} Header;
+
+enum { VERSION = 1 };
+static const uint64_t magic = UINT64_C(0x0a68636163446865);
+
+/* ---- names ---- */
+
+static HdStatus join(char out[HD_MAX_PATH], const char *folder, const char *name, HdError *error) {
+    int length = snprintf(out, HD_MAX_PATH, "%s/%s", folder, name);
+    if (length < 0 || length >= HD_MAX_PATH)
+        return hd_fail(error, HD_UNAVAILABLE, "the name of the cache folder is too long");
+    return HD_OK;
+}
+
+HdStatus hd_cache_folder(char folder[HD_MAX_PATH], HdError *error) {
+    const char *named = getenv("HEDRON_CACHE");
+    const char *caches = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    folder[0] = '\0';
+    if (named != NULL && strcmp(named, "off") == 0)
+        return hd_fail(error, HD_UNAVAILABLE, "HEDRON_CACHE is off");
+    if (named != NULL && named[0] != '\0') {
+        int length = snprintf(folder, HD_MAX_PATH, "%s", named);
+        return length < HD_MAX_PATH ? HD_OK
+                                    : hd_fail(error, HD_UNAVAILABLE, "HEDRON_CACHE is too long");
+    }
+    if (caches != NULL && caches[0] == '/')
+        return join(folder, caches, "hedron", error);
+    if (home != NULL && home[0] == '/')
+        return access(home, F_OK) == 0
+                   ? join(folder, home, ".cache/hedron", error)
+                   : hd_fail(error, HD_UNAVAILABLE, "there is no home folder %s", home);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "there is no cache folder, for neither HEDRON_CACHE, XDG_CACHE_HOME nor HOME "
+                   "names one");
+}
+
+static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], const char *kind,
+                           const char *key, HdError *error) {
+    char name[HD_CACHE_MAX_KIND + 32];
+    HdStatus status = hd_cache_folder(folder, error);
+    if (status != HD_OK)
+        return status;
+    snprintf(name, sizeof name, "%.*s-%016" PRIx64 HD_CACHE_ENDING, (int)HD_CACHE_MAX_KIND, kind,
+             hd_hash_bytes(HD_HASH_START, key, strlen(key)));
+    return join(path, folder, name, error);
+}
+
+/* ---- reading ---- */
+
+static uint64_t checksum(Header header, const char *key, const void *payload) {
+    header.checksum = 0;
+    uint64_t hash = hd_hash_bytes(HD_HASH_START, &header, sizeof header);
+    hash = hd_hash_bytes(hash, key, header.key_bytes);
+    return hd_hash_bytes(hash, payload, header.payload_bytes);
+}
+
+/* What others may write to, they may fill with machine code of theirs. */
+static const char *find_stat_fault(const struct stat *found) {
+    if (!S_ISREG(found->st_mode))
+        return "it is not a regular file";
+    if (found->st_uid != geteuid())
+        return "it belongs to another user";
+    if ((found->st_mode & (S_IWGRP | S_IWOTH)) != 0)
+        return "other users may write to it";
+    if (found->st_size < (off_t)sizeof(Header) || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
+        return "its size is wrong";
+    return NULL;
+}
+
+static bool read_all(int descriptor, unsigned char *bytes, size_t size) {
+    for (size_t done = 0; done < size;) {
+        ssize_t count = read(descriptor, bytes + done, size - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            return false;
+        done += (size_t)count;
+    }
+    return true;
+}
+
+/* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
+static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
+    struct stat found;
+    if (fstat(descriptor, &found) != 0)
+        return "it cannot be looked at";
+    const char *fault = find_stat_fault(&found);
+    if (fault != NULL)
+        return fault;
+    *size = (size_t)found.st_size;
+    *file = malloc(*size);
+    if (*file == NULL)
+        return "out of memory";
+    return read_all(descriptor, *file, *size) ? NULL : "it cannot be read";
+}
+
+static const char *find_fault(const unsigned char *file, size_t size, const char *key) {
+    Header header;
+    memcpy(&header, file, sizeof header);
+    size -= sizeof header;
+    if (header.magic != magic)
+        return "it is no entry of hedron's";
+    if (header.version != VERSION)
+        return "it is in another format";
+    if (header.key_bytes > size || header.payload_bytes != size - header.key_bytes)
+        return "it is cut short or too long";
+    const unsigned char *stored = file + sizeof header;
+    if (header.checksum != checksum(header, (const char *)stored, stored + header.key_bytes))
+        return "its checksum is wrong";
+    if (header.key_bytes != strlen(key) || memcmp(stored, key, header.key_bytes) != 0)
+        return "it is of another key";
+    return NULL;
+}
+
+/* Moves the payload to the front. */
+static void keep_payload(unsigned char *file, size_t *size, const char *key) {
+    size_t skipped = sizeof(Header) + strlen(key);
+    *size -= skipped;
+    memmove(file, file + skipped, *size);
+}
+
+HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, size_t *size,
+                      HdError *error) {
+    char path[HD_MAX_PATH], folder[HD_MAX_PATH];
+    *bytes = NULL;
+    *size = 0;
+    HdStatus status = entry_path(path, folder, kind, key, error);
+    if (status != HD_OK)
+        return status;
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
+        return hd_fail(error, HD_UNAVAILABLE, "%s has no entry for it", folder);
+    if (descriptor < 0)
+        return hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, strerror(errno));
+    const char *fault = read_file(descriptor, bytes, size);
+    if (fault == NULL)
+        fault = find_fault(*bytes, *size, key);
+    if (fault == NULL) {
+        keep_payload(*bytes, size, key);
+        futimens(descriptor, NULL); /* it was used just now */
+    } else {
+        free(*bytes);
+        *bytes = NULL;
+        status = hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, fault);
+    }
+    close(descriptor);
+    return status;
+}
+
+/* ---- writing ---- */
+
+static HdStatus make_folder(const char *folder, HdError *error) {
+    char below[HD_MAX_PATH + 2];
+    snprintf(below, sizeof below, "%s", folder);
+    for (char *slash = strchr(below + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(below, 0700);
+        *slash = '/';
+    }
+    if (mkdir(folder, 0700) != 0 && errno != EEXIST)
+        return hd_fail(error, HD_FAILED, "cannot make the folder %s: %s", folder, strerror(errno));
+    return HD_OK;
+}
+
+static HdStatus write_entry(const char *path, const char *key, const void *bytes, size_t size,
+                            HdError *error) {
+    HdAtomicFile file;
+    Header header = {.magic = magic,
+                     .version = VERSION,
+                     .key_bytes = (uint32_t)strlen(key),
+                     .payload_bytes = size};
+    header.checksum = checksum(header, key, bytes);
+    HdStatus status = hd_atomic_file_open(&file, path, error);
+    if (status != HD_OK)
+        return status;
+    if (fchmod(fileno(file.stream), 0600) != 0) {
+        int reason = errno;
+        hd_atomic_file_discard(&file);
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
+    }
+    fwrite(&header, sizeof header, 1, file.stream); /* committing finds what fails */
+    fwrite(key, 1, header.key_bytes, file.stream);
+    fwrite(bytes, 1, size, file.stream);
+    return hd_atomic_file_commit(&file, error);
+}
+
+HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,
+                      HdError *error) {
+    char path[HD_MAX_PATH], folder[HD_MAX_PATH];
+    HdStatus status = entry_path(path, folder, kind, key, error);
+    if (status != HD_OK)
+        return status;
+    if (size > HD_CACHE_MAX_ENTRY_BYTES - sizeof(Header) - strlen(key))
+        return hd_fail(error, HD_FAILED, "an entry of %zu bytes is too large for the cache: %d",
+                       size, (int)HD_CACHE_MAX_ENTRY_BYTES);
+    status = make_folder(folder, error);
+    if (status == HD_OK)
+        status = write_entry(path, key, bytes, size, error);
+    if (status == HD_OK)
+        hd_cache_limit(folder, HD_CACHE_MAX_BYTES);
+    return status;
+}
+
+/* ---- texts ---- */
+
+HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t capacity,
+                           HdError *error) {
+    unsigned char *bytes;
+    size_t size;
+    HdStatus status = hd_cache_get(kind, key, &bytes, &size, error);
+    text[0] = '\0';
+    if (bytes == NULL)
+        return status;
+    if (size >= capacity || memchr(bytes, '\0', size) != NULL) {
+        status =
+            hd_fail(error, HD_FAILED, "the cached text of %zu bytes is not one of %s", size, kind);
+    } else {
+        memcpy(text, bytes, size);
+        text[size] = '\0';
+    }
+    free(bytes);
+    return status;
+}
+
+HdStatus hd_cache_put_text(const char *kind, const char *key, const char *text, HdError *error) {
+    return hd_cache_put(kind, key, text, strlen(text), error);
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "system/cache_limit.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { STALE_SECONDS = 3600 };
+
+typedef struct Entry {
+    char name[256];
+    int64_t bytes;
+    struct timespec used;
+} Entry;
+
+typedef struct Listing {
+    Entry *entries;
+    size_t count, capacity;
+    int64_t bytes;
+} Listing;
+
+static bool ends_in(const char *name, const char *ending) {
+    size_t length = strlen(name), tail = strlen(ending);
+    return length >= tail && strcmp(name + length - tail, ending) == 0;
+}
+
+static bool grow(Listing *listing) {
+    if (listing->count < listing->capacity)
+        return true;
+    size_t capacity = listing->capacity == 0 ? 64 : 2 * listing->capacity;
+    Entry *entries = realloc(listing->entries, capacity * sizeof *entries);
+    if (entries == NULL)
+        return false;
+    listing->entries = entries;
+    listing->capacity = capacity;
+    return true;
+}
+
+static void add(Listing *listing, const char *name, const struct stat *found) {
+    if (strlen(name) >= sizeof listing->entries->name || !grow(listing))
+        return;
+    Entry *entry = &listing->entries[listing->count++];
+    memcpy(entry->name, name, strlen(name) + 1);
+    entry->bytes = (int64_t)found->st_size;
+    entry->used = found->st_mtim;
+    listing->bytes += entry->bytes;
+}
+
+static void look_at(Listing *listing, int folder, const char *name) {
+    struct stat found;
+    if (fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode))
+        return;
+    if (ends_in(name, HD_CACHE_ENDING))
+        add(listing, name, &found);
+    else if (strstr(name, HD_CACHE_ENDING ".tmp-") != NULL &&
+             time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
+        unlinkat(folder, name, 0);
+}
+
+static int by_use(const void *first, const void *second) {
+    const struct timespec *a = &((const Entry *)first)->used, *b = &((const Entry *)second)->used;
+    if (a->tv_sec != b->tv_sec)
+        return a->tv_sec < b->tv_sec ? -1 : 1;
+    return (a->tv_nsec > b->tv_nsec) - (a->tv_nsec < b->tv_nsec);
+}
+
+void hd_cache_limit(const char *folder, int64_t most) {
+    Listing listing = {0};
+    DIR *stream = opendir(folder);
+    if (stream == NULL)
+        return;
+    for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
+        look_at(&listing, dirfd(stream), found->d_name);
+    if (listing.entries != NULL)
+        qsort(listing.entries, listing.count, sizeof *listing.entries, by_use);
+    for (size_t i = 0; i < listing.count && listing.bytes > most; i++) {
+        unlinkat(dirfd(stream), listing.entries[i].name, 0);
+        listing.bytes -= listing.entries[i].bytes;
+    }
+    closedir(stream);
+    free(listing.entries);
+}

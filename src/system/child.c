@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "system/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "system/interrupt.h"
+#include "system/leftovers.h"
+
+extern char **environ;
+
+/* Where nothing tells that something happened, glances are shorter. */
+enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
+
+/* Of computing: less may be a loop that waits. */
+static const int64_t LEAST_WORK_NS = 100000000;
+
+static bool is_program(const char *path) {
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISREG(found.st_mode) && access(path, X_OK) == 0;
+}
+
+HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error) {
+    const char *folders = getenv("PATH");
+    if (folders == NULL)
+        folders = "/usr/local/bin:/usr/bin:/bin";
+    for (const char *folder = folders;; folder++) {
+        int length = (int)strcspn(folder, ":");
+        /* An empty item stands for the current folder. */
+        int used = length == 0 ? snprintf(out, HD_MAX_PATH, "./%s", name)
+                               : snprintf(out, HD_MAX_PATH, "%.*s/%s", length, folder, name);
+        if (used > 0 && used < HD_MAX_PATH && is_program(out))
+            return HD_OK;
+        folder += length;
+        if (*folder == '\0')
+            break;
+    }
+    return hd_fail(error, HD_UNAVAILABLE, "cannot make a film: found no program \"%s\" in PATH",
+                   name);
+}
+
+static void close_descriptor(int *descriptor) {
+    if (*descriptor >= 0)
+        close(*descriptor);
+    *descriptor = -1;
+}
+
+/* Sockets, because writing to a pipe without a reader raises a signal and writing to a socket need
+   not. ends[0] is ours. */
+static bool open_channel(int ends[2]) {
+    return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+}
+
+/* Where our own standard streams are closed, the channels have their numbers. Nothing is
+   overwritten before it is used even then: `output` comes after another end and is never 0. */
+static int prepare_streams(posix_spawn_file_actions_t *actions, int input, int output) {
+    int reason = input >= 0 ? posix_spawn_file_actions_adddup2(actions, input, STDIN_FILENO)
+                            : posix_spawn_file_actions_addopen(actions, STDIN_FILENO, "/dev/null",
+                                                               O_RDONLY, 0);
+    if (reason == 0)
+        reason = posix_spawn_file_actions_adddup2(actions, output, STDOUT_FILENO);
+    if (reason == 0)
+        reason = posix_spawn_file_actions_adddup2(actions, output, STDERR_FILENO);
+    return reason;
+}
+
+/* The caller may have blocked signals in this thread, and ours ignores lost readers; the program
+   must inherit neither. */
+static int prepare_signals(posix_spawnattr_t *attributes) {
+    const short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
+    sigset_t none, usual;
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    int reason = posix_spawnattr_setsigmask(attributes, &none);
+    if (reason == 0)
+        reason = posix_spawnattr_setsigdefault(attributes, &usual);
+    if (reason == 0)
+        reason = posix_spawnattr_setpgroup(attributes, 0);
+    if (reason == 0)
+        reason = posix_spawnattr_setflags(attributes, flags);
+    return reason;
+}
+
+/* Returns 0 or what went wrong, as errno would. */
+static int spawn(pid_t *pid, const char *const arguments[], int input, int output) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int reason = posix_spawn_file_actions_init(&actions);
+    if (reason != 0)
+        return reason;
+    reason = posix_spawnattr_init(&attributes);
+    if (reason == 0) {
+        reason = prepare_streams(&actions, input, output);
+        if (reason == 0)
+            reason = prepare_signals(&attributes);
+        if (reason == 0) /* the words are not changed, whatever the prototype says */
+            reason = posix_spawn(pid, arguments[0], &actions, &attributes, (char *const *)arguments,
+                                 environ);
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    if (reason == 0)
+        hd_leftovers_add_group(*pid);
+    else
+        *pid = 0;
+    return reason;
+}
+
+static void remember(HdChild *child, const char *text, size_t length) {
+    size_t room = HD_CHILD_MAX_SAID - child->said_length;
+    if (length > room) {
+        size_t gone = length - room;
+        memmove(child->said, child->said + gone, child->said_length - gone);
+        child->said_length -= gone;
+    }
+    memcpy(child->said + child->said_length, text, length);
+    child->said_length += length;
+    child->said[child->said_length] = '\0';
+}
+
+/* Call only where poll() reported the output; closes it at its end. */
+static void take_output(HdChild *child) {
+    char text[1024];
+    ssize_t count = read(child->output, text, sizeof text);
+    if (count > 0)
+        remember(child, text, (size_t)count);
+    else if (count == 0 || errno != EINTR)
+        close_descriptor(&child->output);
+}
+
+/* ---- standing still ---- */
+
+static int64_t nanoseconds(struct timespec time) {
+    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+}
+
+static HdChildWork look_at_work(const HdChild *child) {
+    HdChildWork work = {0};
+    struct timespec used;
+    struct stat found;
+    clockid_t clock;
+    if (clock_getcpuclockid(child->pid, &clock) == 0 && clock_gettime(clock, &used) == 0)
+        work.cpu_ns = nanoseconds(used);
+    if (child->file != NULL && stat(child->file, &found) == 0) {
+        work.file_bytes = (int64_t)found.st_size;
+        work.file_changed_ns = nanoseconds(found.st_mtim);
+    }
+    return work;
+}
+
+/* Since it was last found to have worked. */
+static bool has_worked(HdChild *child) {
+    HdChildWork now = look_at_work(child);
+    if (now.file_bytes == child->work.file_bytes &&
+        now.file_changed_ns == child->work.file_changed_ns &&
+        now.cpu_ns - child->work.cpu_ns < LEAST_WORK_NS)
+        return false;
+    child->work = now;
+    return true;
+}
+
+/* After a glance in vain; `still_ms` counts them, and no clock, for the whole system may have slept
+   or this program been stopped. */
+static bool stands_still(HdChild *child, int glance_ms, int *still_ms) {
+    *still_ms = has_worked(child) ? 0 : *still_ms + glance_ms;
+    child->is_stuck = *still_ms >= 1000 * child->patience_s;
+    return child->is_stuck;
+}
+
+static bool has_ended(const HdChild *child) {
+    siginfo_t state = {0};
+    int code = waitid(P_PID, (id_t)child->pid, &state, WEXITED | WNOWAIT | WNOHANG);
+    return code != 0 ? errno != EINTR : state.si_pid != 0;
+}
+
+/* Takes in output until its end, then waits for the child's. False where it is to be killed. */
+static bool wait_for_end(HdChild *child, int silence_ms) {
+    int still_ms = 0;
+    while (child->output >= 0 || !has_ended(child)) {
+        bool works = silence_ms == HD_CHILD_WHILE_IT_WORKS;
+        if (works && hd_interrupt_signal() != 0)
+            return false;
+        int glance_ms = child->output >= 0 ? GLANCE_MS : SHORT_GLANCE_MS;
+        struct pollfd ready = {.fd = child->output, .events = POLLIN};
+        int count = poll(&ready, 1, glance_ms);
+        if (count < 0 && errno != EINTR)
+            return false;
+        if (count > 0) {
+            take_output(child);
+            still_ms = 0;
+        } else if (works ? stands_still(child, glance_ms, &still_ms)
+                         : (still_ms += glance_ms) >= silence_ms) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool hd_child_send(HdChild *child, const uint8_t *bytes, size_t size) {
+    int still_ms = 0;
+    while (size > 0) {
+        struct pollfd ready[2] = {{.fd = child->input, .events = POLLOUT},
+                                  {.fd = child->output, .events = POLLIN}};
+        int count = poll(ready, 2, GLANCE_MS);
+        if (hd_interrupt_signal() != 0 || (count < 0 && errno != EINTR))
+            return false;
+        if (count <= 0 && stands_still(child, GLANCE_MS, &still_ms))
+            return false;
+        if (count <= 0)
+            continue;
+        still_ms = 0;
+        if (ready[1].revents != 0)
+            take_output(child);
+        if (ready[0].revents == 0)
+            continue;
+        ssize_t sent = send(child->input, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
+            return false;
+        if (sent > 0) {
+            bytes += sent;
+            size -= (size_t)sent;
+        }
+    }
+    return true;
+}
+
+/* ---- ends ---- */
+
+/* Waits for as long as it takes, and describes how the child ended. */
+static bool reap(HdChild *child, char how[64]) {
+    int state = 0;
+    pid_t ended;
+    siginfo_t unused;
+    /* Its number is free for another process only once it was waited for. */
+    while (waitid(P_PID, (id_t)child->pid, &unused, WEXITED | WNOWAIT) != 0 && errno == EINTR)
+        continue;
+    hd_leftovers_forget_group(child->pid);
+    do
+        ended = waitpid(child->pid, &state, 0);
+    while (ended < 0 && errno == EINTR);
+    child->pid = 0;
+    close_descriptor(&child->output);
+    if (ended < 0)
+        snprintf(how, 64, "exit code unknown: %s", strerror(errno));
+    else if (WIFSIGNALED(state))
+        snprintf(how, 64, "signal %d", WTERMSIG(state));
+    else
+        snprintf(how, 64, "exit code %d", WEXITSTATUS(state));
+    return ended > 0 && WIFEXITED(state) && WEXITSTATUS(state) == 0;
+}
+
+bool hd_child_end(HdChild *child, int silence_ms, char how[64]) {
+    close_descriptor(&child->input);
+    if (!wait_for_end(child, silence_ms))
+        kill(-child->pid, SIGKILL);
+    return reap(child, how);
+}
+
+/* Kills the whole group, because "ffmpeg" may be a script that started the real program. */
+void hd_child_stop(HdChild *child) {
+    char how[64];
+    if (child->pid > 0) {
+        kill(-child->pid, SIGKILL);
+        reap(child, how);
+    }
+    close_descriptor(&child->input);
+    close_descriptor(&child->output);
+}
+
+static HdStatus read_patience(int *seconds, HdError *error) {
+    const char *text = getenv("HEDRON_FFMPEG_PATIENCE");
+    char *end;
+    *seconds = HD_CHILD_PATIENCE_S;
+    if (text == NULL || text[0] == '\0')
+        return HD_OK;
+    long wanted = strtol(text, &end, 10);
+    if (*end != '\0' || wanted < 1 || wanted > HD_CHILD_MAX_PATIENCE_S)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "HEDRON_FFMPEG_PATIENCE is '%.200s', expected whole seconds from 1 to %d",
+                       text, HD_CHILD_MAX_PATIENCE_S);
+    *seconds = (int)wanted;
+    return HD_OK;
+}
+
+HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
+                        const char *file, HdError *error) {
+    int input[2] = {-1, -1}, output[2] = {-1, -1};
+    *child = (HdChild){.input = -1, .output = -1, .file = file};
+    HdStatus status = read_patience(&child->patience_s, error);
+    if (status != HD_OK)
+        return status;
+    bool opened = (!with_input || open_channel(input)) && open_channel(output);
+    int reason = opened ? 0 : errno;
+    child->input = input[0];
+    child->output = output[0];
+    if (opened)
+        reason = spawn(&child->pid, arguments, input[1], output[1]);
+    close_descriptor(&input[1]);
+    close_descriptor(&output[1]);
+    if (reason == 0)
+        return HD_OK;
+    hd_child_stop(child);
+    bool unusable = reason == ENOENT || reason == ENOEXEC || reason == EACCES;
+    return hd_fail(error, unusable ? HD_UNAVAILABLE : HD_FAILED, "cannot start %s: %s",
+                   arguments[0], strerror(reason));
+}
+
+const char *hd_child_said(HdChild *child) {
+    while (child->said_length > 0 && strchr("\r\n ", child->said[child->said_length - 1]) != NULL)
+        child->said_length--;
+    child->said[child->said_length] = '\0';
+    return child->said_length > 0 ? child->said : "(nothing)";
+}

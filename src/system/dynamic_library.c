@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* RTLD_NODELETE, dladdr */
+#include "system/dynamic_library.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_PATH = 4096 };
+
+/* Nothing is ever unloaded: NVIDIA's driver has threads of its own, and its compiler loses memory
+   each time it goes. */
+void *hd_library_open(const char *path) {
+    return dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
+
+void hd_library_close(void *library) {
+    if (library)
+        dlclose(library);
+}
+
+const char *hd_library_load(void *library, const HdLibrarySymbol *symbols, int count,
+                            void *functions) {
+    for (int i = 0; i < count; i++) {
+        void *address = dlsym(library, symbols[i].name);
+        if (!address)
+            return symbols[i].name;
+        /* POSIX has function pointers and void pointers alike; C does not let one be cast. */
+        memcpy((char *)functions + symbols[i].offset, &address, sizeof address);
+    }
+    return NULL;
+}
+
+bool hd_library_path(void *library, const char *symbol, char *path, size_t capacity) {
+    Dl_info info;
+    void *address = dlsym(library, symbol);
+    if (!address || !dladdr(address, &info) || !info.dli_fname)
+        return false;
+    int length = snprintf(path, capacity, "%s", info.dli_fname);
+    return length > 0 && (size_t)length < capacity;
+}
+
+void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
+    char beside[MAX_PATH], path[MAX_PATH];
+    if (!hd_library_path(library, symbol, beside, sizeof beside))
+        return NULL;
+    const char *slash = strrchr(beside, '/');
+    if (!slash)
+        return NULL;
+    int length = snprintf(path, sizeof path, "%.*s/%s", (int)(slash - beside), beside, name);
+    return length > 0 && length < MAX_PATH ? hd_library_open(path) : NULL;
+}

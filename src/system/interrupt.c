@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "system/interrupt.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "system/leftovers.h"
+
+enum {
+    SAME_WISH_MS = 500,
+    PATIENCE_MS = 1500,
+    REMOVAL_MS = 300,
+    CLOCK_SLACK_MS = 2,
+    GLANCE_MS = 250
+};
+
+static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
+static const double MIN_PATIENCE_S = 0.1, MAX_PATIENCE_S = 86400.0;
+static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
+
+/* Signals may come in any thread, and two of them in two threads at once. */
+static atomic_int caught;
+static atomic_llong caught_ms; /* on a clock that only goes forward; 0: none came */
+static _Atomic(const char *) announcement;
+
+/* Timers, since nothing else of the program may be able to move. */
+static struct {
+    timer_t end, kill; /* send SIGALRM and, where nothing handles that, SIGKILL */
+    bool has_end, has_kill;
+} timers;
+
+static atomic_bool is_removing;
+
+static long patience_ms = PATIENCE_MS;
+
+_Static_assert(ATOMIC_INT_LOCK_FREE == 2 && ATOMIC_LLONG_LOCK_FREE == 2 &&
+                   ATOMIC_POINTER_LOCK_FREE == 2,
+               "a signal's handler must not wait for a lock");
+
+static long long milliseconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000 + 1;
+}
+
+static void set_timer(timer_t timer, long after_ms) {
+    const struct itimerspec once = {
+        .it_value = {.tv_sec = after_ms / 1000, .tv_nsec = after_ms % 1000 * 1000000}};
+    timer_settime(timer, 0, &once, NULL);
+}
+
+/* As if the signal had never been caught, so that the parent process sees what ended us. */
+static void die(int number) {
+    struct sigaction action;
+    sigset_t only;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = SIG_DFL;
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+    sigemptyset(&only);
+    sigaddset(&only, number);
+    pthread_sigmask(SIG_UNBLOCK, &only, NULL);
+    raise(number);
+    _exit(128 + number);
+}
+
+/* Removing files may hang too. */
+static void end_at_once(int number, const char *text) {
+    atomic_store(&is_removing, true);
+    if (timers.has_end)
+        set_timer(timers.end, REMOVAL_MS);
+    if (timers.has_kill)
+        set_timer(timers.kill, 2 * REMOVAL_MS);
+    if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
+        errno = 0; /* and nobody there to be told */
+    hd_leftovers_remove();
+    die(number);
+}
+
+/* Also what wakes the main thread, and then does nothing else. */
+static void handle_deadline(int unused) {
+    int number = atomic_load(&caught);
+    long long waited = milliseconds() - atomic_load(&caught_ms);
+    (void)unused;
+    if (number == 0 || waited + CLOCK_SLACK_MS < patience_ms)
+        return;
+    if (atomic_load(&is_removing))
+        die(number);
+    end_at_once(number, too_late);
+}
+
+static void handle(int number) {
+    int kept = errno;
+    long long first = 0, now = milliseconds();
+    if (atomic_compare_exchange_strong(&caught_ms, &first, now)) {
+        const char *text = atomic_load(&announcement);
+        atomic_store(&caught, number);
+        if (timers.has_end)
+            set_timer(timers.end, patience_ms);
+        if (text != NULL && write(STDERR_FILENO, text, strlen(text)) < 0)
+            errno = kept; /* and nobody there to be told */
+    } else if (now - first >= SAME_WISH_MS) {
+        end_at_once(number, NULL);
+    }
+    errno = kept;
+}
+
+static bool is_ignored(int number) {
+    struct sigaction action;
+    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
+   background, and nohup its program. */
+static void catch_signal(int number) {
+    struct sigaction action;
+    if (is_ignored(number))
+        return;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handle;
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+/* The system hands a signal to the main thread if it can, but that one handles none while it waits
+   for a file server that is gone. What was meant for it, it may be missing then. */
+static void *watch(void *main_thread) {
+    const struct timespec glance = {.tv_nsec = GLANCE_MS * 1000000};
+    sigset_t all, watched;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, NULL);
+    sigemptyset(&watched);
+    for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
+        sigaddset(&watched, watched_signals[i]);
+    sigaddset(&watched, SIGALRM);
+    for (;;) {
+        int number = sigtimedwait(&watched, NULL, &glance);
+        if (number == SIGALRM) {
+            handle_deadline(number);
+        } else if (number > 0 && !is_ignored(number)) {
+            handle(number);
+            pthread_kill(*(pthread_t *)main_thread, SIGALRM);
+        }
+    }
+    return NULL;
+}
+
+/* Without it all but such waiting ends in time. */
+static void start_watching(void) {
+    static pthread_t main_thread;
+    pthread_t watcher;
+    main_thread = pthread_self();
+    if (pthread_create(&watcher, NULL, watch, &main_thread) == 0)
+        pthread_detach(watcher);
+}
+
+/* False where the system has none left. */
+static bool create_timer(timer_t *timer, int number) {
+    struct sigevent event;
+    memset(&event, 0, sizeof event);
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = number;
+    return timer_create(CLOCK_MONOTONIC, &event, timer) == 0;
+}
+
+static void prepare_deadline(void) {
+    struct sigaction action;
+    sigset_t only;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handle_deadline;
+    action.sa_flags = SA_NODEFER; /* it comes again while the first one is handled */
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGALRM, &action, NULL);
+    sigemptyset(&only);
+    sigaddset(&only, SIGALRM);
+    pthread_sigmask(SIG_UNBLOCK, &only, NULL);
+    timers.has_end = create_timer(&timers.end, SIGALRM);
+    timers.has_kill = create_timer(&timers.kill, SIGKILL);
+}
+
+void hd_interrupt_install(void) {
+    struct sigaction action;
+    prepare_deadline();
+    for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
+        catch_signal(watched_signals[i]);
+    memset(&action, 0, sizeof action);
+    sigemptyset(&action.sa_mask);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &action, NULL);
+    sigaction(SIGPIPE, &action, NULL);
+    action.sa_handler = SIG_DFL;
+    sigaction(SIGCHLD, &action, NULL);
+    start_watching();
+}
+
+HdStatus hd_interrupt_read_patience(HdError *error) {
+    const char *text = getenv("HEDRON_STOP_PATIENCE");
+    char *end;
+    if (text == NULL || text[0] == '\0')
+        return HD_OK;
+    double seconds = strtod(text, &end);
+    if (*end != '\0' || !(seconds >= MIN_PATIENCE_S && seconds <= MAX_PATIENCE_S))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "HEDRON_STOP_PATIENCE is '%.200s', expected seconds from %g to %g", text,
+                       MIN_PATIENCE_S, MAX_PATIENCE_S);
+    patience_ms = (long)(1e3 * seconds);
+    return HD_OK;
+}
+
+int hd_interrupt_signal(void) {
+    return atomic_load(&caught);
+}
+
+void hd_interrupt_announce(const char *text) {
+    atomic_store(&announcement, text);
+}

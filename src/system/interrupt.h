@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* The program's signals; SIGINT, SIGTERM and SIGHUP become a question that the work asks. */
+#ifndef HD_SYSTEM_INTERRUPT_H
+#define HD_SYSTEM_INTERRUPT_H
+
+#include "base/error.h"
+
+/* Catches the three, unless they are ignored. The first one is remembered; another one half a
+   second later or more ends the program at once, leaving nothing half-done behind (leftovers.h).
+   What comes sooner is the same wish, sent twice: to the program and to its group. Where the
+   program has not ended 1.5 s after the first one, whatever it waits for, it is ended in the same
+   way. A file that grows past its limit and a reader that went away become errors of write instead
+   of a death, and children can be waited for whatever the parent process had set. */
+void hd_interrupt_install(void);
+
+/* Other seconds than 1.5 where the environment has HEDRON_STOP_PATIENCE; HD_BAD_INPUT where that is
+   no time. */
+HdStatus hd_interrupt_read_patience(HdError *error);
+
+/* The number of the signal that came, or 0. */
+int hd_interrupt_signal(void);
+
+/* What the first signal writes to standard error at once; NULL: nothing. The text must live on. */
+void hd_interrupt_announce(const char *text);
+
+#endif

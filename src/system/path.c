@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include "system/path.h"
+
+#include <errno.h>
+#include <pwd.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+static HdStatus fail_too_long(const char *path, HdError *error) {
+    return hd_fail(error, HD_BAD_INPUT,
+                   "the file name \"%s\" is too long, expected fewer than %d bytes", path,
+                   HD_MAX_PATH);
+}
+
+static HdStatus join(const char *first, const char *second, char out[HD_MAX_PATH], HdError *error) {
+    size_t first_length = strlen(first), second_length = strlen(second);
+    if (first_length >= HD_MAX_PATH || second_length >= HD_MAX_PATH - first_length)
+        return fail_too_long(second, error);
+    memmove(out, first, first_length);
+    memmove(out + first_length, second, second_length + 1);
+    return HD_OK;
+}
+
+static HdStatus home_from_database(const char *rest, char out[HD_MAX_PATH], HdError *error) {
+    char buffer[16384];
+    struct passwd entry, *found = NULL;
+    int reason = getpwuid_r(getuid(), &entry, buffer, sizeof buffer, &found);
+    if (found == NULL || found->pw_dir == NULL || found->pw_dir[0] == '\0')
+        return hd_fail(error, HD_BAD_INPUT,
+                       "cannot expand \"~%s\": HOME is not set and user %lu has no home folder%s%s",
+                       rest, (unsigned long)getuid(), reason != 0 ? ": " : "",
+                       reason != 0 ? strerror(reason) : "");
+    return join(found->pw_dir, rest, out, error);
+}
+
+HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *error) {
+    if (path[0] != '~' || (path[1] != '\0' && path[1] != '/'))
+        return join("", path, out, error);
+    const char *home = getenv("HOME");
+    if (home == NULL || home[0] == '\0')
+        return home_from_database(path + 1, out, error);
+    return join(home, path + 1, out, error);
+}
+
+static bool is_folder(const char *path) {
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+/* Making first and looking second leaves no gap for another process that makes the same folder. */
+static HdStatus make_folder(const char *folder, const char *path, HdError *error) {
+    if (mkdir(folder, 0777) == 0)
+        return HD_OK;
+    int reason = errno;
+    if (is_folder(folder))
+        return HD_OK;
+    return hd_fail(error, HD_FAILED, "cannot make the folder %s for %s: %s", folder, path,
+                   reason == EEXIST ? "a file has that name" : strerror(reason));
+}
+
+bool hd_path_has_ending(const char *path, const char *ending) {
+    size_t length = strlen(path), tail = strlen(ending);
+    return length >= tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+HdStatus hd_path_make_parents(const char *path, HdError *error) {
+    char folder[HD_MAX_PATH] = "";
+    HdStatus status = join("", path, folder, error);
+    for (size_t i = 1; status == HD_OK && folder[0] != '\0' && folder[i] != '\0'; i++) {
+        if (folder[i] != '/' || folder[i - 1] == '/')
+            continue;
+        folder[i] = '\0';
+        status = make_folder(folder, path, error);
+        folder[i] = '/';
+    }
+    return status;
+}
+
+static void remove_last(char *path) {
+    char *slash = strrchr(path, '/');
+    if (slash != NULL)
+        *slash = '\0';
+}
+
+/* One step down or up from `path`, "" being the root; links are followed as far as they lead. */
+static bool walk(char path[HD_MAX_PATH], const char *part, size_t length) {
+    size_t used = strlen(path);
+    if (length == 0 || (length == 1 && part[0] == '.'))
+        return true;
+    if (length == 2 && strncmp(part, "..", 2) == 0) {
+        remove_last(path);
+        return true;
+    }
+    if (used + length + 2 > HD_MAX_PATH)
+        return false;
+    snprintf(path + used, HD_MAX_PATH - used, "/%.*s", (int)length, part);
+    char *found = realpath(path, NULL);
+    bool fits = found == NULL || strlen(found) < HD_MAX_PATH;
+    if (found != NULL && fits)
+        snprintf(path, HD_MAX_PATH, "%s", found);
+    free(found);
+    return fits;
+}
+
+/* The one name that stands for the file, made of what exists and what would be made. */
+static bool resolve(const char *path, char out[HD_MAX_PATH]) {
+    out[0] = '\0';
+    if (path[0] != '/' && (getcwd(out, HD_MAX_PATH) == NULL || strcmp(out, "/") == 0))
+        out[0] = '\0';
+    for (;;) {
+        size_t length = strcspn(path, "/");
+        if (!walk(out, path, length))
+            return false;
+        path += length;
+        if (*path == '\0')
+            return true;
+        path++;
+    }
+}
+
+bool hd_path_is_same(const char *first, const char *second) {
+    struct stat a, b;
+    char first_name[HD_MAX_PATH], second_name[HD_MAX_PATH];
+    if (stat(first, &a) == 0 && stat(second, &b) == 0)
+        return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    return resolve(first, first_name) && resolve(second, second_name) &&
+           strcmp(first_name, second_name) == 0;
+}
+
+/* A pattern's parts. */
+typedef enum Part { PART_CHARACTER, PART_PERCENT, PART_NUMBER, PART_WRONG } Part;
+
+enum { MAX_DIGITS = 9 };
+
+/* `*text` stands at a percent sign and is moved past the directive if it is one. */
+static Part read_directive(const char **text, int *digits) {
+    const char *p = *text + 1;
+    if (p[0] == '%') {
+        *text = p + 1;
+        return PART_PERCENT;
+    }
+    if (p[0] == '0' && p[1] >= '1' && p[1] <= '0' + MAX_DIGITS) {
+        *digits = p[1] - '0';
+        p += 2;
+    }
+    if (p[0] != 'd')
+        return PART_WRONG;
+    *text = p + 1;
+    return PART_NUMBER;
+}
+
+/* True where the path has "%d" or "%0Nd"; then '#' is a character like any other. */
+static bool has_directive(const char *path) {
+    int digits;
+    while ((path = strchr(path, '%')) != NULL) {
+        Part part = read_directive(&path, &digits);
+        if (part == PART_NUMBER)
+            return true;
+        path += part == PART_WRONG;
+    }
+    return false;
+}
+
+/* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
+static Part read_part(const char **text, bool takes_marks, int *digits) {
+    size_t marks = takes_marks ? strspn(*text, "#") : 0;
+    *digits = 1;
+    if (**text == '%')
+        return read_directive(text, digits);
+    if (marks > MAX_DIGITS)
+        return PART_WRONG;
+    *text += marks > 0 ? marks : 1;
+    if (marks == 0)
+        return PART_CHARACTER;
+    *digits = (int)marks;
+    return PART_NUMBER;
+}
+
+bool hd_pattern_has_number(const char *path) {
+    const bool takes_marks = !has_directive(path);
+    int digits;
+    while (*path != '\0') {
+        Part part = read_part(&path, takes_marks, &digits);
+        if (part == PART_NUMBER)
+            return true;
+        if (part == PART_WRONG)
+            path += *path == '#' ? strspn(path, "#") : 1;
+    }
+    return false;
+}
+
+static HdStatus count_numbers(const char *pattern, int *numbers, HdError *error) {
+    const bool takes_marks = !has_directive(pattern);
+    const char *text = pattern;
+    int digits;
+    *numbers = 0;
+    while (*text != '\0') {
+        Part part = read_part(&text, takes_marks, &digits);
+        if (part == PART_WRONG)
+            return hd_fail(error, HD_BAD_INPUT,
+                           "the pattern \"%s\" has \"%.*s\", expected %%d, %%0Nd with N from 1 to "
+                           "%d, 1 to %d #, or %%%% for a percent sign",
+                           pattern, *text == '#' ? (int)strspn(text, "#") : 4, text, MAX_DIGITS,
+                           MAX_DIGITS);
+        *numbers += part == PART_NUMBER;
+    }
+    return HD_OK;
+}
+
+HdStatus hd_pattern_check(const char *pattern, HdError *error) {
+    int numbers;
+    HdStatus status = count_numbers(pattern, &numbers, error);
+    if (status == HD_OK && numbers != 1)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the pattern \"%s\" has %d frame numbers, expected exactly one %%d, %%0Nd "
+                       "or run of #",
+                       pattern, numbers);
+    return status;
+}
+
+/* Writes what stands for the next part and moves past it. */
+static void expand_next(const char **text, bool takes_marks, int frame, char piece[16]) {
+    int digits;
+    if (read_part(text, takes_marks, &digits) == PART_NUMBER)
+        snprintf(piece, 16, "%0*d", digits, frame);
+    else
+        snprintf(piece, 16, "%c", (*text)[-1]);
+}
+
+static HdStatus expand(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
+    const bool takes_marks = !has_directive(pattern);
+    size_t length = 0;
+    for (const char *text = pattern; *text != '\0';) {
+        char piece[16];
+        expand_next(&text, takes_marks, frame, piece);
+        size_t piece_length = strlen(piece);
+        if (length + piece_length >= HD_MAX_PATH)
+            return fail_too_long(pattern, error);
+        memcpy(out + length, piece, piece_length);
+        length += piece_length;
+    }
+    out[length] = '\0';
+    return HD_OK;
+}
+
+HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error) {
+    HdStatus status = hd_pattern_check(pattern, error);
+    if (status != HD_OK)
+        return status;
+    if (frame < 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the frame %d of \"%s\" is negative, expected 0 or more", frame, pattern);
+    return expand(pattern, frame, out, error);
+}
+
+HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error) {
+    int numbers;
+    HdStatus status = count_numbers(name, &numbers, error);
+    if (status == HD_OK && numbers > 0)
+        return hd_fail(error, HD_BAD_INPUT, "the name \"%s\" has a frame number, expected none",
+                       name);
+    return status == HD_OK ? expand(name, 0, out, error) : status;
+}

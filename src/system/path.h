@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* Names of files: the home folder, missing folders, numbered sequences. */
+#ifndef HD_SYSTEM_PATH_H
+#define HD_SYSTEM_PATH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+
+enum { HD_MAX_PATH = 4096 };
+
+/* Copies `path` to `out`, a leading "~" or "~/" replaced by the home folder (HOME, else the user
+   database). "~name" is left as it is. */
+HdStatus hd_path_expand_home(const char *path, char out[HD_MAX_PATH], HdError *error);
+
+/* True where both names stand for the same file, by whatever spelling or link; neither need exist.
+ */
+bool hd_path_is_same(const char *first, const char *second);
+
+/* True where `path` ends in `ending`, such as ".png", in upper or lower case. */
+bool hd_path_has_ending(const char *path, const char *ending);
+
+/* Makes every missing folder above the file `path`. */
+HdStatus hd_path_make_parents(const char *path, HdError *error);
+
+/* True where `path` holds a frame number: "%d", "%0Nd" with N from 1 to 9, or a run of 1 to 9 "#",
+   which counts its digits. */
+bool hd_pattern_has_number(const char *path);
+
+/* Checks a pattern: exactly one frame number; "%%" stands for a percent sign; anything else after a
+   percent sign is wrong, and so is a longer run of "#". The pattern never reaches printf. */
+HdStatus hd_pattern_check(const char *pattern, HdError *error);
+
+/* Writes the name of a file without a frame number, in which "%%" stands for a percent sign. */
+HdStatus hd_pattern_format_single(const char *name, char out[HD_MAX_PATH], HdError *error);
+
+/* Writes the name of one frame of a checked pattern. */
+HdStatus hd_pattern_format(const char *pattern, int frame, char out[HD_MAX_PATH], HdError *error);
+
+#endif

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "system/thread_pool.h"
+
+#include <fenv.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "system/warnings.h"
+
+typedef struct Thread {
+    pthread_t thread;
+    HdThreadPool *pool;
+    int number;
+} Thread;
+
+struct HdThreadPool {
+    Thread *threads;
+    int thread_count;
+    pthread_mutex_t mutex;
+    pthread_cond_t work_given, work_done;
+    unsigned generation; /* counts the runs, so that a thread takes part in each once */
+    int busy;
+    bool ending;
+    atomic_int next;
+    int count;
+    HdThreadWork *work;
+    void *context;
+    bool (*must_stop)(void);
+    atomic_bool stopped; /* before all items were done */
+};
+
+static void work_off(HdThreadPool *pool, int thread) {
+    for (;;) {
+        int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
+        if (item >= pool->count)
+            return;
+        if (pool->must_stop()) {
+            atomic_store(&pool->stopped, true);
+            return;
+        }
+        pool->work(pool->context, thread, item);
+    }
+}
+
+static void *thread_main(void *argument) {
+    const Thread *own = argument;
+    HdThreadPool *pool = own->pool;
+    unsigned seen = 0;
+    /* The caller may have been started with denormals flushed to zero, which threads inherit. */
+    fesetenv(FE_DFL_ENV);
+    pthread_mutex_lock(&pool->mutex);
+    for (;;) {
+        while (!pool->ending && pool->generation == seen)
+            pthread_cond_wait(&pool->work_given, &pool->mutex);
+        if (pool->ending)
+            break;
+        seen = pool->generation;
+        pthread_mutex_unlock(&pool->mutex);
+        work_off(pool, own->number);
+        pthread_mutex_lock(&pool->mutex);
+        if (--pool->busy == 0)
+            pthread_cond_signal(&pool->work_done);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return NULL;
+}
+
+/* Kernels keep their private arrays on the stack: at the limits of depth, planes and lanes
+   about 2.2 MB, which is more than some systems give a thread. */
+enum { STACK_BYTES = 8 << 20 };
+
+static int start_thread(Thread *thread) {
+    pthread_attr_t attributes;
+    int code = pthread_attr_init(&attributes);
+    if (code != 0)
+        return code;
+    code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    if (code == 0)
+        code = pthread_create(&thread->thread, &attributes, thread_main, thread);
+    pthread_attr_destroy(&attributes);
+    return code;
+}
+
+static HdStatus do_with_fewer(const HdThreadPool *pool, int wanted, int reason, HdError *error) {
+    int started = pool->thread_count;
+    if (started == 0)
+        return hd_fail(error, HD_FAILED, "cannot start one of %d threads: %s", wanted,
+                       strerror(reason));
+    hd_fallback_note("the system refused threads for tracing (%s): %d of %d do it",
+                     strerror(reason), started, wanted);
+    return HD_OK;
+}
+
+static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
+    pool->threads = calloc((size_t)threads, sizeof *pool->threads);
+    if (pool->threads == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", threads);
+    for (int i = 0; i < threads; i++) {
+        pool->threads[i].pool = pool;
+        pool->threads[i].number = i;
+        int code = start_thread(&pool->threads[i]);
+        if (code != 0)
+            return do_with_fewer(pool, threads, code, error);
+        pool->thread_count++;
+    }
+    return HD_OK;
+}
+
+HdStatus hd_thread_pool_create(HdThreadPool **out, int threads, HdError *error) {
+    HdThreadPool *pool = calloc(1, sizeof *pool);
+    if (pool == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a pool of threads");
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->work_given, NULL);
+    pthread_cond_init(&pool->work_done, NULL);
+    HdStatus status = start_threads(pool, threads, error);
+    if (status != HD_OK)
+        hd_thread_pool_destroy(pool);
+    else
+        *out = pool;
+    return status;
+}
+
+int hd_thread_pool_size(const HdThreadPool *pool) {
+    return pool->thread_count;
+}
+
+bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
+                        bool (*must_stop)(void)) {
+    pthread_mutex_lock(&pool->mutex);
+    pool->count = count;
+    pool->work = work;
+    pool->context = context;
+    pool->must_stop = must_stop;
+    atomic_store(&pool->stopped, false);
+    atomic_store(&pool->next, 0);
+    pool->busy = pool->thread_count;
+    pool->generation++;
+    pthread_cond_broadcast(&pool->work_given);
+    while (pool->busy > 0)
+        pthread_cond_wait(&pool->work_done, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+    return !atomic_load(&pool->stopped);
+}
+
+void hd_thread_pool_destroy(HdThreadPool *pool) {
+    if (pool == NULL)
+        return;
+    pthread_mutex_lock(&pool->mutex);
+    pool->ending = true;
+    pthread_cond_broadcast(&pool->work_given);
+    pthread_mutex_unlock(&pool->mutex);
+    for (int i = 0; i < pool->thread_count; i++)
+        pthread_join(pool->threads[i].thread, NULL);
+    pthread_cond_destroy(&pool->work_done);
+    pthread_cond_destroy(&pool->work_given);
+    pthread_mutex_destroy(&pool->mutex);
+    free(pool->threads);
+    free(pool);
+}

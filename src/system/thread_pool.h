@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* A small pool of threads that work off numbered items. */
+#ifndef HD_SYSTEM_THREAD_POOL_H
+#define HD_SYSTEM_THREAD_POOL_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+
+typedef struct HdThreadPool HdThreadPool;
+
+/* Starts `threads` threads (at least 1), each in the default floating-point environment. Where the
+   system refuses some, those that it did not refuse do the work, and a note tells (fallbacks.h). */
+HdStatus hd_thread_pool_create(HdThreadPool **pool, int threads, HdError *error);
+
+/* How many threads there are. */
+int hd_thread_pool_size(const HdThreadPool *pool);
+
+/* What a pool does; `thread` counts from 0, and no two calls with the same number run at once. */
+typedef void HdThreadWork(void *context, int thread, int item);
+
+/* Calls work(context, t, i) for i = 0 .. count - 1 on the pool's threads, each once, in no fixed
+   order, and waits for all of them. One caller at a time. Once must_stop() is true no further item
+   is begun; false where some were left out so. */
+bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
+                        bool (*must_stop)(void));
+
+/* Ends the threads. NULL is allowed. */
+void hd_thread_pool_destroy(HdThreadPool *pool);
+
+#endif

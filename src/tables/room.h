@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether a scene's tables fit a memory, told in words that help where they do not. */
+#ifndef HD_TABLES_ROOM_H
+#define HD_TABLES_ROOM_H
+
+#include "tables/tables.h"
+
+enum { HD_BYTE_TEXT_SIZE = 32 };
+
+/* For messages: "288 MB", "1.07 GB"; less than a thousand as "16 bytes". */
+void hd_byte_text(double bytes, char out[HD_BYTE_TEXT_SIZE]);
+
+/* What users may do where a device has too little memory; ends a sentence. */
+extern const char hd_room_advice[];
+
+typedef struct HdRoom {
+    const char *name;   /* of the device or machine */
+    const char *advice; /* what to do where it is too little */
+    double memory;      /* bytes in all; 0: unknown */
+    double at_once;     /* most bytes of one table; 0: unknown */
+} HdRoom;
+
+/* HD_UNAVAILABLE where a table, or all of them, can never fit, however much is free: with what is
+   too large, what it needs, and what there is. */
+HdStatus hd_check_room(const HdSceneTables *tables, const HdRoom *room, HdError *error);
+
+#endif

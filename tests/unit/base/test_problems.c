@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/problems.h"
+
+#include <stdio.h>
+
+#include "expect.h"
+
+static HdProblems problems;
+static HdError error;
+
+static int clear(void **state) {
+    (void)state;
+    problems = (HdProblems){.count = 0};
+    error = (HdError){.status = HD_OK};
+    return 0;
+}
+
+static void test_nothing_wrong(void **state) {
+    (void)state;
+    assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_OK);
+    assert_string_equal(error.message, "");
+}
+
+static void test_one_is_one_line(void **state) {
+    (void)state;
+    hd_problem(&problems, "depth is %d, expected 0 to 1000", -1);
+    assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_BAD_INPUT);
+    assert_int_equal(error.status, HD_BAD_INPUT);
+    assert_string_equal(error.message, "a.json: depth is -1, expected 0 to 1000");
+}
+
+static void test_several_are_a_list(void **state) {
+    (void)state;
+    hd_problem(&problems, "first");
+    hd_problem(&problems, "second");
+    hd_problem(&problems, "third");
+    assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_BAD_INPUT);
+    assert_string_equal(error.message, "a.json: 3 problems\n  first\n  second\n  third");
+}
+
+static void test_percent_signs_stay(void **state) {
+    (void)state;
+    hd_problem(&problems, "%s", "out/%d.png");
+    hd_problem(&problems, "%s", "%s%s%n");
+    assert_int_equal(hd_problems_status(&problems, "%d", &error), HD_BAD_INPUT);
+    assert_string_equal(error.message, "%d: 2 problems\n  out/%d.png\n  %s%s%n");
+}
+
+static void test_more_than_there_is_room_for(void **state) {
+    (void)state;
+    for (int i = 0; i < 5000; i++)
+        hd_problem(&problems, "problem %d", i);
+    assert_int_equal(problems.count, 5000);
+    assert_true(problems.used <= sizeof problems.text);
+    assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a.json: 5000 problems\n  problem 0\n  problem 1\n");
+    expect_contains(error.message, "\n  and more of them");
+    assert_null(strstr(error.message, "problem 4999"));
+}
+
+static void test_a_line_that_is_too_long_is_cut(void **state) {
+    (void)state;
+    static char text[8192];
+    memset(text, 'x', sizeof text - 1);
+    for (int i = 0; i < 20; i++)
+        hd_problem(&problems, "%s", text);
+    assert_int_equal(problems.count, 20);
+    assert_true(problems.used <= sizeof problems.text);
+    assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_BAD_INPUT);
+    expect_contains(error.message, "a.json: 20 problems\n  xxxxx");
+    expect_contains(error.message, "\n  and more of them");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(test_nothing_wrong, clear),
+        cmocka_unit_test_setup(test_one_is_one_line, clear),
+        cmocka_unit_test_setup(test_several_are_a_list, clear),
+        cmocka_unit_test_setup(test_percent_signs_stay, clear),
+        cmocka_unit_test_setup(test_more_than_there_is_room_for, clear),
+        cmocka_unit_test_setup(test_a_line_that_is_too_long_is_cut, clear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

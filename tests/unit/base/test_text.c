@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/text.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "base/problems.h"
+#include "expect.h"
+
+static void expect_escaped(const char *text, const char *expected) {
+    char out[80];
+    assert_int_equal(hd_escape(text, out, sizeof out), strlen(text));
+    assert_string_equal(out, expected);
+    assert_int_equal(hd_escape(expected, out, sizeof out), strlen(expected));
+    assert_string_equal(out, expected);
+}
+
+static void test_controls(void **state) {
+    (void)state;
+    expect_escaped("", "");
+    expect_escaped("a\x1b[31m\a\n\t\x7f~", "a\\u001b[31m\\u0007\\u000a\\u0009\\u007f~");
+    expect_escaped("\xc2\x80\xc2\x9f\xc2\xa0", "\\u0080\\u009f\xc2\xa0");
+    expect_escaped("a\xe2\x80\xae"
+                   "b\xe2\x80\xa8\xe2\x81\xa6\xe2\x81\xa9",
+                   "a\\u202eb\\u2028\\u2066\\u2069");
+    expect_escaped("\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa",
+                   "\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa");
+}
+
+static void test_what_is_not_utf8(void **state) {
+    (void)state;
+    expect_escaped("\x9b[2J", "\\x9b[2J"); /* an escape sequence where there are 8 bits */
+    expect_escaped("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
+    expect_escaped("\xc3", "\\xc3");
+    expect_escaped("\xe2\x82", "\\xe2\\x82");
+    expect_escaped("\xc0\x9b\xc1\xbf", "\\xc0\\x9b\\xc1\\xbf");
+    expect_escaped("\xe0\x82\x9b", "\\xe0\\x82\\x9b"); /* U+009B with a byte too many */
+    expect_escaped("\xed\xa0\x80", "\\xed\\xa0\\x80");
+    expect_escaped("\xf4\x90\x80\x80\xff", "\\xf4\\x90\\x80\\x80\\xff");
+}
+
+static void test_cut(void **state) {
+    (void)state;
+    char out[8];
+    assert_int_equal(hd_escape("ab\x1b"
+                               "c",
+                               out, 8),
+                     2);
+    assert_string_equal(out, "ab");
+    assert_int_equal(hd_escape("abcdef\xc3\xa9", out, 8), 6);
+    assert_string_equal(out, "abcdef");
+    assert_int_equal(hd_escape("abcde\xc3\xa9", out, 8), 7);
+    assert_string_equal(out, "abcde\xc3\xa9");
+}
+
+static void test_errors_and_problems(void **state) {
+    (void)state;
+    static HdError error;
+    HdProblems problems = {.count = 0};
+    hd_fail(&error, HD_BAD_INPUT, "%s: line\n\ttwo", "a\x1b]0;b\a");
+    assert_string_equal(error.message, "a\\u001b]0;b\\u0007: line\n\ttwo");
+    hd_error_prefix(&error, "\x1b");
+    assert_string_equal(error.message, "\\u001b: a\\u001b]0;b\\u0007: line\n\ttwo");
+    hd_problem(&problems, "%s is wrong", "a\nhedron: all is well\x1b");
+    hd_problems_status(&problems, "b", &error);
+    assert_string_equal(error.message, "b: a\\u000ahedron: all is well\\u001b is wrong");
+}
+
+static void test_longest_error(void **state) {
+    (void)state;
+    static HdError error;
+    static char text[sizeof error.message + 10];
+    memset(text, '\x1b', sizeof text - 1);
+    hd_fail(&error, HD_BAD_INPUT, "%s", text);
+    assert_true(strlen(error.message) > sizeof error.message - 8);
+    assert_null(strchr(error.message, '\x1b'));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_controls),      cmocka_unit_test(test_what_is_not_utf8),
+        cmocka_unit_test(test_cut),           cmocka_unit_test(test_errors_and_problems),
+        cmocka_unit_test(test_longest_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "choice/fastest_device.h"
+
+#include "choice/job_kind.h"
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "test_folder.h"
+
+enum { FAKE, C };
+
+static HdError error;
+static HdRenderOptions options;
+static HdScene scene;
+static HdJob job;
+static HdDevice candidates[2];
+static HdAutoChoice choice;
+static HdRenderer *renderer;
+static HdDevice chosen;
+static char why[1024], note[2048];
+
+static int begin(void **state) {
+    (void)state;
+    int count;
+    memset(&fake, 0, sizeof fake);
+    setenv("HEDRON_CACHE", "cache", 1);
+    options = (HdRenderOptions){.threads = 1};
+    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+        return 1;
+    job = (HdJob){.scene = &scene, .frame_count = 100};
+    candidates[FAKE] = fake_device();
+    hd_backend_c.enumerate(&candidates[C], 1, &count, &error);
+    choice = (HdAutoChoice){.candidates = candidates,
+                            .count = 2,
+                            .measured = 2,
+                            .options = &options,
+                            .job = &job,
+                            .frame_seconds = 1.0};
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_scene_free(&scene);
+    remove_folder("cache");
+    return 0;
+}
+
+static HdStatus open_it(void) {
+    HdStatus status = hd_auto_open(&renderer, &chosen, &choice, why, note, &error);
+    if (status == HD_OK)
+        assert_non_null(renderer);
+    hd_renderer_close(renderer);
+    return status;
+}
+
+static void expect_chosen(const HdBackend *backend, const char *reason) {
+    assert_int_equal(open_it(), HD_OK);
+    assert_ptr_equal(chosen.backend, backend);
+    expect_contains(why, reason);
+}
+
+static void the_fastest_is_taken_and_remembered(void **state) {
+    (void)state;
+    fake.slow_milliseconds = 400;
+    expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
+    expect_contains(why, " ms (fake 0)");
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
+    fake.opened = fake.rendered = 0;
+    expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, measured earlier, ");
+    assert_int_equal(fake.opened + fake.rendered, 0);
+    assert_string_equal(note, "");
+}
+
+static void order_decides_nothing(void **state) {
+    (void)state;
+    candidates[1] = candidates[0];
+    candidates[1].index = 1;
+    fake.slow_milliseconds = 400;
+    for (fake.slow_index = 0; fake.slow_index < 2; fake.slow_index++) {
+        expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
+        assert_int_equal(chosen.index, 1 - fake.slow_index);
+        remove_folder("cache");
+    }
+}
+
+static void expect_measured(bool is_measured) {
+    fake.opened = 0;
+    assert_int_equal(open_it(), HD_OK);
+    assert_int_equal(fake.opened, is_measured);
+}
+
+static void scenes_and_devices_of_another_kind_are_measured(void **state) {
+    (void)state;
+    fake.slow_milliseconds = 200;
+    expect_measured(true);
+    expect_measured(false);
+    scene.exposure = 2.0;
+    scene.lights[0].position.x = 0.75;
+    expect_measured(false);
+    scene.depth = 60;
+    expect_measured(true);
+    scene.width *= 4;
+    expect_measured(true);
+    scene.solids[0].lights.per_edge = 7;
+    expect_measured(true);
+    options.precision = HD_PRECISION_DOUBLE;
+    expect_measured(true);
+    options.block = 64;
+    expect_measured(true);
+    snprintf(candidates[FAKE].driver, sizeof candidates[FAKE].driver, "driver 8");
+    expect_measured(true);
+    expect_measured(false);
+}
+
+/* Whatever else is the same. */
+static void meshes_of_another_size_are_another_kind(void **state) {
+    (void)state;
+    char texts[3][HD_JOB_KIND_LENGTH];
+    HdScene meshes;
+    assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    for (int i = 0; i < 3; i++) {
+        hd_job_kind(&meshes, &options, texts[i], HD_JOB_KIND_LENGTH);
+        meshes.meshes[0].triangle_count += i == 0 ? 1 : 1000;
+    }
+    hd_scene_free(&meshes);
+    assert_string_equal(texts[0], texts[1]);
+    assert_string_not_equal(texts[1], texts[2]);
+}
+
+static void a_job_too_short_is_not_measured(void **state) {
+    (void)state;
+    job.frame_count = 1;
+    expect_chosen(&hd_backend_c, "it needs about 1 s, too little to measure");
+    assert_int_equal(fake.opened, 0);
+    choice.measured = 1; /* only GPUs are wanted */
+    expect_chosen(&fake_backend, "");
+}
+
+static void what_computes_wrongly_is_passed_over(void **state) {
+    (void)state;
+    fake.renders_wrongly = true;
+    expect_chosen(&hd_backend_c, "the fastest of 2");
+    expect_contains(note, "fake: Fake 1000 (driver 7) computes wrongly");
+    fake.opened = 0;
+    expect_chosen(&hd_backend_c, "measured earlier");
+    assert_int_equal(fake.opened, 0);
+    choice.measured = 1;
+    expect_chosen(&hd_backend_c, "the next after one that cannot be used");
+    expect_contains(note, "computes wrongly");
+}
+
+static void what_is_missing_is_passed_over(void **state) {
+    (void)state;
+    fake.is_missing = true;
+    expect_chosen(&hd_backend_c, "the fastest of 2");
+    expect_contains(note, "fake: it is missing");
+    choice.count = 1;
+    choice.measured = 1;
+    assert_int_equal(open_it(), HD_UNAVAILABLE);
+    expect_contains(error.message, "fake: it is missing");
+}
+
+static void what_fails_at_work_is_tried_again(void **state) {
+    (void)state;
+    fake.fails = true;
+    for (int i = 1; i <= 2; i++) {
+        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
+        expect_contains(note, "fake: it fails");
+        assert_int_equal(fake.opened, i);
+    }
+}
+
+static void without_a_folder_it_is_measured_each_time(void **state) {
+    (void)state;
+    setenv("HEDRON_CACHE", "off", 1);
+    fake.slow_milliseconds = 400;
+    for (int i = 1; i <= 2; i++) {
+        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
+        assert_int_equal(fake.opened, i);
+    }
+}
+
+/* ---- the estimate ---- */
+
+/* No machine is so slow or busy that less than what it really needs would be told: more than a
+   second for so many pixels on one thread, of which a few thousandths are measured. */
+static void the_estimate_scales_with_the_picture(void **state) {
+    (void)state;
+    double seconds;
+    scene.width = scene.height = 16384;
+    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &seconds, &error), HD_OK);
+    assert_true(seconds > 1.0);
+}
+
+/* It is measured with the meshes, so that their triangles count. */
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(the_fastest_is_taken_and_remembered),
+        TEST(order_decides_nothing),
+        TEST(scenes_and_devices_of_another_kind_are_measured),
+        TEST(meshes_of_another_size_are_another_kind),
+        TEST(a_job_too_short_is_not_measured),
+        TEST(what_computes_wrongly_is_passed_over),
+        TEST(what_is_missing_is_passed_over),
+        TEST(what_fails_at_work_is_tried_again),
+        TEST(without_a_folder_it_is_measured_each_time),
+        TEST(the_estimate_scales_with_the_picture),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

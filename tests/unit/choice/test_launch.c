@@ -1,0 +1,424 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "choice/tuning.h"
+
+#include "choice/job_kind.h"
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "system/cache_folder.h"
+#include "test_folder.h"
+
+static HdError error;
+static HdRenderOptions options;
+static HdScene scene;
+static HdJob job;
+static HdDevice device;
+static HdTuning tuning;
+
+static int begin(void **state) {
+    (void)state;
+    memset(&fake, 0, sizeof fake);
+    setenv("HEDRON_CACHE", "cache", 1);
+    options = (HdRenderOptions){.threads = 1};
+    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+        return 1;
+    job = (HdJob){.scene = &scene, .frame_count = 1};
+    device = fake_device();
+    device.has_wide_atomics = true;
+    device.compute_units = 10;
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_scene_free(&scene);
+    remove_folder("cache");
+    return 0;
+}
+
+/* ---- tuning ---- */
+
+static void tune(void) {
+    assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_OK);
+    assert_true(tuning.count > 0 && tuning.best >= 0 && tuning.best < tuning.count);
+}
+
+static HdLaunch best(void) {
+    return tuning.candidates[tuning.best].launch;
+}
+
+/* The GPU that likes the wavefront, 96 registers, groups of 256, 320 of them. */
+static double picky(const HdRenderOptions *asked) {
+    double seconds = asked->pipeline == HD_PIPELINE_WAVEFRONT ? 1.0 : 1.2;
+    seconds *= asked->registers == 96 ? 0.9 : 1.0;
+    seconds *= asked->block == 256 ? 0.9 : 1.0;
+    return seconds * (asked->grid == 320 ? 0.9 : 1.0);
+}
+
+static void expect_candidate(int index, const char *text) {
+    char described[128];
+    assert_true(index < tuning.count);
+    hd_launch_describe(&tuning.candidates[index].launch, described, sizeof described);
+    assert_string_equal(described, text);
+}
+
+static void a_gpu_has_its_candidates(void **state) {
+    (void)state;
+    fake.trace_seconds = picky;
+    device.nvidia_arch = 90;
+    tune();
+    static const char *const candidates[] = {
+        "mega",
+        "mega, at most 64 registers",
+        "mega, at most 96 registers",
+        "mega, at most 128 registers",
+        "mega, at most 168 registers",
+        "wavefront",
+        "wavefront, at most 64 registers",
+        "wavefront, at most 96 registers",
+        "wavefront, at most 128 registers",
+        "wavefront, at most 168 registers",
+        "wavefront, groups of 64, at most 96 registers",
+        "wavefront, groups of 128, at most 96 registers",
+        "wavefront, groups of 256, at most 96 registers",
+        "wavefront, groups of 256, at most 80 groups, at most 96 registers",
+        "wavefront, groups of 256, at most 320 groups, at most 96 registers",
+    };
+    assert_int_equal(tuning.count, 15);
+    for (int i = 0; i < 15; i++)
+        expect_candidate(i, candidates[i]);
+    assert_int_equal(tuning.best, 14);
+    assert_true(tuning.candidates[0].seconds == 1.2);
+}
+
+static void only_nvidia_devices_have_limits_of_registers(void **state) {
+    (void)state;
+    fake.trace_seconds = picky;
+    tune();
+    assert_int_equal(tuning.count, 2 + 3 + 2);
+    assert_int_equal(best().registers, 0);
+}
+
+static void a_cpu_has_pipelines_and_lanes(void **state) {
+    (void)state;
+    fake.trace_seconds = picky;
+    device.is_cpu = true;
+    tune();
+    static const char *const candidates[] = {
+        "mega", "wavefront", "wavefront, 4 lanes", "wavefront, 8 lanes", "wavefront, 16 lanes",
+    };
+    assert_int_equal(tuning.count, 5);
+    for (int i = 0; i < 5; i++)
+        expect_candidate(i, candidates[i]);
+    assert_int_equal(tuning.best, 1);
+}
+
+static void what_the_options_fix_stays(void **state) {
+    (void)state;
+    fake.trace_seconds = picky;
+    device.nvidia_arch = 90;
+    options.pipeline = HD_PIPELINE_MEGA;
+    options.block = 128;
+    options.grid = 7;
+    tune();
+    assert_int_equal(tuning.count, 5);
+    for (int i = 0; i < tuning.count; i++) {
+        assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_MEGA);
+        assert_int_equal(tuning.candidates[i].launch.block, 128);
+        assert_int_equal(tuning.candidates[i].launch.grid, 7);
+    }
+    assert_int_equal(best().registers, 96);
+}
+
+static double nearly_alike(const HdRenderOptions *asked) {
+    return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 0.99 : asked->block > 0 ? 0.985 : 1.0;
+}
+
+static void noise_decides_nothing(void **state) {
+    (void)state;
+    fake.trace_seconds = nearly_alike;
+    tune();
+    assert_int_equal(tuning.best, 0);
+}
+
+static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
+    return asked->pipeline == HD_PIPELINE_WAVEFRONT || asked->block == 256;
+}
+
+static void what_cannot_be_used_is_told(void **state) {
+    (void)state;
+    fake.trace_seconds = picky;
+    fake.refuses = refuses_wavefronts_and_256;
+    tune();
+    assert_int_equal(tuning.count, 7);
+    expect_contains(tuning.candidates[1].failure, "fake: it refuses");
+    expect_contains(tuning.candidates[4].failure, "fake: it refuses");
+    assert_string_equal(tuning.candidates[0].failure, "");
+    assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
+    assert_int_equal(best().block, 0);
+    assert_int_equal(best().grid, 320);
+    device.has_wide_atomics = false;
+    tune();
+    expect_contains(tuning.candidates[1].failure, "64-bit integer atomics");
+}
+
+static double likes_mega(const HdRenderOptions *asked) {
+    return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 2.0 : 1.0;
+}
+
+static void a_display_is_not_kept_by_deep_trees(void **state) {
+    (void)state;
+    fake.trace_seconds = likes_mega;
+    device.has_timeout = true;
+    tune();
+    assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
+    options.has_deep_trees = true;
+    tune();
+    for (int i = 0; i < tuning.count; i++)
+        assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_WAVEFRONT);
+    device.has_timeout = false;
+    tune();
+    assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
+}
+
+static void a_device_that_fails_is_an_error(void **state) {
+    (void)state;
+    fake.is_missing = true;
+    assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_UNAVAILABLE);
+    expect_contains(error.message, "fake: it is missing");
+}
+
+/* The first time that it is measured, somebody else uses the machine. */
+static double unlucky_once(const HdRenderOptions *asked) {
+    if (asked->pipeline != HD_PIPELINE_WAVEFRONT)
+        return 1.0;
+    return fake.opened == 2 ? 1.4 : 0.5;
+}
+
+static void what_was_unlucky_is_measured_again(void **state) {
+    (void)state;
+    fake.trace_seconds = unlucky_once;
+    tune();
+    assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(best().block, 0);
+    assert_int_equal(tuning.width, scene.width);
+    assert_int_equal(tuning.height, scene.height);
+}
+
+/* ---- remembering ---- */
+
+static const HdLaunch choice = {
+    .pipeline = HD_PIPELINE_WAVEFRONT, .block = 64, .grid = 80, .registers = 96};
+
+static void remember(void) {
+    assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error), HD_OK);
+}
+
+static bool recall(HdLaunch *launch) {
+    return hd_launch_recall(launch, &device, &options, &scene);
+}
+
+static bool is_recalled(void) {
+    HdLaunch launch;
+    return recall(&launch);
+}
+
+static void a_choice_is_remembered(void **state) {
+    (void)state;
+    HdLaunch launch;
+    options.lanes = 1;
+    assert_false(recall(&launch));
+    assert_int_equal(launch.pipeline, HD_PIPELINE_AUTO);
+    assert_int_equal(launch.lanes, 1);
+    options.lanes = 0;
+    remember();
+    assert_true(recall(&launch));
+    assert_memory_equal(&launch, &choice, sizeof launch);
+    HdRenderOptions used = hd_launch_remembered_options(&device, &options, &scene);
+    assert_int_equal(used.pipeline, choice.pipeline);
+    assert_int_equal(used.block, choice.block);
+    assert_int_equal(used.grid, choice.grid);
+    assert_int_equal(used.registers, choice.registers);
+    assert_int_equal(used.threads, 1);
+}
+
+static void another_job_or_device_is_not_meant(void **state) {
+    (void)state;
+    remember();
+    scene.exposure = 2.0;
+    device.index = 3;
+    assert_true(is_recalled());
+    scene.width *= 4;
+    assert_false(is_recalled());
+    scene.width /= 4;
+    HdMesh mesh = {.triangle_count = 1000};
+    scene.meshes = &mesh;
+    scene.mesh_count = 1;
+    assert_false(is_recalled());
+    remember();
+    mesh.triangle_count = 600; /* as many, to a power of two */
+    assert_true(is_recalled());
+    mesh.triangle_count = 3000;
+    assert_false(is_recalled());
+    scene.meshes = NULL;
+    scene.mesh_count = 0;
+    scene.instance_count = 9;
+    assert_false(is_recalled());
+    scene.instance_count = 0;
+    options.precision = HD_PRECISION_DOUBLE;
+    assert_false(is_recalled());
+    options.precision = HD_PRECISION_FLOAT;
+    snprintf(device.driver, sizeof device.driver, "driver 8");
+    assert_false(is_recalled());
+    snprintf(device.driver, sizeof device.driver, "driver 7");
+    assert_true(is_recalled());
+}
+
+static void options_of_a_run_win(void **state) {
+    (void)state;
+    remember();
+    options.pipeline = HD_PIPELINE_MEGA;
+    assert_false(is_recalled());
+    assert_int_equal(hd_launch_remembered_options(&device, &options, &scene).block, 0);
+    options.pipeline = HD_PIPELINE_AUTO;
+    options.block = 128;
+    assert_false(is_recalled());
+    options.block = 0;
+    options.grid = 2;
+    assert_false(is_recalled());
+    options.grid = 0;
+    assert_true(is_recalled());
+    /* Nor does a record that says otherwise change what they say. */
+    options.block = 128;
+    remember();
+    assert_false(is_recalled());
+}
+
+/* Whole entries, but of nonsense. */
+static void nonsense_is_ignored(void **state) {
+    (void)state;
+    static const HdLaunch wrong[] = {
+        {.pipeline = HD_PIPELINE_COUNT}, {.lanes = 3},       {.lanes = 8},      {.block = 33},
+        {.grid = HD_MAX_GRID + 1},       {.registers = 256}, {.registers = 15}, {.grid = -1}};
+    for (int i = 0; i < 8; i++) {
+        assert_int_equal(hd_launch_remember(&device, &options, &scene, &wrong[i], &error), HD_OK);
+        assert_false(is_recalled());
+    }
+    remember();
+    assert_true(is_recalled());
+    device.has_wide_atomics = false;
+    assert_false(is_recalled());
+}
+
+static void write_text(const char *text) {
+    char key[HD_JOB_KIND_LENGTH + 640];
+    hd_job_kind(&scene, &options, key, HD_JOB_KIND_LENGTH);
+    strcat(key, "fake Fake 1000 (driver 7)\n");
+    assert_int_equal(hd_cache_put_text("launch", key, text, &error), HD_OK);
+}
+
+static void other_texts_are_ignored(void **state) {
+    (void)state;
+    write_text("pipeline 2, lanes 0, block 64, grid 80, registers 96\n");
+    assert_true(is_recalled()); /* so the key is the right one */
+    static const char *const texts[] = {
+        "",
+        "pipeline 2, lanes 0, block 64, grid 80, registers 96",
+        "pipeline 2, lanes 0, block 64, grid 80, registers 96\nmore",
+        "pipeline 2, lanes 0, block 64, grid 80",
+        "pipeline x",
+        "-1\n"};
+    for (int i = 0; i < 6; i++) {
+        write_text(texts[i]);
+        assert_false(is_recalled());
+    }
+}
+
+static void deep_trees_are_another_kind_of_job(void **state) {
+    (void)state;
+    remember();
+    options.has_deep_trees = true;
+    assert_false(is_recalled());
+    remember();
+    assert_true(is_recalled());
+}
+
+static void without_a_folder_nothing_is_remembered(void **state) {
+    (void)state;
+    setenv("HEDRON_CACHE", "off", 1);
+    assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error),
+                     HD_UNAVAILABLE);
+    expect_contains(error.message, "HEDRON_CACHE is off");
+    assert_false(is_recalled());
+}
+
+static HdPipeline opened_pipeline;
+
+static bool note_pipeline(const HdRenderOptions *asked) {
+    opened_pipeline = asked->pipeline;
+    return false;
+}
+
+static void what_is_remembered_is_opened(void **state) {
+    (void)state;
+    HdRenderer *renderer;
+    fake.refuses = note_pipeline;
+    assert_int_equal(hd_launch_open(&renderer, &device, &options, &scene, &error), HD_OK);
+    hd_renderer_close(renderer);
+    assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
+    remember();
+    assert_int_equal(hd_launch_open(&renderer, &device, &options, &scene, &error), HD_OK);
+    hd_renderer_close(renderer);
+    assert_int_equal(opened_pipeline, HD_PIPELINE_WAVEFRONT);
+    /* To measure a candidate, though, is to measure that one. */
+    assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
+    hd_renderer_close(renderer);
+    assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
+}
+
+/* ---- limits of registers ---- */
+
+static void limits_of_registers_suit_the_device(void **state) {
+    (void)state;
+    HdKernelShape shape = {.group_size = 128};
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
+    assert_int_equal(hd_register_limit(&shape, 90, 96), 96);
+    shape.precision = HD_PRECISION_DOUBLE;
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 64);
+    /* All threads of a block must find room. */
+    shape.precision = HD_PRECISION_FLOAT;
+    for (shape.group_size = HD_BLOCK_STEP; shape.group_size <= HD_MAX_BLOCK;
+         shape.group_size += HD_BLOCK_STEP) {
+        int limit = hd_register_limit(&shape, 90, 0);
+        assert_true(limit >= 64 && limit <= 128 && limit % 8 == 0);
+        assert_true(limit * shape.group_size <= 65536);
+    }
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(a_gpu_has_its_candidates),
+        TEST(only_nvidia_devices_have_limits_of_registers),
+        TEST(a_cpu_has_pipelines_and_lanes),
+        TEST(what_the_options_fix_stays),
+        TEST(noise_decides_nothing),
+        TEST(what_cannot_be_used_is_told),
+        TEST(a_display_is_not_kept_by_deep_trees),
+        TEST(a_device_that_fails_is_an_error),
+        TEST(what_was_unlucky_is_measured_again),
+        TEST(a_choice_is_remembered),
+        TEST(another_job_or_device_is_not_meant),
+        TEST(options_of_a_run_win),
+        TEST(nonsense_is_ignored),
+        TEST(other_texts_are_ignored),
+        TEST(deep_trees_are_another_kind_of_job),
+        TEST(without_a_folder_nothing_is_remembered),
+        TEST(what_is_remembered_is_opened),
+        TEST(limits_of_registers_suit_the_device),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli/option_table.h"
+#include "cli/options.h"
+#include "expect.h"
+
+enum { MAX_ARGUMENTS = 200 };
+
+static HdOptions options;
+static HdError error;
+
+/* Parses words that are separated by spaces; the texts live until the next call. */
+static HdStatus parse(const char *line) {
+    static char text[4096];
+    static char *arguments[MAX_ARGUMENTS + 1];
+    int count = 0;
+    strcpy(text, line);
+    for (char *word = strtok(text, " "); word != NULL; word = strtok(NULL, " ")) {
+        assert_true(count < MAX_ARGUMENTS);
+        arguments[count++] = word;
+    }
+    arguments[count] = NULL;
+    error.message[0] = '\0';
+    return hd_options_parse(&options, count, arguments, &error);
+}
+
+static void check_refused(const char *line, const char *part) {
+    assert_int_equal(parse(line), HD_BAD_INPUT);
+    expect_contains(error.message, part);
+    if (strchr(error.message, '\n') != NULL)
+        fail_msg("'%s' has more than one line", error.message);
+}
+
+static void nothing_is_the_classic_mode(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron"), HD_OK);
+    assert_int_equal(options.command, HD_COMMAND_CLASSIC);
+    assert_int_equal(options.variant, 4);
+    assert_int_equal(options.width, -1);
+    assert_true(options.cutoff == -1.0);
+    assert_int_equal(options.operand_count, 0);
+    assert_false(options.quiet || options.verbose);
+}
+
+static void comparisons_take_two_pictures(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron compare a.png b.pfm"), HD_OK);
+    assert_int_equal(options.command, HD_COMMAND_COMPARE);
+    assert_string_equal(options.operands[1], "b.pfm");
+    assert_true(options.fail_above == -1.0);
+    assert_false(options.json || options.has_curve);
+    assert_null(options.diff);
+    assert_int_equal(parse("hedron compare --json a --diff d.PNG b --fail-above .5 --curve=linear"),
+                     HD_OK);
+    assert_true(options.json && options.has_curve && options.fail_above == 0.5);
+    assert_int_equal(options.curve, HD_CURVE_LINEAR);
+    assert_string_equal(options.diff, "d.PNG");
+    assert_int_equal(parse("hedron compare a b --curve srgb --fail-above 255"), HD_OK);
+    assert_int_equal(options.curve, HD_CURVE_SRGB);
+    check_refused("hedron compare", "needs the names of two pictures");
+    check_refused("hedron compare a", "needs the names of two pictures");
+    check_refused("hedron compare a b c", "takes two names only, but 'c' came after 'b'");
+    check_refused("hedron compare a b --fail-above 256", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --fail-above -1", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --fail-above nan", "expected a number from 0 to 255");
+    check_refused("hedron compare a b --diff d.pfm", "expected a name that ends in .png");
+    check_refused("hedron compare a b --curve sRGB", "expected linear or srgb");
+    check_refused("hedron compare a b --size 1x1", "--size does not belong to 'hedron compare'");
+    check_refused("hedron render --diff d.png", "--diff does not belong to 'hedron render'");
+}
+
+static void operands_and_options_mix(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron check --help"), HD_OK);
+    assert_int_equal(parse("hedron check a.json b.json c.json"), HD_OK);
+    assert_int_equal(options.operand_count, 3);
+    assert_string_equal(options.operands[0], "a.json");
+    assert_string_equal(options.operands[2], "c.json");
+    assert_int_equal(parse("hedron render --size 3x4 scene.json -o a.png --depth=2 -o b.gif"),
+                     HD_OK);
+    assert_int_equal(options.operand_count, 1);
+    assert_string_equal(options.operands[0], "scene.json");
+    assert_int_equal(options.output_count, 2);
+    assert_string_equal(options.outputs[0], "a.png");
+    assert_string_equal(options.outputs[1], "b.gif");
+    assert_int_equal(options.height, 4);
+    assert_int_equal(options.depth, 2);
+}
+
+/* A line with so many repetitions of an option. */
+static const char *repeated(const char *option, int count) {
+    static char line[4096];
+    strcpy(line, "hedron render");
+    for (int i = 0; i < count; i++) {
+        strcat(line, " ");
+        strcat(line, option);
+    }
+    return line;
+}
+
+static void repetitions_have_a_limit(void **state) {
+    (void)state;
+    assert_int_equal(parse(repeated("--output=a.png", 8)), HD_OK);
+    assert_int_equal(options.output_count, 8);
+    check_refused(repeated("--output=a.png", 9), "at most 8");
+    assert_int_equal(parse(repeated("--set=a.b=1", 64)), HD_OK);
+    assert_int_equal(options.change_count, 64);
+    assert_string_equal(options.changes[63], "a.b=1");
+    check_refused(repeated("--set=a.b=1", 65), "at most 64");
+    check_refused("hedron convert -o a.json -o b.json", "at most 1");
+}
+
+static void changes_have_a_path_and_a_value(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron render --set a=b=c --set d="), HD_OK);
+    assert_string_equal(options.changes[0], "a=b=c");
+    check_refused("hedron render --set abc", "PATH=VALUE");
+    check_refused("hedron render --set =3", "PATH=VALUE");
+    check_refused("hedron render --set", "needs a value");
+    check_refused("hedron --set a=1", "--set does not belong to the classic mode");
+}
+
+static void opposites_exclude_each_other(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron render --quiet --quiet"), HD_OK);
+    assert_true(options.quiet && !options.verbose);
+    assert_int_equal(parse("hedron --verbose"), HD_OK);
+    check_refused("hedron render --quiet --verbose", "only one of --verbose and --quiet");
+    check_refused("hedron --verbose --quiet", "only one of --verbose and --quiet");
+    check_refused("hedron --cpu --gpu", "only one of --gpu, --cpu and --default");
+}
+
+static void the_nearest_word_is_suggested(void **state) {
+    (void)state;
+    check_refused("hedron rendr", "did you mean 'hedron render'?");
+    check_refused("hedron xyzzy", "see 'hedron help'");
+    check_refused("hedron foo.json", "did you mean 'hedron render foo.json'?");
+    check_refused("hedron dir/foo.JSON --size 1x1", "did you mean 'hedron render dir/foo.JSON'?");
+    check_refused("hedron render --smples 3", "did you mean '--samples'?");
+    check_refused("hedron render --siz=3x3", "'--siz=3x3'; did you mean '--size'?");
+    check_refused("hedron render --frobnicate", "see 'hedron help render'");
+    /* Options of other commands are no help. */
+    check_refused("hedron devices --siz", "see 'hedron help devices'");
+    check_refused("hedron help mann", "did you mean 'hedron help man'?");
+    check_refused("hedron help chek", "did you mean 'hedron help check'?");
+    check_refused("hedron help x", "see 'hedron help help'");
+}
+
+static void help_has_topics(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron help"), HD_OK);
+    assert_int_equal(options.help_topic.form, HD_HELP_TEXT);
+    assert_int_equal(options.help_topic.command, HD_COMMAND_CLASSIC);
+    assert_int_equal(parse("hedron help convert"), HD_OK);
+    assert_int_equal(options.help_topic.command, HD_COMMAND_CONVERT);
+    assert_int_equal(parse("hedron help man"), HD_OK);
+    assert_int_equal(options.help_topic.form, HD_HELP_MAN);
+    assert_int_equal(parse("hedron help completion"), HD_OK);
+    assert_int_equal(options.help_topic.form, HD_HELP_COMPLETION);
+    assert_int_equal(parse("hedron check -h"), HD_OK);
+    assert_int_equal(options.command, HD_COMMAND_HELP);
+    assert_int_equal(options.help_topic.command, HD_COMMAND_CHECK);
+    assert_int_equal(parse("hedron help --help"), HD_OK);
+    assert_int_equal(options.help_topic.command, HD_COMMAND_HELP);
+    check_refused("hedron help man page", "takes one name only");
+}
+
+static void names_are_counted(void **state) {
+    (void)state;
+    check_refused("hedron check", "needs the name of a scene");
+    check_refused("hedron check --schema a.json", "looks at no scene");
+    assert_int_equal(parse("hedron check --schema"), HD_OK);
+    check_refused("hedron render a.json b.json", "'b.json' came after 'a.json'");
+    check_refused("hedron devices c", "takes options only, but 'c'");
+    check_refused("hedron --stats -", "expected a file");
+    assert_int_equal(parse("hedron render --stats -"), HD_OK);
+}
+
+static void choices_are_words_of_a_list(void **state) {
+    (void)state;
+    char text[64];
+    assert_int_equal(hd_option_choice("auto c opencl cuda", "auto"), 0);
+    assert_int_equal(hd_option_choice("auto c opencl cuda", "cuda"), 3);
+    assert_int_equal(hd_option_choice("auto c opencl cuda", ""), -1);
+    assert_int_equal(hd_option_choice("auto c opencl cuda", "cud"), -1);
+    assert_int_equal(hd_option_choice("auto c opencl cuda", "c opencl"), -1);
+    hd_option_list_choices("auto c opencl cuda", text, sizeof text);
+    assert_string_equal(text, "auto, c, opencl or cuda");
+    hd_option_list_choices("float double", text, sizeof text);
+    assert_string_equal(text, "float or double");
+    hd_option_list_choices("one", text, sizeof text);
+    assert_string_equal(text, "one");
+    hd_option_list_choices("auto c opencl cuda", text, 8);
+    assert_string_equal(text, "auto, c");
+}
+
+/* The table has a line for each backend, and every option can be parsed. */
+static void the_table_is_whole(void **state) {
+    (void)state;
+    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
+        const HdOptionSpec *spec = &hd_option_specs[i];
+        assert_int_equal(strncmp(spec->name, "--", 2), 0);
+        assert_non_null(spec->help);
+        assert_true(spec->commands != 0);
+        if (spec->id != HD_OPTION_BACKEND)
+            continue;
+        for (int j = 0; j < HD_BACKEND_COUNT; j++)
+            assert_true(hd_option_choice(spec->choices, hd_backends[j]->name) > 0);
+    }
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
+        const HdCommandSpec *spec = &hd_command_specs[i];
+        assert_ptr_equal(hd_command_spec(spec->command), spec);
+        if (spec->name != NULL)
+            assert_true(hd_option_choice(hd_command_spec(HD_COMMAND_HELP)->words, spec->name) >= 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_the_classic_mode),
+        cmocka_unit_test(comparisons_take_two_pictures),
+        cmocka_unit_test(operands_and_options_mix),
+        cmocka_unit_test(repetitions_have_a_limit),
+        cmocka_unit_test(changes_have_a_path_and_a_value),
+        cmocka_unit_test(opposites_exclude_each_other),
+        cmocka_unit_test(the_nearest_word_is_suggested),
+        cmocka_unit_test(help_has_topics),
+        cmocka_unit_test(names_are_counted),
+        cmocka_unit_test(choices_are_words_of_a_list),
+        cmocka_unit_test(the_table_is_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli/progress.h"
+#include "expect.h"
+
+static void check_time(double seconds, const char *expected) {
+    char text[32];
+    hd_progress_time(seconds, text);
+    assert_string_equal(text, expected);
+}
+
+static void times_have_minutes_and_hours(void **state) {
+    (void)state;
+    check_time(0.0, "0:00");
+    check_time(0.4, "0:00");
+    check_time(0.5, "0:01");
+    check_time(9.0, "0:09");
+    check_time(59.4, "0:59");
+    check_time(59.6, "1:00");
+    check_time(76.0, "1:16");
+    check_time(3599.0, "59:59");
+    check_time(3600.0, "1:00:00");
+    check_time(3661.0, "1:01:01");
+    check_time(36000.0 * 10.0, "100:00:00");
+    check_time(1e300, "99999:00:00");
+}
+
+static void check_line(int done, int total, double seconds, const char *expected) {
+    char text[128];
+    hd_progress_line(done, total, seconds, text);
+    assert_string_equal(text, expected);
+}
+
+static void lines_tell_rate_and_time_left(void **state) {
+    (void)state;
+    check_line(12, 120, 8.5, "12/120 frames, 1.41 frames/s, 1:17 left");
+    check_line(0, 120, 8.5, "0/120 frames");
+    check_line(1, 2, 2.0, "1/2 frames, 0.50 frames/s, 0:02 left");
+    check_line(1, 10001, 1.0, "1/10001 frames, 1.00 frames/s, 2:46:40 left");
+    check_line(1, 2, 0.0, "1/2 frames, 0.00 frames/s, 0:00 left");
+}
+
+static void the_last_line_tells_the_whole_time(void **state) {
+    (void)state;
+    check_line(120, 120, 85.0, "120/120 frames, 1.41 frames/s, 1:25 in all");
+    check_line(1, 1, 0.0, "1/1 frames, 0.00 frames/s, 0:00 in all");
+}
+
+static void check_bar(int columns, const char *expected) {
+    char text[160];
+    hd_progress_bar(1, 2, "1/2 frames", columns, text);
+    assert_string_equal(text, expected);
+}
+
+static void the_bar_is_no_wider_than_the_terminal(void **state) {
+    (void)state;
+    check_bar(79, "[############............] 1/2 frames");
+    check_bar(37, "[############............] 1/2 frames");
+    check_bar(36, "1/2 frames");
+    check_bar(10, "1/2 frames");
+    check_bar(4, "1/2 ");
+    check_bar(0, "");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_have_minutes_and_hours),
+        cmocka_unit_test(lines_tell_rate_and_time_left),
+        cmocka_unit_test(the_bar_is_no_wider_than_the_terminal),
+        cmocka_unit_test(the_last_line_tells_the_whole_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

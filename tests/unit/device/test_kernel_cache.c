@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "device/kernel_cache.h"
+
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "system/cache_folder.h"
+#include "test_folder.h"
+
+static HdError error;
+static HdRenderOptions options;
+static HdDevice device;
+static char note[1024];
+
+static int begin(void **state) {
+    (void)state;
+    memset(&fake, 0, sizeof fake);
+    options = (HdRenderOptions){.threads = 1};
+    device = fake_device();
+    setenv("HEDRON_CACHE", "cache", 1);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    remove_folder("cache");
+    return 0;
+}
+
+/* Uploads a scene to a renderer that is opened for it; `note` is then what became of the kernels.
+ */
+static HdStatus upload_frame(HdSelfTestFrame frame_kind, bool refracts, uint64_t *hash) {
+    HdRenderer *renderer;
+    HdScene scene;
+    HdSceneTables tables;
+    assert_int_equal(hd_self_test_scene(&scene, frame_kind, refracts, false, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, 1, &error), HD_OK);
+    assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
+    HdStatus status = hd_renderer_upload(renderer, &tables, &error);
+    snprintf(note, sizeof note, "%s", hd_renderer_kernels_note(renderer));
+    if (hash != NULL) {
+        HdCamera camera;
+        HdFrameTables view;
+        HdFrame frame;
+        assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
+        assert_int_equal(hd_compile_frame(&view, &scene, &camera, options.precision, &error),
+                         HD_OK);
+        assert_int_equal(hd_frame_create(&frame, scene.width, scene.height, &error), HD_OK);
+        assert_int_equal(hd_renderer_render(renderer, &view, &frame, &error), HD_OK);
+        *hash = hd_frame_hash(&frame);
+        hd_frame_free(&frame);
+        hd_frame_tables_free(&view);
+    }
+    hd_renderer_close(renderer);
+    hd_scene_tables_free(&tables);
+    hd_scene_free(&scene);
+    return status;
+}
+
+static HdStatus upload_with(bool refracts, uint64_t *hash) {
+    return upload_frame(HD_SELF_TEST_SOLID, refracts, hash);
+}
+
+static HdStatus upload(void) {
+    return upload_with(false, NULL);
+}
+
+static void expect_counts(int compiled, int loaded) {
+    assert_int_equal(fake.compiled, compiled);
+    assert_int_equal(fake.loaded, loaded);
+}
+
+static void a_warm_start_compiles_and_tests_nothing(void **state) {
+    (void)state;
+    uint64_t cold, warm;
+    assert_int_equal(upload_with(false, &cold), HD_OK);
+    expect_counts(1, 0);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 1);
+    expect_contains(note, "compiled in 1 ms by nobody; passed the self-test (");
+    expect_contains(note, "; cached");
+    assert_int_equal(upload_with(false, &warm), HD_OK);
+    expect_counts(1, 1);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
+    expect_contains(note, "taken from cache, made by nobody");
+    assert_true(warm == cold);
+}
+
+static void whatever_kernels_depend_on_counts(void **state) {
+    (void)state;
+    assert_int_equal(upload(), HD_OK);
+    snprintf(device.name, sizeof device.name, "Fake 2000");
+    assert_int_equal(upload(), HD_OK);
+    snprintf(device.driver, sizeof device.driver, "driver 8");
+    assert_int_equal(upload(), HD_OK);
+    fake.options = "-DFAST";
+    assert_int_equal(upload(), HD_OK);
+    options.precision = HD_PRECISION_DOUBLE;
+    fake.options = "-DDOUBLE";
+    assert_int_equal(upload(), HD_OK);
+    fake.options = "-DREFRACTS";
+    assert_int_equal(upload_with(true, NULL), HD_OK);
+    expect_counts(6, 0);
+    assert_int_equal(upload_with(true, NULL), HD_OK);
+    expect_counts(6, 1);
+}
+
+static void damaged_kernels_are_compiled_anew(void **state) {
+    (void)state;
+    HdKernelCache cache;
+    unsigned char *binary;
+    size_t size;
+    HdKernelShape shape = {.needs = {.plane_bound = 8, .depth_bound = 8}};
+    assert_int_equal(upload(), HD_OK);
+    hd_kernel_cache_begin(&cache, &device);
+    assert_true(hd_kernel_cache_find(&cache, &shape, "text", 5, "", "1", &binary, &size));
+    free(binary);
+    /* An entry whose bytes are in order, but that tells of no test, or of nothing at all. */
+    static const char *const entries[] = {"", "\n\n", "passed\nnobody\nfake", "fake"};
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(hd_cache_put_text("fake", cache.key, entries[i], &error), HD_OK);
+        assert_int_equal(upload(), HD_OK);
+        expect_counts(2 + i, i);
+        expect_contains(note, "passed no test of this program's; compiled in");
+        assert_int_equal(upload(), HD_OK);
+        expect_counts(2 + i, i + 1);
+    }
+}
+
+static void what_a_driver_refuses_is_compiled_anew(void **state) {
+    (void)state;
+    assert_int_equal(upload(), HD_OK);
+    fake.refuses_binary = true;
+    assert_int_equal(upload(), HD_OK);
+    expect_counts(2, 1);
+    expect_contains(note, "the driver refused the cached kernels; it does not like them; compiled");
+}
+
+static void without_a_folder_all_goes_on(void **state) {
+    (void)state;
+    setenv("HEDRON_CACHE", "off", 1);
+    assert_int_equal(upload(), HD_OK);
+    expect_contains(note, "not cached; HEDRON_CACHE is off");
+    setenv("HEDRON_CACHE", "/proc/no/such", 1);
+    assert_int_equal(upload(), HD_OK);
+    expect_contains(note, "not cached; cannot make the folder /proc/no/such");
+    setenv("HEDRON_CACHE", "cache", 1);
+    fake.hides_binary = true;
+    assert_int_equal(upload(), HD_OK);
+    expect_contains(note, "not cached; the driver does not hand them out");
+    expect_counts(3, 0);
+}
+
+/* ---- the self-test ---- */
+
+static void wrong_kernels_are_an_error(void **state) {
+    (void)state;
+    fake.renders_wrongly = true;
+    assert_int_equal(upload(), HD_UNAVAILABLE);
+    expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
+    expect_contains(error.message, "the test frame 'solid' with the hash ");
+    expect_contains(error.message, ", expected ");
+    assert_int_equal(fake.rendered, 2); /* optimised fully, then little */
+    fake.renders_wrongly = false;
+    assert_int_equal(upload(), HD_OK); /* they were not kept */
+    expect_counts(3, 0);
+}
+
+static void wrong_kernels_are_compiled_again_with_little_optimisation(void **state) {
+    (void)state;
+    fake.renders_wrongly = fake.is_right_if_cautious = true;
+    assert_int_equal(upload(), HD_OK);
+    expect_counts(2, 0);
+    expect_contains(note, "by nobody optimising little (fully, it computes wrongly); passed");
+    expect_contains(note, "; not cached");
+    assert_int_equal(upload(), HD_OK);
+    expect_counts(4, 0);
+}
+
+static void caution_ends_with_the_scene(void **state) {
+    (void)state;
+    const HdKernelNeeds first = {.plane_bound = 8, .depth_bound = 8};
+    const HdKernelNeeds other = {.plane_bound = 16, .depth_bound = 8};
+    HdKernelShape shape = {.needs = first};
+    assert_true(hd_kernel_shape_be_cautious(&shape));
+    assert_false(hd_kernel_shape_be_cautious(&shape));
+    assert_false(hd_kernel_needs_equal(&shape.needs, &first)); /* so that it is compiled again */
+    hd_kernel_shape_set_needs(&shape, &first);
+    assert_true(shape.is_cautious);
+    hd_kernel_shape_set_needs(&shape, &other);
+    assert_false(shape.is_cautious);
+}
+
+static void wrong_kernels_render_nothing(void **state) {
+    (void)state;
+    HdRenderer *renderer;
+    HdScene scene;
+    HdSceneTables tables;
+    HdFrame frame = {0};
+    HdFrameTables view = {0};
+    fake.renders_wrongly = true;
+    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_FLOOR, false, false, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, options.precision, 1, &error), HD_OK);
+    assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_UNAVAILABLE);
+        assert_int_equal(hd_renderer_render(renderer, &view, &frame, &error), HD_BAD_INPUT);
+    }
+    expect_counts(2, 0);
+    hd_renderer_close(renderer);
+    hd_scene_tables_free(&tables);
+    hd_scene_free(&scene);
+}
+
+static void kernels_with_meshes_pass_one_more_frame(void **state) {
+    (void)state;
+    options.lanes = 1;
+    fake.options = "-DMESHES";
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES);
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    expect_counts(1, 1);
+    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES);
+    /* An entry that passed only the frames without meshes. */
+    HdKernelCache cache;
+    unsigned char *binary;
+    size_t size;
+    char entry[300];
+    HdKernelShape shape = {.needs = {.plane_bound = 8, .depth_bound = 8}};
+    hd_kernel_cache_begin(&cache, &device);
+    assert_false(hd_kernel_cache_find(&cache, &shape, "text", 5, "-DMESHES", "1", &binary, &size));
+    snprintf(entry, sizeof entry, "%s\nnobody\nfake", cache.stamp);
+    assert_int_equal(hd_cache_put_text("fake", cache.key, entry, &error), HD_OK);
+    assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
+    expect_counts(2, 1);
+    expect_contains(note, "passed no test of this program's; compiled in");
+}
+
+static void fast_arithmetic_is_not_tested(void **state) {
+    (void)state;
+    options.math = HD_MATH_FAST;
+    fake.options = "-DFAST";
+    fake.renders_wrongly = true;
+    assert_int_equal(upload(), HD_OK);
+    assert_int_equal(fake.rendered, 0);
+    expect_contains(note, "not tested, for the arithmetic is fast; cached");
+    assert_int_equal(upload(), HD_OK);
+    expect_counts(1, 1);
+    /* What was not tested is not taken for strict arithmetic, even under the same options. */
+    options.math = HD_MATH_STRICT;
+    assert_int_equal(upload(), HD_UNAVAILABLE);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(a_warm_start_compiles_and_tests_nothing),
+        TEST(whatever_kernels_depend_on_counts),
+        TEST(damaged_kernels_are_compiled_anew),
+        TEST(what_a_driver_refuses_is_compiled_anew),
+        TEST(without_a_folder_all_goes_on),
+        TEST(wrong_kernels_are_an_error),
+        TEST(wrong_kernels_are_compiled_again_with_little_optimisation),
+        TEST(caution_ends_with_the_scene),
+        TEST(wrong_kernels_render_nothing),
+        TEST(kernels_with_meshes_pass_one_more_frame),
+        TEST(fast_arithmetic_is_not_tested),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+/* Which pipeline is taken, and what it needs of a device. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "device/pipeline.h"
+
+static void auto_is_mega(void **state) {
+    (void)state;
+    HdDevice device = {.is_cpu = true};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO};
+    assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_MEGA);
+    options.pipeline = HD_PIPELINE_WAVEFRONT;
+    assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_WAVEFRONT);
+    assert_string_equal(hd_pipeline_name(HD_PIPELINE_WAVEFRONT_UNCOMPACTED),
+                        "wavefront-uncompacted");
+}
+
+static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
+    (void)state;
+    HdLight lights[100] = {{.falloff = {.end = 0.0}}};
+    HdScene scene = {.lights = lights, .light_count = 100};
+    HdDevice cpu = {.is_cpu = true}, gpu = {.is_cpu = false};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO};
+    assert_int_equal(hd_scene_endless_light_count(&scene), 100);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, &scene), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, &scene), HD_PIPELINE_MEGA);
+    lights[7].falloff.end = 2.0;
+    assert_int_equal(hd_scene_endless_light_count(&scene), 99);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, &scene), HD_PIPELINE_MEGA);
+}
+
+/* A display must not stand still for as long as a tree of hundreds of levels takes. */
+static void deep_trees_on_a_gpu_with_a_display_take_the_wavefront(void **state) {
+    (void)state;
+    HdDevice gpu = {.has_timeout = true, .has_wide_atomics = true}, cpu = {.is_cpu = true};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO, .has_deep_trees = true};
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_timeout = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_timeout = true;
+    gpu.has_wide_atomics = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    gpu.has_wide_atomics = true;
+    options.has_deep_trees = false;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    options.pipeline = HD_PIPELINE_MEGA;
+    options.has_deep_trees = true;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+}
+
+static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
+    (void)state;
+    HdDevice gpu = {.name = "a GPU"};
+    HdRenderOptions options = {.pipeline = HD_PIPELINE_WAVEFRONT};
+    const char *obstacle = hd_device_obstacle(&gpu, &options);
+    assert_non_null(obstacle);
+    assert_non_null(strstr(obstacle, "64-bit integer atomics"));
+    options.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
+    assert_non_null(hd_device_obstacle(&gpu, &options));
+    options.pipeline = HD_PIPELINE_AUTO;
+    assert_null(hd_device_obstacle(&gpu, &options));
+    options.pipeline = HD_PIPELINE_WAVEFRONT;
+    gpu.has_wide_atomics = true;
+    assert_null(hd_device_obstacle(&gpu, &options));
+    HdDevice cpu = {.is_cpu = true};
+    assert_null(hd_device_obstacle(&cpu, &options));
+}
+
+static void sizes_of_launches_are_checked(void **state) {
+    (void)state;
+    static const HdRenderOptions wrong[] = {
+        {.block = 33},
+        {.block = -32},
+        {.block = HD_MAX_BLOCK + 32},
+        {.grid = -1},
+        {.grid = HD_MAX_GRID + 1},
+        {.pipeline = HD_PIPELINE_COUNT},
+    };
+    HdDevice device = {.backend = &hd_backend_c, .is_cpu = true, .has_double = true};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        HdError error;
+        HdRenderer *renderer;
+        assert_int_equal(hd_renderer_open(&renderer, &device, &wrong[i], &error), HD_BAD_INPUT);
+        assert_null(renderer);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(auto_is_mega),
+        cmocka_unit_test(many_endless_lights_on_a_cpu_take_the_wavefront),
+        cmocka_unit_test(deep_trees_on_a_gpu_with_a_display_take_the_wavefront),
+        cmocka_unit_test(a_wavefront_of_groups_needs_wide_atomics),
+        cmocka_unit_test(sizes_of_launches_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/self_test.h"
+
+#include "device/self_test_scenes.h"
+#include "expect.h"
+#include "kernels/common/scene_tables.h"
+
+static HdError error;
+
+static HdDevice c_device(void) {
+    HdDevice device;
+    int count;
+    assert_int_equal(hd_backend_c.enumerate(&device, 1, &count, &error), HD_OK);
+    return device;
+}
+
+static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_from_behind) {
+    HdDevice device = c_device();
+    HdRenderOptions options = {.lanes = lanes, .threads = 1, .precision = precision};
+    void *renderer;
+    assert_int_equal(hd_backend_c.open(&device, &options, &renderer, &error), HD_OK);
+    HdSceneTables like = {.precision = precision,
+                          .lanes = hd_backend_c.lanes(renderer),
+                          .node_stack = 1,
+                          .refracts = refracts,
+                          .lit_from_behind = lit_from_behind};
+    bool is_wrong;
+    HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &is_wrong, &error);
+    assert_int_equal(is_wrong, status == HD_UNAVAILABLE);
+    hd_backend_c.close(renderer);
+    if (status != HD_OK)
+        print_error("precision %d, refraction %d, light from behind %d, %d lanes: %s\n",
+                    (int)precision, refracts, lit_from_behind, lanes, error.message);
+    return status == HD_OK;
+}
+
+/* Every frame that fails is told, for what it tells is what to commit where kernels changed. */
+static void the_c_backend_passes(void **state) {
+    (void)state;
+    static const int lanes[] = {0, 1, 4, 8, 16};
+    int failed = 0;
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 5; k++)
+            failed += !passes(lanes[k], i < 4 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE,
+                              (i & 2) != 0, (i & 1) != 0);
+    assert_int_equal(failed, 0);
+}
+
+static void frames_are_valid_and_fit_every_build(void **state) {
+    (void)state;
+    for (int i = 0; i < 4 * HD_SELF_TEST_FRAMES; i++) {
+        HdScene scene;
+        HdSceneTables tables;
+        assert_int_equal(hd_self_test_scene(&scene, (HdSelfTestFrame)(i / 4), (i & 2) != 0,
+                                            (i & 1) != 0, &error),
+                         HD_OK);
+        assert_int_equal(hd_scene_validate(&scene, &error), HD_OK);
+        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
+        assert_true(tables.plane_count <= hd_kernel_bound(0));
+        assert_true(tables.depth <= hd_kernel_bound(0));
+        if (i / 4 != HD_SELF_TEST_FLOOR) {
+            assert_int_equal(tables.refracts, (i & 2) != 0);
+            assert_int_equal(tables.lit_from_behind, (i & 1) != 0);
+        }
+        HdSceneTables shallow = tables;
+        shallow.node_stack = i / 4 == HD_SELF_TEST_MESH;
+        HdKernelNeeds needs = hd_kernel_needs(&tables), least = hd_kernel_needs(&shallow);
+        assert_true(hd_kernel_needs_equal(&needs, &least));
+        hd_scene_tables_free(&tables);
+        hd_scene_free(&scene);
+    }
+}
+
+/* There is a hierarchy over each mesh and over all of them, and nodes for rays alone. */
+static void meshes_are_searched_in_every_way(void **state) {
+    (void)state;
+    HdScene scene;
+    HdSceneTables tables;
+    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 4, &error), HD_OK);
+    assert_true(tables.node_stack > 1);
+    assert_int_equal(tables.table[HD_TABLE_top_items].bytes,
+                     (size_t)scene.instance_count * sizeof(int32_t));
+    assert_true(tables.table[HD_TABLE_wide_children].bytes > 0);
+    hd_scene_tables_free(&tables);
+    hd_scene_free(&scene);
+}
+
+static void write_stamp(int variant, int node_stack_bound, char stamp[160]) {
+    HdKernelShape shape = {.precision = variant < 4 ? HD_PRECISION_FLOAT : HD_PRECISION_DOUBLE,
+                           .needs = {.node_stack_bound = node_stack_bound,
+                                     .refracts = (variant & 2) != 0,
+                                     .lit_from_behind = variant & 1}};
+    hd_self_test_stamp(&shape, stamp, 160);
+}
+
+/* What the frames are to find must change them. */
+static void frames_differ(void **state) {
+    (void)state;
+    char stamps[8][160], mesh_stamps[8][160];
+    for (int i = 0; i < 8; i++) {
+        write_stamp(i, 0, stamps[i]);
+        write_stamp(i, 32, mesh_stamps[i]);
+        for (int k = 0; k < i; k++) {
+            assert_string_not_equal(stamps[k], stamps[i]);
+            assert_string_not_equal(strrchr(mesh_stamps[k], ','), strrchr(mesh_stamps[i], ','));
+        }
+    }
+}
+
+/* Kernels that can search meshes must pass a third frame, and their entries say so. */
+static void the_stamp_names_each_frame(void **state) {
+    (void)state;
+    char stamp[160], mesh_stamp[160];
+    write_stamp(0, 0, stamp);
+    write_stamp(0, 32, mesh_stamp);
+    size_t shorter = strlen(stamp) - 1;
+    assert_int_equal(stamp[shorter], ')');
+    assert_memory_equal(mesh_stamp, stamp, shorter);
+    assert_int_equal(strlen(mesh_stamp), shorter + strlen(", 0123456789abcdef)"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_c_backend_passes),
+        cmocka_unit_test(frames_are_valid_and_fit_every_build),
+        cmocka_unit_test(meshes_are_searched_in_every_way),
+        cmocka_unit_test(frames_differ),
+        cmocka_unit_test(the_stamp_names_each_frame),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

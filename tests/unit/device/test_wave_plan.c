@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: MIT */
+/* The order in which a wavefront's rays are traced, with a device that only keeps account of them.
+ */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "device/wave_plan.h"
+#include "kernels/common/scene_tables.h"
+#include "kernels/common/wave_stack.h"
+#include "system/interrupt.h"
+
+/* Every ray has `children` rays that go on, which a launch appends with those of its group: places
+   of rays that do not live are filled too. */
+typedef struct Account {
+    const HdWavePlan *plan;
+    const HdWaveFrame *frame;
+    int children; /* negative: see rays_going_on */
+    char *waits;  /* 1 for each place of the queue whose ray is still to be traced */
+    int64_t traced, steps;
+    unsigned taken;
+    int next_item;   /* the first one that is not stored */
+    int batch_first; /* item of the batch that is being traced */
+    int batch_samples;
+} Account;
+
+static void leave_queue(Account *account, const HdWaveStep *step) {
+    for (int i = step->first; i < step->first + step->count; i++) {
+        assert_true(account->waits[i]);
+        account->waits[i] = 0;
+    }
+}
+
+/* Negative `children`: as trees of a scene with a bound, which widen at first and then get thinner
+   for hundreds of levels. */
+static int rays_going_on(const Account *account, const HdWaveStep *step) {
+    int grain = account->frame->grain, groups = (step->count + grain - 1) / grain;
+    if (step->level >= account->frame->depth)
+        return 0;
+    if (account->children < 0)
+        return step->level < 4 ? step->count / 2 * 3 : step->count / 20 * 19;
+    return account->children * groups * grain;
+}
+
+static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
+    (void)error;
+    Account *account = context;
+    assert_true(step->count > 0);
+    assert_int_equal(step->taken_before, account->taken);
+    assert_int_equal(step->is_first, account->steps == 0);
+    assert_in_range(step->level, 0, account->frame->depth);
+    if (step->level == 0) {
+        assert_int_equal(step->first_item, account->next_item);
+        account->batch_samples += step->count;
+        assert_true(step->first + step->count <= account->plan->sum_stride);
+    }
+    int going_on = rays_going_on(account, step);
+    assert_true(step->to + going_on <= account->plan->queue_stride);
+    for (int i = step->to; i < step->to + going_on; i++) {
+        assert_false(account->waits[i]); /* nor is it one of those that are being read */
+        account->waits[i] = 1;
+    }
+    if (step->level > 0)
+        leave_queue(account, step);
+    account->traced += step->count;
+    account->steps++;
+    account->taken += (unsigned)going_on;
+    *taken = account->taken;
+    return HD_OK;
+}
+
+static HdStatus store(void *context, int first_item, int item_count, HdError *error) {
+    (void)error;
+    Account *account = context;
+    assert_int_equal(first_item, account->next_item);
+    assert_int_equal(account->batch_samples, item_count * account->frame->samples_per_item);
+    for (int i = 0; i < account->plan->queue_stride; i++)
+        assert_false(account->waits[i]);
+    account->batch_samples = 0;
+    account->next_item += item_count;
+    return HD_OK;
+}
+
+/* What one launch may have. */
+static int launch_rays = HD_MOST_LAUNCH_WORK;
+
+/* Runs a frame; returns the number of rays traced. */
+static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t *steps) {
+    HdError error;
+    HdWaveNeeds needs = {
+        .bytes = bytes,
+        .depth = frame->depth,
+        .grain = frame->grain,
+        .samples = frame->items * frame->samples_per_item,
+        .samples_at_once = frame->samples_per_item,
+    };
+    HdWavePlan plan = hd_wave_plan(&needs);
+    assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    HdLaunchSize size = hd_launch_size_fixed(launch_rays);
+    Account account = {.plan = &plan, .frame = frame, .children = children};
+    account.waits = calloc((size_t)plan.queue_stride, 1);
+    HdWaveDevice device = {.context = &account, .trace = trace, .store = store, .size = &size};
+    assert_int_equal(hd_wave_run(&plan, frame, &device, &error), HD_OK);
+    assert_int_equal(account.next_item, frame->items);
+    free(account.waits);
+    if (steps != NULL)
+        *steps = account.steps;
+    return account.traced;
+}
+
+/* Whole groups on each level, since the account rounds up to them only where they are split. */
+static void all_rays_are_traced_in_any_memory(void **state) {
+    (void)state;
+    static const size_t budgets[] = {1, 5000, 20000, 100000, 1 << 20, 1 << 28};
+    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
+        for (int depth = 0; depth <= 6; depth++)
+            for (int children = 0; children <= 2; children++) {
+                HdWaveFrame frame = {
+                    .items = 24, .samples_per_item = 4, .depth = depth, .grain = 4};
+                int64_t expected = 0, of_level = 96;
+                for (int level = 0; level <= depth; level++, of_level *= children)
+                    expected += of_level;
+                assert_int_equal(run(budgets[b], &frame, children, NULL), expected);
+            }
+}
+
+static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
+    (void)state;
+    static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
+    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
+        for (int depth = 0; depth <= 5; depth++) {
+            HdWaveFrame frame = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
+            run(budgets[b], &frame, 2, NULL);
+            run(budgets[b], &frame, 1, NULL);
+        }
+}
+
+static void launches_of_any_size_trace_all_rays(void **state) {
+    static const int sizes[] = {1, 5, 32, 40, 150};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        launch_rays = sizes[i];
+        all_rays_are_traced_in_any_memory(state);
+        groups_that_do_not_fit_evenly_never_overlap(state);
+    }
+    launch_rays = HD_MOST_LAUNCH_WORK;
+}
+
+static void launches_have_at_most_their_size(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    int64_t steps;
+    launch_rays = 64;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 4 * 6);
+    launch_rays = HD_MOST_LAUNCH_WORK;
+}
+
+static void enough_memory_takes_a_step_a_level(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    int64_t steps, few, many;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 6);
+    run(20000, &frame, 1, &few);
+    run(1, &frame, 1, &many);
+    assert_true(few > steps && many > few);
+}
+
+/* A level's rest would make all levels below it again. */
+static void levels_of_deep_trees_are_taken_whole(void **state) {
+    (void)state;
+    HdWaveFrame frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
+    int64_t steps;
+    run(1 << 25, &frame, -1, &steps);
+    assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
+}
+
+static void plans_keep_to_their_budget(void **state) {
+    (void)state;
+    for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
+        for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
+            HdWaveNeeds needs = {.bytes = bytes,
+                                 .precision = HD_PRECISION_DOUBLE,
+                                 .depth = depth,
+                                 .grain = 128,
+                                 .samples = hd_wave_samples(1 << 22, 16),
+                                 .samples_at_once = 16};
+            HdWavePlan plan = hd_wave_plan(&needs);
+            size_t used = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+            assert_true(used < bytes + 10000);
+            assert_true(used > bytes / 2);
+            assert_int_equal(plan.sum_stride % 16, 0);
+            assert_true(plan.queue_stride >= wave_least_capacity(depth, 128));
+        }
+}
+
+/* A device that refuses memory is asked for less, until it is as little as the least. */
+static void a_refused_queue_is_halved(void **state) {
+    (void)state;
+    HdWaveNeeds needs = {
+        .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
+    size_t before = hd_wave_plan(&needs).real_bytes;
+    static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        assert_true(hd_wave_halve(&needs));
+        assert_int_equal(needs.bytes, expected[i]);
+        assert_true(hd_wave_plan(&needs).real_bytes < before);
+        before = hd_wave_plan(&needs).real_bytes;
+    }
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
+    needs.bytes = 1;
+    assert_false(hd_wave_halve(&needs));
+    assert_int_equal(needs.bytes, 1);
+}
+
+static void a_cut_queue_is_told(void **state) {
+    (void)state;
+    char text[128];
+    hd_wave_tell_cut(33554432, text, sizeof text);
+    assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
+    hd_wave_tell_cut(33554432, text, 8);
+    assert_string_equal(text, ", the q");
+}
+
+static void launches_have_the_groups_that_they_need(void **state) {
+    (void)state;
+    HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
+    assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
+    assert_int_equal(hd_wave_groups(&plan, 128, 5), 5);
+    plan.queue_stride = 1 << 30;
+    assert_int_equal(hd_wave_groups(&plan, 128, 0), 1 << 15);
+}
+
+/* The last test: a signal is remembered. */
+static void a_signal_ends_the_frame(void **state) {
+    (void)state;
+    HdError error;
+    HdWavePlan plan = {.queue_stride = 64, .sum_stride = 64};
+    HdWaveFrame frame = {.items = 1, .samples_per_item = 1, .grain = 32};
+    HdWaveDevice device = {.trace = trace, .store = store};
+    hd_interrupt_install();
+    raise(SIGTERM);
+    assert_int_equal(hd_wave_run(&plan, &frame, &device, &error), HD_INTERRUPTED);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_rays_are_traced_in_any_memory),
+        cmocka_unit_test(groups_that_do_not_fit_evenly_never_overlap),
+        cmocka_unit_test(launches_of_any_size_trace_all_rays),
+        cmocka_unit_test(launches_have_at_most_their_size),
+        cmocka_unit_test(enough_memory_takes_a_step_a_level),
+        cmocka_unit_test(levels_of_deep_trees_are_taken_whole),
+        cmocka_unit_test(plans_keep_to_their_budget),
+        cmocka_unit_test(a_refused_queue_is_halved),
+        cmocka_unit_test(a_cut_queue_is_told),
+        cmocka_unit_test(launches_have_the_groups_that_they_need),
+        cmocka_unit_test(a_signal_ends_the_frame),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+
+#include "expect.h"
+#include "image/curve.h"
+
+static uint8_t encode8(HdCurve curve, float value) {
+    uint8_t code;
+    hd_curve_encode8(curve, &value, 1, &code);
+    return code;
+}
+
+static uint16_t encode16(HdCurve curve, float value) {
+    uint16_t code;
+    hd_curve_encode16(curve, &value, 1, &code);
+    return code;
+}
+
+/* The formula of IEC 61966-2-1. */
+static double to_linear(double value) {
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+/* The two floats around the value where the code `code` begins. */
+static void find_neighbours(int code, int top, float *below, float *above) {
+    const double threshold = to_linear((code - 0.5) / top);
+    const float nearest = (float)threshold;
+    *below = (double)nearest < threshold ? nearest : nextafterf(nearest, -1.0f);
+    *above = (double)nearest < threshold ? nextafterf(nearest, 2.0f) : nearest;
+}
+
+static void eight_bits_are_rounded_to_the_nearest(void **state) {
+    (void)state;
+    for (int code = 1; code < 256; code++) {
+        float below, above;
+        find_neighbours(code, 255, &below, &above);
+        assert_int_equal(encode8(HD_CURVE_SRGB, below), code - 1);
+        assert_int_equal(encode8(HD_CURVE_SRGB, above), code);
+    }
+}
+
+static void sixteen_bits_are_rounded_to_the_nearest(void **state) {
+    (void)state;
+    for (int code = 1; code < 65536; code++) {
+        float below, above;
+        find_neighbours(code, 65535, &below, &above);
+        if (encode16(HD_CURVE_SRGB, below) != code - 1 || encode16(HD_CURVE_SRGB, above) != code)
+            fail_msg("the code %d begins at another value", code);
+    }
+}
+
+static void values_between_the_codes_keep_the_order(void **state) {
+    (void)state;
+    uint8_t last8 = 0;
+    uint16_t last16 = 0;
+    for (uint32_t bits = 0; bits <= 0x3f800000u; bits += 131) {
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        const uint8_t code8 = encode8(HD_CURVE_SRGB, value);
+        const uint16_t code16 = encode16(HD_CURVE_SRGB, value);
+        if (code8 < last8 || code8 > last8 + 1 || code16 < last16 || code16 > last16 + 1)
+            fail_msg("%a breaks the order", (double)value);
+        last8 = code8;
+        last16 = code16;
+    }
+    assert_int_equal(last8, 255);
+    assert_int_equal(last16, 65535);
+}
+
+static void values_outside_are_clamped(void **state) {
+    (void)state;
+    const float nothing[] = {0.0f, -0.0f, -1e-30f, -1.0f, -INFINITY, NAN, -NAN, 1e-40f, 1e-7f};
+    const float all[] = {1.0f, 1.0000001f, 2.0f, 1e30f, INFINITY};
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        for (size_t i = 0; i < sizeof nothing / sizeof *nothing; i++) {
+            assert_int_equal(encode8((HdCurve)curve, nothing[i]), 0);
+            assert_int_equal(encode16((HdCurve)curve, nothing[i]), 0);
+        }
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+            assert_int_equal(encode8((HdCurve)curve, all[i]), 255);
+            assert_int_equal(encode16((HdCurve)curve, all[i]), 65535);
+        }
+    }
+}
+
+static void linear_codes_are_rounded(void **state) {
+    (void)state;
+    for (int i = 0; i <= 1 << 20; i++) {
+        const float value = (float)i / (float)(1 << 20);
+        if (encode8(HD_CURVE_LINEAR, value) != (uint8_t)(value * 255.0f + 0.5f) ||
+            encode16(HD_CURVE_LINEAR, value) != floor((double)value * 65535.0 + 0.5))
+            fail_msg("%a has another code", (double)value);
+    }
+}
+
+static void many_values_are_as_single_ones(void **state) {
+    (void)state;
+    enum { COUNT = 1000 };
+    float values[COUNT];
+    uint8_t codes8[COUNT];
+    uint16_t codes16[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        values[i] = (float)i / (float)COUNT;
+    hd_curve_encode8(HD_CURVE_SRGB, values, COUNT, codes8);
+    hd_curve_encode16(HD_CURVE_SRGB, values, COUNT, codes16);
+    for (int i = 0; i < COUNT; i++) {
+        assert_int_equal(codes8[i], encode8(HD_CURVE_SRGB, values[i]));
+        assert_int_equal(codes16[i], encode16(HD_CURVE_SRGB, values[i]));
+    }
+}
+
+static uint16_t *decode_all(HdCurve curve) {
+    uint16_t *values = malloc(65536 * sizeof *values);
+    assert_non_null(values);
+    for (int code = 0; code < 65536; code++)
+        values[code] = (uint16_t)code;
+    hd_curve_decode16(curve, values, 65536);
+    return values;
+}
+
+static void codes_are_decoded_to_the_nearest(void **state) {
+    (void)state;
+    uint16_t *values = decode_all(HD_CURVE_SRGB);
+    for (int code = 0; code < 65536; code++)
+        if (values[code] != floor(to_linear(code / 65535.0) * 65535.0 + 0.5) ||
+            (code > 0 && values[code] < values[code - 1]))
+            fail_msg("the code %d has the value %d", code, values[code]);
+    assert_int_equal(values[0], 0);
+    assert_int_equal(values[65535], 65535);
+    free(values);
+    values = decode_all(HD_CURVE_LINEAR);
+    for (int code = 0; code < 65536; code++)
+        assert_int_equal(values[code], code);
+    free(values);
+}
+
+static void bytes_come_back(void **state) {
+    (void)state;
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++)
+        for (int code = 0; code < 256; code++) {
+            uint16_t value = (uint16_t)(code * 257);
+            hd_curve_decode16((HdCurve)curve, &value, 1);
+            assert_int_equal(encode8((HdCurve)curve, (float)value / 65535.0f), code);
+        }
+}
+
+static uint64_t hash_integer(uint64_t hash, uint32_t value) {
+    for (int i = 0; i < 4; i++)
+        hash = (hash ^ (value >> (8 * i) & 0xff)) * 1099511628211u;
+    return hash;
+}
+
+static unsigned code_of_bits(int top, uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return top == 255 ? encode8(HD_CURVE_SRGB, value) : encode16(HD_CURVE_SRGB, value);
+}
+
+/* The bits of the least value with the code, by bisection. */
+static uint32_t find_threshold(int top, unsigned code) {
+    uint32_t below = 0, above = 0x3f800000u;
+    while (above - below > 1) {
+        const uint32_t middle = below + (above - below) / 2;
+        if (code_of_bits(top, middle) >= code)
+            above = middle;
+        else
+            below = middle;
+    }
+    return above;
+}
+
+/* Another system's arithmetic must not give other pictures. */
+static void the_tables_are_the_same_everywhere(void **state) {
+    (void)state;
+    const int tops[] = {255, 65535};
+    uint64_t hash = 14695981039346656037u;
+    uint16_t *values = decode_all(HD_CURVE_SRGB);
+    for (int t = 0; t < 2; t++)
+        for (int code = 1; code <= tops[t]; code++)
+            hash = hash_integer(hash, find_threshold(tops[t], (unsigned)code));
+    for (int code = 0; code < 65536; code++)
+        hash = hash_integer(hash, values[code]);
+    free(values);
+    if (hash != 0xfb15f0f92a5a2928u)
+        fail_msg("the tables have the hash %016llx", (unsigned long long)hash);
+}
+
+static void the_curve_is_that_of_the_standard(void **state) {
+    (void)state;
+    for (int i = 0; i <= 100000; i++) {
+        const double value = i / 100000.0;
+        const double power = 1.055 * pow(value, 1.0 / 2.4) - 0.055;
+        expect_near(hd_curve_to_linear(HD_CURVE_SRGB, value), to_linear(value), 1e-15);
+        expect_near(hd_curve_to_display(HD_CURVE_SRGB, value),
+                    value <= 0.04045 / 12.92 ? 12.92 * value : power, 1e-15);
+        assert_true(hd_curve_to_display(HD_CURVE_LINEAR, value) == value);
+        assert_true(hd_curve_to_linear(HD_CURVE_LINEAR, value) == value);
+    }
+    expect_near(hd_curve_to_display(HD_CURVE_SRGB, 1e-300), 12.92e-300, 1e-313);
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        const double outside[] = {1.0, 1.5, 1e30, (double)INFINITY};
+        for (int i = 0; i < 4; i++) {
+            assert_true(hd_curve_to_display((HdCurve)curve, outside[i]) == 1.0);
+            assert_true(hd_curve_to_linear((HdCurve)curve, outside[i]) == 1.0);
+            assert_true(hd_curve_to_display((HdCurve)curve, -outside[i]) == 0.0);
+            assert_true(hd_curve_to_linear((HdCurve)curve, -outside[i]) == 0.0);
+        }
+        assert_true(isnan(hd_curve_to_display((HdCurve)curve, (double)NAN)));
+        assert_true(isnan(hd_curve_to_linear((HdCurve)curve, (double)NAN)));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eight_bits_are_rounded_to_the_nearest),
+        cmocka_unit_test(sixteen_bits_are_rounded_to_the_nearest),
+        cmocka_unit_test(values_between_the_codes_keep_the_order),
+        cmocka_unit_test(values_outside_are_clamped),
+        cmocka_unit_test(linear_codes_are_rounded),
+        cmocka_unit_test(many_values_are_as_single_ones),
+        cmocka_unit_test(codes_are_decoded_to_the_nearest),
+        cmocka_unit_test(bytes_come_back),
+        cmocka_unit_test(the_tables_are_the_same_everywhere),
+        cmocka_unit_test(the_curve_is_that_of_the_standard),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

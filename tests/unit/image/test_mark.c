@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/* A picture with a mark is known, and with one byte less, more or other it is not. */
+#define _XOPEN_SOURCE 700
+
+#include <stdlib.h>
+
+#include "image/mark.h"
+#include "image/picture.h"
+#include "system/file_bytes.h"
+#include "test_folder.h"
+
+enum { WIDTH = 23, HEIGHT = 17 };
+static const uint64_t FINGERPRINT = UINT64_C(0x123456789abcdef0);
+
+static HdError error;
+static unsigned char *bytes;
+static size_t size;
+
+static bool is_whole(void) {
+    return hd_picture_is_whole(bytes, size, FINGERPRINT);
+}
+
+/* Into `bytes`. */
+static void write_picture(const uint64_t *fingerprint, int bits) {
+    const HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = bits};
+    HdAtomicFile file;
+    HdFrame frame;
+    assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        frame.rgb[i] = (float)(i % 251) / 251.0f;
+    assert_int_equal(hd_picture_prepare(&file, &frame, &style, fingerprint, "a.png", &error),
+                     HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    hd_frame_free(&frame);
+    free(bytes);
+    assert_int_equal(hd_file_read("a.png", "picture", 1 << 20, &bytes, &size, &error), HD_OK);
+}
+
+static void every_other_byte_is_noticed(void **state) {
+    (void)state;
+    for (int bits = 8; bits <= 16; bits += 8) {
+        write_picture(&FINGERPRINT, bits);
+        assert_true(is_whole());
+        for (size_t i = 0; i < size; i++) {
+            for (int bit = 0; bit < 8; bit++) {
+                bytes[i] ^= (unsigned char)(1 << bit);
+                assert_false(is_whole());
+                bytes[i] ^= (unsigned char)(1 << bit);
+            }
+        }
+        assert_true(is_whole());
+    }
+}
+
+static void every_byte_less_or_more_is_noticed(void **state) {
+    (void)state;
+    write_picture(&FINGERPRINT, 8);
+    const size_t all = size;
+    for (size = 0; size < all; size++)
+        assert_false(is_whole());
+    bytes = realloc(bytes, all + 1);
+    assert_non_null(bytes);
+    bytes[all] = '\n';
+    size = all + 1;
+    assert_false(is_whole());
+    size = all;
+    assert_true(is_whole());
+}
+
+static void another_fingerprint_is_noticed(void **state) {
+    (void)state;
+    write_picture(&FINGERPRINT, 8);
+    for (int bit = 0; bit < 64; bit++)
+        assert_false(hd_picture_is_whole(bytes, size, FINGERPRINT ^ UINT64_C(1) << bit));
+}
+
+static void the_picture_is_the_same_with_and_without(void **state) {
+    (void)state;
+    static const char text[] = "tEXthedron\0frame 123456789abcdef0 bytes ";
+    HdTexture marked, plain;
+    write_picture(&FINGERPRINT, 8);
+    assert_memory_equal(bytes + size - HD_PICTURE_END_SIZE + 4, text, sizeof text - 1);
+    const size_t marked_size = size;
+    assert_int_equal(hd_texture_read(&marked, "a.png", HD_CURVE_SRGB, &error), HD_OK);
+    write_picture(NULL, 8);
+    assert_false(is_whole());
+    assert_int_equal(size + HD_PICTURE_END_SIZE - 12, marked_size);
+    assert_int_equal(hd_texture_read(&plain, "a.png", HD_CURVE_SRGB, &error), HD_OK);
+    assert_memory_equal(marked.texels, plain.texels, WIDTH * HEIGHT * 6);
+    hd_texture_clear(&marked);
+    hd_texture_clear(&plain);
+}
+
+static int end(void **state) {
+    free(bytes);
+    return remove_test_folder(state);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_other_byte_is_noticed),
+        cmocka_unit_test(every_byte_less_or_more_is_noticed),
+        cmocka_unit_test(another_fingerprint_is_noticed),
+        cmocka_unit_test(the_picture_is_the_same_with_and_without),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, end);
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels' conversion to 8 bits makes the bytes that the host's does. */
+#include "expect.h"
+#include "image/curve.h"
+#include "kernels/common/encode.h"
+
+static int32_t thresholds[256];
+
+static int as_bits(float value) {
+    int bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static void expect_same(HdCurve curve, int bits) {
+    float value;
+    uint8_t expected;
+    memcpy(&value, &bits, sizeof value);
+    hd_curve_encode8(curve, &value, 1, &expected);
+    if (encode8(bits, thresholds) != expected)
+        fail_msg("curve %d: %a has the code %u, expected %d", (int)curve, (double)value,
+                 encode8(bits, thresholds), expected);
+}
+
+static void codes_begin_at_their_thresholds(void **state) {
+    (void)state;
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        hd_curve_thresholds8((HdCurve)curve, thresholds);
+        for (int code = 1; code < 256; code++) {
+            assert_int_equal(encode8(thresholds[code] - 1, thresholds), code - 1);
+            assert_int_equal(encode8(thresholds[code], thresholds), code);
+            for (int i = -2; i <= 2; i++)
+                expect_same((HdCurve)curve, thresholds[code] + i);
+        }
+    }
+}
+
+static void every_kind_of_number_has_the_code_of_the_host(void **state) {
+    (void)state;
+    enum { STEP = 1009 };
+    const float special[] = {0.0f,     -0.0f,    1e-45f,    -1e-45f, 1.0f,
+                             65536.0f, INFINITY, -INFINITY, NAN,     -NAN};
+    for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
+        hd_curve_thresholds8((HdCurve)curve, thresholds);
+        for (size_t i = 0; i < sizeof special / sizeof *special; i++)
+            expect_same((HdCurve)curve, as_bits(special[i]));
+        expect_same((HdCurve)curve, INFINITE_BITS + 1);
+        expect_same((HdCurve)curve, INT32_MAX);
+        for (int64_t bits = INT32_MIN; bits <= INT32_MAX; bits += STEP)
+            expect_same((HdCurve)curve, (int)bits);
+    }
+}
+
+static void pixels_become_bytes_in_order(void **state) {
+    (void)state;
+    enum { PIXELS = 7, WORKERS = 3 };
+    float rgb[PIXELS * 3];
+    int bits[PIXELS * 3];
+    uint image[PIXELS] = {0};
+    uint8_t expected[PIXELS * 3], bytes[PIXELS * 4];
+    for (int i = 0; i < PIXELS * 3; i++)
+        rgb[i] = (float)i / (PIXELS * 3 - 1);
+    memcpy(bits, rgb, sizeof bits);
+    hd_curve_encode8(HD_CURVE_SRGB, rgb, sizeof rgb / sizeof *rgb, expected);
+    hd_curve_thresholds8(HD_CURVE_SRGB, thresholds);
+    for (int worker = 0; worker < WORKERS; worker++)
+        encode_pixels(bits, PIXELS, thresholds, worker, WORKERS, image);
+    memcpy(bytes, image, sizeof bytes);
+    for (int i = 0; i < PIXELS; i++) {
+        assert_memory_equal(bytes + 4 * i, expected + 3 * i, 3);
+        assert_int_equal(bytes[4 * i + 3], 255);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(codes_begin_at_their_thresholds),
+        cmocka_unit_test(every_kind_of_number_has_the_code_of_the_host),
+        cmocka_unit_test(pixels_become_bytes_in_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+#include "mesh/obj/names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "expect.h"
+#include "mesh/mesh.h"
+
+static HdObjMemory memory;
+static HdNameTable table;
+
+static int clear(void **state) {
+    (void)state;
+    hd_obj_release_all(&memory);
+    memory = (HdObjMemory){.most = 64 << 20};
+    table = (HdNameTable){.count = 0};
+    return 0;
+}
+
+static HdSpan span(const char *text) {
+    return (HdSpan){text, text + strlen(text)};
+}
+
+static int add(const char *name) {
+    return hd_name_table_add(&table, span(name), &memory);
+}
+
+static void test_names_have_numbers(void **state) {
+    (void)state;
+    assert_int_equal(hd_name_table_find(&table, span("a")), -1);
+    assert_int_equal(add("a"), 0);
+    assert_int_equal(add("ab"), 1);
+    assert_int_equal(add(""), 2);
+    assert_int_equal(add("ab"), 1);
+    assert_int_equal(hd_name_table_find(&table, span("a")), 0);
+    assert_int_equal(hd_name_table_find(&table, span("b")), -1);
+    assert_string_equal(table.names[1], "ab");
+}
+
+/* The next name from `*number` on with the slot; `width` is its size. */
+static void next_colliding(int *number, int width, uint64_t slot, char name[16]) {
+    do
+        snprintf(name, 16, "%0*d", width, (*number)++);
+    while (hd_hash_bytes(HD_HASH_START, name, strlen(name)) % (4 * HD_MAX_MESH_MATERIALS) != slot);
+}
+
+static void test_names_that_collide(void **state) {
+    (void)state;
+    enum { OF_EACH = 8 };
+    char names[2 * OF_EACH][16];
+    int number = 0;
+    for (int i = 0; i < 2 * OF_EACH; i++) {
+        next_colliding(&number, i < OF_EACH ? 8 : 11, 5, names[i]);
+        assert_int_equal(add(names[i]), i);
+    }
+    for (int i = 0; i < 2 * OF_EACH; i++) {
+        assert_int_equal(hd_name_table_find(&table, span(names[i])), i);
+        assert_string_equal(table.names[i], names[i]);
+    }
+}
+
+static void test_beginnings_that_collide(void **state) {
+    (void)state;
+    char name[16] = "a";
+    const uint64_t slots = 4 * HD_MAX_MESH_MATERIALS;
+    const uint64_t slot = hd_hash_bytes(HD_HASH_START, "a", 1) % slots;
+    for (int i = 0; hd_hash_bytes(HD_HASH_START, name, strlen(name)) % slots != slot || i == 0; i++)
+        snprintf(name, sizeof name, "a%d", i);
+    assert_int_equal(add(name), 0);
+    assert_int_equal(hd_name_table_find(&table, span("a")), -1);
+    assert_int_equal(add("a"), 1);
+}
+
+/* Only names made to collide come so far; each look-up would take longer and longer. */
+static void test_too_many_that_collide(void **state) {
+    (void)state;
+    char name[16];
+    int number = 0, result = 0;
+    for (int i = 0; i < 257; i++) {
+        next_colliding(&number, 9, 5, name);
+        result = add(name);
+        assert_int_equal(result, i < 256 ? i : HD_NAME_TOO_MANY);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(test_names_have_numbers, clear),
+        cmocka_unit_test_setup(test_names_that_collide, clear),
+        cmocka_unit_test_setup(test_beginnings_that_collide, clear),
+        cmocka_unit_test_setup_teardown(test_too_many_that_collide, clear, clear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

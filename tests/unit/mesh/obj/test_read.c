@@ -1,0 +1,884 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include "base/limits.h"
+#include "base/text.h"
+#include "mesh/obj/read.h"
+#include "mesh/obj/text.h"
+#include "scene/scene.h"
+#include "test_folder.h"
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+static const size_t much = (size_t)1 << 30;
+
+static HdProblems notes;
+static HdError error;
+
+/* A new file each time: some file systems wait for the disk when an old one is written over. */
+static void rewrite(const char *path, const void *bytes, size_t size) {
+    remove(path);
+    write_bytes(path, bytes, size);
+}
+
+static void write_text(const char *path, const char *text) {
+    rewrite(path, text, strlen(text));
+}
+
+static HdStatus read_file(HdMesh *mesh, const char *path, size_t most) {
+    memset(&notes, 0, sizeof notes);
+    memset(&error, 0, sizeof error);
+    return hd_mesh_read_obj(mesh, path, most, &notes, &error);
+}
+
+static HdMesh read_bytes(const void *bytes, size_t size) {
+    HdMesh mesh;
+    rewrite("a.obj", bytes, size);
+    if (read_file(&mesh, "a.obj", much) != HD_OK)
+        fail_msg("%s", error.message);
+    return mesh;
+}
+
+static HdMesh read_text(const char *text) {
+    return read_bytes(text, strlen(text));
+}
+
+/* The whole message is expected. */
+static void expect_refused_bytes(const void *bytes, size_t size, const char *message) {
+    HdMesh mesh;
+    rewrite("a.obj", bytes, size);
+    assert_int_equal(read_file(&mesh, "a.obj", much), HD_BAD_INPUT);
+    assert_string_equal(error.message, message);
+    assert_null(mesh.vertices);
+    assert_null(mesh.materials);
+    assert_int_equal(mesh.triangle_count, 0);
+}
+
+static void expect_refused(const char *text, const char *message) {
+    expect_refused_bytes(text, strlen(text), message);
+}
+
+static void expect_corners(const HdMesh *mesh, int triangle, int a, int b, int c) {
+    assert_true(triangle < mesh->triangle_count);
+    assert_int_equal(mesh->corners[triangle][0], a);
+    assert_int_equal(mesh->corners[triangle][1], b);
+    assert_int_equal(mesh->corners[triangle][2], c);
+}
+
+static void everything_of_a_face_is_read(void **state) {
+    (void)state;
+    HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
+                            "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
+                            "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
+    assert_int_equal(mesh.vertex_count, 3);
+    assert_int_equal(mesh.triangle_count, 3);
+    assert_true(mesh.vertices[0].x == -1.5 && mesh.vertices[0].y == 2 && mesh.vertices[0].z == 5);
+    assert_true(mesh.vertices[2].z == (double)-0.025f);
+    assert_int_equal(mesh.uv_count, 2);
+    assert_true(mesh.uvs[0][0] == 0.25 && mesh.uvs[0][1] == 0.5);
+    assert_true(mesh.uvs[1][0] == 0.75 && mesh.uvs[1][1] == 0.0);
+    assert_int_equal(mesh.normal_count, 2);
+    assert_true(mesh.normals[0].z == 2.0);
+    expect_corners(&mesh, 0, 0, 1, 2);
+    expect_corners(&mesh, 1, 2, 1, 0);
+    expect_corners(&mesh, 2, 0, 1, 2);
+    const int32_t uvs[3][3] = {{0, 1, -1}, {-1, 0, -1}, {1, -1, -1}};
+    const int32_t normals[3][3] = {{0, 0, -1}, {-1, -1, 0}, {0, -1, -1}};
+    assert_memory_equal(mesh.corner_uvs, uvs, sizeof uvs);
+    assert_memory_equal(mesh.corner_normals, normals, sizeof normals);
+    assert_null(mesh.material_of);
+    assert_null(mesh.group_of);
+    assert_int_equal(mesh.material_count, 1);
+    hd_mesh_free(&mesh);
+
+    mesh = read_text(TRIANGLE "vn 0 0 1\nvt 0 0\nf 1 2 3\n");
+    assert_null(mesh.normals);
+    assert_null(mesh.corner_normals);
+    assert_null(mesh.uvs);
+    assert_null(mesh.corner_uvs);
+    assert_int_equal(mesh.normal_count + mesh.uv_count, 0);
+    hd_mesh_free(&mesh);
+}
+
+/* Each is the same triangle. */
+static void lines_come_in_many_forms(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
+        "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
+        "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3",
+        "\xef\xbb\xbf# mark\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "\t v \t0  0\t0 \n\n  v 1 0 0 # x\n v 0 1 0 # y\n\t f\t1\t2 3 # 4 5\n",
+        "v 0 \\\n 0 0\nv 1 0 \\\r\n0\nv 0 1 0\nf 1\\\n2\\\n3\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\\",
+        "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n",
+        "# \\\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\ng b c\ns off\nf 1 2 3\n",
+        "v 0.000000000000000000 0 0e99\nv 1 0 1e-32\nv 0 10000000000e-10 0\nf 1 2 3",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        HdMesh mesh = read_text(texts[i]);
+        assert_int_equal(mesh.vertex_count, 3);
+        assert_int_equal(mesh.triangle_count, 1);
+        expect_corners(&mesh, 0, 0, 1, 2);
+        assert_true(mesh.vertices[1].x == 1.0 && mesh.vertices[2].y == 1.0);
+        assert_true(mesh.vertices[1].z == 0.0 && mesh.vertices[2].z == 0.0);
+        assert_int_equal(notes.count, 0); /* a file that names no material lacks none */
+        hd_mesh_free(&mesh);
+    }
+}
+
+/* Comments and lines around the sizes of all buffers, each once with what fast_obj would drop. */
+static void long_lines_and_comments_pass(void **state) {
+    (void)state;
+    static char text[600000];
+    const size_t lengths[] = {HD_OBJ_MOST_LINE - 1,
+                              HD_OBJ_MOST_LINE,
+                              65534,
+                              65535,
+                              65536,
+                              65537,
+                              131070,
+                              131071,
+                              131072,
+                              131073,
+                              262144,
+                              500000};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        size_t used = (size_t)sprintf(text, "#");
+        memset(text + used, 'x', lengths[i] - 1);
+        used = lengths[i];
+        used += (size_t)sprintf(text + used, "\n%s#\nf 1 2 3\nf 1 2 9\n", TRIANGLE);
+        expect_refused_bytes(text, used,
+                             "a.obj: line 7: a face names vertex 9, and there are 3 vertices");
+    }
+    /* Many lines, so that ends of lines fall on every place of the buffers. */
+    size_t used = 0;
+    while (used < 500000)
+        used += (size_t)sprintf(text + used, "v %zu 0.%zu 1\r\n", used, used % 977);
+    const size_t vertices = (size_t)(strrchr(text, 'v') - text);
+    used += (size_t)sprintf(text + used, "f -1 -2 -3\n");
+    HdMesh mesh = read_bytes(text, used);
+    assert_true(mesh.vertices[mesh.vertex_count - 1].x == (double)(float)vertices);
+    for (int i = 0; i < mesh.vertex_count - 1; i++)
+        assert_true(mesh.vertices[i].x < mesh.vertices[i + 1].x);
+    expect_corners(&mesh, 0, mesh.vertex_count - 1, mesh.vertex_count - 2, mesh.vertex_count - 3);
+    hd_mesh_free(&mesh);
+
+    /* A long polygon, and one that is too long. */
+    const int most = HD_OBJ_MOST_LINE / 6;
+    used = 0;
+    for (int i = 0; i < 11000; i++)
+        used += (size_t)sprintf(text + used, "v %.9f %.9f 0\n", cos(i * 5.7e-4), sin(i * 5.7e-4));
+    const size_t before = used;
+    used += (size_t)sprintf(text + used, "f");
+    for (int i = 0; i < most - 1; i++)
+        used += (size_t)sprintf(text + used, " %5d", i + 1);
+    mesh = read_bytes(text, used);
+    assert_int_equal(mesh.triangle_count + mesh.degenerate_count, most - 3);
+    hd_mesh_free(&mesh);
+    while (used <= before + HD_OBJ_MOST_LINE + 8)
+        used += (size_t)sprintf(text + used, " 1");
+    expect_refused_bytes(text, used, "a.obj: line 11001: it is longer than 65000 bytes");
+    memcpy(text + before + 5000, " \\\n ", 4);
+    expect_refused_bytes(
+        text, used,
+        "a.obj: line 11001: with those that continue it, it is longer than 65000 bytes");
+}
+
+static void files_that_cannot_be_read_are_told_apart(void **state) {
+    (void)state;
+    HdMesh mesh;
+    assert_int_equal(read_file(&mesh, "missing.obj", much), HD_BAD_INPUT);
+    assert_string_equal(error.message,
+                        "cannot read the mesh missing.obj: No such file or directory");
+    assert_int_equal(mkdir("folder", 0700), 0);
+    assert_int_equal(read_file(&mesh, "folder", much), HD_BAD_INPUT);
+    assert_string_equal(error.message, "cannot read the mesh folder: Is a directory");
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    assert_int_equal(read_file(&mesh, "pipe", much), HD_BAD_INPUT);
+    assert_string_equal(error.message, "cannot read the mesh pipe: it is not a regular file");
+    /* Its first byte is at no address of the process. */
+    if (access("/proc/self/mem", R_OK) == 0) {
+        assert_int_equal(read_file(&mesh, "/proc/self/mem", much), HD_BAD_INPUT);
+        assert_string_equal(error.message,
+                            "cannot read the mesh /proc/self/mem: Input/output error");
+    }
+    expect_refused("",
+                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file");
+    expect_refused("<!DOCTYPE html>\n<p>",
+                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file");
+    expect_refused(TRIANGLE, "cannot read the mesh a.obj: it has vertices, but no faces");
+    expect_refused_bytes("v 0 0 0\n\0f", 10,
+                         "a.obj: line 2: it has a byte 0, so this is no OBJ file");
+    expect_refused_bytes("# \0\n", 4, "a.obj: line 1: it has a byte 0, so this is no OBJ file");
+    expect_refused("\x89PNG\r\n\x1a\n",
+                   "a.obj: line 1: it begins with byte 0x89, so this is no OBJ file");
+    expect_refused("v 0 0 0\n\x1b[0m 1",
+                   "a.obj: line 2: it begins with byte 0x1b, so this is no OBJ file");
+}
+
+static void wrong_numbers_are_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *number, *expected;
+    } wrong[] = {
+        {"nan", "a decimal number"},
+        {"inf", "a decimal number"},
+        {"-", "a decimal number"},
+        {".", "a decimal number"},
+        {"1e", "a decimal number"},
+        {"1e+", "a decimal number"},
+        {"1.2.3", "a decimal number"},
+        {"1,5", "a decimal number"},
+        {"0x10", "a decimal number"},
+        {"1f", "a decimal number"},
+        {"--1", "a decimal number"},
+        {"1.1e12", "a number from -1e12 to 1e12"},
+        {"-1000000000001", "a number from -1e12 to 1e12"},
+        {"1e25", "a number from -1e12 to 1e12"},
+        {"1e4294967296", "a number from -1e12 to 1e12"},
+        {"0.000000000000000000001e20", "a power of ten from -19 to 19"},
+        {"10000000000e-20", "a power of ten from -19 to 19"},
+        {"0.00000000000000000000000000000000000000000000000000000000000000001",
+         "a number of at most 64 characters"},
+    };
+    char text[256], message[512];
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        static const char *const statements[][2] = {{"v 0 %s 0\n", "vertex"},
+                                                    {"vn 0 %s 0\n", "normal"},
+                                                    {"vt 0 %s\n", "texture coordinate"}};
+        for (int k = 0; k < 3; k++) {
+            char line[128];
+            /* NOLINTNEXTLINE: the formats are the three above */
+            snprintf(line, sizeof line, statements[k][0], wrong[i].number);
+            snprintf(text, sizeof text, "%s%sf 1 2 3\n", TRIANGLE, line);
+            snprintf(message, sizeof message,
+                     "a.obj: line 4: number 2 of a %s is '%s', expected %s", statements[k][1],
+                     wrong[i].number, wrong[i].expected);
+            expect_refused(text, message);
+        }
+    }
+    expect_refused("\n\nv 1 2\n",
+                   "a.obj: line 3: number 3 of a vertex is '', expected a decimal number");
+    expect_refused("v 1 2 # 3\n",
+                   "a.obj: line 1: number 3 of a vertex is '#', expected a decimal number");
+    expect_refused("vt\n", "a.obj: line 1: number 1 of a texture coordinate is '', expected a "
+                           "decimal number");
+}
+
+static void the_largest_numbers_are_read(void **state) {
+    (void)state;
+    HdMesh mesh = read_text("v 1e12 -1000000000000 0\nv 12345678.9e-3 1E+2 0\nv 0 0 0.1e-11\n"
+                            "f 1 2 3");
+    assert_true(mesh.vertices[0].x == (double)1e12f && mesh.vertices[0].y == (double)-1e12f);
+    assert_true(mesh.vertices[1].x == (double)12345.6789f && mesh.vertices[1].y == 100.0);
+    expect_near(mesh.vertices[2].z, 1e-12, 1e-19);
+    hd_mesh_free(&mesh);
+}
+
+static void wrong_faces_are_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *face, *problem;
+    } wrong[] = {
+        {"f 1 2 4", "a face names vertex 4, and there are 3 vertices"},
+        {"f 1/2 2/1 3/1", "a face names texture coordinate 2, and there are 1 texture coordinates"},
+        {"f 1//1 2//1 3//7", "a face names normal 7, and there are 1 normals"},
+        {"f 1 2 -4",
+         "corner '-4' of a face names vertex -4, expected 1 and up, or -1 to -3 counted "
+         "back from here"},
+        {"f 1 2 0", "corner '0' of a face names vertex 0, expected 1 and up, or -1 to -3 counted "
+                    "back from here"},
+        {"f 1 2 3/0", "corner '3/0' of a face names texture coordinate 0, expected 1 and up, or -1 "
+                      "to -1 counted back from here"},
+        {"f 1 2 3//-2", "corner '3//-2' of a face names normal -2, expected 1 and up, or -1 to -1 "
+                        "counted back from here"},
+        {"f 1 2", "a face has 2 corners, expected at least 3"},
+        {"f 1", "a face has 1 corner, expected at least 3"},
+        {"f", "a face has 0 corners, expected at least 3"},
+        {"f # 1 2 3", "a face has 0 corners, expected at least 3"},
+    };
+    static const char *const corners[] = {
+        "x",   "1.5",   "1e3",         "+1",         "1/2/3/4",       "/1",    "1/-", "-",
+        "--1", "1//-/", "12345678901", "2147483648", "1/99999999999", "a\xff", "nan"};
+    char text[512], message[512], shown[32];
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        snprintf(text, sizeof text, "%svn 0 0 1\nvt 0 0\n%s\n", TRIANGLE, wrong[i].face);
+        snprintf(message, sizeof message, "a.obj: line 6: %s", wrong[i].problem);
+        expect_refused(text, message);
+    }
+    for (size_t i = 0; i < sizeof corners / sizeof *corners; i++) {
+        snprintf(text, sizeof text, "%svt 1 1\nvt 1 1\nvn 1 1 1\nvn 1 1 1\nvn 1 1 1\nf 1 2 %s\n",
+                 TRIANGLE, corners[i]);
+        hd_escape(corners[i], shown, sizeof shown);
+        snprintf(message, sizeof message,
+                 "a.obj: line 9: corner '%s' of a face, expected numbers of a vertex, texture "
+                 "coordinate and normal as 1, 1/2, 1//3 or 1/2/3",
+                 shown);
+        expect_refused(text, message);
+    }
+    expect_refused(TRIANGLE "f 1 2 2\nf 1 1 1\n", "a.obj: none of its 2 triangles has an area");
+}
+
+static void polygons_become_triangles(void **state) {
+    (void)state;
+    HdMesh mesh =
+        read_text("v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nusemtl a\nf 1 2 3 4\n"
+                  "usemtl b\nf 4 3 2\nv 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf -4 -3 -2 -1\n");
+    assert_int_equal(mesh.triangle_count, 5);
+    expect_corners(&mesh, 0, 0, 1, 2);
+    expect_corners(&mesh, 1, 0, 2, 3);
+    expect_corners(&mesh, 2, 3, 2, 1);
+    expect_corners(&mesh, 3, 4, 5, 6);
+    expect_corners(&mesh, 4, 4, 6, 7);
+    const int32_t materials[5] = {0, 0, 1, 1, 1};
+    assert_memory_equal(mesh.material_of, materials, sizeof materials);
+    hd_mesh_free(&mesh);
+    /* The quadrilateral begins beside its inner corner: the other diagonal. */
+    mesh = read_text("v 4 -2 0\nv 1 0 0\nv 4 2 0\nv 0 0 0\nf 1 2 3 4\n");
+    expect_corners(&mesh, 0, 3, 0, 1);
+    expect_corners(&mesh, 1, 3, 1, 2);
+    hd_mesh_free(&mesh);
+
+    static char text[100000];
+    size_t used = 0;
+    for (int i = 0; i < 1026; i++)
+        used += (size_t)sprintf(text + used, "v %.6f %.6f 0\n", (1 + i % 2) * cos(i * 6.124e-3),
+                                (1 + i % 2) * sin(i * 6.124e-3));
+    used += (size_t)sprintf(text + used, "f 1 3 5\nf");
+    for (int i = 0; i < 1026; i++)
+        used += (size_t)sprintf(text + used, " %d", i + 1);
+    expect_refused_bytes(text, used,
+                         "a.obj: face 2 is not convex and has 1026 corners, expected at most 1024");
+}
+
+static void degenerate_triangles_are_counted(void **state) {
+    (void)state;
+    HdMesh mesh = read_text(TRIANGLE "v 2 0 0\nf 1 2 4\nusemtl x\nf 1 2 3\nf 1 1 2\n");
+    assert_int_equal(mesh.triangle_count, 1);
+    assert_int_equal(mesh.degenerate_count, 2);
+    expect_corners(&mesh, 0, 0, 1, 2);
+    assert_int_equal(mesh.material_of[0], 1);
+    hd_mesh_free(&mesh);
+}
+
+/* Reads one triangle of material m as the library `text` describes it. */
+static HdMeshMaterial read_material(const char *text) {
+    HdProblems problems = {0};
+    write_text("a.mtl", text);
+    HdMesh mesh = read_text("mtllib a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
+    assert_int_equal(mesh.material_count, 1);
+    assert_string_equal(mesh.materials[0].name, "m");
+    const HdMeshMaterial material = mesh.materials[0];
+    const HdMaterial *m = &material.material;
+    hd_material_check_shares(m, "", &problems);
+    assert_int_equal(problems.count, 0);
+    assert_in_range(m->shininess, 1, HD_MAX_SHININESS);
+    assert_true(m->index_of_refraction >= HD_MIN_INDEX_OF_REFRACTION &&
+                m->index_of_refraction <= HD_MAX_INDEX_OF_REFRACTION);
+    assert_false(m->has_inner_side || m->lit_from_behind);
+    hd_mesh_free(&mesh);
+    return material;
+}
+
+static void expect_colour(HdVec3 colour, double red, double green, double blue) {
+    expect_near(colour.x, red, 1e-7);
+    expect_near(colour.y, green, 1e-7);
+    expect_near(colour.z, blue, 1e-7);
+}
+
+static void a_material_without_parameters_is_white(void **state) {
+    (void)state;
+    const HdMaterial m = read_material("newmtl m\n").material;
+    assert_int_equal(notes.count, 0);
+    expect_colour(m.colour, 1, 1, 1);
+    expect_colour(m.mirror_tint, 1, 1, 1);
+    assert_true(m.ambient == 0.0 && m.diffuse == 1.0 && m.specular == 0.0);
+    assert_int_equal(m.shininess, 64);
+    assert_true(m.reflection == 0.0 && m.transmission == 0.0 && m.index_of_refraction == 1.0);
+    const HdMaterial none = read_material("").material;
+    assert_memory_equal(&none, &m, sizeof m);
+    assert_string_equal(notes.text, "a.obj: no material library has 'm', so the default look is "
+                                    "taken: white, opaque\n");
+}
+
+static void parameters_are_mapped(void **state) {
+    (void)state;
+    HdMeshMaterial material =
+        read_material("newmtl m\nKa 0.1 0.2 0.6\nKd 0.5 0.25 0.125\nKs 0.2 0.4 0.6\nKe 3 2 1\n"
+                      "Ns 96.6\nNi 1.5\n");
+    HdMaterial m = material.material;
+    expect_near(m.ambient, 0.3, 1e-7);
+    expect_colour(m.colour, 0.5, 0.25, 0.125);
+    expect_near(m.specular, 0.4, 1e-7);
+    expect_colour(material.emission, 3, 2, 1);
+    assert_int_equal(m.shininess, 97);
+    assert_true(m.diffuse == 1.0 && m.reflection == 0.0 && m.transmission == 0.0);
+    assert_true(m.index_of_refraction == 1.0); /* nothing passes */
+    assert_int_equal(notes.count, 0);
+
+    m = read_material("newmtl m\nKd .5\nKs .3\nillum 1\n").material;
+    expect_colour(m.colour, 0.5, 0.5, 0.5);
+    assert_true(m.specular == 0.0);
+
+    m = read_material("newmtl m\nKs 0.2 0.4 0.1\nillum 3\n").material;
+    expect_near(m.reflection, 0.4, 1e-7);
+    expect_colour(m.mirror_tint, 0.5, 1, 0.25);
+    for (int illum = 0; illum <= 10; illum++) {
+        char text[64];
+        snprintf(text, sizeof text, "newmtl m\nKs 1 1 1\nTf 0 0 0\nillum %d\n", illum);
+        m = read_material(text).material;
+        assert_true(m.reflection == (illum >= 3 && illum <= 9 ? 1.0 : 0.0));
+        assert_true(m.specular == (illum >= 2 ? 1.0 : 0.0));
+    }
+}
+
+static void what_passes_is_mapped(void **state) {
+    (void)state;
+    HdMaterial m = read_material("newmtl m\nKd 0.5 0.5 1\nd 0.25\nNi 1.5\n").material;
+    assert_true(m.transmission == 0.75 && m.diffuse == 0.25);
+    assert_true(m.index_of_refraction == 1.5);
+    expect_colour(m.colour, 0.5, 0.5, 1);
+    /* Only models 6 and 7 refract; only they ask for Tf. */
+    m = read_material("newmtl m\nd 0.25\nNi 1.5\nillum 4\nTf 1 1 1\n").material;
+    assert_true(m.transmission == 0.75 && m.index_of_refraction == 1.0);
+    m = read_material("newmtl m\nNi 1.5\nillum 4\nTf 1 1 1\n").material;
+    assert_true(m.transmission == 0.0 && m.index_of_refraction == 1.0);
+    m = read_material("newmtl m\nNi 1.5\nillum 6\nTf 0.25 0.5 0\n").material;
+    assert_true(m.transmission == 0.5 && m.diffuse == 0.5 && m.index_of_refraction == 1.5);
+    m = read_material("newmtl m\nNi 1.25\nillum 7\nd 0.75\nTf 1 1 1\n").material;
+    assert_true(m.transmission == 0.25 && m.index_of_refraction == 1.25);
+    /* Black glass is seen through its filter. */
+    m = read_material("newmtl m\nKd 0 0 0\nillum 7\nTf 0.4 0.8 0.2\n").material;
+    expect_colour(m.colour, 0.5, 1, 0.25);
+    assert_true(m.diffuse == 0.0);
+    /* Tr is the other way round, and only where there is no d; each material by itself. */
+    m = read_material("newmtl n\nd 1\nnewmtl m\nTr 0.75\n").material;
+    assert_true(m.transmission == 0.75);
+    m = read_material("newmtl m\nd 0.75\nTr 0.5\n").material;
+    assert_true(m.transmission == 0.25);
+    assert_int_equal(notes.count, 0);
+    /* Together with the mirror at most all. */
+    m = read_material("newmtl m\nKs 1 1 1\nd 0\nillum 7\n").material;
+    assert_true(m.reflection == 0.5 && m.transmission == 0.5);
+    assert_string_equal(notes.text,
+                        "a.obj: material 'm': Ks makes it reflect 1 and d or Tf lets 1 pass, "
+                        "expected at most 1 together, and both are divided by 2\n");
+}
+
+/* The note that a library with this statement brings, if there is one. */
+static HdMeshMaterial expect_note(const char *statement, const char *note) {
+    char text[512], expected[1024];
+    snprintf(text, sizeof text, "newmtl m\nKs 0.5 0.5 0.5\n%s\n", statement);
+    const HdMeshMaterial material = read_material(text);
+    snprintf(expected, sizeof expected, "%s\n", note);
+    assert_string_equal(notes.text, expected);
+    return material;
+}
+
+static void values_are_made_legal(void **state) {
+    (void)state;
+    HdMeshMaterial m;
+    m = expect_note("Kd 2 1 0", "a.obj: material 'm': Kd is 2, expected 0 to 1, and becomes 1");
+    expect_colour(m.material.colour, 1, 1, 0);
+    m = expect_note("Kd 0 0 -1", "a.obj: material 'm': Kd is -1, expected 0 to 1, and becomes 0");
+    expect_colour(m.material.colour, 0, 0, 0);
+    expect_note("Ka 3", "a.obj: material 'm': Ka is 3, expected 0 to 1, and becomes 1\n"
+                        "a.obj: material 'm': Ka is 3, expected 0 to 1, and becomes 1\n"
+                        "a.obj: material 'm': Ka is 3, expected 0 to 1, and becomes 1");
+    expect_note("Tf 1 1 7", "a.obj: material 'm': Tf is 7, expected 0 to 1, and becomes 1");
+    m = expect_note("Ke 0 -1 0",
+                    "a.obj: material 'm': Ke is -1, expected 0 to 1000000000000, and becomes 0");
+    expect_colour(m.emission, 0, 0, 0);
+    m = expect_note("Ns 0", "a.obj: material 'm': Ns is 0, expected 1 to 65536, and becomes 1");
+    assert_int_equal(m.material.shininess, 1);
+    m = expect_note("Ns 1e9",
+                    "a.obj: material 'm': Ns is 1e+09, expected 1 to 65536, and becomes 65536");
+    assert_int_equal(m.material.shininess, 65536);
+    m = expect_note("d 1.5", "a.obj: material 'm': d is 1.5, expected 0 to 1, and becomes 1");
+    assert_true(m.material.transmission == 0.0);
+    m = expect_note("Tr 3",
+                    "a.mtl: line 3: Tr is 3, expected 0 to 1, and is taken for the nearer of them");
+    assert_true(m.material.transmission == 1.0);
+    m = expect_note("d 0.5\nNi 11",
+                    "a.obj: material 'm': Ni is 11, expected 0.1 to 10, and becomes 10");
+    assert_true(m.material.index_of_refraction == 10.0);
+    m = expect_note("d 0.5\nNi 0",
+                    "a.obj: material 'm': Ni is 0, expected 0.1 to 10, and becomes 0.1");
+    assert_true(m.material.index_of_refraction == 0.1);
+    /* Without a highlight the exponent does not matter. */
+    m = read_material("newmtl m\nNs 0\n");
+    assert_int_equal(m.material.shininess, 1);
+    assert_int_equal(notes.count, 0);
+}
+
+static void what_is_not_used_is_noted(void **state) {
+    (void)state;
+    expect_note("map_Ks a.png\nmap_Ks b.png\nmap_Bump c.png",
+                "a.mtl: line 3: map_Ks is not used\na.mtl: line 5: map_Bump is not used");
+    expect_note("map_K\nmap_N\nd\n", "a.mtl: line 3: map_K is not used\n"
+                                     "a.mtl: line 4: map_N is not used\n"
+                                     "a.mtl: line 5: d has '', expected a decimal number; the line "
+                                     "is left out");
+    expect_note("Kd spectral x.rfl", "a.mtl: line 3: Kd has 'spectral', expected a decimal number; "
+                                     "the line is left out");
+    expect_note("Ks 1 nan 1", "a.mtl: line 3: Ks has 'nan', expected a decimal number; the line is "
+                              "left out");
+    expect_note("d -halo 0.5",
+                "a.mtl: line 3: d has '-halo', expected a decimal number; the line is left out");
+    expect_note("illum 99999999999",
+                "a.mtl: line 3: illum is '99999999999', expected 0 to 10; the line is left out");
+    expect_note("illum 11", "a.mtl: line 3: illum is '11', expected 0 to 10; the line is left out");
+    expect_note("illum -1", "a.mtl: line 3: illum is '-1', expected 0 to 10; the line is left out");
+    expect_note("illum x", "a.mtl: line 3: illum is 'x', expected 0 to 10; the line is left out");
+    expect_note("illum 1.5",
+                "a.mtl: line 3: illum is '1.5', expected 0 to 10; the line is left out");
+    expect_note("\x1b[1m 1", "a.mtl: line 3: it has no statement of a material library");
+    expect_note("newmtl", "a.mtl: line 3: the name of a material, expected a name; it is left out");
+    /* What is before the first material belongs to none. */
+    const HdMaterial m = read_material("Kd 0 0 0\nnewmtl m\n").material;
+    expect_colour(m.colour, 1, 1, 1);
+    HdMesh mesh = read_text("l 1 2\n" TRIANGLE "p 1\nf 1 2 3\n");
+    expect_contains(notes.text,
+                    "a.obj: line 1: statements such as 'l' are not used, only faces (f) are\n");
+    assert_int_equal(notes.count, 1);
+    hd_mesh_free(&mesh);
+}
+
+/* The first library that defines a material counts; order and repetition do not matter. */
+static void materials_are_found_by_name(void **state) {
+    (void)state;
+    write_text("a.mtl", "newmtl white wood \r\nKd 0.5 0 0\r\nnewmtl b\rKd 0 0.5 0\r"
+                        "newmtl b\nKd 0 0 1\nnewmtl unused\n");
+    write_text("my lib.mtl", "newmtl b\nKd 0 1 1\nnewmtl c\nKd 0 0.25 0");
+    HdMesh mesh = read_text("f 1 2 3\nusemtl b\nf 1 2 3\nmtllib a.mtl\t \nmtllib my lib.mtl\n"
+                            "mtllib a.mtl\nusemtl c\nf 1 2 3\nusemtl  white wood\nf 1 2 3\n"
+                            "usemtl b\nf 1 2 3\nusemtl d\nf 1 2 3\nusemtl d\nf 1 2 3\n" TRIANGLE);
+    const char *const names[5] = {"default", "b", "c", "white wood", "d"};
+    const int32_t materials[7] = {0, 1, 2, 3, 1, 4, 4};
+    assert_int_equal(mesh.material_count, 5);
+    for (int i = 0; i < 5; i++)
+        assert_string_equal(mesh.materials[i].name, names[i]);
+    assert_memory_equal(mesh.material_of, materials, sizeof materials);
+    expect_colour(mesh.materials[0].material.colour, 1, 1, 1);
+    expect_colour(mesh.materials[1].material.colour, 0, 0.5, 0);
+    expect_colour(mesh.materials[2].material.colour, 0, 0.25, 0);
+    expect_colour(mesh.materials[3].material.colour, 0.5, 0, 0);
+    assert_string_equal(notes.text,
+                        "a.obj: no material library has 'default' and others that faces name, so "
+                        "the default look is taken: white, opaque\n");
+    hd_mesh_free(&mesh);
+
+    expect_refused("usemtl\n", "a.obj: line 1: the name of a material, expected a name");
+    expect_refused("usemtl a\x07\n", "a.obj: line 1: the name of a material, expected a name "
+                                     "without control characters");
+    expect_refused("mtllib \n", "a.obj: line 1: the name of a material library, expected a name");
+}
+
+static void too_many_materials_are_refused(void **state) {
+    (void)state;
+    FILE *file = fopen("many.obj", "wb");
+    HdMesh mesh;
+    assert_non_null(file);
+    fputs(TRIANGLE, file);
+    for (int i = 0; i < HD_MAX_MESH_MATERIALS; i++)
+        fprintf(file, "usemtl %d\nf 1 2 3\n", i);
+    fflush(file);
+    assert_int_equal(read_file(&mesh, "many.obj", much), HD_OK);
+    assert_int_equal(mesh.material_count, HD_MAX_MESH_MATERIALS);
+    assert_int_equal(mesh.material_of[HD_MAX_MESH_MATERIALS - 1], HD_MAX_MESH_MATERIALS - 1);
+    hd_mesh_free(&mesh);
+    fputs("usemtl x\n", file);
+    fclose(file);
+    assert_int_equal(read_file(&mesh, "many.obj", much), HD_BAD_INPUT);
+    assert_string_equal(error.message, "many.obj: line 131076: there are more materials than fit, "
+                                       "expected at most 65536");
+}
+
+/* `note` is the only one. */
+static void expect_library_note(const char *name, const char *note) {
+    char text[256];
+    snprintf(text, sizeof text, "mtllib %s\n%sf 1 2 3\n", name, TRIANGLE);
+    HdMesh mesh = read_text(text);
+    const size_t length = strcspn(notes.text, "\n");
+    assert_int_equal(notes.count, 1);
+    notes.text[length] = '\0';
+    assert_string_equal(notes.text, note);
+    hd_mesh_free(&mesh);
+}
+
+static void libraries_stay_in_the_folder(void **state) {
+    (void)state;
+    char above[256];
+    assert_int_equal(mkdir("sub", 0700), 0);
+    assert_int_equal(mkdir("sub/deeper", 0700), 0);
+    write_text("outer.mtl", "newmtl m\nKd 0 0 0\n");
+    write_text("sub/deeper/in.mtl", "newmtl m\nmap_Kd pic\\wood 1.png\n");
+    write_text("sub/b.obj",
+               "mtllib deeper\\in.mtl\nmtllib ../outer.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
+    HdMesh mesh;
+    assert_int_equal(read_file(&mesh, "sub/b.obj", much), HD_OK);
+    assert_string_equal(mesh.materials[0].texture, "sub/deeper/pic/wood 1.png");
+    assert_string_equal(notes.text, "sub/b.obj: the material library '../outer.mtl' is not read, "
+                                    "expected a name in this file's folder or below it\n");
+    hd_mesh_free(&mesh);
+
+    expect_library_note("x/../outer.mtl",
+                        "a.obj: the material library 'x/../outer.mtl' is not "
+                        "read, expected a name in this file's folder or below it");
+    expect_library_note("..", "a.obj: the material library '..' is not read, expected a name in "
+                              "this file's folder or below it");
+    expect_library_note("sub\\..\\outer.mtl",
+                        "a.obj: the material library 'sub/../outer.mtl' is not read, expected a "
+                        "name in this file's folder or below it");
+    snprintf(above, sizeof above,
+             "a.obj: the material library '%s/outer.mtl' is not read, expected a name that counts "
+             "from this file's folder",
+             test_folder);
+    char name[96];
+    snprintf(name, sizeof name, "%s/outer.mtl", test_folder);
+    expect_library_note(name, above);
+    expect_library_note("c:\\a.mtl", "a.obj: the material library 'c:/a.mtl' is not read, expected "
+                                     "a name that counts from this file's folder");
+    expect_library_note("none.mtl", "a.obj: cannot read the material library none.mtl: No such "
+                                    "file or directory");
+    expect_library_note("sub", "a.obj: cannot read the material library sub: it is not a regular "
+                               "file");
+    rewrite("zero.mtl", "newmtl m\0\n", 10);
+    expect_library_note("zero.mtl", "zero.mtl: it has bytes 0, so this is no material library");
+    rewrite("empty.mtl", "", 0);
+    mesh = read_text("mtllib empty.mtl\n" TRIANGLE "f 1 2 3\n");
+    assert_int_equal(notes.count, 0);
+    hd_mesh_free(&mesh);
+
+    mesh = read_text("mtllib none.mtl\nmtllib none.mtl\n" TRIANGLE "f 1 2 3\n");
+    assert_int_equal(notes.count, 1);
+    hd_mesh_free(&mesh);
+
+    static char many[8192];
+    size_t used = 0;
+    for (int i = 0; i < 65; i++)
+        used += (size_t)sprintf(many + used, "mtllib none%d.mtl\n", i);
+    used += (size_t)sprintf(many + used, TRIANGLE "f 1 2 3\n");
+    mesh = read_text(many);
+    expect_contains(notes.text, "is not read, expected no more than 64 libraries\n");
+    assert_int_equal(notes.count, 65);
+    hd_mesh_free(&mesh);
+}
+
+static void expect_texture_note(const char *name, const char *expected) {
+    char text[256], shown[64];
+    hd_escape(name, shown, sizeof shown);
+    snprintf(text, sizeof text, "newmtl m\nKs 0.5 0.5 0.5\nmap_Kd %s\n", name);
+    write_text("a.mtl", text);
+    HdMesh mesh = read_text("mtllib a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
+    assert_null(mesh.materials[0].texture);
+    snprintf(text, sizeof text,
+             "a.mtl: line 3: map_Kd is '%s', expected %s; there will be no texture\n", shown,
+             expected);
+    assert_string_equal(notes.text, text);
+    hd_mesh_free(&mesh);
+}
+
+static void textures_stay_in_the_folder(void **state) {
+    (void)state;
+    expect_texture_note("/etc/passwd", "a name that counts from this file's folder");
+    expect_texture_note("\\\\host\\a.png", "a name that counts from this file's folder");
+    expect_texture_note("../a.png", "a name in this file's folder or below it");
+    expect_texture_note("a/../../b.png", "a name in this file's folder or below it");
+    expect_texture_note("a/..", "a name in this file's folder or below it");
+    expect_texture_note("", "a name");
+    expect_texture_note("a\x1b.png", "a name without control characters");
+    expect_texture_note("a\x7f.png", "a name without control characters");
+    expect_texture_note("-s 1 1 1 a.png", "a name without options before it");
+    /* Neither the home folder nor a texture of the program. */
+    static const char *const names[] = {"~/a.png", "builtin:floor", "..a/b..png", "a..b"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "newmtl m\nmap_Kd  %s \n", names[i]);
+        write_text("a.mtl", text);
+        HdMesh mesh = read_text("mtllib a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
+        snprintf(text, sizeof text, "./%s", names[i]);
+        assert_string_equal(mesh.materials[0].texture, text);
+        assert_int_equal(notes.count, 0);
+        hd_mesh_free(&mesh);
+    }
+    assert_int_equal(mkdir("-dash", 0700), 0);
+    write_text("-dash/a.mtl", "newmtl m\nmap_Kd b.png\n");
+    HdMesh mesh = read_text("mtllib -dash/a.mtl\nusemtl m\n" TRIANGLE "f 1 2 3\n");
+    assert_string_equal(mesh.materials[0].texture, "./-dash/b.png");
+    hd_mesh_free(&mesh);
+}
+
+static void files_are_closed(void **state) {
+    (void)state;
+    const int before = dup(0);
+    close(before);
+    write_text("a.mtl", "newmtl m\n");
+    HdMesh mesh = read_text("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n");
+    hd_mesh_free(&mesh);
+    expect_refused("f", "a.obj: line 1: a face has 0 corners, expected at least 3");
+    const int after = dup(0);
+    close(after);
+    assert_int_equal(after, before);
+}
+
+/* Every limit ends in the error or in a mesh, and there is one from which on there is a mesh. */
+static void memory_is_limited(void **state) {
+    (void)state;
+    write_text("a.mtl", "newmtl m\nmap_Kd a.png\nKd 1 1 1\nnewmtl n\nKd 1 1 1\n");
+    FILE *file = fopen("big.obj", "wb");
+    size_t least = 0;
+    assert_non_null(file);
+    fputs("mtllib a.mtl\nusemtl m\nvt 0 0\nvn 0 0 1\n", file);
+    for (int i = 0; i < 3000; i++)
+        fprintf(file, "v %d 0 0\nv %d 1 0\nv %d 0 1\nusemtl n%d\nf -1/1/1 -2/1/1 -3/1/1\n", i, i, i,
+                i % 7);
+    fclose(file);
+    for (size_t most = 0; most < 4000000; most += most < 1900000 ? 77777 : 7777) {
+        HdMesh mesh;
+        const HdStatus status = read_file(&mesh, "big.obj", most);
+        if (status == HD_OK) {
+            least = least == 0 ? most : least;
+            assert_int_equal(mesh.triangle_count, 3000);
+        } else {
+            char expected[128];
+            assert_int_equal(status, HD_BAD_INPUT);
+            assert_int_equal(least, 0);
+            snprintf(expected, sizeof expected,
+                     "big.obj: reading it takes more than the %zu bytes of memory that it may take",
+                     most);
+            assert_string_equal(error.message, expected);
+            assert_null(mesh.vertices);
+        }
+        hd_mesh_free(&mesh);
+    }
+    assert_in_range(least, 1900000, 3900000);
+}
+
+/* Hostile texts, made by chance and the same in every run: whatever they are, they are read or
+   refused. HD_TEST_MUTATIONS in the environment is how many. */
+static const char *const seeds[] = {
+    "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl m\nf 1/1/1 2/1/1 3/1/1\n"
+    "o x\ng y\ns 1\nf -1//-1 -2/-1 -3\n# end\n",
+    "v 0.5e1 -1.25 1e-3\r\nv 1 \\\n 0 0\nv 0 1 0\rv 1 1 0\nusemtl a b\nf 1 2 3 4\nf 4 3 2 1 # x\n",
+    "v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nv 5 5 5\nf 1 2 3 4 5\nl 1 2\nmtllib b.mtl\nusemtl n\n"
+    "f 1 2 3\n",
+};
+static const char library_seed[] =
+    "newmtl m\nKa 0 0 0\nKd 0.5 0.5 0.5\nKs 1 1 1\nKe 0 0 1\nNs 10\nNi 1.5\nd 0.5\nTr 0.25\n"
+    "Tf 1 1 1\nillum 7\nmap_Kd a/b.png\nmap_Ka c\nnewmtl n\nmap_Kd -s 1 1 1 x\nbump y\nnorm z\n";
+
+static uint32_t chance;
+
+static size_t draw(size_t below) {
+    chance = chance * 1664525u + 1013904223u;
+    return (size_t)(chance >> 8) % below;
+}
+
+/* Truncates, flips, copies and exchanges a few bytes. */
+static size_t mutate(char *text, size_t size, size_t room) {
+    static const char favourites[] = "\n\r\\ \t/-+.eE#0129vfnm\0\xff";
+    for (size_t i = draw(6); i > 0 && size > 1; i--) {
+        const size_t at = draw(size), length = 1 + draw(size - at);
+        switch (draw(6)) {
+        case 0:
+            size = at;
+            break;
+        case 1:
+            text[at] = (char)(text[at] ^ (1 << draw(8)));
+            break;
+        case 2:
+        case 3:
+            text[at] = favourites[draw(sizeof favourites)];
+            break;
+        case 4:
+            memmove(text + draw(size - length + 1), text + at, length);
+            break;
+        default:
+            if (size + length <= room) {
+                memmove(text + at + length, text + at, size - at);
+                size += length;
+            }
+        }
+    }
+    return size;
+}
+
+static void check_mesh(const HdMesh *mesh) {
+    assert_true(mesh->triangle_count > 0 && mesh->material_count > 0);
+    for (int i = 0; i < mesh->triangle_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            assert_in_range(mesh->corners[i][k], 0, mesh->vertex_count - 1);
+            if (mesh->corner_normals != NULL)
+                assert_in_range(mesh->corner_normals[i][k] + 1, 0, mesh->normal_count);
+            if (mesh->corner_uvs != NULL)
+                assert_in_range(mesh->corner_uvs[i][k] + 1, 0, mesh->uv_count);
+        }
+        if (mesh->material_of != NULL)
+            assert_in_range(mesh->material_of[i], 0, mesh->material_count - 1);
+    }
+    for (int i = 0; i < mesh->vertex_count; i++) {
+        const HdVec3 v = mesh->vertices[i];
+        assert_true(fabs(v.x) <= 1.001e12 && fabs(v.y) <= 1.001e12 && fabs(v.z) <= 1.001e12);
+    }
+    for (int i = 0; i < mesh->material_count; i++) {
+        HdProblems problems = {0};
+        hd_material_check_shares(&mesh->materials[i].material, "", &problems);
+        assert_int_equal(problems.count, 0);
+    }
+}
+
+static void hostile_files_do_no_harm(void **state) {
+    (void)state;
+    const char *asked = getenv("HD_TEST_MUTATIONS");
+    const int count = asked != NULL ? atoi(asked) : 2000;
+    int read = 0;
+    chance = 1;
+    for (int i = 0; i < count; i++) {
+        static char text[4096];
+        const char *seed = seeds[draw(sizeof seeds / sizeof *seeds)];
+        memcpy(text, library_seed, sizeof library_seed);
+        rewrite("b.mtl", text, mutate(text, sizeof library_seed - 1, sizeof text));
+        memcpy(text, seed, strlen(seed));
+        rewrite("c.obj", text, mutate(text, strlen(seed), sizeof text));
+        HdMesh mesh;
+        if (read_file(&mesh, "c.obj", 3000000) == HD_OK) {
+            check_mesh(&mesh);
+            assert_int_equal(hd_mesh_smooth(&mesh, 40.0, &error), HD_OK);
+            read++;
+        } else {
+            assert_int_equal(error.status, HD_BAD_INPUT);
+        }
+        hd_mesh_free(&mesh);
+    }
+    assert_in_range(read, count / 10, count * 9 / 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(everything_of_a_face_is_read),
+        cmocka_unit_test(lines_come_in_many_forms),
+        cmocka_unit_test(long_lines_and_comments_pass),
+        cmocka_unit_test(files_that_cannot_be_read_are_told_apart),
+        cmocka_unit_test(wrong_numbers_are_told),
+        cmocka_unit_test(the_largest_numbers_are_read),
+        cmocka_unit_test(wrong_faces_are_told),
+        cmocka_unit_test(polygons_become_triangles),
+        cmocka_unit_test(degenerate_triangles_are_counted),
+        cmocka_unit_test(a_material_without_parameters_is_white),
+        cmocka_unit_test(parameters_are_mapped),
+        cmocka_unit_test(what_passes_is_mapped),
+        cmocka_unit_test(values_are_made_legal),
+        cmocka_unit_test(what_is_not_used_is_noted),
+        cmocka_unit_test(materials_are_found_by_name),
+        cmocka_unit_test(too_many_materials_are_refused),
+        cmocka_unit_test(libraries_stay_in_the_folder),
+        cmocka_unit_test(textures_stay_in_the_folder),
+        cmocka_unit_test(files_are_closed),
+        cmocka_unit_test(memory_is_limited),
+        cmocka_unit_test(hostile_files_do_no_harm),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,516 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include <float.h>
+#include <signal.h>
+
+#include "box_scenes.h"
+#include "expect.h"
+#include "hierarchy_setup.h"
+#include "system/interrupt.h"
+
+static const HdHierarchyOptions usual = {1.0F, 4};
+
+static HdHierarchy build(const HdBox *boxes, int count, const HdHierarchyOptions *options) {
+    HdHierarchy hierarchy;
+    if (hd_hierarchy_build(&hierarchy, boxes, count, options, pool, &error) != HD_OK)
+        fail_msg("%s", error.message);
+    return hierarchy;
+}
+
+/* What is found below a child. */
+typedef struct Below {
+    HdBox box;
+    double lowest[3], highest[3]; /* of twice the centres */
+    int items, depth;
+    double cost; /* expected, times the area of the box */
+} Below;
+
+typedef struct Check {
+    const HdHierarchy *hierarchy;
+    const HdBox *boxes;
+    HdHierarchyOptions options;
+    int next_node, next_item;
+    unsigned char *seen;
+    int empty_leaves;
+    bool sorted; /* whether children must lie in order of their centres */
+} Check;
+
+static double half_area(const HdBox *box) {
+    const double x = (double)box->upper[0] - (double)box->lower[0];
+    const double y = (double)box->upper[1] - (double)box->lower[1];
+    const double z = (double)box->upper[2] - (double)box->lower[2];
+    return x * (y + z) + y * z;
+}
+
+static Below nothing(void) {
+    Below below = {.items = 0};
+    for (int axis = 0; axis < 3; axis++) {
+        below.box.lower[axis] = INFINITY;
+        below.box.upper[axis] = -INFINITY;
+        below.lowest[axis] = HUGE_VAL;
+        below.highest[axis] = -HUGE_VAL;
+    }
+    return below;
+}
+
+static void add(Below *below, const Below *other) {
+    for (int axis = 0; axis < 3; axis++) {
+        below->box.lower[axis] = fminf(below->box.lower[axis], other->box.lower[axis]);
+        below->box.upper[axis] = fmaxf(below->box.upper[axis], other->box.upper[axis]);
+        below->lowest[axis] = fmin(below->lowest[axis], other->lowest[axis]);
+        below->highest[axis] = fmax(below->highest[axis], other->highest[axis]);
+    }
+    below->items += other->items;
+    below->cost += other->cost;
+    if (below->depth < other->depth)
+        below->depth = other->depth;
+}
+
+static Below check_leaf(Check *check, int32_t child) {
+    const int first = ~child >> HD_LEAF_SHIFT, count = ~child & HD_MAX_LEAF;
+    Below below = nothing();
+    if (count == 0) {
+        check->empty_leaves++;
+        return below;
+    }
+    assert_int_equal(first, check->next_item);
+    assert_true(count <= check->options.most_in_leaf);
+    check->next_item += count;
+    for (int i = first; i < first + count; i++) {
+        const int item = check->hierarchy->order[i];
+        assert_false(check->seen[item]);
+        check->seen[item] = 1;
+        Below one = {.box = check->boxes[item], .items = 1};
+        for (int axis = 0; axis < 3; axis++)
+            one.lowest[axis] = one.highest[axis] =
+                (double)one.box.lower[axis] + (double)one.box.upper[axis];
+        add(&below, &one);
+    }
+    below.cost = half_area(&below.box) * count;
+    return below;
+}
+
+static void check_order(const Check *check, const Below *left, const Below *right, int axis) {
+    if (!check->sorted || right->items == 0)
+        return;
+    const double extent = right->highest[axis] - left->lowest[axis];
+    /* Sums are rounded before they are compared. */
+    const double largest = fmax(fabs(right->highest[axis]), fabs(left->lowest[axis]));
+    assert_true(extent >= 0.0);
+    assert_true(left->highest[axis] <= right->lowest[axis] + largest * 0x1p-22);
+}
+
+static Below check_node(Check *check, int number) {
+    assert_int_equal(number, check->next_node);
+    check->next_node++;
+    const HdBuildNode *node = &check->hierarchy->nodes[number];
+    Below sides[2], all = nothing();
+    for (int side = 0; side < 2; side++) {
+        const int32_t child = node->child[side];
+        sides[side] = child >= 0 ? check_node(check, child) : check_leaf(check, child);
+        assert_memory_equal(&node->box[side], &sides[side].box, sizeof(HdBox));
+        add(&all, &sides[side]);
+    }
+    assert_in_range(node->axis, 0, 2);
+    check_order(check, &sides[0], &sides[1], node->axis);
+    all.depth++;
+    all.cost += (double)check->options.node_cost * half_area(&all.box);
+    /* Otherwise it should have been a leaf; as far as floats tell. */
+    if (number > 0 && all.items <= check->options.most_in_leaf && all.depth < 60)
+        assert_true(all.cost <= half_area(&all.box) * all.items * (1.0 + 1e-5) + 1e-30);
+    return all;
+}
+
+/* Everything that a hierarchy is to be; returns its expected cost for a ray that meets it. */
+static double check_all(const HdHierarchy *hierarchy, const HdBox *boxes, int count,
+                        const HdHierarchyOptions *options, bool sorted) {
+    Check check = {hierarchy, boxes, *options, 0, 0, calloc((size_t)count, 1), 0, sorted};
+    const Below all = check_node(&check, 0);
+    assert_int_equal(all.items, count);
+    assert_int_equal(check.next_item, count);
+    assert_int_equal(check.next_node, hierarchy->node_count);
+    assert_int_equal(all.depth, hierarchy->depth);
+    assert_true(hierarchy->depth <= HD_MAX_HIERARCHY_DEPTH);
+    assert_int_equal(check.empty_leaves, hierarchy->nodes[0].child[1] == ~0 ? 1 : 0);
+    free(check.seen);
+    return all.cost / half_area(&all.box);
+}
+
+/* Marks the items whose boxes a ray meets, and sees to it that `depth` was room enough. */
+static void walk(const HdHierarchy *hierarchy, const HdBox *boxes, const TestRay *ray,
+                 unsigned char *met) {
+    int32_t waiting[HD_MAX_HIERARCHY_DEPTH + 1];
+    int waiting_count = 0;
+    int32_t at = 0;
+    for (;;) {
+        int32_t hits[2];
+        int hit_count = 0;
+        if (at >= 0) {
+            const HdBuildNode *node = &hierarchy->nodes[at];
+            for (int side = 0; side < 2; side++)
+                if (ray_meets(ray, node->box[side].lower, node->box[side].upper))
+                    hits[hit_count++] = node->child[side];
+        } else {
+            for (int i = ~at >> HD_LEAF_SHIFT, n = ~at & HD_MAX_LEAF; n > 0; i++, n--) {
+                const int item = hierarchy->order[i];
+                met[item] = ray_meets(ray, boxes[item].lower, boxes[item].upper);
+            }
+        }
+        if (hit_count == 2)
+            waiting[waiting_count++] = hits[0];
+        assert_true(waiting_count <= hierarchy->depth);
+        if (hit_count > 0)
+            at = hits[hit_count - 1];
+        else if (waiting_count > 0)
+            at = waiting[--waiting_count];
+        else
+            return;
+    }
+}
+
+static void compare_rays(const HdHierarchy *hierarchy, const HdBox *boxes, int count, double scale,
+                         int rays) {
+    uint64_t seed = (uint64_t)count;
+    unsigned char *met = malloc((size_t)count);
+    for (int i = 0; i < rays; i++) {
+        const TestRay ray = random_ray(scale, &seed);
+        memset(met, 0, (size_t)count);
+        walk(hierarchy, boxes, &ray, met);
+        for (int item = 0; item < count; item++)
+            if (met[item] != ray_meets(&ray, boxes[item].lower, boxes[item].upper))
+                fail_msg("ray %d, box %d of %d", i, item, count);
+    }
+    free(met);
+}
+
+static void few_boxes(void **state) {
+    (void)state;
+    for (int count = 1; count <= 200; count++) {
+        const HdHierarchyOptions options = {1.0F, 1 + count % HD_MAX_LEAF};
+        HdBox *boxes = random_boxes(count, 0.5, 1.0, (uint64_t)count);
+        HdHierarchy hierarchy = build(boxes, count, &options);
+        check_all(&hierarchy, boxes, count, &options, true);
+        compare_rays(&hierarchy, boxes, count, 1.0, 50);
+        hd_hierarchy_free(&hierarchy);
+        free(boxes);
+    }
+}
+
+static void many_boxes(void **state) {
+    (void)state;
+    enum { COUNT = 50000 };
+    HdBox *boxes = random_boxes(COUNT, 0.05, 1.0, 3);
+    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+    check_all(&hierarchy, boxes, COUNT, &usual, true);
+    compare_rays(&hierarchy, boxes, COUNT, 1.0, 20);
+    hd_hierarchy_free(&hierarchy);
+    free(boxes);
+}
+
+static void one_box_makes_a_root(void **state) {
+    (void)state;
+    const HdBox box = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
+    HdHierarchy hierarchy = build(&box, 1, &usual);
+    assert_int_equal(hierarchy.node_count, 1);
+    assert_int_equal(hierarchy.depth, 1);
+    const HdBuildNode *root = hierarchy.nodes;
+    assert_memory_equal(&root->box[0], &box, sizeof box);
+    assert_int_equal(root->child[0], ~1);
+    assert_int_equal(root->child[1], ~0);
+    for (int axis = 0; axis < 3; axis++)
+        assert_true(root->box[1].lower[axis] > root->box[1].upper[axis]);
+    hd_hierarchy_free(&hierarchy);
+}
+
+static void two_boxes_are_divided_where_it_pays(void **state) {
+    (void)state;
+    /* Apart on y most; the second one is lower. */
+    const HdBox boxes[2] = {{{0, 5, 0}, {1, 6, 1}}, {{1, 0, 0}, {2, 1, 1}}};
+    const HdHierarchyOptions cheap = {0.1F, 4}, dear = {2.0F, 4};
+    HdHierarchy hierarchy = build(boxes, 2, &cheap);
+    assert_int_equal(hierarchy.nodes[0].child[0], ~(0 << HD_LEAF_SHIFT | 1));
+    assert_int_equal(hierarchy.nodes[0].child[1], ~(1 << HD_LEAF_SHIFT | 1));
+    assert_int_equal(hierarchy.nodes[0].axis, 1);
+    assert_int_equal(hierarchy.order[0], 1);
+    hd_hierarchy_free(&hierarchy);
+    hierarchy = build(boxes, 2, &dear);
+    assert_int_equal(hierarchy.nodes[0].child[0], ~(0 << HD_LEAF_SHIFT | 2));
+    assert_int_equal(hierarchy.nodes[0].child[1], ~0);
+    hd_hierarchy_free(&hierarchy);
+}
+
+static void leaves_follow_the_costs(void **state) {
+    (void)state;
+    enum { COUNT = 6000 };
+    HdBox *boxes = random_boxes(COUNT, 0.01, 1.0, 5);
+    /* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. */
+    const HdHierarchyOptions none = {0.0F, 15}, huge = {1000.0F, 15};
+    HdHierarchy hierarchy = build(boxes, COUNT, &none);
+    assert_int_equal(hierarchy.node_count, COUNT - 1);
+    hd_hierarchy_free(&hierarchy);
+    hierarchy = build(boxes, COUNT, &huge);
+    assert_true(hierarchy.node_count < COUNT / 7);
+    check_all(&hierarchy, boxes, COUNT, &huge, true);
+    hd_hierarchy_free(&hierarchy);
+    free(boxes);
+}
+
+static void same_for_any_number_of_threads(void **state) {
+    (void)state;
+    enum { COUNT = 60000 };
+    HdBox *boxes = clustered_boxes(COUNT);
+    HdHierarchy expected = build(boxes, COUNT, &usual);
+    for (int threads = 1; threads <= 8; threads += threads == 3 ? 5 : 1) {
+        HdThreadPool *other;
+        assert_int_equal(hd_thread_pool_create(&other, threads, &error), HD_OK);
+        HdHierarchy hierarchy;
+        assert_int_equal(hd_hierarchy_build(&hierarchy, boxes, COUNT, &usual, other, &error),
+                         HD_OK);
+        assert_int_equal(hierarchy.depth, expected.depth);
+        assert_int_equal(hierarchy.node_count, expected.node_count);
+        assert_int_equal(memcmp(hierarchy.nodes, expected.nodes,
+                                (size_t)expected.node_count * sizeof *expected.nodes),
+                         0);
+        assert_int_equal(memcmp(hierarchy.order, expected.order, COUNT * sizeof *expected.order),
+                         0);
+        hd_hierarchy_free(&hierarchy);
+        hd_thread_pool_destroy(other);
+    }
+    hd_hierarchy_free(&expected);
+    free(boxes);
+}
+
+static void identical_boxes_are_halved(void **state) {
+    (void)state;
+    enum { COUNT = 20000 };
+    HdBox *boxes = malloc(COUNT * sizeof *boxes);
+    for (int i = 0; i < COUNT; i++)
+        boxes[i] = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
+    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+    check_all(&hierarchy, boxes, COUNT, &usual, true);
+    assert_in_range(hierarchy.depth, 13, 14);
+    hd_hierarchy_free(&hierarchy);
+    free(boxes);
+}
+
+/* Boxes without a volume, without an area, without anything. */
+static void flat_boxes(void **state) {
+    (void)state;
+    enum { COUNT = 9000 };
+    for (int flat_axes = 1; flat_axes <= 7; flat_axes++) {
+        HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 11);
+        for (int i = 0; i < COUNT; i++)
+            for (int axis = 0; axis < 3; axis++)
+                if (flat_axes >> axis & 1)
+                    boxes[i].upper[axis] = boxes[i].lower[axis];
+        HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+        check_all(&hierarchy, boxes, COUNT, &usual, true);
+        compare_rays(&hierarchy, boxes, COUNT, 1.0, 5);
+        assert_true(hierarchy.depth < 30);
+        hd_hierarchy_free(&hierarchy);
+        free(boxes);
+    }
+}
+
+/* No box has an area, nor has what holds them all, and still they are put in order. */
+static void points_in_a_line(void **state) {
+    (void)state;
+    enum { COUNT = 9000 };
+    HdBox *boxes = malloc(COUNT * sizeof *boxes);
+    for (int i = 0; i < COUNT; i++) {
+        const float y = (float)(i * 7919 % COUNT);
+        boxes[i] = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
+    }
+    const HdHierarchyOptions options = {0.0F, 4};
+    HdHierarchy hierarchy = build(boxes, COUNT, &options);
+    check_all(&hierarchy, boxes, COUNT, &options, true);
+    assert_int_equal(hierarchy.node_count, COUNT - 1);
+    for (int i = 0; i < COUNT; i++)
+        assert_true(boxes[hierarchy.order[i]].lower[1] == (float)i);
+    hd_hierarchy_free(&hierarchy);
+    free(boxes);
+}
+
+/* The same boxes times a power of two have the same hierarchy, however large or small they are. */
+static void scale_does_not_matter(void **state) {
+    (void)state;
+    enum { COUNT = 9000 };
+    static const double scales[] = {0x1p-100, 0x1p-40, 0x1p40, 0x1p100, 0x1p126};
+    HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 13);
+    HdHierarchy expected = build(boxes, COUNT, &usual);
+    free(boxes);
+    for (int i = 0; i < (int)(sizeof scales / sizeof *scales); i++) {
+        boxes = random_boxes(COUNT, 0.03, scales[i], 13);
+        HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+        check_all(&hierarchy, boxes, COUNT, &usual, true);
+        assert_int_equal(hierarchy.node_count, expected.node_count);
+        assert_int_equal(memcmp(hierarchy.order, expected.order, COUNT * sizeof *expected.order),
+                         0);
+        hd_hierarchy_free(&hierarchy);
+        free(boxes);
+    }
+    hd_hierarchy_free(&expected);
+}
+
+/* From the smallest to the largest floats there are, in one scene. */
+static void all_sizes_at_once(void **state) {
+    (void)state;
+    enum { COUNT = 9000 };
+    HdBox *boxes = malloc(COUNT * sizeof *boxes);
+    uint64_t seed = 17;
+    for (int i = 0; i < COUNT; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double size = ldexp(1.0, (int)(277.0 * next_number(&seed)) - 149);
+            boxes[i].lower[axis] = (float)(size * -next_number(&seed));
+            boxes[i].upper[axis] = (float)(size * next_number(&seed));
+        }
+    for (int axis = 0; axis < 3; axis++) {
+        boxes[0].lower[axis] = -FLT_MAX;
+        boxes[0].upper[axis] = FLT_MAX;
+        boxes[1].lower[axis] = boxes[1].upper[axis] = FLT_MAX;
+        boxes[2].lower[axis] = boxes[2].upper[axis] = -FLT_MAX;
+    }
+    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+    check_all(&hierarchy, boxes, COUNT, &usual, false);
+    compare_rays(&hierarchy, boxes, COUNT, 1e30, 10);
+    compare_rays(&hierarchy, boxes, COUNT, 1.0, 10);
+    hd_hierarchy_free(&hierarchy);
+    free(boxes);
+}
+
+static void depth_is_bounded(void **state) {
+    (void)state;
+    HdBox boxes[DEEP_BOXES];
+    fill_deep(boxes);
+    const HdHierarchyOptions options = {0.0F, 1};
+    HdHierarchy hierarchy = build(boxes, DEEP_BOXES, &options);
+    check_all(&hierarchy, boxes, DEEP_BOXES, &options, false);
+    assert_int_equal(hierarchy.depth, HD_MAX_HIERARCHY_DEPTH);
+    compare_rays(&hierarchy, boxes, DEEP_BOXES, 1.0, 10);
+    /* A ray through everything. */
+    const TestRay ray = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+    unsigned char met[DEEP_BOXES] = {0};
+    walk(&hierarchy, boxes, &ray, met);
+    for (int i = 0; i < DEEP_BOXES; i++)
+        assert_int_equal(met[i], i % 6 / 2 == 0);
+    hd_hierarchy_free(&hierarchy);
+}
+
+/* The cost of halving boxes[items] at the median of the axis on which they spread most. */
+typedef struct Key {
+    double centre[3];
+    int item;
+} Key;
+
+static int sort_axis;
+
+static int by_centre(const void *a, const void *b) {
+    const Key *x = a, *y = b;
+    return (x->centre[sort_axis] > y->centre[sort_axis]) -
+           (x->centre[sort_axis] < y->centre[sort_axis]);
+}
+
+static double median_cost(const HdBox *boxes, Key *keys, int count, HdBox *box) {
+    Below all = nothing();
+    for (int i = 0; i < count; i++) {
+        Below one = {.box = boxes[keys[i].item]};
+        for (int axis = 0; axis < 3; axis++)
+            one.lowest[axis] = one.highest[axis] = keys[i].centre[axis];
+        add(&all, &one);
+    }
+    *box = all.box;
+    if (count <= usual.most_in_leaf)
+        return half_area(box) * count;
+    sort_axis = 0;
+    for (int axis = 1; axis < 3; axis++)
+        if (all.highest[axis] - all.lowest[axis] > all.highest[sort_axis] - all.lowest[sort_axis])
+            sort_axis = axis;
+    qsort(keys, (size_t)count, sizeof *keys, by_centre);
+    HdBox half;
+    const double left = median_cost(boxes, keys, count / 2, &half);
+    const double right = median_cost(boxes, keys + count / 2, count - count / 2, &half);
+    return left + right + (double)usual.node_cost * half_area(box);
+}
+
+static void cheaper_than_medians(void **state) {
+    (void)state;
+    enum { COUNT = 20000 };
+    HdBox *boxes = clustered_boxes(COUNT);
+    Key *keys = malloc(COUNT * sizeof *keys);
+    for (int i = 0; i < COUNT; i++) {
+        keys[i].item = i;
+        for (int axis = 0; axis < 3; axis++)
+            keys[i].centre[axis] = (double)boxes[i].lower[axis] + (double)boxes[i].upper[axis];
+    }
+    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
+    const double cost = check_all(&hierarchy, boxes, COUNT, &usual, true);
+    HdBox box;
+    double medians = median_cost(boxes, keys, COUNT, &box);
+    medians /= half_area(&box);
+    print_message("cost %.2f, by medians %.2f\n", cost, medians);
+    assert_true(cost < 0.75 * medians);
+    hd_hierarchy_free(&hierarchy);
+    free(keys);
+    free(boxes);
+}
+
+static void tells_when_memory_runs_out(void **state) {
+    (void)state;
+    enum { COUNT = 6000 };
+    HdBox *boxes = random_boxes(COUNT, 0.1, 1.0, 19);
+    int failures = 0;
+    for (bool built = false; !built; failures++) {
+        HdHierarchy hierarchy;
+        allocations = 0;
+        failing_allocation = failures;
+        const HdStatus status = hd_hierarchy_build(&hierarchy, boxes, COUNT, &usual, pool, &error);
+        failing_allocation = -1;
+        built = status == HD_OK;
+        if (!built) {
+            assert_int_equal(status, HD_FAILED);
+            expect_contains(error.message,
+                            "out of memory: no room for a hierarchy over 6000 boxes");
+            assert_null(hierarchy.nodes);
+            assert_null(hierarchy.order);
+        }
+        hd_hierarchy_free(&hierarchy);
+    }
+    assert_int_equal(failures - 1, allocations);
+    assert_true(allocations > 1);
+    free(boxes);
+}
+
+/* The last one: the signal stays. */
+static void can_be_interrupted(void **state) {
+    (void)state;
+    HdBox *boxes = random_boxes(100, 0.1, 1.0, 29);
+    hd_interrupt_install();
+    raise(SIGTERM);
+    HdHierarchy hierarchy;
+    assert_int_equal(hd_hierarchy_build(&hierarchy, boxes, 100, &usual, pool, &error),
+                     HD_INTERRUPTED);
+    assert_null(hierarchy.nodes);
+    assert_null(hierarchy.order);
+    free(boxes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(few_boxes),
+        cmocka_unit_test(many_boxes),
+        cmocka_unit_test(one_box_makes_a_root),
+        cmocka_unit_test(two_boxes_are_divided_where_it_pays),
+        cmocka_unit_test(leaves_follow_the_costs),
+        cmocka_unit_test(same_for_any_number_of_threads),
+        cmocka_unit_test(identical_boxes_are_halved),
+        cmocka_unit_test(flat_boxes),
+        cmocka_unit_test(points_in_a_line),
+        cmocka_unit_test(scale_does_not_matter),
+        cmocka_unit_test(all_sizes_at_once),
+        cmocka_unit_test(depth_is_bounded),
+        cmocka_unit_test(cheaper_than_medians),
+        cmocka_unit_test(tells_when_memory_runs_out),
+        cmocka_unit_test(can_be_interrupted),
+    };
+    return cmocka_run_group_tests(tests, start_pool, end_pool);
+}

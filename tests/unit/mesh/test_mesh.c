@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include <stdlib.h>
+
+#include "base/angle.h"
+#include "base/hash.h"
+#include "base/trigonometry.h"
+#include "expect.h"
+#include "mesh/mesh.h"
+
+/* A copy that the mesh may free. */
+static void *copy(const void *bytes, size_t size) {
+    void *result = malloc(size);
+    assert_non_null(result);
+    memcpy(result, bytes, size);
+    return result;
+}
+
+static HdMesh make_mesh(const HdVec3 *vertices, int vertex_count, const int32_t (*corners)[3],
+                        int triangle_count) {
+    HdMesh mesh = {.vertex_count = vertex_count, .triangle_count = triangle_count};
+    mesh.vertices = copy(vertices, (size_t)vertex_count * sizeof *vertices);
+    mesh.corners = copy(corners, (size_t)triangle_count * sizeof *corners);
+    return mesh;
+}
+
+/* As drop_degenerate sees a triangle with its corners at a, b and c. */
+static bool has_area(HdVec3 a, HdVec3 b, HdVec3 c) {
+    const HdVec3 vertices[3] = {a, b, c};
+    const int32_t corners[1][3] = {{0, 1, 2}};
+    HdMesh mesh = make_mesh(vertices, 3, corners, 1);
+    hd_mesh_drop_degenerate(&mesh);
+    const bool result = mesh.triangle_count == 1;
+    assert_int_equal(mesh.degenerate_count, result ? 0 : 1);
+    hd_mesh_free(&mesh);
+    return result;
+}
+
+static void triangles_without_an_area_are_told(void **state) {
+    (void)state;
+    const HdVec3 o = {0.0, 0.0, 0.0}, x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0};
+    assert_true(has_area(o, x, y));
+    assert_false(has_area(o, x, x));
+    assert_false(has_area(o, o, x));
+    assert_false(has_area(x, o, x));
+    assert_false(has_area(o, o, o));
+    assert_false(has_area(o, x, hd_vec3(3.0, 0.0, 0.0)));
+    /* On a line but for the rounding of tenths and thirds. */
+    assert_false(has_area(hd_vec3(0.1, 0.2, 0.3), hd_vec3(0.3, 0.6, 0.9), hd_vec3(0.7, 1.4, 2.1)));
+    assert_false(has_area(hd_vec3(1.0, 1.0 / 3.0, 0.0), hd_vec3(2.0, 2.0 / 3.0, 0.0),
+                          hd_vec3(7.0, 7.0 / 3.0, 0.0)));
+    /* Thin and small ones have an area, at any scale. */
+    for (int power = -12; power <= 12; power += 6) {
+        const double s = pow(10.0, power);
+        assert_true(has_area(o, hd_scale(x, s), hd_vec3(0.5 * s, 1e-9 * s, 0.0)));
+        assert_false(has_area(o, hd_scale(x, s), hd_vec3(0.5 * s, 1e-17 * s, 0.0)));
+    }
+    /* Far from the origin less of an area is certain. */
+    const HdVec3 far = {1e12, 0.0, 0.0};
+    assert_true(has_area(far, hd_add(far, x), hd_add(far, y)));
+    assert_false(has_area(far, hd_add(far, x), hd_add(far, hd_scale(y, 1e-5))));
+}
+
+static void what_belongs_to_a_triangle_moves_with_it(void **state) {
+    (void)state;
+    const HdVec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+    const int32_t corners[5][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {1, 3, 2}, {2, 2, 2}};
+    const int32_t normals[5][3] = {{0, 1, 2}, {10, 11, 12}, {20, 21, 22}, {30, 31, 32}, {0, 0, 0}};
+    const int32_t uvs[5][3] = {{0, 1, 2}, {13, 14, 15}, {0, 0, 0}, {33, 34, 35}, {0, 0, 0}};
+    const int32_t materials[5] = {0, 1, 2, 3, 4};
+    const uint8_t groups[5] = {5, 6, 7, 8, 9};
+    HdMesh mesh = make_mesh(vertices, 4, corners, 5);
+    mesh.degenerate_count = 2;
+    mesh.corner_normals = copy(normals, sizeof normals);
+    mesh.corner_uvs = copy(uvs, sizeof uvs);
+    mesh.material_of = copy(materials, sizeof materials);
+    mesh.group_of = copy(groups, sizeof groups);
+    hd_mesh_drop_degenerate(&mesh);
+    assert_int_equal(mesh.triangle_count, 2);
+    assert_int_equal(mesh.degenerate_count, 5);
+    assert_memory_equal(mesh.corners[0], corners[1], sizeof *corners);
+    assert_memory_equal(mesh.corners[1], corners[3], sizeof *corners);
+    assert_memory_equal(mesh.corner_normals[0], normals[1], sizeof *normals);
+    assert_memory_equal(mesh.corner_normals[1], normals[3], sizeof *normals);
+    assert_memory_equal(mesh.corner_uvs[0], uvs[1], sizeof *uvs);
+    assert_memory_equal(mesh.corner_uvs[1], uvs[3], sizeof *uvs);
+    assert_int_equal(mesh.material_of[0], 1);
+    assert_int_equal(mesh.material_of[1], 3);
+    assert_int_equal(mesh.group_of[0], 6);
+    assert_int_equal(mesh.group_of[1], 8);
+    hd_mesh_free(&mesh);
+    assert_null(mesh.corners);
+    assert_int_equal(mesh.triangle_count, 0);
+    hd_mesh_free(&mesh);
+}
+
+static void the_box_holds_all_triangles(void **state) {
+    (void)state;
+    const HdVec3 vertices[4] = {{100, 0, 0}, {1, -5, 3}, {4, 2, -6}, {-2, 0, 1}};
+    const int32_t corners[1][3] = {{1, 2, 3}};
+    HdVec3 lower = {9, 9, 9}, upper = {9, 9, 9};
+    HdMesh mesh = {0};
+    hd_mesh_box(&mesh, &lower, &upper);
+    assert_true(lower.x == 0.0 && lower.y == 0.0 && lower.z == 0.0);
+    assert_true(upper.x == 0.0 && upper.y == 0.0 && upper.z == 0.0);
+    mesh = make_mesh(vertices, 4, corners, 1);
+    hd_mesh_box(&mesh, &lower, &upper);
+    assert_true(lower.x == -2.0 && lower.y == -5.0 && lower.z == -6.0);
+    assert_true(upper.x == 4.0 && upper.y == 2.0 && upper.z == 3.0);
+    hd_mesh_free(&mesh);
+}
+
+static void angles_are_right(void **state) {
+    (void)state;
+    const HdVec3 x = {1.0, 0.0, 0.0};
+    for (int i = 0; i <= 3600; i++) {
+        const double angle = HD_PI * i / 3600.0;
+        const HdVec3 other = hd_vec3(3.0 * cos(angle), 1.8 * sin(angle), 2.4 * sin(angle));
+        expect_near(hd_angle(x, other), angle, 2e-15);
+        expect_near(hd_angle(other, hd_scale(x, 1e-9)), angle, 2e-15);
+    }
+    assert_true(hd_angle(x, hd_vec3(0.0, 0.0, 0.0)) == 0.0);
+    assert_true(hd_angle(x, hd_scale(x, -2.0)) == HD_PI);
+    expect_near(hd_angle(hd_vec3(1, 1, 0), hd_vec3(1, 1, 1e-9)), 1e-9 / sqrt(2.0), 1e-24);
+}
+
+/* A cube whose faces have vertices of their own: 24 vertices at 8 places, two triangles a face. */
+static HdMesh make_cube(void) {
+    HdVec3 vertices[24];
+    int32_t corners[12][3];
+    for (int face = 0; face < 6; face++) {
+        const int axis = face / 2;
+        const double side = face % 2 ? 1.0 : -1.0;
+        for (int i = 0; i < 4; i++) {
+            double at[3];
+            at[axis] = side;
+            at[(axis + 1) % 3] = (i == 1 || i == 2) ? side : -side;
+            at[(axis + 2) % 3] = i >= 2 ? 1.0 : -1.0;
+            vertices[4 * face + i] = hd_vec3(at[0], at[1], at[2]);
+        }
+        for (int i = 0; i < 2; i++) {
+            corners[2 * face + i][0] = 4 * face;
+            corners[2 * face + i][1] = 4 * face + 1 + i;
+            corners[2 * face + i][2] = 4 * face + 2 + i;
+        }
+    }
+    return make_mesh(vertices, 24, (const int32_t(*)[3])corners, 12);
+}
+
+static HdVec3 face_normal(const HdMesh *mesh, int triangle) {
+    const int32_t *corners = mesh->corners[triangle];
+    const HdVec3 a = mesh->vertices[corners[0]];
+    return hd_normalize(
+        hd_cross(hd_sub(mesh->vertices[corners[1]], a), hd_sub(mesh->vertices[corners[2]], a)));
+}
+
+static void expect_vector(HdVec3 actual, HdVec3 expected) {
+    expect_near(actual.x, expected.x, 1e-15);
+    expect_near(actual.y, expected.y, 1e-15);
+    expect_near(actual.z, expected.z, 1e-15);
+}
+
+static void smooth(HdMesh *mesh, double crease_degrees) {
+    HdError error = {0};
+    assert_int_equal(hd_mesh_smooth(mesh, crease_degrees, &error), HD_OK);
+}
+
+static void smoothing_weights_by_angle(void **state) {
+    (void)state;
+    HdMesh mesh = make_cube();
+    smooth(&mesh, 91.0);
+    /* Three faces meet at a corner with a right angle each, however they are cut into triangles. */
+    assert_int_equal(mesh.normal_count, 8);
+    for (int i = 0; i < 12; i++)
+        for (int k = 0; k < 3; k++)
+            expect_vector(mesh.normals[mesh.corner_normals[i][k]],
+                          hd_normalize(mesh.vertices[mesh.corners[i][k]]));
+    hd_mesh_free(&mesh);
+}
+
+static void creases_stay(void **state) {
+    (void)state;
+    HdMesh mesh = make_cube();
+    smooth(&mesh, 89.0);
+    assert_int_equal(mesh.normal_count, 24);
+    for (int i = 0; i < 12; i++)
+        for (int k = 0; k < 3; k++)
+            expect_vector(mesh.normals[mesh.corner_normals[i][k]], face_normal(&mesh, i));
+    /* Once more, over normals that are there. */
+    smooth(&mesh, 180.0);
+    assert_int_equal(mesh.normal_count, 8);
+    smooth(&mesh, 0.0);
+    assert_int_equal(mesh.normal_count, 24);
+    hd_mesh_free(&mesh);
+}
+
+/* A roof whose two sides meet at 60 degrees, and touch a third triangle in one point alone. */
+static void triangles_that_share_a_point_alone_are_apart(void **state) {
+    (void)state;
+    const HdVec3 vertices[6] = {
+        {0, 0, 0},  {0, 2, 0},  {1, 1, -0.57735026918962584}, {-1, 1, -0.57735026918962584},
+        {1, -1, 0}, {-1, -1, 0}};
+    const int32_t corners[3][3] = {{0, 2, 1}, {0, 1, 3}, {0, 5, 4}};
+    HdMesh mesh = make_mesh(vertices, 6, corners, 3);
+    smooth(&mesh, 61.0);
+    assert_int_equal(mesh.corner_normals[0][0], mesh.corner_normals[1][0]);
+    assert_int_equal(mesh.corner_normals[0][2], mesh.corner_normals[1][1]);
+    assert_int_not_equal(mesh.corner_normals[2][0], mesh.corner_normals[0][0]);
+    expect_vector(mesh.normals[mesh.corner_normals[0][0]], hd_vec3(0, 0, 1));
+    smooth(&mesh, 59.0);
+    assert_int_not_equal(mesh.corner_normals[0][0], mesh.corner_normals[1][0]);
+    expect_vector(mesh.normals[mesh.corner_normals[0][0]], face_normal(&mesh, 0));
+    hd_mesh_free(&mesh);
+}
+
+static void odd_triangles_do_no_harm(void **state) {
+    (void)state;
+    /* 0 and -0 are one place; the second triangle has no area; 40 more lie on one edge. */
+    HdVec3 vertices[46] = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {-0.0, -0.0, 0}, {0.5, -1, 0}};
+    int32_t corners[43][3] = {{0, 1, 2}, {0, 1, 1}, {1, 3, 4}};
+    vertices[5] = hd_vec3(1, 0, -0.0);
+    for (int i = 0; i < 40; i++) {
+        vertices[6 + i] = hd_vec3(0.5, cos(i / 7.0), sin(i / 7.0));
+        corners[3 + i][0] = 0;
+        corners[3 + i][1] = 5;
+        corners[3 + i][2] = 6 + i;
+    }
+    HdMesh mesh = make_mesh(vertices, 46, (const int32_t(*)[3])corners, 3);
+    smooth(&mesh, 10.0);
+    assert_int_equal(mesh.normal_count, 4);
+    assert_int_equal(mesh.corner_normals[0][0], mesh.corner_normals[2][1]);
+    assert_int_equal(mesh.corner_normals[1][0], -1);
+    assert_int_equal(mesh.corner_normals[1][2], -1);
+    hd_mesh_free(&mesh);
+
+    mesh = make_mesh(vertices, 46, (const int32_t(*)[3])corners, 43);
+    smooth(&mesh, 180.0);
+    assert_int_equal(mesh.corner_normals[1][0], -1);
+    for (int i = 0; i < mesh.normal_count; i++)
+        expect_near(hd_length(mesh.normals[i]), 1.0, 1e-15);
+    hd_mesh_free(&mesh);
+
+    mesh = (HdMesh){0};
+    smooth(&mesh, 30.0);
+    assert_int_equal(mesh.normal_count, 0);
+    hd_mesh_free(&mesh);
+}
+
+/* Known bytes: nothing of the system's mathematics library may get in. */
+static void normals_have_the_same_bytes_everywhere(void **state) {
+    (void)state;
+    const HdVec3 vertices[5] = {
+        {0.1, 0.2, 1.3}, {1.7, 0.3, 0.1}, {0.2, 1.9, 0.4}, {-1.1, 0.6, 0.2}, {0.3, -1.2, 0.7}};
+    const int32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+    HdMesh mesh = make_mesh(vertices, 5, corners, 4);
+    smooth(&mesh, 180.0);
+    const HdVec3 normal = mesh.normals[mesh.corner_normals[0][0]];
+    assert_int_equal(mesh.normal_count, 5);
+    assert_true(normal.x == -0x1.4425b9bc21cf8p-4);
+    assert_true(normal.y == -0x1.22d436587ed67p-8);
+    assert_true(normal.z == 0x1.fe63a0058d013p-1);
+    hd_mesh_free(&mesh);
+}
+
+/* Points whose hashes agree in the bits that pick a slot of a table for 4096 vertices. */
+static void fill_colliding(HdVec3 *points, int count) {
+    int found = 0;
+    for (int k = 0; found < count; k++) {
+        const HdVec3 point = hd_vec3(k & 1023, k >> 10, k % 97);
+        if ((hd_hash_bytes(HD_HASH_START, &point, sizeof point) & 4095) == 77)
+            points[found++] = point;
+    }
+}
+
+/* Both vertices of each place are used, in opposite orders. */
+static void make_colliding(HdMesh *mesh, double scale) {
+    enum { PLACES = 1000 };
+    static HdVec3 points[2 * PLACES];
+    static int32_t corners[2 * PLACES - 6][3];
+    fill_colliding(points, PLACES);
+    for (int i = 0; i < PLACES; i++) {
+        points[i] = hd_scale(points[i], scale);
+        points[2 * PLACES - 1 - i] = points[i];
+    }
+    for (int i = 0; i < PLACES - 3; i++)
+        for (int k = 0; k < 3; k++) {
+            corners[2 * i][k] = i + k;
+            corners[2 * i + 1][k] = 2 * PLACES - 1 - (i + (k > 0) + k);
+        }
+    *mesh = (HdMesh){.vertex_count = 2 * PLACES, .triangle_count = 2 * PLACES - 6};
+    mesh->vertices = copy(points, sizeof points);
+    mesh->corners = copy(corners, sizeof corners);
+}
+
+/* Twice as large it has the same normals, and other hashes. */
+static void vertices_that_collide_do_no_harm(void **state) {
+    (void)state;
+    HdMesh colliding, other;
+    make_colliding(&colliding, 1.0);
+    make_colliding(&other, 2.0);
+    smooth(&colliding, 100.0);
+    smooth(&other, 100.0);
+    assert_int_equal(colliding.normal_count, other.normal_count);
+    assert_in_range(other.normal_count, 1000, 5000);
+    assert_memory_equal(colliding.normals, other.normals,
+                        (size_t)other.normal_count * sizeof *other.normals);
+    assert_memory_equal(colliding.corner_normals, other.corner_normals,
+                        (size_t)other.triangle_count * sizeof *other.corner_normals);
+    hd_mesh_free(&colliding);
+    hd_mesh_free(&other);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(triangles_without_an_area_are_told),
+        cmocka_unit_test(what_belongs_to_a_triangle_moves_with_it),
+        cmocka_unit_test(the_box_holds_all_triangles),
+        cmocka_unit_test(angles_are_right),
+        cmocka_unit_test(smoothing_weights_by_angle),
+        cmocka_unit_test(creases_stay),
+        cmocka_unit_test(triangles_that_share_a_point_alone_are_apart),
+        cmocka_unit_test(odd_triangles_do_no_harm),
+        cmocka_unit_test(normals_have_the_same_bytes_everywhere),
+        cmocka_unit_test(vertices_that_collide_do_no_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* Which frames count as finished, and what is read back of them. */
+#define _XOPEN_SOURCE 700
+
+#include <stdlib.h>
+
+#include "image/mark.h"
+#include "output/resume.h"
+#include "system/atomic_file.h"
+#include "test_folder.h"
+
+enum { WIDTH = 19, HEIGHT = 7, FRAMES = 5 };
+
+static HdError error;
+static int numbers[FRAMES] = {2, 3, 5, 7, 11};
+static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
+
+static HdOutputPlan plan_of(const char *first, const char *second) {
+    return (HdOutputPlan){
+        .names = {first, second},
+        .count = second != NULL ? 2 : 1,
+        .style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8}, .frames_per_second = 30},
+        .is_marked = true,
+        .fingerprint = 12345,
+        .resumes = true};
+}
+
+static HdFrame make_frame(int number) {
+    HdFrame frame;
+    assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        frame.rgb[i] = (float)((i * number) % 251) / 251.0f;
+    return frame;
+}
+
+/* As the run of that plan would. */
+static void write_frame(const HdOutputPlan *plan, const char *name, int number) {
+    const uint64_t fingerprint = hd_picture_fingerprint(plan->fingerprint, number);
+    char path[HD_MAX_PATH];
+    HdAtomicFile file;
+    HdFrame frame = make_frame(number);
+    assert_int_equal(hd_output_file(name, number, path, &error), HD_OK);
+    assert_int_equal(
+        hd_picture_prepare(&file, &frame, &plan->style.picture, &fingerprint, path, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    hd_frame_free(&frame);
+}
+
+static void expect_finished(const HdOutputPlan *plan, int expected) {
+    HdResume resume;
+    assert_int_equal(hd_resume_find(&resume, plan, &frames, &error), HD_OK);
+    assert_int_equal(resume.finished_count, expected);
+    assert_int_equal(resume.missing.count, FRAMES - expected);
+    assert_ptr_equal(resume.all, &frames);
+    for (int i = 0, next = 0; i < FRAMES; i++)
+        if (!resume.is_finished[i])
+            assert_int_equal(resume.missing.frames[next++], numbers[i]);
+    hd_resume_free(&resume);
+}
+
+static void frames_with_the_right_mark_are_finished(void **state) {
+    (void)state;
+    HdOutputPlan plan = plan_of("a/%d.png", NULL);
+    expect_finished(&plan, 0);
+    for (int i = 0; i < FRAMES; i++) {
+        write_frame(&plan, plan.names[0], numbers[i]);
+        expect_finished(&plan, i + 1);
+    }
+    plan.fingerprint++;
+    expect_finished(&plan, 0);
+    plan.fingerprint--;
+    expect_finished(&plan, FRAMES);
+    /* A frame under another's name. */
+    assert_int_equal(rename("a/2.png", "a/3.png"), 0);
+    expect_finished(&plan, FRAMES - 2);
+}
+
+static void files_of_other_kinds_are_not(void **state) {
+    (void)state;
+    HdOutputPlan plan = plan_of("b/%d.png", NULL);
+    for (int i = 0; i < FRAMES; i++)
+        write_frame(&plan, plan.names[0], numbers[i]);
+    assert_int_equal(truncate("b/2.png", 0), 0);
+    assert_int_equal(unlink("b/3.png"), 0);
+    assert_int_equal(mkdir("b/3.png", 0777), 0);
+    assert_int_equal(unlink("b/5.png"), 0);
+    assert_int_equal(mkfifo("b/5.png", 0600), 0);
+    expect_finished(&plan, FRAMES - 3);
+}
+
+static void what_must_be_rendered_anyway_is_not(void **state) {
+    (void)state;
+    const HdOutputPlan marks = plan_of("c/%d.png", NULL);
+    for (int i = 0; i < FRAMES; i++)
+        write_frame(&marks, marks.names[0], numbers[i]);
+    HdOutputPlan plan = plan_of("c/%d.png", "c/%d.pfm");
+    expect_finished(&plan, 0);
+    plan = plan_of("c/%d.png", "c/%d.data");
+    expect_finished(&plan, 0);
+    plan = plan_of("c/%d.png", "c/film.mkv");
+    expect_finished(&plan, FRAMES);
+    plan.style.picture.bits = 16;
+    expect_finished(&plan, 0);
+    plan = marks;
+    plan.resumes = false;
+    expect_finished(&plan, 0);
+    plan = marks;
+    plan.is_marked = false;
+    expect_finished(&plan, 0);
+    plan = plan_of("c/film.mkv", NULL);
+    expect_finished(&plan, 0);
+    plan = plan_of("c/2.png", NULL);
+    expect_finished(&plan, 0);
+}
+
+static void all_pictures_of_a_frame_must_be_there(void **state) {
+    (void)state;
+    const HdOutputPlan plan = plan_of("d/%d.png", "e/%d.png");
+    for (int i = 0; i < FRAMES; i++)
+        write_frame(&plan, plan.names[0], numbers[i]);
+    expect_finished(&plan, 0);
+    write_frame(&plan, plan.names[1], numbers[1]);
+    expect_finished(&plan, 1);
+}
+
+static void a_frame_is_read_back_as_it_was_encoded(void **state) {
+    (void)state;
+    const HdOutputPlan plan = plan_of("f/film.mkv", "f/%d.png");
+    HdImage8 expected, room;
+    HdFrame made = make_frame(7), read = make_frame(0);
+    write_frame(&plan, plan.names[1], 7);
+    assert_int_equal(hd_image8_create(&expected, WIDTH, HEIGHT, &error), HD_OK);
+    assert_int_equal(hd_image8_create(&room, WIDTH, HEIGHT, &error), HD_OK);
+    hd_frame_to_image8(&made, HD_CURVE_SRGB, &expected);
+    read.rgba = room.rgba;
+    assert_int_equal(hd_resume_load(&plan, 7, &read, &error), HD_OK);
+    assert_true(read.is_encoded);
+    assert_memory_equal(read.rgba, expected.rgba, WIDTH * HEIGHT * 4);
+    assert_int_equal(truncate("f/7.png", 100), 0);
+    assert_int_equal(hd_resume_load(&plan, 7, &read, &error), HD_FAILED);
+    expect_contains(error.message, "frame 7 of f/%d.png was finished, but has changed since");
+    hd_image8_free(&expected);
+    hd_image8_free(&room);
+    hd_frame_free(&made);
+    hd_frame_free(&read);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_with_the_right_mark_are_finished),
+        cmocka_unit_test(files_of_other_kinds_are_not),
+        cmocka_unit_test(what_must_be_rendered_anyway_is_not),
+        cmocka_unit_test(all_pictures_of_a_frame_must_be_there),
+        cmocka_unit_test(a_frame_is_read_back_as_it_was_encoded),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

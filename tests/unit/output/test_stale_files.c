@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+/* Temporary files of killed runs go, and all others stay. */
+#define _XOPEN_SOURCE 700
+
+#include <fcntl.h>
+
+#include "output/stale_files.h"
+#include "system/atomic_file.h"
+#include "test_folder.h"
+
+static HdError error;
+static int numbers[] = {0, 1, 12};
+static const HdFrameList frames = {.frames = numbers, .count = 3};
+
+static void make_file(const char *path) {
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+}
+
+static void remove_stale(const char *first, const char *second) {
+    const HdOutputPlan plan = {.names = {first, second}, .count = 2};
+    hd_stale_files_remove(&plan, &frames);
+}
+
+static void expect_there(const char *path, bool expected) {
+    if ((access(path, F_OK) == 0) != expected)
+        fail_msg("%s is %s", path, expected ? "gone" : "still there");
+}
+
+static void those_of_the_run_go(void **state) {
+    (void)state;
+    const char *const going[] = {"a/0001.png.tmp-4000000-0", "a/0012.png.tmp-1-17",
+                                 "film.mp4.tmp-99-3"};
+    const char *const staying[] = {"a/0002.png.tmp-4000000-0", /* another frame */
+                                   "a/0001.png",
+                                   "a/0001.png.tmp-1",
+                                   "a/0001.png.tmp-1-",
+                                   "a/0001.png.tmp-x-0",
+                                   "a/0001.png.tmp-1-0x",
+                                   "a/0001.pngs.tmp-1-0",
+                                   "film.mp4",
+                                   "other.mp4.tmp-1-0"};
+    assert_int_equal(mkdir("a", 0777), 0);
+    for (int i = 0; i < 3; i++)
+        make_file(going[i]);
+    for (int i = 0; i < 9; i++)
+        make_file(staying[i]);
+    remove_stale("a/%04d.png", "film.mp4");
+    for (int i = 0; i < 3; i++)
+        expect_there(going[i], false);
+    for (int i = 0; i < 9; i++)
+        expect_there(staying[i], true);
+}
+
+static void numbered_folders_are_looked_through(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("take 1", 0777), 0);
+    assert_int_equal(mkdir("take 2", 0777), 0);
+    make_file("take 1/x.png.tmp-5-0");
+    make_file("take 2/x.png.tmp-5-0");
+    remove_stale("take %d/x.png", "nowhere/%d.png");
+    expect_there("take 1/x.png.tmp-5-0", false);
+    expect_there("take 2/x.png.tmp-5-0", true);
+}
+
+static void long_names_are_known_by_their_begin(void **state) {
+    (void)state;
+    char name[240], temporary[HD_MAX_PATH];
+    int descriptor;
+    memset(name, 'n', sizeof name);
+    memcpy(name + sizeof name - 5, ".mkv", 5);
+    assert_int_equal(hd_temporary_create(name, temporary, &descriptor, &error), HD_OK);
+    close(descriptor);
+    remove_stale(name, "b/%d.png");
+    expect_there(temporary, false);
+}
+
+/* The lock is the descriptor's, so that another look from this same process meets it too. */
+static void those_that_are_being_written_stay(void **state) {
+    (void)state;
+    char temporary[HD_MAX_PATH];
+    int descriptor;
+    HdAtomicFile file;
+    assert_int_equal(hd_temporary_create("c/0.png", temporary, &descriptor, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_open(&file, "c/1.png", &error), HD_OK);
+    remove_stale("c/%d.png", "film.mkv");
+    expect_there(temporary, true);
+    expect_there(file.temporary, true);
+    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    expect_there("c/1.png", true);
+    close(descriptor);
+    remove_stale("c/%d.png", "film.mkv");
+    expect_there(temporary, false);
+    assert_int_equal(count_entries("c"), 1);
+}
+
+static void folders_of_such_names_stay(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("d", 0777), 0);
+    assert_int_equal(mkdir("d/0.png.tmp-1-0", 0777), 0);
+    assert_int_equal(symlink("../a", "d/1.png.tmp-1-0"), 0);
+    remove_stale("d/%d.png", "film.mkv");
+    assert_int_equal(count_entries("d"), 2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(those_of_the_run_go),
+        cmocka_unit_test(numbered_folders_are_looked_through),
+        cmocka_unit_test(long_names_are_known_by_their_begin),
+        cmocka_unit_test(those_that_are_being_written_stay),
+        cmocka_unit_test(folders_of_such_names_stay),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+
+#include "expect.h"
+#include "render/error_budget.h"
+
+static double srgb(double v) {
+    v = v < 0.0 ? 0.0 : v > 1.0 ? 1.0 : v;
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055;
+}
+
+static double linear(double v) {
+    return v > 1.0 ? 1.0 : v;
+}
+
+/* Whatever is missing from a pixel within the budget does not show by more steps than that. */
+static void budget_is_kept(void **state) {
+    (void)state;
+    double (*const curves[])(double) = {[HD_CURVE_LINEAR] = linear, [HD_CURVE_SRGB] = srgb};
+    for (int curve = 0; curve < 2; curve++) {
+        HdErrorBudget budget = hd_error_budget((HdCurve)curve);
+        double closest = 0.0;
+        for (int trial = 0; trial < 19; trial++)
+            for (int i = 0; i <= 20000; i++) {
+                double steps = 0.01 * pow(1.7, trial);
+                double v = i / 10000.0;
+                double missing = hd_error_budget_radiance(&budget, steps, v);
+                double off = 255.0 * (curves[curve](v + missing) - curves[curve](v));
+                assert_true(off <= steps * (1.0 + 1e-9));
+                closest = off > closest * steps ? off / steps : closest;
+                expect_near(hd_error_budget_steps(&budget, missing, v), steps, 1e-9 * steps);
+            }
+        assert_true(closest > 0.9); /* nor is it far too strict */
+    }
+}
+
+/* A mean of samples, each within its own budget, is within that of the mean. */
+static void budget_of_a_mean_is_the_mean(void **state) {
+    (void)state;
+    HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB);
+    double dark = hd_error_budget_radiance(&budget, 1.0, 0.0);
+    double bright = hd_error_budget_radiance(&budget, 1.0, 3.0);
+    expect_near(0.75 * dark + 0.25 * bright, hd_error_budget_radiance(&budget, 1.0, 0.75), 1e-12);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(budget_is_kept),
+        cmocka_unit_test(budget_of_a_mean_is_the_mean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

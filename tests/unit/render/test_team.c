@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "render/sequence.h"
+#include "scene/camera.h"
+#include "system/interrupt.h"
+#include "system/processors.h"
+#include "test_folder.h"
+
+enum { DEVICES = 3, FRAMES = 48, PATIENCE_SECONDS = 600, POINTS = 4, MOST_FAILURES = DEVICES };
+
+/* What happened so far. Devices that must take part wait for each other here. */
+static struct {
+    pthread_mutex_t mutex;
+    pthread_cond_t changed;
+    int events[DEVICES][POINTS];
+    int failed, dropped;
+    int stored;
+} history = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+
+static HdError error;
+static HdScene scene;
+static int frame_numbers[FRAMES];
+static HdFrameList frames;
+static int makers[FRAMES]; /* who traced the frame; -1: it was not stored */
+static int dropped_ones[MOST_FAILURES];
+static char dropped_why[512];
+static int the_cpu; /* which device is one; the others are GPUs */
+
+typedef bool Happened(void);
+
+static void wait_until(Happened *happened) {
+    while (!happened())
+        pthread_cond_wait(&history.changed, &history.mutex);
+}
+
+static HdStatus fail_here(HdError *failure) {
+    history.failed++;
+    return hd_fail(failure, HD_FAILED, "it fails");
+}
+
+/* What a test does at a point, which it may let fail; the history is its own meanwhile. */
+typedef HdStatus Script(FakePoint point, int index, int count, HdError *failure);
+static Script *script;
+
+static HdStatus follow_script(FakePoint point, int index, HdError *failure) {
+    pthread_mutex_lock(&history.mutex);
+    int count = ++history.events[index][point];
+    pthread_cond_broadcast(&history.changed);
+    HdStatus status = script != NULL ? script(point, index, count, failure) : HD_OK;
+    pthread_cond_broadcast(&history.changed);
+    pthread_mutex_unlock(&history.mutex);
+    return status;
+}
+
+static void note_uploaded(void *context, int renderer, const HdSceneTables *tables) {
+    (void)context;
+    assert_true(renderer >= 0 && renderer < DEVICES && tables->plane_count > 0);
+}
+
+static void note_dropped(void *context, int renderer, const HdError *why) {
+    (void)context;
+    pthread_mutex_lock(&history.mutex);
+    dropped_ones[history.dropped++] = renderer;
+    snprintf(dropped_why, sizeof dropped_why, "%.400s", why->message);
+    pthread_cond_broadcast(&history.changed);
+    pthread_mutex_unlock(&history.mutex);
+}
+
+static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError *failure) {
+    (void)context;
+    (void)failure;
+    pthread_mutex_lock(&history.mutex);
+    bool in_order = stored->number == frame_numbers[history.stored];
+    makers[history.stored++] = stored->tracer;
+    pthread_cond_broadcast(&history.changed);
+    pthread_mutex_unlock(&history.mutex);
+    return in_order ? HD_OK : hd_fail(failure, HD_FAILED, "frame %d is early", stored->number);
+}
+
+static int begin(void **state) {
+    (void)state;
+    memset(&fake, 0, sizeof fake);
+    memset(history.events, 0, sizeof history.events);
+    history.failed = history.dropped = history.stored = 0;
+    the_cpu = -1;
+    script = NULL;
+    fake.event = follow_script;
+    for (int i = 0; i < FRAMES; i++) {
+        frame_numbers[i] = i;
+        makers[i] = -1;
+    }
+    frames = (HdFrameList){.frames = frame_numbers, .count = FRAMES};
+    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+        return 1;
+    scene.frame_count = FRAMES;
+    scene.eye = (HdPath){.cylinder = {.r0 = 3.0, .z0 = 1.0, .phi_frequency = 1.0}};
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_scene_free(&scene);
+    if (access("run", F_OK) == 0)
+        remove_folder("run");
+    if (access("alone", F_OK) == 0)
+        remove_folder("alone");
+    return 0;
+}
+
+/* A sequence may start so many threads, and has so many left; negative: any number. */
+static int threads_for_sequence = -1, threads_allowed = -1, threads_left;
+
+/* The arithmetic is fast, so that the kernels do not test themselves first. */
+static HdStatus render(const char *output, int count) {
+    const HdRenderOptions options = {.threads = 1, .math = HD_MATH_FAST};
+    HdOutputPlan plan = {
+        .names = {output},
+        .count = 1,
+        .style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8}, .frames_per_second = 30},
+    };
+    HdRenderer *renderers[DEVICES];
+    HdSequence sequence = {
+        .scene = &scene,
+        .frames = &frames,
+        .outputs = &plan,
+        .renderers = renderers,
+        .renderer_count = count,
+        .uploaded = note_uploaded,
+        .dropped = note_dropped,
+        .stored = note_stored,
+    };
+    for (int i = 0; i < count; i++) {
+        HdDevice device = fake_device();
+        device.index = i;
+        device.is_cpu = i == the_cpu;
+        assert_int_equal(hd_renderer_open(&renderers[i], &device, &options, &error), HD_OK);
+    }
+    threads_allowed = threads_for_sequence;
+    HdStatus status = hd_sequence_render(&sequence, &error);
+    threads_left = threads_allowed;
+    threads_allowed = -1;
+    for (int i = 0; i < count; i++)
+        hd_renderer_close(renderers[i]);
+    return status;
+}
+
+static void render_alone(void) {
+    script = NULL;
+    history.stored = 0;
+    assert_int_equal(render("alone/%d.data", 1), HD_OK);
+}
+
+static bool is_same_file(const char *a, const char *b) {
+    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
+    int bytes[2];
+    assert_non_null(files[0]);
+    assert_non_null(files[1]);
+    do
+        for (int i = 0; i < 2; i++)
+            bytes[i] = fgetc(files[i]);
+    while (bytes[0] == bytes[1] && bytes[0] != EOF);
+    fclose(files[0]);
+    fclose(files[1]);
+    return bytes[0] == bytes[1];
+}
+
+/* The folder has the first `count` frames, as one device makes them, and nothing else. */
+static void expect_first_frames(int count) {
+    char name[64], expected[64];
+    render_alone();
+    assert_false(is_same_file("alone/0.data", "alone/1.data"));
+    assert_int_equal(count_entries("run"), count);
+    for (int i = 0; i < count; i++) {
+        snprintf(name, sizeof name, "run/%d.data", i);
+        snprintf(expected, sizeof expected, "alone/%d.data", i);
+        assert_true(is_same_file(name, expected));
+    }
+}
+
+static int count_made_by(int device) {
+    int count = 0;
+    for (int i = 0; i < FRAMES; i++)
+        count += makers[i] == device;
+    return count;
+}
+
+/* ---- all take part ---- */
+
+static bool all_collect(void) {
+    for (int i = 0; i < DEVICES; i++)
+        if (history.events[i][FAKE_COLLECT] == 0)
+            return false;
+    return true;
+}
+
+static HdStatus meet(FakePoint point, int index, int count, HdError *failure) {
+    (void)index;
+    (void)failure;
+    if (point == FAKE_COLLECT && count == 1)
+        wait_until(all_collect);
+    return HD_OK;
+}
+
+static void devices_share_the_frames(void **state) {
+    (void)state;
+    script = meet;
+    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    for (int i = 0; i < DEVICES; i++)
+        assert_true(count_made_by(i) > 0);
+    assert_int_equal(count_made_by(0) + count_made_by(1) + count_made_by(2), FRAMES);
+    assert_int_equal(history.dropped, 0);
+    expect_first_frames(FRAMES);
+}
+
+static void surveyed_frames_are_shared_too(void **state) {
+    (void)state;
+    scene.sampling = HD_SAMPLING_ADAPTIVE;
+    scene.max_error = 1.0;
+    script = meet;
+    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    expect_first_frames(FRAMES);
+}
+
+/* ---- each at its own pace ---- */
+
+enum { AHEAD = 8 };
+
+static bool second_is_ahead(void) {
+    return history.events[1][FAKE_COLLECT] > AHEAD;
+}
+
+static HdStatus hold_first(FakePoint point, int index, int count, HdError *failure) {
+    (void)failure;
+    if (point == FAKE_COLLECT && index == 0 && count == 1)
+        wait_until(second_is_ahead);
+    return HD_OK;
+}
+
+static void a_fast_device_does_not_wait_for_a_slow_one(void **state) {
+    (void)state;
+    script = hold_first;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_true(count_made_by(0) > 0);
+    assert_true(count_made_by(1) >= AHEAD);
+    expect_first_frames(FRAMES);
+}
+
+static bool second_collects(void) {
+    return history.events[1][FAKE_COLLECT] > 0;
+}
+
+/* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
+ */
+static HdStatus await_estimate(FakePoint point, int index, int count, HdError *failure) {
+    (void)failure;
+    if (point == FAKE_COLLECT && index == 0 && count == 1)
+        wait_until(second_collects);
+    return HD_OK;
+}
+
+static void a_cpu_beside_gpus_estimates_its_pace(void **state) {
+    (void)state;
+    the_cpu = 1;
+    script = await_estimate;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    assert_int_equal(history.dropped, 0);
+    expect_first_frames(FRAMES);
+}
+
+/* ---- a device that fails ---- */
+
+static FakePoint failing_point;
+static int failing_count;
+
+static bool one_failed(void) {
+    return history.failed > 0;
+}
+
+/* The second device fails; the first one finishes nothing before. */
+static HdStatus fail_second(FakePoint point, int index, int count, HdError *failure) {
+    if (index == 1 && point == failing_point && count == failing_count)
+        return fail_here(failure);
+    if (index == 0 && point == FAKE_COLLECT && count == 1)
+        wait_until(one_failed);
+    return HD_OK;
+}
+
+static void others_trace_what_a_failed_device_had(void **state) {
+    (void)state;
+    const struct {
+        FakePoint point;
+        int count, most_made;
+    } cases[] = {{FAKE_UPLOAD, 1, 0}, {FAKE_SUBMIT, 1, 0},  {FAKE_SUBMIT, 2, 1},
+                 {FAKE_SUBMIT, 3, 2}, {FAKE_COLLECT, 1, 0}, {FAKE_COLLECT, 2, 1},
+                 {FAKE_COLLECT, 5, 4}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        end(NULL);
+        begin(NULL);
+        failing_point = cases[i].point;
+        failing_count = cases[i].count;
+        script = fail_second;
+        assert_int_equal(render("run/%d.data", 2), HD_OK);
+        assert_int_equal(history.dropped, 1);
+        assert_int_equal(dropped_ones[0], 1);
+        assert_string_equal(dropped_why, "fake: it fails");
+        assert_int_equal(history.stored, FRAMES);
+        assert_int_equal(count_made_by(1), cases[i].most_made);
+        assert_int_equal(count_made_by(0), FRAMES - cases[i].most_made);
+        expect_first_frames(FRAMES);
+    }
+}
+
+static bool first_has_the_rest(void) {
+    return history.events[0][FAKE_COLLECT] >= frames.count - 1;
+}
+
+/* The second device fails with its first frame when the other one has made all the others. */
+static HdStatus fail_at_last(FakePoint point, int index, int count, HdError *failure) {
+    if (point != FAKE_COLLECT || count > 1)
+        return HD_OK;
+    wait_until(index == 0 ? second_collects : first_has_the_rest);
+    return index == 0 ? HD_OK : fail_here(failure);
+}
+
+static void a_device_that_has_done_its_part_is_still_there(void **state) {
+    (void)state;
+    frames.count = 8;
+    script = fail_at_last;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(history.stored, 8);
+    assert_int_equal(history.dropped, 1);
+    assert_int_equal(count_made_by(0), 8);
+    expect_first_frames(8);
+}
+
+/* What the store has room for beside the second device's first frame. */
+static int room_beside(void) {
+    enum { MOST_ENCODERS = 16, SPARE = 12 };
+    int processors = hd_processor_count();
+    return (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE - 1;
+}
+
+static bool store_is_full(void) {
+    return history.events[0][FAKE_COLLECT] >= room_beside();
+}
+
+static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *failure) {
+    if (point != FAKE_COLLECT || count > 1)
+        return HD_OK;
+    wait_until(index == 0 ? second_collects : store_is_full);
+    return index == 0 ? HD_OK : fail_here(failure);
+}
+
+/* A device must not hold a later frame that waits for the one that it is to make now. */
+static void a_failure_while_the_store_is_full_stops_nobody(void **state) {
+    (void)state;
+    script = fail_when_full;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(history.stored, FRAMES);
+    assert_int_equal(history.dropped, 1);
+    assert_int_equal(count_made_by(0), FRAMES);
+    expect_first_frames(FRAMES);
+}
+
+/* The others go on first. */
+static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *failure) {
+    if (point != failing_point || count < failing_count)
+        return HD_OK;
+    while (history.dropped < index)
+        pthread_cond_wait(&history.changed, &history.mutex);
+    return fail_here(failure);
+}
+
+static void all_devices_failing_is_an_error(void **state) {
+    (void)state;
+    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
+    for (int i = 0; i < 3; i++) {
+        end(NULL);
+        begin(NULL);
+        failing_point = points[i];
+        failing_count = 1;
+        script = fail_everywhere;
+        assert_int_equal(render("run/%d.data", DEVICES), HD_FAILED);
+        assert_string_equal(error.message,
+                            "no device is left, for the last one failed: fake: it fails");
+        assert_int_equal(history.dropped, DEVICES - 1);
+        for (int k = 0; k < DEVICES - 1; k++)
+            assert_int_equal(dropped_ones[k], k);
+        assert_int_equal(history.stored, 0);
+        assert_true(access("run", F_OK) != 0 || count_entries("run") == 0);
+    }
+}
+
+static HdStatus fail_at_once(FakePoint point, int index, int count, HdError *failure) {
+    (void)index;
+    return point == failing_point && count == failing_count ? fail_here(failure) : HD_OK;
+}
+
+/* Its own words, for there is nobody else. */
+static void a_device_alone_that_fails_is_an_error(void **state) {
+    (void)state;
+    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
+    for (int i = 0; i < 3; i++) {
+        end(NULL);
+        begin(NULL);
+        failing_point = points[i];
+        failing_count = i == 0 ? 1 : 4;
+        script = fail_at_once;
+        assert_int_equal(render("run/%d.data", 1), HD_FAILED);
+        assert_string_equal(error.message, "fake: it fails");
+        assert_int_equal(history.dropped, 0);
+        assert_int_equal(history.stored, i == 0 ? 0 : 3);
+        if (i > 0)
+            expect_first_frames(3);
+    }
+}
+
+/* ---- what no device is to blame for ---- */
+
+/* The eye is at the target in that frame. */
+static void spoil_frame(int frame) {
+    scene.target =
+        (HdPath){.is_fixed = true, .point = hd_path_point(&scene.eye, frame, scene.frame_count)};
+}
+
+static void expect_spoilt(int frame, int dropped) {
+    char expected[64];
+    snprintf(expected, sizeof expected, "frame %d: the eye is at the target", frame);
+    expect_contains(error.message, expected);
+    assert_int_equal(history.stored, frame);
+    assert_int_equal(history.dropped, dropped);
+    assert_int_equal(count_entries("run"), frame);
+}
+
+static void a_frame_that_cannot_be_ends_it_for_all(void **state) {
+    (void)state;
+    for (int survey = 0; survey < 2; survey++) {
+        end(NULL);
+        begin(NULL);
+        scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
+        spoil_frame(7);
+        script = meet;
+        assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
+        expect_spoilt(7, 0);
+    }
+}
+
+/* All that can be made beside the second device's. */
+static bool first_has_four(void) {
+    return history.events[0][FAKE_COLLECT] >= 4;
+}
+
+/* The other device has met the frame that cannot be, or is about to, and is still needed. */
+static HdStatus fail_after_others(FakePoint point, int index, int count, HdError *failure) {
+    if (point != FAKE_COLLECT || count > 1)
+        return HD_OK;
+    wait_until(index == 0 ? second_collects : first_has_four);
+    return index == 0 ? HD_OK : fail_here(failure);
+}
+
+static void frames_before_one_that_cannot_be_are_made(void **state) {
+    (void)state;
+    spoil_frame(5);
+    script = fail_after_others;
+    assert_int_equal(render("run/%d.data", 2), HD_BAD_INPUT);
+    expect_spoilt(5, 1);
+}
+
+static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
+    (void)state;
+    mkdir("run", 0777);
+    mkdir("run/5.data", 0777);
+    script = meet;
+    assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
+    expect_contains(error.message, "run/5.data");
+    assert_int_equal(history.stored, 5);
+    assert_int_equal(history.dropped, 0);
+    assert_int_equal(count_entries("run"), 6);
+}
+
+/* The thread sanitizer needs its own pthread_create in the program. */
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define HAS_THREADS_OF_ITS_OWN 1
+#endif
+#endif
+#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
+
+/* ---- the system refuses threads ---- */
+
+/* In place of the system's. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
+                   void *argument) {
+    typedef int Create(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+    Create *create;
+    void *symbol = dlsym(RTLD_NEXT, "pthread_create");
+    memcpy(&create, &symbol, sizeof create);
+    if (threads_allowed == 0)
+        return EAGAIN;
+    if (threads_allowed > 0)
+        threads_allowed--;
+    return create(thread, attributes, start, argument);
+}
+
+/* With fewer and fewer threads: first devices are missed, then all of them; without any it is the
+   store that cannot begin. */
+static void devices_without_a_thread_are_dropped(void **state) {
+    (void)state;
+    enum { ENOUGH = 1000 };
+    threads_for_sequence = ENOUGH;
+    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    const int needed = ENOUGH - threads_left;
+    for (int missing = 1; missing <= 3; missing++) {
+        end(NULL);
+        begin(NULL);
+        threads_for_sequence = missing < 3 ? needed - missing : 0;
+        HdStatus status = render("run/%d.data", 2);
+        threads_for_sequence = -1;
+        assert_int_equal(status, missing == 1 ? HD_OK : HD_FAILED);
+        assert_int_equal(history.dropped, missing < 3 ? 1 : 0);
+        if (missing < 3)
+            expect_contains(dropped_why, "cannot start a thread for the device: ");
+        if (missing == 1)
+            expect_first_frames(FRAMES);
+        if (missing == 2)
+            expect_contains(error.message, "no device is left, for the last one failed: ");
+        if (missing == 3)
+            expect_contains(error.message, "for the outputs: ");
+    }
+}
+
+#endif
+
+/* ---- a signal, which the program remembers for ever ---- */
+
+static bool is_signalled(void) {
+    return hd_interrupt_signal() != 0;
+}
+
+static HdStatus interrupt(FakePoint point, int index, int count, HdError *failure) {
+    (void)failure;
+    if (point == FAKE_COLLECT && index == 0 && count == 3) {
+        raise(SIGTERM);
+        pthread_cond_broadcast(&history.changed);
+    }
+    if (point == FAKE_COLLECT && index == 1 && count == 1)
+        wait_until(is_signalled);
+    return HD_OK;
+}
+
+static void a_signal_ends_it_for_all(void **state) {
+    (void)state;
+    char expected[64];
+    script = interrupt;
+    assert_int_equal(render("run/%d.data", 2), HD_INTERRUPTED);
+    assert_true(history.stored < 3);
+    assert_int_equal(history.dropped, 0);
+    snprintf(expected, sizeof expected, "interrupted after %d of %d frames", history.stored,
+             FRAMES);
+    assert_string_equal(error.message, expected);
+    assert_int_equal(count_entries("run"), history.stored);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(devices_share_the_frames, begin, end),
+        cmocka_unit_test_setup_teardown(surveyed_frames_are_shared_too, begin, end),
+        cmocka_unit_test_setup_teardown(a_fast_device_does_not_wait_for_a_slow_one, begin, end),
+        cmocka_unit_test_setup_teardown(a_cpu_beside_gpus_estimates_its_pace, begin, end),
+        cmocka_unit_test_setup_teardown(others_trace_what_a_failed_device_had, begin, end),
+        cmocka_unit_test_setup_teardown(a_device_that_has_done_its_part_is_still_there, begin, end),
+        cmocka_unit_test_setup_teardown(a_failure_while_the_store_is_full_stops_nobody, begin, end),
+        cmocka_unit_test_setup_teardown(all_devices_failing_is_an_error, begin, end),
+        cmocka_unit_test_setup_teardown(a_device_alone_that_fails_is_an_error, begin, end),
+        cmocka_unit_test_setup_teardown(a_frame_that_cannot_be_ends_it_for_all, begin, end),
+        cmocka_unit_test_setup_teardown(frames_before_one_that_cannot_be_are_made, begin, end),
+        cmocka_unit_test_setup_teardown(a_picture_that_cannot_be_stored_ends_it_for_all, begin,
+                                        end),
+#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
+        cmocka_unit_test_setup_teardown(devices_without_a_thread_are_dropped, begin, end),
+#endif
+        cmocka_unit_test_setup_teardown(a_signal_ends_it_for_all, begin, end),
+    };
+    hd_interrupt_install();
+    alarm(PATIENCE_SECONDS);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

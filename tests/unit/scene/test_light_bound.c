@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+#include "expect.h"
+#include "scene/light_bound.h"
+
+static HdMaterial plain(void) {
+    return (HdMaterial){.colour = {1.0, 0.5, 0.0},
+                        .mirror_tint = {1.0, 1.0, 1.0},
+                        .shininess = 1,
+                        .index_of_refraction = 1.0};
+}
+
+static void lights_add_up(void **state) {
+    (void)state;
+    HdLight lights[2] = {{.intensity = {1.0, 2.0, 3.0}}, {.intensity = {0.5, 0.0, 0.25}}};
+    HdSolid solid = {.kind = HD_HEXAHEDRON,
+                     .lights = {.per_edge = 2,
+                                .colour_count = 2,
+                                .colours = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}},
+                                .intensity = 0.1}};
+    HdScene scene = {.light_count = 2, .lights = lights, .solid_count = 1, .solids = &solid};
+    HdVec3 bound = hd_light_bound(&scene);
+    /* A cube has 12 edges: 6 of each colour, with 2 lights each. */
+    expect_near(bound.x, 1.5 + 1.2, 0.06);
+    expect_near(bound.y, 2.0 + 1.2, 0.07);
+    expect_near(bound.z, 3.25, 0.07);
+    assert_true(bound.z >= 3.25);
+    solid.lights.intensity = 0.0;
+    expect_near(hd_light_bound(&scene).x, 1.5, 0.04);
+}
+
+/* What a surface shows of itself, over what it does not send on. */
+static void mirrors_multiply(void **state) {
+    (void)state;
+    HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 1.0};
+    HdMaterial *material = &scene.floor.material;
+    material->ambient = 0.2;
+    expect_near(hd_radiance_bound(&scene).x, 0.2, 0.005);
+    material->reflection = 0.5;
+    material->transmission = 0.25;
+    HdVec3 bound = hd_radiance_bound(&scene);
+    expect_near(bound.x, 0.2 / (1.0 - 0.75), 0.02);
+    expect_near(bound.y, 0.1 / (1.0 - 0.5 - 0.125), 0.01);
+    expect_near(bound.z, 0.0, 1e-12);
+    material->has_inner_side = true;
+    material->inner_reflection = 0.9;
+    expect_near(hd_radiance_bound(&scene).x, 0.2 / (1.0 - 0.9), 0.05);
+    material->inner_reflection = 1.0;
+    expect_near(hd_radiance_bound(&scene).x, 0.2 * (HD_MAX_DEPTH + 1), 5.0);
+    scene.background.x = 7.0; /* a mirror that sends all on adds to what ends the way */
+    assert_true(hd_radiance_bound(&scene).x >= 7.0 + 0.2 * (HD_MAX_DEPTH + 1));
+}
+
+/* Under total reflection the mirror, whose tint is white, takes over what would have passed. */
+static void total_reflection_counts(void **state) {
+    (void)state;
+    HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 1.0};
+    HdMaterial *material = &scene.floor.material;
+    material->ambient = 0.1;
+    material->colour = (HdVec3){0.01, 0.01, 0.01};
+    material->reflection = 0.1;
+    material->transmission = 0.8;
+    expect_near(hd_radiance_bound(&scene).x, 0.001 / (1.0 - 0.108), 1e-4);
+    material->index_of_refraction = 2.0;
+    expect_near(hd_radiance_bound(&scene).x, 0.001 / (1.0 - 0.9), 3e-4);
+}
+
+static void the_brightest_counts(void **state) {
+    (void)state;
+    HdSolid solid = {
+        .kind = HD_TETRAHEDRON,
+        .face = plain(),
+        .lights = {
+            .per_edge = 1, .colour_count = 1, .colours = {{0.5, 0.25, 1.0}}, .disc_radiance = 8.0}};
+    HdScene scene = {.solid_count = 1, .solids = &solid, .background = {5.0, 0.0, 0.0}};
+    HdVec3 bound = hd_radiance_bound(&scene);
+    expect_near(bound.x, 5.0, 0.11);
+    expect_near(bound.y, 2.0, 0.05);
+    expect_near(bound.z, 8.0, 0.17);
+}
+
+static void depth_follows_the_strongest_ray(void **state) {
+    (void)state;
+    HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 2.0};
+    HdMaterial *material = &scene.floor.material;
+    material->ambient = 0.5;
+    assert_int_equal(hd_depth_for_bound(&scene, 0.001), 1);
+    material->reflection = 0.5; /* B = 1, after exposure 2: 2^-10 < 0.001 is left at depth 11 */
+    assert_int_equal(hd_depth_for_bound(&scene, 0.001), 11);
+    material->reflection = 1.0;
+    assert_int_equal(hd_depth_for_bound(&scene, 0.001), HD_MAX_DEPTH);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(mirrors_multiply),
+        cmocka_unit_test(total_reflection_counts),
+        cmocka_unit_test(the_brightest_counts),
+        cmocka_unit_test(depth_follows_the_strongest_ray),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

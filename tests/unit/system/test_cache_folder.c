@@ -1,0 +1,433 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "system/cache_folder.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+
+#include "system/cache_limit.h"
+#include "test_folder.h"
+
+static HdError error;
+static const char payload[] = "machine code\0with a NUL";
+static char entry_file[512];
+
+/* The only entry of the folder "cache". */
+static const char *find_entry(void) {
+    DIR *entries = opendir("cache");
+    assert_non_null(entries);
+    entry_file[0] = '\0';
+    for (struct dirent *found = readdir(entries); found != NULL; found = readdir(entries))
+        if (found->d_name[0] != '.')
+            snprintf(entry_file, sizeof entry_file, "cache/%s", found->d_name);
+    closedir(entries);
+    assert_string_not_equal(entry_file, "");
+    return entry_file;
+}
+
+static int begin(void **state) {
+    (void)state;
+    setenv("HEDRON_CACHE", "cache", 1);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    remove_folder("cache");
+    return 0;
+}
+
+static void put(const char *key) {
+    assert_int_equal(hd_cache_put("test", key, payload, sizeof payload, &error), HD_OK);
+}
+
+static HdStatus get(const char *key) {
+    unsigned char *bytes;
+    size_t size;
+    HdStatus status = hd_cache_get("test", key, &bytes, &size, &error);
+    if (status == HD_OK) {
+        assert_int_equal(size, sizeof payload);
+        assert_memory_equal(bytes, payload, sizeof payload);
+    } else {
+        assert_null(bytes);
+    }
+    free(bytes);
+    return status;
+}
+
+static void what_is_put_is_got(void **state) {
+    (void)state;
+    assert_int_equal(get("a"), HD_UNAVAILABLE);
+    put("a");
+    assert_int_equal(get("a"), HD_OK);
+    assert_int_equal(get("b"), HD_UNAVAILABLE);
+    put("b");
+    put("a");
+    assert_int_equal(get("a"), HD_OK);
+    assert_int_equal(get("b"), HD_OK);
+    assert_int_equal(count_entries("cache"), 2);
+}
+
+static void files_are_for_the_user_alone(void **state) {
+    (void)state;
+    struct stat found;
+    setenv("HEDRON_CACHE", "cache/deep/er", 1);
+    put("a");
+    assert_int_equal(stat("cache/deep/er", &found), 0);
+    assert_int_equal(found.st_mode & 0777, 0700);
+    setenv("HEDRON_CACHE", "cache/flat", 1);
+    put("a");
+    DIR *entries = opendir("cache/flat");
+    assert_non_null(entries);
+    for (struct dirent *entry = readdir(entries); entry != NULL; entry = readdir(entries))
+        if (entry->d_name[0] != '.') {
+            assert_int_equal(fstatat(dirfd(entries), entry->d_name, &found, 0), 0);
+            assert_int_equal(found.st_mode & 0777, 0600);
+        }
+    closedir(entries);
+}
+
+static void texts_are_kept(void **state) {
+    (void)state;
+    char text[8];
+    assert_int_equal(hd_cache_put_text("test", "block", "128", &error), HD_OK);
+    assert_int_equal(hd_cache_get_text("test", "block", text, sizeof text, &error), HD_OK);
+    assert_string_equal(text, "128");
+    assert_int_equal(hd_cache_put_text("test", "block", "12345678", &error), HD_OK);
+    assert_int_equal(hd_cache_get_text("test", "block", text, sizeof text, &error), HD_FAILED);
+    assert_string_equal(text, "");
+    put("binary");
+    char longer[100];
+    assert_int_equal(hd_cache_get_text("test", "binary", longer, sizeof longer, &error), HD_FAILED);
+}
+
+/* ---- damage ---- */
+
+static size_t load(unsigned char *bytes, size_t capacity) {
+    FILE *file = fopen(find_entry(), "rb");
+    assert_non_null(file);
+    size_t size = fread(bytes, 1, capacity, file);
+    fclose(file);
+    return size;
+}
+
+static void rewrite(const unsigned char *bytes, size_t size) {
+    write_bytes(entry_file, bytes, size);
+    assert_int_equal(chmod(entry_file, 0600), 0);
+}
+
+static void expect_untrusted(const char *reason) {
+    assert_int_equal(get("a"), HD_FAILED);
+    expect_contains(error.message, reason);
+}
+
+static void every_damaged_byte_is_noticed(void **state) {
+    (void)state;
+    unsigned char bytes[512];
+    put("a");
+    size_t size = load(bytes, sizeof bytes);
+    for (size_t i = 0; i < size; i++) {
+        bytes[i] ^= 0x10;
+        rewrite(bytes, size);
+        assert_int_equal(get("a"), HD_FAILED);
+        bytes[i] ^= 0x10;
+    }
+    rewrite(bytes, size);
+    assert_int_equal(get("a"), HD_OK);
+}
+
+static void each_fault_has_its_reason(void **state) {
+    (void)state;
+    unsigned char bytes[512];
+    put("a");
+    size_t size = load(bytes, sizeof bytes);
+    bytes[0] ^= 1;
+    rewrite(bytes, size);
+    expect_untrusted("no entry of hedron's");
+    bytes[0] ^= 1;
+    bytes[8] ^= 1;
+    rewrite(bytes, size);
+    expect_untrusted("another format");
+    bytes[8] ^= 1;
+    bytes[size - 1] ^= 1;
+    rewrite(bytes, size);
+    expect_untrusted("checksum");
+    bytes[size - 1] ^= 1;
+    rewrite(bytes, size + 1);
+    expect_untrusted("cut short or too long");
+    put("a");
+    assert_int_equal(get("a"), HD_OK);
+}
+
+static void entries_cut_short_are_noticed(void **state) {
+    (void)state;
+    unsigned char bytes[512];
+    put("a");
+    size_t size = load(bytes, sizeof bytes);
+    for (size_t length = 0; length < size; length++) {
+        rewrite(bytes, length);
+        assert_int_equal(get("a"), HD_FAILED);
+    }
+}
+
+/* A whole entry under the name of another key's. */
+static void entries_of_another_key_are_noticed(void **state) {
+    (void)state;
+    unsigned char bytes[512];
+    char path[sizeof entry_file];
+    put("a");
+    snprintf(path, sizeof path, "%s", find_entry());
+    assert_int_equal(remove(path), 0);
+    put("b");
+    assert_int_equal(rename(find_entry(), path), 0);
+    expect_untrusted("another key");
+    assert_true(load(bytes, sizeof bytes) > 0);
+}
+
+static void entries_that_others_may_write_are_not_trusted(void **state) {
+    (void)state;
+    put("a");
+    assert_int_equal(chmod(find_entry(), 0620), 0);
+    expect_untrusted("other users");
+    assert_int_equal(chmod(entry_file, 0602), 0);
+    expect_untrusted("other users");
+    assert_int_equal(chmod(entry_file, 0600), 0);
+    assert_int_equal(get("a"), HD_OK);
+    if (geteuid() == 0) {
+        assert_int_equal(chown(entry_file, 12345, 12345), 0);
+        expect_untrusted("another user");
+    }
+}
+
+static void what_is_no_file_is_not_read(void **state) {
+    (void)state;
+    put("a");
+    assert_int_equal(rename(find_entry(), "elsewhere"), 0);
+    assert_int_equal(symlink("../elsewhere", entry_file), 0);
+    assert_int_equal(get("a"), HD_FAILED);
+    assert_int_equal(remove(entry_file), 0);
+    assert_int_equal(mkfifo(entry_file, 0600), 0);
+    expect_untrusted("not a regular file");
+    assert_int_equal(remove(entry_file), 0);
+    assert_int_equal(mkdir(entry_file, 0700), 0);
+    expect_untrusted("not a regular file");
+    assert_int_equal(hd_cache_put("test", "a", payload, sizeof payload, &error), HD_BAD_INPUT);
+    assert_int_equal(remove("elsewhere"), 0);
+}
+
+/* ---- folders ---- */
+
+static void expect_folder(const char *expected) {
+    char folder[HD_MAX_PATH];
+    HdStatus status = hd_cache_folder(folder, &error);
+    assert_int_equal(status, expected != NULL ? HD_OK : HD_UNAVAILABLE);
+    if (expected != NULL)
+        assert_string_equal(folder, expected);
+}
+
+static void the_folder_is_found_in_order(void **state) {
+    (void)state;
+    char below_home[100];
+    setenv("XDG_CACHE_HOME", "/xdg", 1);
+    setenv("HOME", test_folder, 1);
+    snprintf(below_home, sizeof below_home, "%s/.cache/hedron", test_folder);
+    expect_folder("cache");
+    unsetenv("HEDRON_CACHE");
+    expect_folder("/xdg/hedron");
+    setenv("HEDRON_CACHE", "", 1);
+    expect_folder("/xdg/hedron");
+    setenv("XDG_CACHE_HOME", "relative", 1);
+    expect_folder(below_home);
+    unsetenv("XDG_CACHE_HOME");
+    expect_folder(below_home);
+    setenv("HOME", "/no/such/home", 1);
+    expect_folder(NULL);
+    expect_contains(error.message, "/no/such/home");
+    unsetenv("HOME");
+    expect_folder(NULL);
+    expect_contains(error.message, "HOME");
+    assert_int_equal(get("a"), HD_UNAVAILABLE);
+    assert_int_equal(hd_cache_put("test", "a", "", 0, &error), HD_UNAVAILABLE);
+    setenv("HEDRON_CACHE", "off", 1);
+    expect_folder(NULL);
+    expect_contains(error.message, "HEDRON_CACHE is off");
+}
+
+static void a_folder_that_cannot_be_made_is_told(void **state) {
+    (void)state;
+    write_bytes("file", "x", 1);
+    setenv("HEDRON_CACHE", "file/cache", 1);
+    assert_int_equal(get("a"), HD_UNAVAILABLE);
+    assert_int_equal(hd_cache_put("test", "a", "x", 1, &error), HD_FAILED);
+    expect_contains(error.message, "file/cache");
+    setenv("HEDRON_CACHE", "/proc/no/such", 1);
+    assert_int_equal(hd_cache_put("test", "a", "x", 1, &error), HD_FAILED);
+    assert_int_equal(remove("file"), 0);
+    if (geteuid() == 0)
+        return; /* who may write anywhere */
+    assert_int_equal(mkdir("cache", 0500), 0);
+    setenv("HEDRON_CACHE", "cache", 1);
+    assert_int_equal(hd_cache_put("test", "a", "x", 1, &error), HD_FAILED);
+}
+
+/* As on a full disk: nothing is left behind, and what was there stays. */
+static void a_write_that_fails_leaves_nothing(void **state) {
+    (void)state;
+    static const char large[1 << 14];
+    struct rlimit before, limit;
+    put("a");
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    limit = before;
+    limit.rlim_cur = 4096;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    HdStatus status = hd_cache_put("test", "a", large, sizeof large, &error);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(status, HD_FAILED);
+    assert_int_equal(count_entries("cache"), 1);
+    assert_int_equal(get("a"), HD_OK);
+}
+
+static void too_large_an_entry_is_refused(void **state) {
+    (void)state;
+    assert_int_equal(hd_cache_put("test", "a", payload, HD_CACHE_MAX_ENTRY_BYTES, &error),
+                     HD_FAILED);
+    expect_contains(error.message, "too large");
+}
+
+/* ---- several writers, and the limit ---- */
+
+static void write_and_read(unsigned char fill) {
+    unsigned char bytes[20000];
+    memset(bytes, fill, sizeof bytes);
+    for (int i = 0; i < 200; i++) {
+        unsigned char *got;
+        size_t size;
+        if (hd_cache_put("test", "shared", bytes, sizeof bytes, &error) != HD_OK ||
+            hd_cache_get("test", "shared", &got, &size, &error) != HD_OK)
+            _exit(1);
+        for (size_t k = 0; k < size; k++)
+            if (size != sizeof bytes || got[k] != got[0])
+                _exit(2);
+        free(got);
+    }
+    _exit(0);
+}
+
+static void several_writers_do_not_mix(void **state) {
+    (void)state;
+    enum { WRITERS = 4 };
+    pid_t children[WRITERS];
+    for (int i = 0; i < WRITERS; i++) {
+        children[i] = fork();
+        assert_true(children[i] >= 0);
+        if (children[i] == 0)
+            write_and_read((unsigned char)('a' + i));
+    }
+    for (int i = 0; i < WRITERS; i++) {
+        int code;
+        assert_int_equal(waitpid(children[i], &code, 0), children[i]);
+        assert_int_equal(code, 0);
+    }
+    assert_int_equal(count_entries("cache"), 1);
+}
+
+static void make_older(const char *path, int seconds) {
+    struct timespec times[2];
+    times[0] = times[1] = (struct timespec){.tv_sec = time(NULL) - seconds};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+static void make_file(const char *name, size_t size, int seconds_ago) {
+    char path[256];
+    static const char bytes[1000];
+    snprintf(path, sizeof path, "cache/%s", name);
+    write_bytes(path, bytes, size);
+    make_older(path, seconds_ago);
+}
+
+static bool exists(const char *name) {
+    char path[256];
+    snprintf(path, sizeof path, "cache/%s", name);
+    return access(path, F_OK) == 0;
+}
+
+static void the_longest_unused_go_first(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("cache", 0700), 0);
+    make_file("new.entry", 400, 10);
+    make_file("old.entry", 400, 300);
+    make_file("middle.entry", 400, 200);
+    make_file("foreign", 1000, 400);
+    make_file("fresh.entry.tmp-1-0", 100, 10);
+    make_file("stale.entry.tmp-2-0", 100, 4000);
+    hd_cache_limit("cache", 1200);
+    assert_true(exists("old.entry") && exists("middle.entry") && exists("new.entry"));
+    hd_cache_limit("cache", 1199);
+    assert_false(exists("old.entry"));
+    assert_true(exists("middle.entry") && exists("new.entry"));
+    hd_cache_limit("cache", 400);
+    assert_false(exists("middle.entry"));
+    assert_true(exists("new.entry") && exists("foreign") && exists("fresh.entry.tmp-1-0"));
+    assert_false(exists("stale.entry.tmp-2-0"));
+    hd_cache_limit("nowhere", 0);
+}
+
+static void use_keeps_an_entry_young(void **state) {
+    (void)state;
+    struct stat found;
+    const struct timespec old[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
+    put("a");
+    assert_int_equal(utimensat(AT_FDCWD, find_entry(), old, 0), 0);
+    assert_int_equal(get("a"), HD_OK);
+    assert_int_equal(stat(entry_file, &found), 0);
+    assert_true(found.st_mtime > 1000);
+}
+
+/* Files without contents, for it is their size that counts. */
+static void a_put_keeps_to_the_limit(void **state) {
+    (void)state;
+    enum { COUNT = 4 };
+    assert_int_equal(mkdir("cache", 0700), 0);
+    for (int i = 0; i < COUNT; i++) {
+        char name[32], path[64];
+        snprintf(name, sizeof name, "%d.entry", i);
+        snprintf(path, sizeof path, "cache/%s", name);
+        make_file(name, 0, 0);
+        assert_int_equal(truncate(path, HD_CACHE_MAX_BYTES / COUNT), 0);
+        make_older(path, 100 - i);
+    }
+    put("a");
+    assert_false(exists("0.entry"));
+    assert_true(exists("1.entry") && exists("2.entry") && exists("3.entry"));
+    assert_int_equal(get("a"), HD_OK);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(what_is_put_is_got),
+        TEST(files_are_for_the_user_alone),
+        TEST(texts_are_kept),
+        TEST(every_damaged_byte_is_noticed),
+        TEST(each_fault_has_its_reason),
+        TEST(entries_cut_short_are_noticed),
+        TEST(entries_of_another_key_are_noticed),
+        TEST(entries_that_others_may_write_are_not_trusted),
+        TEST(what_is_no_file_is_not_read),
+        TEST(the_folder_is_found_in_order),
+        TEST(a_folder_that_cannot_be_made_is_told),
+        TEST(a_write_that_fails_leaves_nothing),
+        TEST(too_large_an_entry_is_refused),
+        TEST(several_writers_do_not_mix),
+        TEST(the_longest_unused_go_first),
+        TEST(use_keeps_an_entry_young),
+        TEST(a_put_keeps_to_the_limit),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* Work in chunks: each item once, and choices as one call for all items makes them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "system/chunks.h"
+
+enum { THREADS = 4 };
+
+static HdThreadPool *pool;
+
+static int start_threads(void **state) {
+    HdError error;
+    (void)state;
+    return hd_thread_pool_create(&pool, THREADS, &error) == HD_OK ? 0 : -1;
+}
+
+static int end_threads(void **state) {
+    (void)state;
+    hd_thread_pool_destroy(pool);
+    return 0;
+}
+
+/* Around the sizes of chunks. */
+static const int counts[] = {0, 1, 1023, 1024, 1025, 5000, 256 * 1024, 256 * 1024 + 1, 700001};
+enum { COUNTS = sizeof counts / sizeof *counts };
+
+static void count_items(void *context, int first, int end) {
+    atomic_int *visits = context;
+    assert_true(first < end);
+    for (int i = first; i < end; i++)
+        atomic_fetch_add(&visits[i], 1);
+}
+
+static void each_item_is_worked_on_once(void **state) {
+    (void)state;
+    for (int c = 0; c < COUNTS; c++) {
+        atomic_int *visits = calloc((size_t)counts[c] + 1, sizeof *visits);
+        assert_non_null(visits);
+        hd_chunks_run(pool, counts[c], count_items, visits);
+        for (int i = 0; i < counts[c]; i++)
+            assert_int_equal(atomic_load(&visits[i]), 1);
+        assert_int_equal(atomic_load(&visits[counts[c]]), 0);
+        free(visits);
+    }
+}
+
+/* Some chunks have few of them, some none, some all. */
+static bool is_chosen(int item) {
+    return item / 3000 % 3 == 1 || item % 97 == 5;
+}
+
+static int choose(void *context, int first, int end, int *chosen) {
+    const int *numbers = context;
+    int count = 0;
+    for (int i = first; i < end; i++) {
+        int number = numbers != NULL ? numbers[i] : i;
+        if (is_chosen(number))
+            chosen[count++] = number;
+    }
+    return count;
+}
+
+static void expect_choice(int count, const int *chosen, int chosen_count) {
+    int expected = 0;
+    for (int i = 0; i < count; i++)
+        if (is_chosen(i)) {
+            assert_true(expected < chosen_count);
+            assert_int_equal(chosen[expected++], i);
+        }
+    assert_int_equal(chosen_count, expected);
+}
+
+static void choices_keep_the_order(void **state) {
+    (void)state;
+    for (int c = 0; c < COUNTS; c++) {
+        int *chosen = calloc((size_t)counts[c] + 1, sizeof *chosen);
+        assert_non_null(chosen);
+        expect_choice(counts[c], chosen, hd_chunks_choose(pool, counts[c], choose, NULL, chosen));
+        free(chosen);
+    }
+}
+
+static void choices_can_be_made_in_place(void **state) {
+    enum { COUNT = 300000 };
+    (void)state;
+    int *numbers = calloc(COUNT, sizeof *numbers);
+    assert_non_null(numbers);
+    for (int i = 0; i < COUNT; i++)
+        numbers[i] = i;
+    expect_choice(COUNT, numbers, hd_chunks_choose(pool, COUNT, choose, numbers, numbers));
+    free(numbers);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_item_is_worked_on_once),
+        cmocka_unit_test(choices_keep_the_order),
+        cmocka_unit_test(choices_can_be_made_in_place),
+    };
+    return cmocka_run_group_tests(tests, start_threads, end_threads);
+}

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include "system/path.h"
+#include "test_folder.h"
+
+static void check_expanded(const char *path, const char *expected) {
+    HdError error = {0};
+    char out[HD_MAX_PATH];
+    assert_int_equal(hd_path_expand_home(path, out, &error), HD_OK);
+    assert_string_equal(out, expected);
+}
+
+static void home_is_expanded_at_the_start_only(void **state) {
+    (void)state;
+    setenv("HOME", "/home/somebody", 1);
+    check_expanded("~", "/home/somebody");
+    check_expanded("~/", "/home/somebody/");
+    check_expanded("~/a/b.png", "/home/somebody/a/b.png");
+    check_expanded("~other/a", "~other/a");
+    check_expanded("a/~/b", "a/~/b");
+    check_expanded("/a", "/a");
+    check_expanded("", "");
+}
+
+static void home_comes_from_the_database_without_the_variable(void **state) {
+    (void)state;
+    HdError error = {0};
+    char unset[HD_MAX_PATH], empty[HD_MAX_PATH];
+    unsetenv("HOME");
+    assert_int_equal(hd_path_expand_home("~/x", unset, &error), HD_OK);
+    setenv("HOME", "", 1);
+    assert_int_equal(hd_path_expand_home("~/x", empty, &error), HD_OK);
+    assert_int_equal(unset[0], '/');
+    assert_string_equal(unset + strlen(unset) - 2, "/x");
+    assert_string_equal(unset, empty);
+}
+
+static void long_names_are_refused(void **state) {
+    (void)state;
+    HdError error = {0};
+    char path[HD_MAX_PATH + 1], out[HD_MAX_PATH];
+    setenv("HOME", "/home", 1);
+    memset(path, 'a', sizeof path);
+    path[HD_MAX_PATH] = '\0';
+    assert_int_equal(hd_path_expand_home(path, out, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_path_make_parents(path, &error), HD_BAD_INPUT);
+    path[HD_MAX_PATH - 1] = '\0';
+    assert_int_equal(hd_path_expand_home(path, out, &error), HD_OK);
+    memcpy(path, "~/", 2);
+    assert_int_equal(hd_path_expand_home(path, out, &error), HD_BAD_INPUT);
+    path[HD_MAX_PATH - 5] = '\0';
+    assert_int_equal(hd_path_expand_home(path, out, &error), HD_OK);
+    assert_int_equal(strlen(out), HD_MAX_PATH - 1);
+    memcpy(path, "%d", 2);
+    path[HD_MAX_PATH - 5] = 'a';
+    path[HD_MAX_PATH - 1] = '\0';
+    assert_int_equal(hd_pattern_format(path, 9, out, &error), HD_OK);
+    assert_int_equal(strlen(out), HD_MAX_PATH - 2);
+    assert_int_equal(hd_pattern_format(path, 10, out, &error), HD_OK);
+    assert_int_equal(hd_pattern_format(path, 100, out, &error), HD_BAD_INPUT);
+}
+
+static bool is_folder(const char *path) {
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+static void parents_are_made(void **state) {
+    (void)state;
+    HdError error = {0};
+    char absolute[HD_MAX_PATH];
+    assert_int_equal(hd_path_make_parents("one/two//three/file", &error), HD_OK);
+    assert_true(is_folder("one/two/three"));
+    assert_int_equal(access("one/two/three/file", F_OK), -1);
+    assert_int_equal(hd_path_make_parents("one/two/three/file", &error), HD_OK);
+    snprintf(absolute, sizeof absolute, "%s/four/five/file", test_folder);
+    assert_int_equal(hd_path_make_parents(absolute, &error), HD_OK);
+    assert_true(is_folder("four/five"));
+    assert_int_equal(hd_path_make_parents("./six/../seven/file", &error), HD_OK);
+    assert_true(is_folder("seven"));
+    assert_int_equal(hd_path_make_parents("file", &error), HD_OK);
+    assert_int_equal(hd_path_make_parents("", &error), HD_OK);
+    assert_int_equal(hd_path_make_parents("/file", &error), HD_OK);
+    assert_int_equal(error.status, HD_OK);
+}
+
+static void files_in_the_way_are_named(void **state) {
+    (void)state;
+    HdError error = {0};
+    write_bytes("block", "", 0);
+    assert_int_equal(hd_path_make_parents("block/file", &error), HD_FAILED);
+    expect_contains(error.message, "folder block for block/file: a file has that name");
+    assert_int_equal(hd_path_make_parents("block/deep/file", &error), HD_FAILED);
+}
+
+static void numbers_are_found(void **state) {
+    (void)state;
+    const char *const with[] = {"%d",   "a%d.png", "%01d", "%09d", "%%%d",        "%x%d",
+                                "%d%d", "%5%d",    "#",    "a#/b", "#########.x", "##########%d"};
+    const char *const without[] = {"",     "a.png", "%",  "%%d",  "%%%%d", "%5d",       "%0d",
+                                   "%00d", "%010d", "%i", "%-3d", "%0",    "##########"};
+    for (size_t i = 0; i < sizeof with / sizeof *with; i++)
+        assert_true(hd_pattern_has_number(with[i]));
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
+        assert_false(hd_pattern_has_number(without[i]));
+}
+
+static void wrong_patterns_are_refused(void **state) {
+    (void)state;
+    const char *const wrong[] = {"",     "a.png", "%%d",     "%d%d",  "%d-%03d",   "%s",
+                                 "%d%s", "%d%",   "%n%d",    "%5d",   "%0d",       "%010d",
+                                 "%ld",  "%-3d",  "%d 50%x", "%d%d#", "#%d#%d",    "#/#",
+                                 "##-#", "#%s",   "#%",      "%0#",   "##########"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        HdError error = {0};
+        char out[HD_MAX_PATH];
+        assert_int_equal(hd_pattern_check(wrong[i], &error), HD_BAD_INPUT);
+        expect_contains(error.message, wrong[i]);
+        assert_int_equal(hd_pattern_format(wrong[i], 1, out, &error), HD_BAD_INPUT);
+    }
+}
+
+static void check_formatted(const char *pattern, int frame, const char *expected) {
+    HdError error = {0};
+    char out[HD_MAX_PATH];
+    assert_int_equal(hd_pattern_check(pattern, &error), HD_OK);
+    assert_int_equal(hd_pattern_format(pattern, frame, out, &error), HD_OK);
+    assert_string_equal(out, expected);
+}
+
+static void frames_are_named(void **state) {
+    (void)state;
+    HdError error = {0};
+    char out[HD_MAX_PATH];
+    check_formatted("%d", 0, "0");
+    check_formatted("out/%d.data", 123, "out/123.data");
+    check_formatted("f%03d.png", 7, "f007.png");
+    check_formatted("f%03d.png", 12345, "f12345.png");
+    check_formatted("%01d", 5, "5");
+    check_formatted("%09d", INT32_MAX, "2147483647");
+    check_formatted("%09d", 42, "000000042");
+    check_formatted("100%%/%d%%d", 3, "100%/3%d");
+    check_formatted("out/####.png", 7, "out/0007.png");
+    check_formatted("#", 7, "7");
+    check_formatted("#1/##_%03d%%.png", 7, "#1/##_007%.png");
+    check_formatted("#", 70, "70");
+    check_formatted("f###", 12345, "f12345");
+    check_formatted("#########%%", 42, "000000042%");
+    check_formatted("take ##/a.data", 5, "take 05/a.data");
+    check_formatted("\xc3\xa4%d", 3,
+                    "\xc3\xa4"
+                    "3");
+    assert_int_equal(hd_pattern_format("%d", -1, out, &error), HD_BAD_INPUT);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(home_is_expanded_at_the_start_only),
+        cmocka_unit_test(home_comes_from_the_database_without_the_variable),
+        cmocka_unit_test(long_names_are_refused),
+        cmocka_unit_test(parents_are_made),
+        cmocka_unit_test(files_in_the_way_are_named),
+        cmocka_unit_test(numbers_are_found),
+        cmocka_unit_test(wrong_patterns_are_refused),
+        cmocka_unit_test(frames_are_named),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "tables/room.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+#include <sys/resource.h>
+
+#include "device/renderer.h"
+#include "device/self_test_scenes.h"
+#include "expect.h"
+#include "kernels/common/scene_tables.h"
+
+/* Sanitizers take more of the address space than this test leaves. gcc tells of them by macros,
+   clang by features. */
+#if defined(__has_feature)
+#define HAS_FEATURE(name) __has_feature(name)
+#else
+#define HAS_FEATURE(name) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) ||                               \
+    HAS_FEATURE(address_sanitizer) || HAS_FEATURE(thread_sanitizer)
+#define HAS_SANITIZER true
+#else
+#define HAS_SANITIZER false
+#endif
+
+static HdError error;
+static const HdRoom device = {.name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
+
+static HdSceneTables tables_of(size_t triangles, size_t nodes) {
+    HdSceneTables tables = {.table_count = HD_SCENE_TABLE_COUNT};
+    tables.table[HD_TABLE_triangles].bytes = triangles;
+    tables.table[HD_TABLE_mesh_nodes].bytes = nodes;
+    return tables;
+}
+
+static void bytes_are_told_shortly(void **state) {
+    (void)state;
+    static const struct {
+        double bytes;
+        const char *text;
+    } rows[] = {{0.0, "0 bytes"},     {999.0, "999 bytes"},      {1000.0, "1.00 kB"},
+                {99960.0, "100 kB"},  {48e6, "48.0 MB"},         {402653184.0, "403 MB"},
+                {999.7e6, "1.00 GB"}, {1073741824.0, "1.07 GB"}, {12e12, "12.0 TB"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[HD_BYTE_TEXT_SIZE];
+        hd_byte_text(rows[i].bytes, text);
+        assert_string_equal(text, rows[i].text);
+    }
+}
+
+static void what_fits_passes(void **state) {
+    (void)state;
+    HdSceneTables tables = tables_of(1000000000, 1000000000);
+    const HdRoom unknown = {.name = "Device", .advice = ""};
+    assert_int_equal(hd_check_room(&tables, &device, &error), HD_OK);
+    tables = tables_of(SIZE_MAX / 2, 0);
+    assert_int_equal(hd_check_room(&tables, &unknown, &error), HD_OK);
+}
+
+static void a_table_may_be_too_large(void **state) {
+    (void)state;
+    HdSceneTables tables = tables_of(900000000, 1000000001);
+    assert_int_equal(hd_check_room(&tables, &device, &error), HD_UNAVAILABLE);
+    assert_string_equal(error.message,
+                        "the scene's nodes over triangles need 1.00 GB in one buffer; Device "
+                        "allows 1.00 GB of its 4.00 GB; do this");
+}
+
+static void all_tables_may_be_too_large(void **state) {
+    (void)state;
+    HdSceneTables tables = tables_of(2500000000, 1500000001);
+    assert_int_equal(hd_check_room(&tables, &device, &error), HD_UNAVAILABLE);
+    assert_string_equal(error.message,
+                        "the scene's tables need 4.00 GB, 2.50 GB of them for its triangles; "
+                        "Device has 4.00 GB; do this");
+}
+
+static void every_table_has_a_name(void **state) {
+    (void)state;
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
+        assert_non_null(hd_scene_table_content(i));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(hd_scene_table_content(i), hd_scene_table_content(k));
+    }
+}
+
+/* ---- scenes that no machine has room for */
+
+static HdScene scene_with_meshes(void) {
+    HdScene scene;
+    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
+    return scene;
+}
+
+/* What the meshes claim to have is never read. */
+static void a_scene_may_be_too_large_for_the_machine(void **state) {
+    (void)state;
+    enum { MANY = 1000 };
+    HdScene scene = scene_with_meshes();
+    HdSceneTables tables;
+    HdMesh *own = scene.meshes, *many = calloc(MANY, sizeof *many);
+    assert_non_null(many);
+    for (int i = 0; i < MANY; i++) {
+        many[i] = own[0];
+        many[i].normal_count = INT_MAX / 4 * 3;
+    }
+    int count = scene.mesh_count;
+    scene.meshes = many;
+    scene.mesh_count = MANY;
+    HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_DOUBLE, 1, &error);
+    scene.meshes = own;
+    scene.mesh_count = count;
+    free(many);
+    hd_scene_free(&scene);
+    assert_int_equal(status, HD_UNAVAILABLE);
+    expect_contains(error.message,
+                    "the scene's tables need 51.5 TB, 51.5 TB of them for its normals; "
+                    "this machine has ");
+    expect_contains(error.message, "fewer triangles need less");
+}
+
+/* The rest of what the process may have is less than the table. */
+static void memory_may_be_taken(void **state) {
+    (void)state;
+    HdScene scene = scene_with_meshes();
+    HdSceneTables tables;
+    struct rlimit old, small;
+    if (HAS_SANITIZER) {
+        hd_scene_free(&scene);
+        skip();
+    }
+    int triangles = scene.meshes[1].triangle_count;
+    scene.accel = HD_ACCEL_BRUTE;
+    scene.meshes[1].triangle_count = 20000000;
+    assert_int_equal(getrlimit(RLIMIT_AS, &old), 0);
+    small = (struct rlimit){.rlim_cur = 900000000, .rlim_max = old.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_AS, &small), 0);
+    HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error);
+    assert_int_equal(setrlimit(RLIMIT_AS, &old), 0);
+    scene.meshes[1].triangle_count = triangles;
+    hd_scene_free(&scene);
+    assert_int_equal(status, HD_FAILED);
+    assert_string_equal(error.message, "out of memory: the scene's triangles need 960 MB");
+}
+
+/* PoCL tells of as little memory as it is asked to, and allows a quarter of it at once. */
+static void opencl_tells_what_is_too_large(void **state) {
+    (void)state;
+    HdDevice devices[HD_MAX_DEVICES];
+    HdRenderOptions options = {.lanes = 1};
+    HdRenderer *renderer;
+    HdSceneTables tables;
+    HdScene scene = scene_with_meshes();
+    int count = 0, found = -1;
+    setenv("POCL_MEMORY_LIMIT", "1", 1);
+    hd_backend_opencl.enumerate(devices, HD_MAX_DEVICES, &count, &error);
+    for (int i = 0; i < count; i++)
+        if (strstr(devices[i].driver, "PoCL") != NULL ||
+            strstr(devices[i].driver, "Portable Computing") != NULL)
+            found = i;
+    if (found < 0) {
+        hd_scene_free(&scene);
+        skip();
+    }
+    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
+    assert_int_equal(hd_renderer_open(&renderer, &devices[found], &options, &error), HD_OK);
+    tables.table[HD_TABLE_triangles].bytes = 300000000; /* never read */
+    HdStatus status = hd_renderer_upload(renderer, &tables, &error);
+    hd_renderer_close(renderer);
+    hd_scene_tables_free(&tables);
+    hd_scene_free(&scene);
+    assert_int_equal(status, HD_UNAVAILABLE);
+    expect_contains(error.message, "opencl: the scene's triangles need 300 MB in one buffer; ");
+    expect_contains(error.message, " allows 268 MB of its 1.07 GB; fewer triangles, ");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bytes_are_told_shortly),
+        cmocka_unit_test(what_fits_passes),
+        cmocka_unit_test(a_table_may_be_too_large),
+        cmocka_unit_test(all_tables_may_be_too_large),
+        cmocka_unit_test(every_table_has_a_name),
+        cmocka_unit_test(a_scene_may_be_too_large_for_the_machine),
+        cmocka_unit_test(memory_may_be_taken),
+        cmocka_unit_test(opencl_tells_what_is_too_large),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
