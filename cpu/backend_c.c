@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/instruction_set.h"
+#include "cpu/kernel.h"
 #include "device/kernel_source.h"
 #include "device/pipeline.h"
 #include "device/renderer.h"
 #include "device/wave_plan.h"
-#include "instruction_set.h"
-#include "kernel.h"
 #include "kernels/common/scene_tables.h"
 #include "system/clock.h"
 #include "system/interrupt.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "instruction_set.h"
+#include "cpu/instruction_set.h"
 
 #include <stdbool.h>
 #include <stdio.h>

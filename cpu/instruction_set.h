@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Which builds of the kernels this processor can run. */
-#ifndef HD_INSTRUCTION_SET_H
-#define HD_INSTRUCTION_SET_H
+#ifndef HD_CPU_INSTRUCTION_SET_H
+#define HD_CPU_INSTRUCTION_SET_H
 
+#include "cpu/kernel.h"
 #include "device/renderer.h"
-#include "kernel.h"
 
 typedef struct HdCpuBuild {
     const char *instruction_set; /* "avx512", "avx2" or "generic" */

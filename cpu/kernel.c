@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry point for plain C, named by HD_KERNEL_NAME. */
-#include "kernel.h"
+#include "cpu/kernel.h"
 
-#include "kernel_tables.h"
+#include "cpu/kernel_tables.h"
 #include "kernels/common/wavefront.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */

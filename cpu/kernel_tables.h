@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How the tables that the host hands over become the kernels' variables of the same names, in C. */
-#ifndef HD_KERNEL_TABLES_H
-#define HD_KERNEL_TABLES_H
+#ifndef HD_CPU_KERNEL_TABLES_H
+#define HD_CPU_KERNEL_TABLES_H
 
 #include "kernels/common/scene_tables.h"
 

@@ -15,6 +15,7 @@ enum {
     HD_MAX_TEXTURE_SIDE = 65535,
     HD_MAX_SHININESS = 65536,
     HD_MAX_FRAMES = 10000000,
+    HD_MAX_OUTPUTS = 8,        /* of a run */
     HD_MAX_DIVISIONS = 1000,   /* of the side of a triangle */
     HD_MAX_INSTANCES = 100000, /* meshes in their places */
     HD_MAX_EDGE_COLOURS = 30   /* the edges of a dodecahedron */

@@ -4,7 +4,6 @@
 #define HD_CHOICE_DEVICES_H
 
 #include "choice/one_device.h"
-#include "render/tracer_pace.h"
 
 typedef struct HdDeviceTeam {
     HdDevice devices[HD_MOST_TRACERS];

@@ -12,9 +12,6 @@
 #include "device/self_test.h"
 #include "kernels/common/scene_tables.h"
 
-const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
-                                                        &hd_backend_c};
-
 struct HdRenderer {
     const HdBackend *backend;
     void *state; /* of the backend */
@@ -29,13 +26,6 @@ struct HdRenderer {
         bool wants_radiance;
     } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
-
-const HdBackend *hd_backend_find(const char *name) {
-    for (int i = 0; i < HD_BACKEND_COUNT; i++)
-        if (strcmp(hd_backends[i]->name, name) == 0)
-            return hd_backends[i];
-    return NULL;
-}
 
 HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error) {
     int lanes = options->lanes;

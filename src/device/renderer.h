@@ -34,6 +34,9 @@ enum {
 /* Frames that were submitted and not collected yet. */
 enum { HD_FRAMES_IN_FLIGHT = 2 };
 
+/* Devices that may share a sequence. */
+enum { HD_MOST_TRACERS = 64 };
+
 typedef struct HdRenderOptions {
     int lanes;     /* 1, 4, 8 or 16; 0: what suits the device */
     int threads;   /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */

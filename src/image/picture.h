@@ -7,9 +7,10 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "image/curve.h"
 #include "image/frame.h"
-#include "scene/scene.h"
+#include "image/texture.h"
 #include "system/atomic_file.h"
 
 /* Eight bits a channel, row by row from the top: r, g, b, a. */

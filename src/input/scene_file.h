@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "image/curve.h"
-#include "output/outputs.h"
+#include "image/output_style.h"
 #include "scene/scene.h"
 #include "system/path.h"
 

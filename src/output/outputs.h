@@ -7,18 +7,11 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "image/frame.h"
-#include "image/picture.h"
+#include "image/output_style.h"
 #include "output/video.h"
 #include "system/path.h"
-
-enum { HD_MAX_OUTPUTS = 8 };
-
-/* How the frames are stored. */
-typedef struct HdOutputStyle {
-    HdPictureStyle picture; /* films have its curve and 8 bits */
-    int frames_per_second;  /* of films */
-} HdOutputStyle;
 
 typedef struct HdOutputPlan {
     const char *names[HD_MAX_OUTPUTS]; /* films, patterns of sequences, or pictures' names */

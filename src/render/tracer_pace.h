@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-enum { HD_MOST_TRACERS = 64 };
+#include "device/renderer.h"
 
 /* What is known of a tracer. Times are seconds of one clock. */
 typedef struct HdTracerPace {

@@ -10,6 +10,7 @@
 #include "base/limits.h"
 #include "base/problems.h"
 #include "base/vector.h"
+#include "image/texture.h"
 #include "mesh/material.h"
 #include "mesh/mesh.h"
 #include "scene/platonic.h"
@@ -48,12 +49,6 @@ typedef struct HdLight {
     HdVec3 intensity;
     HdFalloff falloff;
 } HdLight;
-
-/* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
-typedef struct HdTexture {
-    int width, height;
-    uint16_t *texels; /* owned; width * height * 3 */
-} HdTexture;
 
 /* A flat convex quadrilateral. The texture's top left, top right, bottom right and bottom left
    corners lie at corner 0, 1, 2 and 3. */

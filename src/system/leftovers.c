@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "output/outputs.h"
+#include "base/limits.h"
 #include "system/path.h"
 
 /* All outputs of a run may be films, and all of them pictures of many frames under way. */

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* The registry: the one place that names every backend. */
+#include <string.h>
+
+#include "device/renderer.h"
+
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
+                                                        &hd_backend_c};
+
+const HdBackend *hd_backend_find(const char *name) {
+    for (int i = 0; i < HD_BACKEND_COUNT; i++)
+        if (strcmp(hd_backends[i]->name, name) == 0)
+            return hd_backends[i];
+    return NULL;
+}
