@@ -12,10 +12,8 @@
 #include "device/renderer.h"
 #include "device/wave_plan.h"
 #include "kernels/common/scene_tables.h"
-#include "system/clock.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
-#include "system/processors.h"
 #include "system/thread_pool.h"
 #include "tables/room.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "choice/launch.h"
-#include "system/processors.h"
+#include "system/machine.h"
 
 void hd_close_devices(HdDeviceTeam *team) {
     for (; team->count > 0; team->count--)

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "system/clock.h"
+#include "system/machine.h"
 
 static HdStatus upload(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
                        HdError *error) {

@@ -9,8 +9,7 @@
 #include "input/scene_file.h"
 #include "mesh/obj/read.h"
 #include "system/interrupt.h"
-#include "system/physical_memory.h"
-#include "system/processors.h"
+#include "system/machine.h"
 
 typedef struct Loader {
     const HdSceneFile *file;

@@ -7,8 +7,7 @@
 #include "device/renderer.h"
 #include "output/parcel.h"
 #include "output/stages.h"
-#include "system/clock.h"
-#include "system/processors.h"
+#include "system/machine.h"
 
 enum {
     MOST_OPEN_PICTURES = 256, /* each takes two descriptors until it has its name */

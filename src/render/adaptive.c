@@ -8,8 +8,7 @@
 #include "base/growth.h"
 #include "render/survey.h"
 #include "system/chunks.h"
-#include "system/clock.h"
-#include "system/processors.h"
+#include "system/machine.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
    neighbours that have one sample; of the quarters of a pixel's samples; of neighbours that have

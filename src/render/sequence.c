@@ -4,8 +4,8 @@
 #include "choice/trial.h"
 #include "render/team.h"
 #include "render/upload.h"
-#include "system/clock.h"
 #include "system/known_folders.h"
+#include "system/machine.h"
 
 typedef struct Run {
     const HdSequence *sequence;

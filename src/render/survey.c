@@ -7,7 +7,7 @@
 #include "base/growth.h"
 #include "scene/light_bound.h"
 #include "system/chunks.h"
-#include "system/clock.h"
+#include "system/machine.h"
 
 /* Entries of one submission, at most; lists are worked off in parts. */
 enum { MOST_ENTRIES = HD_LISTED_WIDTH << 15 };

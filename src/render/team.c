@@ -5,7 +5,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "system/clock.h"
+#include "system/machine.h"
 
 typedef struct Run Run;
 

@@ -2,8 +2,8 @@
 #include "render/tracer.h"
 
 #include "scene/camera.h"
-#include "system/clock.h"
 #include "system/interrupt.h"
+#include "system/machine.h"
 
 static double seconds_since_start(const HdTracer *tracer) {
     return hd_monotonic_seconds() - tracer->job->start;

@@ -2,12 +2,36 @@
 #define _GNU_SOURCE
 #include "system/machine.h"
 
+#include <sched.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
 
 #include <sys/mman.h>
 
 enum { CACHE_LINE = 64, LARGE_PAGE = 2 << 20 };
+
+static const double small_machine = 2147483648.0;
+
+double hd_monotonic_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int hd_processor_count(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        return CPU_COUNT(&set);
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (int)online : 1;
+}
+
+double hd_physical_memory(void) {
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    return pages > 0 && page > 0 ? (double)pages * (double)page : small_machine;
+}
 
 void *hd_large_allocate(size_t bytes) {
     const size_t unit = bytes >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;

@@ -1,8 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+/* What the machine has: time, processors, memory. */
 #ifndef HD_SYSTEM_MACHINE_H
 #define HD_SYSTEM_MACHINE_H
 
 #include <stddef.h>
+
+/* Seconds on a clock that only goes forward. */
+double hd_monotonic_seconds(void);
+
+/* The number of processors that this process may run on, at least 1. */
+int hd_processor_count(void);
+
+/* Bytes of memory that there are; where the system does not tell, what even a small machine has. */
+double hd_physical_memory(void);
 
 /* Memory for tables and pictures, for free() to free: aligned to 64 bytes and not zeroed. Where
    there is much of it the system is asked for large pages, because the first touch of each small

@@ -13,8 +13,8 @@
 #include "device/pipeline.h"
 #include "device/wave_plan.h"
 #include "kernels/common/scene_tables.h"
-#include "system/clock.h"
 #include "system/interrupt.h"
+#include "system/machine.h"
 #include "tables/room.h"
 
 enum { BLOCK_THREADS = 128 };

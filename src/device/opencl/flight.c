@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "device/device_launch.h"
-#include "system/clock.h"
+#include "system/machine.h"
 
 static const size_t SUM_BYTES = sizeof(HdRayCounts) * HD_SUM_WORKERS;
 

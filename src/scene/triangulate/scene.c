@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "scene/triangulate/solid.h"
-#include "system/processors.h"
+#include "system/machine.h"
 
 /* What the scene gets in front of its own meshes, instances and pictures. */
 typedef struct Made {

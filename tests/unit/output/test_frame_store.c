@@ -3,9 +3,9 @@
 #include <stdbool.h>
 
 #include "output/frame_store.h"
-#include "system/clock.h"
 #include "system/interrupt.h"
 #include "system/known_folders.h"
+#include "system/machine.h"
 #include "test_folder.h"
 
 enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100, PATIENCE_SECONDS = 600 };

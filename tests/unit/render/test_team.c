@@ -10,7 +10,7 @@
 #include "render/sequence.h"
 #include "scene/camera.h"
 #include "system/interrupt.h"
-#include "system/processors.h"
+#include "system/machine.h"
 #include "test_folder.h"
 
 enum { DEVICES = 3, FRAMES = 48, PATIENCE_SECONDS = 600, POINTS = 4, MOST_FAILURES = DEVICES };
