@@ -9,7 +9,6 @@
 #include "cli/rendering.h"
 #include "input/builtin.h"
 #include "system/interrupt.h"
-#include "system/patience.h"
 
 /* From the camera to the pixels in memory. */
 static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {

@@ -10,7 +10,6 @@
 
 #include "input/json/json_device_text.h"
 #include "system/interrupt.h"
-#include "system/patience.h"
 
 /* Nanoseconds are enough for a run of days. */
 enum { SIGNIFICANT_DIGITS = 12 };

@@ -3,10 +3,10 @@
 #include "system/interrupt.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,8 @@ enum {
     PATIENCE_MS = 1500,
     REMOVAL_MS = 300,
     CLOCK_SLACK_MS = 2,
-    GLANCE_MS = 250
+    GLANCE_MS = 250,
+    WRITE_GLANCE_MS = 200
 };
 
 static const int watched_signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -218,6 +219,17 @@ HdStatus hd_interrupt_read_patience(HdError *error) {
 
 int hd_interrupt_signal(void) {
     return atomic_load(&caught);
+}
+
+bool hd_wait_to_write(int descriptor) {
+    struct pollfd ready = {.fd = descriptor, .events = POLLOUT};
+    for (;;) {
+        int count = poll(&ready, 1, WRITE_GLANCE_MS);
+        if (count > 0 || (count < 0 && errno != EINTR))
+            return true;
+        if (hd_interrupt_signal() != 0)
+            return false;
+    }
 }
 
 void hd_interrupt_announce(const char *text) {

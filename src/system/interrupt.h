@@ -3,6 +3,8 @@
 #ifndef HD_SYSTEM_INTERRUPT_H
 #define HD_SYSTEM_INTERRUPT_H
 
+#include <stdbool.h>
+
 #include "base/error.h"
 
 /* Catches the three, unless they are ignored. The first one is remembered; another one half a
@@ -19,6 +21,10 @@ HdStatus hd_interrupt_read_patience(HdError *error);
 
 /* The number of the signal that came, or 0. */
 int hd_interrupt_signal(void);
+
+/* Waits, on whatever thread the signal comes, until a write of a few hundred bytes will not block,
+   because there is room or because it will fail; false where an interrupt came first. */
+bool hd_wait_to_write(int descriptor);
 
 /* What the first signal writes to standard error at once; NULL: nothing. The text must live on. */
 void hd_interrupt_announce(const char *text);
