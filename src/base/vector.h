@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Vectors of the host, in double precision. */
+/* Vectors of the host in space and in a plane, in double precision. */
 #ifndef HD_BASE_VECTOR_H
 #define HD_BASE_VECTOR_H
 
@@ -32,6 +32,28 @@ static inline double hd_length(HdVec3 a) {
 }
 static inline HdVec3 hd_normalize(HdVec3 a) {
     return hd_scale(a, 1.0 / hd_length(a));
+}
+
+typedef struct HdVec2 {
+    double x, y;
+} HdVec2;
+
+static inline HdVec2 hd_sub2(HdVec2 a, HdVec2 b) {
+    return (HdVec2){a.x - b.x, a.y - b.y};
+}
+/* a + t (b - a) */
+static inline HdVec2 hd_mix2(HdVec2 a, HdVec2 b, double t) {
+    return (HdVec2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
+static inline double hd_dot2(HdVec2 a, HdVec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+/* Positive where b is counterclockwise of a. */
+static inline double hd_cross2(HdVec2 a, HdVec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+static inline double hd_length2(HdVec2 a) {
+    return sqrt(hd_dot2(a, a));
 }
 
 #endif

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/angle.h"
 #include "base/hash.h"
 #include "base/trigonometry.h"
 #include "mesh/mesh.h"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "base/vec2.h"
+#include "base/vector.h"
 
 /* Triangles, counterclockwise, whose corners are all of the points and whose edges the segments are
    among: the constrained Delaunay triangulation, which has the largest angles of all (Lawson 1977,

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "base/vec2.h"
+#include "base/vector.h"
 
 /* Points that are no farther apart are one; for coordinates of about 1. */
 #define HD_SAME_PLACE 1e-9

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include "base/angle.h"
 #include "base/hash.h"
 #include "base/trigonometry.h"
 #include "expect.h"
