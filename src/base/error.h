@@ -21,7 +21,7 @@ typedef struct HdError {
 
 /* Fills `error` and returns `status`, so that a caller can write `return hd_fail(...)`. A message
    that is too long is cut. What is no text in it, but for line breaks and tabs, is escaped
-   (visible_text.h): it may have come from a file. */
+   (text.h): it may have come from a file. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

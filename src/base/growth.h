@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Arrays that grow with what is put into them. */
 #ifndef HD_BASE_GROWTH_H
 #define HD_BASE_GROWTH_H
 

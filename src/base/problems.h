@@ -16,7 +16,7 @@ typedef struct HdProblems {
 } HdProblems;
 
 /* Adds one problem: a sentence without a full stop that names the place, the value and what was
-   expected. It becomes one line: line breaks are escaped too (visible_text.h). */
+   expected. It becomes one line: line breaks are escaped too (text.h). */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

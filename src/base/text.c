@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/text.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* ---- text of others ---- */
 
 /* The longest of \u001b, \x9b and a character of UTF-8. */
 enum { LONGEST_PIECE = 6 };
@@ -74,4 +79,76 @@ size_t hd_escape(const char *text, char *out, size_t size) {
 
 void hd_escape_lines(const char *text, char *out, size_t size) {
     escape(text, "\n\t", out, size);
+}
+
+/* ---- numbers ---- */
+
+void hd_exact_number(double value, char out[HD_NUMBER_SIZE]) {
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(out, HD_NUMBER_SIZE, "%.*g", digits, value);
+        if (strtod(out, NULL) == value)
+            break;
+    }
+    if (value == 0.0 && signbit(value)) /* as an integer, -0 is 0 */
+        snprintf(out, HD_NUMBER_SIZE, "-0.0");
+}
+
+void hd_short_number(double value, char out[HD_NUMBER_SIZE]) {
+    snprintf(out, HD_NUMBER_SIZE, "%g", value);
+    if (strtod(out, NULL) != value)
+        hd_exact_number(value, out);
+    char *exponent = strchr(out, 'e');
+    if (exponent == NULL)
+        return;
+    char *digits = exponent + 1;
+    if (*digits == '-')
+        exponent++;
+    while (*digits == '+' || *digits == '-' || *digits == '0')
+        digits++;
+    memmove(exponent + 1, digits, strlen(digits) + 1);
+}
+
+const char *hd_plural(int count) {
+    return count == 1 ? "" : "s";
+}
+
+/* ---- names ---- */
+
+enum { MAX_LETTERS = 31 };
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+/* The table of distances between the beginnings of both words (R. A. Wagner and M. J. Fischer, The
+   string-to-string correction problem, 1974), two swapped neighbours counting as one mistake. */
+int hd_edit_distance(const char *a, const char *b) {
+    size_t a_length = strlen(a), b_length = strlen(b);
+    int table[MAX_LETTERS + 1][MAX_LETTERS + 1];
+    if (a_length > MAX_LETTERS || b_length > MAX_LETTERS)
+        return INT_MAX;
+    for (size_t i = 0; i <= a_length; i++) {
+        for (size_t j = 0; j <= b_length; j++) {
+            if (i == 0 || j == 0) {
+                table[i][j] = (int)(i + j);
+                continue;
+            }
+            int replaced = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            table[i][j] = least(replaced, least(table[i - 1][j], table[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
+        }
+    }
+    return table[a_length][b_length];
+}
+
+void hd_nearest_offer(HdNearest *nearest, const char *name) {
+    int distance = hd_edit_distance(nearest->word, name);
+    int limit = (int)strlen(name) / 3;
+    if (distance > (limit > 1 ? limit : 1))
+        return;
+    if (nearest->name == NULL || distance < nearest->distance) {
+        nearest->name = name;
+        nearest->distance = distance;
+    }
 }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Text of others, fit to be shown: nothing in it steers a terminal, moves what stands around it, or
-   is invisible for want of being UTF-8. */
+/* What messages are made of: text of others, numbers, and the name that somebody may have meant. */
 #ifndef HD_BASE_TEXT_H
 #define HD_BASE_TEXT_H
 
 #include <stddef.h>
+
+/* ---- text of others, fit to be shown ----
+   Nothing in it steers a terminal, moves what stands around it, or is invisible for want of being
+   UTF-8. */
 
 /* How many bytes the control character takes that `text` begins with: 1 below U+0020 and for
    U+007F, 2 for U+0080 to U+009F in UTF-8, 3 for those that turn the direction of writing (U+202A
@@ -18,5 +21,37 @@ size_t hd_escape(const char *text, char *out, size_t size);
 
 /* The same, but line breaks and tabs stay. */
 void hd_escape_lines(const char *text, char *out, size_t size);
+
+/* ---- numbers ---- */
+
+enum { HD_NUMBER_SIZE = 32 };
+
+/* As text with as few digits, 15 to 17, as it takes to read the same double back; 0's sign is kept.
+ */
+void hd_exact_number(double value, char out[HD_NUMBER_SIZE]);
+
+/* The same for messages, which say 1e12 rather than 1000000000000. */
+void hd_short_number(double value, char out[HD_NUMBER_SIZE]);
+
+/* What a word for that many things ends in: "s", or nothing for one. */
+const char *hd_plural(int count);
+
+/* ---- names ---- */
+
+/* Keeps the nearest of the names that are offered one after the other. Start with the word alone.
+ */
+typedef struct HdNearest {
+    const char *word;
+    const char *name; /* NULL: nothing is near */
+    int distance;
+} HdNearest;
+
+/* How many letters must be put in, taken away or replaced to make one word of the other. Words of
+   more than 31 letters count as far from all others. */
+int hd_edit_distance(const char *a, const char *b);
+
+/* A name is near where at most a third of its letters, and at least one, would have to change. Of
+   two that are equally near the first stays. */
+void hd_nearest_offer(HdNearest *nearest, const char *name);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/load_scene.h"
 

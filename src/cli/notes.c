@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "device/kernel_source.h"
 
 static void note_meshes(const HdScene *scene) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/nearest_name.h"
+#include "base/text.h"
 #include "cli/option_table.h"
 #include "cli/option_values.h"
 #include "input/classic_read.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_name.h"
+#include "base/text.h"
 #include "input/fields.h"
 #include "input/json/json_path.h"
 #include "input/json/words.h"

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "input/classic_read.h"
 
 static void print_number(FILE *out, double value) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest_name.h"
+#include "base/text.h"
 #include "input/builtin.h"
 #include "input/fields.h"
 #include "input/report.h"

@@ -3,7 +3,7 @@
 #ifndef HD_INPUT_SYNONYMS_H
 #define HD_INPUT_SYNONYMS_H
 
-#include "base/nearest_name.h"
+#include "base/text.h"
 
 /* hd_nearest_offer, but a name that means the word, or is the word but for upper and
    lower case, is nearer than any other. */

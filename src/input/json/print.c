@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/print.h"
 
-#include "base/number_text.h"
+#include "base/text.h"
 
 static void start_line(HdJsonPrinter *printer) {
     fprintf(printer->out, "\n%*s", 2 * printer->depth, "");

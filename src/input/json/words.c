@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 
-#include "base/number_text.h"
 #include "base/text.h"
 
 void hd_quoted(const char *text, char out[HD_WORDS_SIZE]) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "base/number_text.h"
+#include "base/text.h"
 #include "expect.h"
 
 #include <stdlib.h>
