@@ -14,7 +14,7 @@ add_library(hedron_program STATIC
     src/cli/completion.c
     src/input/json/json_device_text.c
     src/cli/man_page.c
-    src/cli/option_table.c
+    src/cli/command_line.c
     src/cli/option_values.c
     src/cli/options.c
     src/cli/progress.c

@@ -35,7 +35,7 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
         .file = file,
         .frames = &frames,
         .outputs = {.names = {file->output.path}, .count = 1, .style = file->output.style},
-        .device_kind = options->mode == HD_CLASSIC_CPU ? HD_ONLY_CPU : HD_PREFER_GPU,
+        .device_kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU,
         .stored = print_frame_line,
     };
     status = hd_render(&rendering, options, error);
@@ -75,7 +75,7 @@ static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
 }
 
 HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
-    if (options->mode == HD_CLASSIC_PRINT)
+    if (options->prints_default)
         return print_default(options, error);
     return trace_standard_input(options, error);
 }

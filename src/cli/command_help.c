@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "cli/commands.h"
-#include "cli/help.h"
-#include "cli/option_table.h"
 
 enum { LINE_WIDTH = 96, OPTION_COLUMN = 22, USAGE_COLUMN = 34, EXAMPLE_COLUMN = 6 };
 
@@ -44,10 +42,8 @@ static void print_entry(const char *left, int column, const char *right) {
 
 static void print_options(HdCommand command) {
     char heading[64];
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *spec = &hd_option_specs[i];
-        if (!(spec->commands & (unsigned)command))
-            continue;
+    const HdOptionSpec *spec = NULL;
+    while ((spec = hd_option_next(spec, command)) != NULL) {
         hd_option_heading(spec, heading, sizeof heading);
         print_entry(heading, OPTION_COLUMN, spec->help);
     }

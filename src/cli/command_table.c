@@ -10,7 +10,7 @@ const char hd_program_summary[] =
     "renders mirrored, transparent platonic solids with lights along their edges";
 
 const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
-    {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", NULL, 1,
+    {HD_COMMAND_RENDER, "render", "[SCENE.json]", ".json", 1,
      "render a scene, or the built-in one, to films and pictures",
      "Renders the frames of SCENE.json (-: standard input), or of the built-in scene, and prints "
      "the name of each output.\n\n"
@@ -26,19 +26,18 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
      "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
      "--samples, --depth and --cutoff come last."},
-    {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", NULL, -1,
+    {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", -1,
      "look for mistakes in scenes without rendering",
      "Reads each scene (-: standard input) and its texture, and prints a line about each that is "
      "right, or every mistake that is in it; one wrong scene makes the exit code 2. Notes tell "
      "what is allowed and seldom meant."},
-    {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, NULL, 1,
+    {HD_COMMAND_CONVERT, "convert", "[CLASSIC_INPUT]", NULL, 1,
      "turn a classic input into a scene file",
      "Reads the input of the classic mode from a file, or from standard input, and writes the same "
      "scene as JSON. 'hedron render' makes the same pictures of it, byte for byte."},
-    {HD_COMMAND_DEVICES, "devices", "", NULL, NULL, 0,
-     "list backends and devices, and what is missing",
+    {HD_COMMAND_DEVICES, "devices", "", NULL, 0, "list backends and devices, and what is missing",
      "Lists backends and devices; for what is missing, the reason."},
-    {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", NULL, 1,
+    {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
      "measure what suits a device and a scene best, and remember it",
      "Measures, on the device that 'hedron render' would take for SCENE.json (-: standard input) "
      "or "
@@ -49,8 +48,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "to the device's default, and remembers the best in the cache folder: 'hedron render' uses it "
      "for scenes of this kind and size with the same options, and says so with --verbose. The "
      "bytes of strict pictures do not depend on it."},
-    {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, NULL, 2,
-     "tell how far two pictures are apart",
+    {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2, "tell how far two pictures are apart",
      "Compares two pictures of the same size, PNG (8 or 16 bits) or PFM, in two spaces. Display: "
      "the "
      "values clamped to 0..1 and on the curve, in steps of 255. Linear: light, 1 is white; clamped "
@@ -64,15 +62,24 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "below 1/4 of a step of 255, dark violet at 1/4, then purple (1), red (4), orange (16), "
      "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
      "NaN and infinite values."},
-    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL,
-     "render check convert devices tune compare help man completion", 1, "explain a command",
+    {HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command",
      "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
      "of this program."},
-    {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, NULL, 0,
+    {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, 0,
      "the classic mode: a configuration on standard input",
      "In the classic mode standard output has one line for each frame and nothing else: frame TAB "
      "milliseconds TAB rays."},
 };
+
+const char *const hd_help_forms[HD_HELP_FORM_COUNT] = {
+    [HD_HELP_TEXT] = "", [HD_HELP_MAN] = "man", [HD_HELP_COMPLETION] = "completion"};
+
+HdHelpForm hd_help_form_named(const char *name) {
+    int form = HD_HELP_FORM_COUNT - 1;
+    while (form > HD_HELP_TEXT && strcmp(hd_help_forms[form], name) != 0)
+        form--;
+    return (HdHelpForm)form;
+}
 
 const HdCommandSpec *hd_command_named(const char *name) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)

@@ -17,7 +17,18 @@ typedef enum HdCommand {
 } HdCommand;
 
 /* What there is help about, apart from commands: the man page and the completion script. */
-typedef enum HdHelpForm { HD_HELP_TEXT, HD_HELP_MAN, HD_HELP_COMPLETION } HdHelpForm;
+typedef enum HdHelpForm {
+    HD_HELP_TEXT,
+    HD_HELP_MAN,
+    HD_HELP_COMPLETION,
+    HD_HELP_FORM_COUNT
+} HdHelpForm;
+
+/* Their names; that of HD_HELP_TEXT is empty. */
+extern const char *const hd_help_forms[HD_HELP_FORM_COUNT];
+
+/* HD_HELP_TEXT where no other form has that name. */
+HdHelpForm hd_help_form_named(const char *name);
 
 typedef struct HdHelpTopic {
     HdHelpForm form;
@@ -29,7 +40,6 @@ typedef struct HdCommandSpec {
     const char *name;        /* NULL: the classic mode */
     const char *operands;    /* as the usage shows them; "" where there are none */
     const char *ending;      /* of the files that are operands; NULL: any, or no files */
-    const char *words;       /* operands that are fixed words, separated by spaces; NULL: none */
     int most_operands;       /* -1: any number */
     const char *summary;     /* half a sentence for lists */
     const char *description; /* paragraphs, separated by empty lines */

@@ -29,4 +29,10 @@ HdStatus hd_command_compare(const HdOptions *options, HdError *error);
 /* Prints help, the man page or the completion script on standard output. */
 void hd_command_help(const HdHelpTopic *topic);
 
+/* A man page in troff, on standard output. */
+void hd_print_man_page(void);
+
+/* The same of a script for bash that completes the program's arguments. */
+void hd_print_completion(void);
+
 #endif

@@ -162,8 +162,8 @@ static HdStatus check_sizes(const Comparison *comparison, HdError *error) {
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const bool is_png[] = {facts[0].format == HD_PICTURE_PNG, facts[1].format == HD_PICTURE_PNG};
-    if (comparison->options->has_curve)
-        comparison->curve = comparison->options->curve;
+    if (comparison->options->curve >= 0)
+        comparison->curve = (HdCurve)comparison->options->curve;
     else if (is_png[0] && is_png[1] && facts[0].curve != facts[1].curve)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s says that it is on the sRGB curve, and %s does not, which stands for "

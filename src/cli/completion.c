@@ -3,9 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command_table.h"
-#include "cli/help.h"
-#include "cli/option_table.h"
+#include "cli/commands.h"
 
 /* What is the same whatever the tables hold. Bash cuts --name=value into three words. */
 static const char beginning[] =
@@ -42,10 +40,16 @@ static bool is_repeated(const HdOptionSpec *spec) {
     return false;
 }
 
+static void print_choices(const char *const *choices) {
+    printf("        _hedron_words '%s", choices[0]);
+    while (*++choices != NULL)
+        printf(" %s", *choices);
+    printf("'\n");
+}
+
 static void print_values(void) {
     printf("    case $previous in\n");
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *spec = &hd_option_specs[i];
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
         if (spec->value == NULL || is_repeated(spec))
             continue;
         printf("    %s", spec->name);
@@ -53,7 +57,7 @@ static void print_values(void) {
             printf(" | %s", spec->short_name);
         printf(")\n");
         if (spec->choices != NULL)
-            printf("        _hedron_words '%s'\n", spec->choices);
+            print_choices(spec->choices);
         else if (spec->takes_file)
             printf("        _hedron_files ''\n");
         printf("        return\n        ;;\n");
@@ -71,12 +75,18 @@ static void print_command_names(const char *separator) {
     }
 }
 
+static void print_topics(void) {
+    printf("        _hedron_words '");
+    print_command_names(" ");
+    for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
+        printf(" %s", hd_help_forms[i]);
+    printf("'\n");
+}
+
 static void print_option_names(HdCommand command) {
     const char *between = "";
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *spec = &hd_option_specs[i];
-        if (!(spec->commands & (unsigned)command))
-            continue;
+    const HdOptionSpec *spec = NULL;
+    while ((spec = hd_option_next(spec, command)) != NULL) {
         if (spec->short_name != NULL)
             printf("%s%s", between, spec->short_name);
         printf("%s%s", spec->short_name != NULL ? " " : between, spec->name);
@@ -88,8 +98,8 @@ static void print_option_names(HdCommand command) {
 static void print_operands(const HdCommandSpec *spec) {
     if (spec->name == NULL)
         printf("        ((COMP_CWORD > 1)) || _hedron_words \"$commands\"\n");
-    else if (spec->words != NULL)
-        printf("        _hedron_words '%s'\n", spec->words);
+    else if (spec->command == HD_COMMAND_HELP)
+        print_topics();
     else if (spec->most_operands != 0)
         printf("        _hedron_files '%s'\n", spec->ending != NULL ? spec->ending : "");
 }

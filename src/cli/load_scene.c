@@ -96,8 +96,8 @@ enum { SPELLED = 256 };
 
 static void spell_scene_options(const HdOptions *options, char text[SPELLED]) {
     char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "", crop[64] = "";
-    if (options->width > 0)
-        snprintf(size, sizeof size, " --size %dx%d", options->width, options->height);
+    if (options->size.width > 0)
+        snprintf(size, sizeof size, " --size %dx%d", options->size.width, options->size.height);
     if (options->samples > 0)
         snprintf(samples, sizeof samples, " --samples %d", options->samples);
     if (options->depth >= 0)
@@ -124,9 +124,9 @@ static HdStatus crop(HdScene *scene, const HdOptions *options, HdError *error) {
 }
 
 static void set_numbers(HdScene *scene, const HdOptions *options) {
-    if (options->width > 0) {
-        scene->width = options->width;
-        scene->height = options->height;
+    if (options->size.width > 0) {
+        scene->width = options->size.width;
+        scene->height = options->size.height;
     }
     if (options->samples > 0)
         scene->samples_per_side = options->samples;
@@ -134,7 +134,7 @@ static void set_numbers(HdScene *scene, const HdOptions *options) {
         scene->depth = options->depth;
     if (options->cutoff >= 0.0)
         scene->cutoff = options->cutoff;
-    if (options->max_error >= 0.0)
+    if (options->max_error > 0.0)
         scene->max_error = options->max_error;
     if (options->sampling >= 0)
         scene->sampling = (HdSampling)options->sampling;
@@ -144,9 +144,9 @@ static void set_numbers(HdScene *scene, const HdOptions *options) {
 static void set_by_error(HdScene *scene, const HdOptions *options) {
     if (options->reference) {
         scene->sampling = HD_SAMPLING_REFERENCE;
-        if (options->samples < 0)
+        if (options->samples == 0)
             scene->samples_per_side = REFERENCE_SAMPLES;
-        if (options->max_error < 0.0)
+        if (options->max_error == 0.0)
             scene->max_error = REFERENCE_ERROR;
     }
     if (!(scene->max_error > 0.0))

@@ -3,9 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command_table.h"
-#include "cli/help.h"
-#include "cli/option_table.h"
+#include "cli/commands.h"
 
 /* Prints text in which nothing means anything to troff; an empty line begins a paragraph. */
 static void print_text(const char *text) {
@@ -69,10 +67,8 @@ static void print_command(const HdCommandSpec *spec) {
     print_line(spec->name != NULL ? spec->name : "The classic mode");
     print_line(spec->description);
     printf(".PP\nOptions:\n");
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *option = &hd_option_specs[i];
-        if (!(option->commands & (unsigned)spec->command))
-            continue;
+    const HdOptionSpec *option = NULL;
+    while ((option = hd_option_next(option, spec->command)) != NULL) {
         hd_option_heading(option, heading, sizeof heading);
         print_entry(heading, option->help);
     }

@@ -2,239 +2,182 @@
 #include "cli/options.h"
 
 #include <stdio.h>
-#include <string.h>
 
-#include "base/text.h"
-#include "cli/option_table.h"
-#include "cli/option_values.h"
+#include "image/file_kind.h"
 #include "input/classic_read.h"
-#include "system/path.h"
+#include "output/outputs.h"
 
-typedef struct Parser {
-    HdOptions *options;
-    const HdCommandSpec *command;
-    int count, next; /* arguments, and the number of the one to be read next */
-    char **arguments;
-    bool only_operands; /* after "--" */
-} Parser;
+enum {
+    RENDERING = HD_COMMAND_CLASSIC | HD_COMMAND_RENDER,
+    MEASURING = RENDERING | HD_COMMAND_TUNE,
+    EVERYTHING = MEASURING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES |
+                 HD_COMMAND_COMPARE | HD_COMMAND_HELP
+};
 
-/* "'hedron render'", or the classic mode. */
-static void label(const HdCommandSpec *command, char text[64]) {
-    if (command->name == NULL)
-        snprintf(text, 64, "the classic mode");
-    else
-        snprintf(text, 64, "'hedron %s'", command->name);
-}
+static const char modes[] = "--gpu, --cpu and --default";
+static const char loudness[] = "--verbose and --quiet";
 
-/* "-n", or "-nVALUE" where it takes one. */
-static bool is_short(const HdOptionSpec *spec, const char *argument) {
-    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
-        return false;
-    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
-}
-
-/* Matches "--name", "--name=value", "-n" and "-nvalue"; `*value` is what came with it, or NULL. An
-   option of the command comes before one of the same name that belongs to another. */
-static const HdOptionSpec *find_spec(const char *argument, HdCommand command, const char **value) {
-    const HdOptionSpec *found = NULL;
-    size_t length = strcspn(argument, "=");
-    *value = argument[length] == '=' ? argument + length + 1 : NULL;
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *spec = &hd_option_specs[i];
-        bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
-        if (!is_long && !is_short(spec, argument))
-            continue;
-        if (!is_long)
-            *value = argument[2] != '\0' ? argument + 2 : NULL;
-        if (found == NULL || (spec->commands & (unsigned)command) != 0)
-            found = spec;
-    }
-    return found;
-}
-
-static void spell_help(const HdCommandSpec *command, char text[128]) {
-    if (command->name == NULL)
-        snprintf(text, 128, "see 'hedron help'");
-    else
-        snprintf(text, 128, "see 'hedron help %s'", command->name);
-}
-
-/* "did you mean '--size'?", or where to look. */
-static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
-                    char text[128]) {
-    if (nearest->name != NULL)
-        snprintf(text, 128, "did you mean '%s%s'?", prefix, nearest->name);
-    else
-        spell_help(command, text);
-}
-
-static HdStatus fail_unknown_option(const Parser *parser, const char *argument, HdError *error) {
-    char word[32], suggestion[128];
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(argument, "="), argument);
-    HdNearest nearest = {.word = word};
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++)
-        if (hd_option_specs[i].commands & (unsigned)parser->options->command)
-            hd_nearest_offer(&nearest, hd_option_specs[i].name);
-    suggest(&nearest, "", parser->command, suggestion);
-    return hd_fail(error, HD_BAD_INPUT, "unknown option '%s'; %s", argument, suggestion);
-}
-
-static HdStatus fail_unknown_command(const Parser *parser, const char *argument, HdError *error) {
-    char suggestion[128];
-    if (hd_path_has_ending(argument, ".json"))
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' is neither a command nor an option; did you mean 'hedron render %s'?",
-                       argument, argument);
-    if (strcmp(argument, "man") == 0 || strcmp(argument, "completion") == 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' is neither a command nor an option; did you mean 'hedron help %s'?",
-                       argument, argument);
-    if (strcmp(argument, "version") == 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'version' is neither a command nor an option; did you mean 'hedron "
-                       "--version'?");
-    if (strpbrk(argument, "./") != NULL)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'%s' is neither a command nor an option; the classic mode reads standard "
-                       "input: hedron --cpu < %s",
-                       argument, argument);
-    HdNearest nearest = {.word = argument};
-    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
-        if (hd_command_specs[i].name != NULL)
-            hd_nearest_offer(&nearest, hd_command_specs[i].name);
-    suggest(&nearest, "hedron ", parser->command, suggestion);
-    return hd_fail(error, HD_BAD_INPUT, "'%s' is neither a command nor an option; %s", argument,
-                   suggestion);
-}
-
-static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
-    HdOptions *options = parser->options;
-    char name[64];
-    if (parser->command->name == NULL)
-        return fail_unknown_command(parser, argument, error);
-    label(parser->command, name);
-    if (argument[0] == '\0')
-        return hd_fail(error, HD_BAD_INPUT, "%s was given an empty name", name);
-    int most = parser->command->most_operands;
-    if (most == 0)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes options only, but '%s' was given", name,
-                       argument);
-    if (most > 0 && options->operand_count == most)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes %s only, but '%s' came after '%s'", name,
-                       most == 1 ? "one name" : "two names", argument, options->operands[most - 1]);
-    options->operands[options->operand_count++] = argument;
-    return HD_OK;
-}
-
-static HdStatus fail_foreign_option(const Parser *parser, const HdOptionSpec *spec,
-                                    HdError *error) {
-    char name[64], help[128];
-    label(parser->command, name);
-    spell_help(parser->command, help);
-    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; %s", spec->name, name, help);
-}
-
-static HdStatus parse_argument(Parser *parser, HdError *error) {
-    char *argument = parser->arguments[parser->next++];
-    const char *value;
-    if (!parser->only_operands && strcmp(argument, "--") == 0) {
-        parser->only_operands = true;
+static HdStatus check_diff(const char *text, const char *option, HdError *error) {
+    if (hd_output_kind(text) == HD_OUTPUT_PNG)
         return HD_OK;
-    }
-    if (parser->only_operands || argument[0] != '-' || argument[1] == '\0')
-        return add_operand(parser, argument, error);
-    const HdOptionSpec *spec = find_spec(argument, parser->options->command, &value);
-    if (spec == NULL)
-        return fail_unknown_option(parser, argument, error);
-    if (!(spec->commands & (unsigned)parser->options->command))
-        return fail_foreign_option(parser, spec, error);
-    if (spec->value == NULL && value != NULL)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes no value, but '%s' was given", spec->name,
-                       value);
-    if (spec->value != NULL && value == NULL) {
-        if (parser->next >= parser->count)
-            return hd_fail(error, HD_BAD_INPUT, "%s needs a value (%s)", spec->name, spec->value);
-        value = parser->arguments[parser->next++];
-    }
-    if (value == NULL) /* and none is wanted */
-        value = "";
-    return hd_option_apply(parser->options, spec, value, error);
+    return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a name that ends in .png", option,
+                   text);
 }
 
-static HdStatus find_topic(HdOptions *options, HdError *error) {
-    static const struct {
-        const char *name;
-        HdHelpForm form;
-    } forms[] = {{"man", HD_HELP_MAN}, {"completion", HD_HELP_COMPLETION}};
-    const char *name = options->operands[0];
-    const HdCommandSpec *command = hd_command_named(name);
-    HdNearest nearest = {.word = name};
-    if (command != NULL) {
-        options->help_topic.command = command->command;
-        return HD_OK;
+/* The columns of the table that a type needs. */
+#define AT(member)   .offset = offsetof(HdOptions, member)
+#define FLAG(member) .type = HD_OPTION_FLAG, AT(member)
+#define INTEGER(member, least, most)                                                               \
+    .type = HD_OPTION_INTEGER, AT(member), .low = (least), .high = (most)
+#define REAL(member, least, most) .type = HD_OPTION_REAL, AT(member), .low = (least), .high = (most)
+#define ONE_OF(kind, member, ...)                                                                  \
+    .type = (kind), AT(member), .choices = (const char *const[]) {                                 \
+        __VA_ARGS__, NULL                                                                          \
     }
-    for (int i = 0; i < 2; i++) {
-        if (strcmp(name, forms[i].name) == 0) {
-            options->help_topic.form = forms[i].form;
-            return HD_OK;
-        }
-        hd_nearest_offer(&nearest, forms[i].name);
-    }
-    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
-        if (hd_command_specs[i].name != NULL)
-            hd_nearest_offer(&nearest, hd_command_specs[i].name);
-    char suggestion[128];
-    suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
-    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
+#define CHOICE(member, ...)  ONE_OF(HD_OPTION_CHOICE, member, __VA_ARGS__)
+#define TEXT(member, wanted) .type = HD_OPTION_TEXT, AT(member), .expected = (wanted)
+#define TEXTS(kind, member, count, most)                                                           \
+    .type = (kind), AT(member), .count_offset = offsetof(HdOptions, count), .high = (most)
+#define COMMAND(taken) .type = HD_OPTION_COMMAND, .command = (taken)
+
+const HdOptionSpec hd_option_specs[] = {
+    {"--gpu", NULL, NULL, "trace on the GPU (this is the default of the classic mode)",
+     HD_COMMAND_CLASSIC, FLAG(gpu), .only_one_of = modes},
+    {"--cpu", NULL, NULL, "trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
+     .only_one_of = modes},
+    {"--default", NULL, NULL,
+     "print the most colourful configuration in the input format, and exit", HD_COMMAND_CLASSIC,
+     FLAG(prints_default), .only_one_of = modes},
+    {"--variant", NULL, "1..10",
+     "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
+     HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(variant, 1, HD_CLASSIC_VARIANTS),
+     .unset = HD_CLASSIC_DEFAULT_VARIANT},
+    {"--output", "-o", "OUT",
+     "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
+     TEXTS(HD_OPTION_TEXTS, outputs, output_count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
+     .expected = "the name of a file", .takes_file = true},
+    {"--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
+     HD_COMMAND_CONVERT, TEXTS(HD_OPTION_TEXTS, outputs, output_count, 1),
+     .expected = "the name of a file", .takes_file = true},
+    {"--set", NULL, "PATH=VALUE",
+     "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
+     HD_COMMAND_RENDER | HD_COMMAND_TUNE,
+     TEXTS(HD_OPTION_CHANGES, changes, change_count, HD_MAX_CHANGES),
+     .expected = "PATH=VALUE such as camera.field_of_view=40"},
+    {"--frames", NULL, "LIST", "render these frames only, for example 0-9,20", MEASURING,
+     TEXT(frames, NULL)},
+    {"--again", NULL, NULL,
+     "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
+     "the same pixels, are left as they are",
+     HD_COMMAND_RENDER, FLAG(again)},
+    {"--size", NULL, "WxH", "size of the picture in pixels", MEASURING, .type = HD_OPTION_SIZE,
+     AT(size), .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535"},
+    {"--samples", NULL, "N", "N x N samples for each pixel", MEASURING,
+     INTEGER(samples, 1, HD_MAX_SAMPLES_PER_SIDE)},
+    {"--depth", NULL, "N", "how often a ray may be mirrored or pass a face", MEASURING,
+     INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1},
+    {"--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)", MEASURING,
+     REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1},
+    {"--aa", NULL, "NAME",
+     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
+     "an estimate and no promise (default grid)",
+     RENDERING, CHOICE(sampling, "grid", "adaptive"), .unset = -1},
+    {"--max-error", NULL, "E",
+     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
+     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
+     "sampling aims at",
+     RENDERING, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR)},
+    {"--reference", NULL, NULL,
+     "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
+     "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
+     HD_COMMAND_RENDER, FLAG(reference)},
+    {"--crop", NULL, "WxH+X+Y", "render only so many pixels from column X and row Y on",
+     HD_COMMAND_RENDER, .type = HD_OPTION_CROP, AT(crop),
+     .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200"},
+    {"--backend", NULL, "NAME", "auto, c, opencl or cuda (default auto: the best one found)",
+     MEASURING, ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda")},
+    {"--device", NULL, "DEVICE",
+     "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
+     "several that share the frames: all, or a list such as cuda:0,cuda:1,c:0",
+     RENDERING, TEXT(device, "a number, BACKEND:NUMBER or part of a name")},
+    {"--device", NULL, "DEVICE",
+     "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
+     HD_COMMAND_TUNE, TEXT(device, "a number, BACKEND:NUMBER or part of a name")},
+    {"--lanes", NULL, "N", "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)",
+     MEASURING, ONE_OF(HD_OPTION_NUMERAL, render.lanes, "1", "4", "8", "16")},
+    {"--threads", NULL, "N", "threads of the C backend (default: one for each core)", MEASURING,
+     INTEGER(render.threads, 1, HD_MAX_THREADS)},
+    {"--pipeline", NULL, "NAME",
+     "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
+     "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
+     "and scene)",
+     MEASURING, CHOICE(render.pipeline, "auto", "mega", "wavefront", "wavefront-uncompacted")},
+    {"--block", NULL, "N",
+     "threads of a GPU's work group, a multiple of 32 (default: what suits it)", MEASURING,
+     INTEGER(render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP},
+    {"--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: what suits it)",
+     MEASURING, INTEGER(render.grid, 1, HD_MAX_GRID)},
+    {"--geometry", NULL, "NAME",
+     "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
+     "gives nearly the same picture (default solids)",
+     MEASURING, CHOICE(geometry, "solids", "triangles")},
+    {"--divisions", NULL, "N",
+     "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
+     "(default 1)",
+     MEASURING, INTEGER(divisions, 1, HD_MAX_DIVISIONS)},
+    {"--accel", NULL, "NAME",
+     "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
+     "(default auto: brute for a handful)",
+     MEASURING, CHOICE(accel, "auto", "brute", "bvh")},
+    {"--precision", NULL, "P", "float or double (default float)", MEASURING,
+     CHOICE(render.precision, "float", "double")},
+    {"--math", NULL, "M",
+     "strict: the same bytes everywhere; fast: the device's own (default strict)", MEASURING,
+     CHOICE(render.math, "strict", "fast")},
+    {"--stats", NULL, "FILE",
+     "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
+     "which then has nothing else",
+     RENDERING, TEXT(statistics, "a file or -"), .takes_file = true},
+    {"--verbose", NULL, NULL, "tell what was chosen and why", RENDERING, FLAG(verbose),
+     .only_one_of = loudness},
+    {"--quiet", NULL, NULL, "no progress and no notes; errors only", RENDERING, FLAG(quiet),
+     .only_one_of = loudness},
+    {"--frame-lines", NULL, NULL,
+     "progress for programs: a line on standard error for each frame that is stored; with --quiet "
+     "nothing else",
+     HD_COMMAND_RENDER, FLAG(tells_frames)},
+    {"--schema", NULL, NULL, "print the JSON Schema of scene files, and exit", HD_COMMAND_CHECK,
+     FLAG(schema)},
+    {"--json", NULL, NULL, "print the list as JSON", HD_COMMAND_DEVICES | HD_COMMAND_TUNE,
+     FLAG(json)},
+    {"--json", NULL, NULL, "print the figures as JSON", HD_COMMAND_COMPARE, FLAG(json)},
+    {"--diff", NULL, "OUT.png", "write a heat map of the display error", HD_COMMAND_COMPARE,
+     TEXT(diff, NULL), .check = check_diff, .takes_file = true},
+    {"--fail-above", NULL, "X",
+     "end with exit code 1 if the largest display error is above X steps of 255",
+     HD_COMMAND_COMPARE, REAL(fail_above, 0.0, HD_MAX_ERROR), .unset = -1},
+    {"--curve", NULL, "NAME",
+     "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
+     "the files say",
+     HD_COMMAND_COMPARE, CHOICE(curve, "linear", "srgb"), .unset = -1},
+    {"--help", "-h", NULL, "print this help", EVERYTHING, COMMAND(HD_COMMAND_HELP)},
+    {"--version", "-V", NULL, "print the version", RENDERING, COMMAND(HD_COMMAND_VERSION)},
+    {.name = NULL},
+};
+_Static_assert(HD_CLASSIC_VARIANTS == 10 && HD_CLASSIC_DEFAULT_VARIANT == 4 &&
+                   HD_MAX_OUTPUTS == 8 && HD_MAX_CHANGES == 64 && HD_BLOCK_STEP == 32 &&
+                   HD_MAX_IMAGE_SIDE == 65535,
+               "the texts say so");
+
+const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command) {
+    spec = spec == NULL ? hd_option_specs : spec + 1;
+    while (spec->name != NULL && (spec->commands & (unsigned)command) == 0)
+        spec++;
+    return spec->name != NULL ? spec : NULL;
 }
 
-/* What can only be told once all arguments are known. */
-static HdStatus check_together(HdOptions *options, HdError *error) {
-    if (options->command == HD_COMMAND_HELP && options->operand_count > 0)
-        return find_topic(options, error);
-    if (options->command == HD_COMMAND_CHECK && options->schema && options->operand_count > 0)
-        return hd_fail(error, HD_BAD_INPUT, "--schema looks at no scene, but '%s' was given",
-                       options->operands[0]);
-    if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'hedron check' needs the name of a scene; see 'hedron help check'");
-    if (options->command == HD_COMMAND_COMPARE && options->operand_count < 2)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'hedron compare' needs the names of two pictures; see 'hedron help "
-                       "compare'");
-    if (options->command == HD_COMMAND_CLASSIC && options->statistics != NULL &&
-        strcmp(options->statistics, "-") == 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--stats is '-', but standard output has the lines of the classic mode; "
-                       "expected a file");
-    if (options->reference && options->sampling >= 0)
-        return hd_fail(error, HD_BAD_INPUT, "--reference has samples of its own: leave out --aa");
-    if (options->reference)
-        options->render.precision = HD_PRECISION_DOUBLE;
-    return HD_OK;
-}
-
-HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
-    memset(options, 0, sizeof *options);
-    options->variant = HD_CLASSIC_DEFAULT_VARIANT;
-    options->depth = options->samples = options->width = options->height = -1;
-    options->cutoff = options->max_error = options->fail_above = -1.0;
-    options->sampling = -1;
-    options->help_topic.command = HD_COMMAND_CLASSIC;
-    const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
-    Parser parser = {
-        .options = options,
-        .command = command != NULL ? command : hd_command_spec(HD_COMMAND_CLASSIC),
-        .count = count,
-        .next = command != NULL ? 2 : 1,
-        .arguments = arguments,
-    };
-    options->command = parser.command->command;
-    options->operands = arguments + parser.next;
-    while (parser.next < count && options->command == parser.command->command) {
-        HdStatus status = parse_argument(&parser, error);
-        if (status != HD_OK)
-            return status;
-    }
-    return options->command == parser.command->command ? check_together(options, error) : HD_OK;
+void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
+    snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
+             spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
+             spec->value ? spec->value : "");
 }

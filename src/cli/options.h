@@ -1,67 +1,108 @@
 /* SPDX-License-Identifier: MIT */
-/* The command line. Two tables describe it (command_table.h, option_table.h); parsing, help, man
-   page and completion are made from them. */
+/* What the command line may say, as a table, and what it said, as the struct whose members the
+   table's rows name. Parsing, help, man page and completion follow the table. */
 #ifndef HD_CLI_OPTIONS_H
 #define HD_CLI_OPTIONS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/error.h"
 #include "cli/command_table.h"
 #include "device/renderer.h"
-#include "output/outputs.h"
 #include "scene/scene.h"
-
-typedef enum HdClassicMode {
-    HD_CLASSIC_UNSAID, /* as HD_CLASSIC_GPU */
-    HD_CLASSIC_GPU,
-    HD_CLASSIC_CPU,
-    HD_CLASSIC_PRINT
-} HdClassicMode;
 
 enum { HD_MAX_CHANGES = 64 };
 
-/* What the command line said. */
+typedef struct HdOptionSize {
+    int width, height;
+} HdOptionSize;
+
+typedef struct HdOptionCrop {
+    int width, height, left, top;
+} HdOptionCrop;
+
+/* What the command line said. Where an option is not given, its member is 0, false or NULL, or what
+   is told here. */
 typedef struct HdOptions {
     HdCommand command;
     HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
     char **operands;        /* what is no option, in order; at the front of main's arguments */
     int operand_count;
-    HdClassicMode mode;
-    int variant; /* HD_CLASSIC_DEFAULT_VARIANT if not given */
+    bool gpu, cpu, prints_default; /* of the classic mode, at most one; none is as `gpu` */
+    int variant;                   /* HD_CLASSIC_DEFAULT_VARIANT if not given */
     const char *outputs[HD_MAX_OUTPUTS];
     int output_count;
     const char *changes[HD_MAX_CHANGES]; /* "PATH=VALUE" each */
     int change_count;
-    const char *backend;    /* NULL: auto or not given */
-    const char *device;     /* number or part of a name; NULL: not given */
-    const char *frames;     /* NULL: not given */
-    const char *statistics; /* a file, "-": standard output; NULL: not given */
+    const char *backend; /* NULL: also auto */
+    const char *device;  /* number or part of a name */
+    const char *frames;
+    const char *statistics; /* a file, "-": standard output */
     bool again;             /* finished frames are rendered again */
     bool verbose, quiet;    /* not both */
     bool tells_frames;      /* a line of progress for each frame */
     bool json;              /* of 'devices', 'tune' and 'compare' */
     bool schema;            /* of 'check' */
-    HdRenderOptions render; /* all 0 if not given: the device's lanes, a thread for each core,
-                               float, strict */
+    HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
     HdGeometry geometry;
-    int divisions; /* 0: not given */
+    int divisions;
     HdAccel accel;
-    int depth, samples, width, height; /* each -1: not given */
-    double cutoff, max_error;          /* each -1: not given */
-    int sampling;                      /* an HdSampling; -1: not given */
+    HdOptionSize size;
+    int samples, depth;       /* depth -1: not given */
+    double cutoff, max_error; /* cutoff -1: not given */
+    int sampling;             /* an HdSampling; -1: not given */
     bool reference;
-    struct {
-        int width, height, left, top; /* width 0: not given */
-    } crop;
-    const char *diff;  /* a PNG file; NULL: not given */
+    HdOptionCrop crop;
+    const char *diff;  /* a PNG file */
     double fail_above; /* steps of 255; -1: not given */
-    bool has_curve;    /* `curve` is given */
-    HdCurve curve;
+    int curve;         /* an HdCurve; -1: not given */
 } HdOptions;
 
-/* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
-   names the argument, and the nearest right one where there is one. */
-HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error);
+/* What is behind an option, and the member that it sets. */
+typedef enum HdOptionType {
+    HD_OPTION_FLAG,    /* nothing; bool */
+    HD_OPTION_COMMAND, /* nothing; another command takes over, and no argument is read any more */
+    HD_OPTION_INTEGER, /* a whole number from `low` to `high`; int */
+    HD_OPTION_REAL,    /* a number from `low` to `high`, or to below it; double */
+    HD_OPTION_CHOICE,  /* one of `choices`; int or an enum: which of them, from 0 */
+    HD_OPTION_NUMERAL, /* one of `choices`, which are whole numbers; int */
+    HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first of them */
+    HD_OPTION_SIZE,    /* WxH; HdOptionSize */
+    HD_OPTION_CROP,    /* WxH+X+Y; HdOptionCrop */
+    HD_OPTION_TEXT,    /* const char * */
+    HD_OPTION_TEXTS,  /* a text each time, `high` times at most; const char *[], and their number */
+    HD_OPTION_CHANGES /* the same, PATH=VALUE each */
+} HdOptionType;
+
+typedef struct HdOptionSpec {
+    const char *name;       /* NULL ends the table */
+    const char *short_name; /* NULL: none */
+    const char *value;      /* what stands for the value in the help; NULL: takes none */
+    const char *help;
+    unsigned commands; /* those that take it */
+    HdOptionType type;
+    size_t offset;              /* of its member of HdOptions */
+    size_t count_offset;        /* of texts */
+    double low, high;           /* of a number */
+    bool below_high;            /* a number must not be `high` itself */
+    int step;                   /* a whole number is a multiple of it; 0: any */
+    int unset;                  /* the number that the member has where the option is not given */
+    const char *const *choices; /* NULL ends them */
+    const char *expected;       /* instead of a wrong value; NULL for a text that may be empty */
+    HdStatus (*check)(const char *text, const char *option, HdError *error); /* NULL: any text */
+    bool takes_file;
+    const char *only_one_of; /* the flags of which only one may be given; NULL: no such flag */
+    HdCommand command;       /* that takes over */
+} HdOptionSpec;
+
+/* An option may be there twice, with another meaning for another command. */
+extern const HdOptionSpec hd_option_specs[];
+
+/* The option of the command that follows after `spec` (NULL: the first one), or NULL. */
+const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
+
+/* "-o, --output OUT" */
+void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
 
 #endif

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#include "cli/option_table.h"
-#include "cli/options.h"
+#include <stdio.h>
+
+#include "cli/command_line.h"
+#include "cli/option_values.h"
+#include "device/renderer.h"
 #include "expect.h"
 
 enum { MAX_ARGUMENTS = 200 };
@@ -35,7 +38,7 @@ static void nothing_is_the_classic_mode(void **state) {
     assert_int_equal(parse("hedron"), HD_OK);
     assert_int_equal(options.command, HD_COMMAND_CLASSIC);
     assert_int_equal(options.variant, 4);
-    assert_int_equal(options.width, -1);
+    assert_int_equal(options.size.width, 0);
     assert_true(options.cutoff == -1.0);
     assert_int_equal(options.operand_count, 0);
     assert_false(options.quiet || options.verbose);
@@ -47,11 +50,11 @@ static void comparisons_take_two_pictures(void **state) {
     assert_int_equal(options.command, HD_COMMAND_COMPARE);
     assert_string_equal(options.operands[1], "b.pfm");
     assert_true(options.fail_above == -1.0);
-    assert_false(options.json || options.has_curve);
+    assert_false(options.json || options.curve >= 0);
     assert_null(options.diff);
     assert_int_equal(parse("hedron compare --json a --diff d.PNG b --fail-above .5 --curve=linear"),
                      HD_OK);
-    assert_true(options.json && options.has_curve && options.fail_above == 0.5);
+    assert_true(options.json && options.fail_above == 0.5);
     assert_int_equal(options.curve, HD_CURVE_LINEAR);
     assert_string_equal(options.diff, "d.PNG");
     assert_int_equal(parse("hedron compare a b --curve srgb --fail-above 255"), HD_OK);
@@ -82,7 +85,7 @@ static void operands_and_options_mix(void **state) {
     assert_int_equal(options.output_count, 2);
     assert_string_equal(options.outputs[0], "a.png");
     assert_string_equal(options.outputs[1], "b.gif");
-    assert_int_equal(options.height, 4);
+    assert_int_equal(options.size.height, 4);
     assert_int_equal(options.depth, 2);
 }
 
@@ -177,41 +180,87 @@ static void names_are_counted(void **state) {
 
 static void choices_are_words_of_a_list(void **state) {
     (void)state;
+    static const char *const four[] = {"auto", "c", "opencl", "cuda", NULL};
+    static const char *const two[] = {"float", "double", NULL};
+    static const char *const one[] = {"one", NULL};
     char text[64];
-    assert_int_equal(hd_option_choice("auto c opencl cuda", "auto"), 0);
-    assert_int_equal(hd_option_choice("auto c opencl cuda", "cuda"), 3);
-    assert_int_equal(hd_option_choice("auto c opencl cuda", ""), -1);
-    assert_int_equal(hd_option_choice("auto c opencl cuda", "cud"), -1);
-    assert_int_equal(hd_option_choice("auto c opencl cuda", "c opencl"), -1);
-    hd_option_list_choices("auto c opencl cuda", text, sizeof text);
+    assert_int_equal(hd_option_choice(four, "auto"), 0);
+    assert_int_equal(hd_option_choice(four, "cuda"), 3);
+    assert_int_equal(hd_option_choice(four, ""), -1);
+    assert_int_equal(hd_option_choice(four, "cud"), -1);
+    assert_int_equal(hd_option_choice(four, "c opencl"), -1);
+    hd_option_list_choices(four, text, sizeof text);
     assert_string_equal(text, "auto, c, opencl or cuda");
-    hd_option_list_choices("float double", text, sizeof text);
+    hd_option_list_choices(two, text, sizeof text);
     assert_string_equal(text, "float or double");
-    hd_option_list_choices("one", text, sizeof text);
+    hd_option_list_choices(one, text, sizeof text);
     assert_string_equal(text, "one");
-    hd_option_list_choices("auto c opencl cuda", text, 8);
+    hd_option_list_choices(four, text, 8);
     assert_string_equal(text, "auto, c");
 }
 
 /* The table has a line for each backend, and every option can be parsed. */
 static void the_table_is_whole(void **state) {
     (void)state;
-    for (int i = 0; i < HD_OPTION_SPEC_COUNT; i++) {
-        const HdOptionSpec *spec = &hd_option_specs[i];
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
         assert_int_equal(strncmp(spec->name, "--", 2), 0);
         assert_non_null(spec->help);
         assert_true(spec->commands != 0);
-        if (spec->id != HD_OPTION_BACKEND)
+        if (strcmp(spec->name, "--backend") != 0)
             continue;
         for (int j = 0; j < HD_BACKEND_COUNT; j++)
             assert_true(hd_option_choice(spec->choices, hd_backends[j]->name) > 0);
     }
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
         const HdCommandSpec *spec = &hd_command_specs[i];
+        char line[64];
         assert_ptr_equal(hd_command_spec(spec->command), spec);
-        if (spec->name != NULL)
-            assert_true(hd_option_choice(hd_command_spec(HD_COMMAND_HELP)->words, spec->name) >= 0);
+        snprintf(line, sizeof line, "hedron help %s", spec->name != NULL ? spec->name : "");
+        assert_int_equal(parse(line), HD_OK);
+        assert_int_equal(options.help_topic.command, spec->command);
     }
+}
+
+/* Each value reaches its own member. */
+static void values_reach_their_members(void **state) {
+    (void)state;
+    assert_int_equal(parse("hedron render --samples 3 --depth 5 --cutoff .25 --aa adaptive "
+                           "--max-error 2 --crop 1x2+3+4 --size 6X7 --geometry triangles "
+                           "--divisions 8 --accel bvh --frames 0-9 --device c:0 --stats - "
+                           "--again --frame-lines --verbose"),
+                     HD_OK);
+    assert_int_equal(options.samples, 3);
+    assert_int_equal(options.depth, 5);
+    assert_true(options.cutoff == 0.25 && options.max_error == 2.0);
+    assert_int_equal(options.sampling, HD_SAMPLING_ADAPTIVE);
+    assert_int_equal(options.crop.width, 1);
+    assert_int_equal(options.crop.height, 2);
+    assert_int_equal(options.crop.left, 3);
+    assert_int_equal(options.crop.top, 4);
+    assert_int_equal(options.size.width, 6);
+    assert_int_equal(options.size.height, 7);
+    assert_int_equal(options.geometry, HD_GEOMETRY_TRIANGLES);
+    assert_int_equal(options.divisions, 8);
+    assert_int_equal(options.accel, HD_ACCEL_BVH);
+    assert_string_equal(options.frames, "0-9");
+    assert_string_equal(options.device, "c:0");
+    assert_string_equal(options.statistics, "-");
+    assert_true(options.again && options.tells_frames && options.verbose);
+    assert_int_equal(parse("hedron render --lanes 16 --threads 2 --block 64 --grid 3 --math fast "
+                           "--precision double --pipeline wavefront-uncompacted --backend opencl"),
+                     HD_OK);
+    assert_int_equal(options.render.lanes, 16);
+    assert_int_equal(options.render.threads, 2);
+    assert_int_equal(options.render.block, 64);
+    assert_int_equal(options.render.grid, 3);
+    assert_int_equal(options.render.math, HD_MATH_FAST);
+    assert_int_equal(options.render.precision, HD_PRECISION_DOUBLE);
+    assert_int_equal(options.render.pipeline, HD_PIPELINE_WAVEFRONT_UNCOMPACTED);
+    assert_string_equal(options.backend, "opencl");
+    assert_int_equal(parse("hedron --default --backend auto --variant 7"), HD_OK);
+    assert_true(options.prints_default && !options.cpu && !options.gpu);
+    assert_null(options.backend);
+    assert_int_equal(options.variant, 7);
 }
 
 int main(void) {
@@ -227,6 +276,7 @@ int main(void) {
         cmocka_unit_test(names_are_counted),
         cmocka_unit_test(choices_are_words_of_a_list),
         cmocka_unit_test(the_table_is_whole),
+        cmocka_unit_test(values_reach_their_members),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

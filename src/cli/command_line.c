@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli/command_line.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "cli/option_values.h"
+#include "system/path.h"
+
+typedef struct Parser {
+    HdOptions *options;
+    const HdCommandSpec *command;
+    int count, next; /* arguments, and the number of the one to be read next */
+    char **arguments;
+    bool only_operands; /* after "--" */
+} Parser;
+
+/* "'hedron render'", or the classic mode. */
+static void label(const HdCommandSpec *command, char text[64]) {
+    if (command->name == NULL)
+        snprintf(text, 64, "the classic mode");
+    else
+        snprintf(text, 64, "'hedron %s'", command->name);
+}
+
+/* "-n", or "-nVALUE" where it takes one. */
+static bool is_short(const HdOptionSpec *spec, const char *argument) {
+    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
+        return false;
+    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
+}
+
+/* Matches "--name", "--name=value", "-n" and "-nvalue"; `*value` is what came with it, or NULL. An
+   option of the command comes before one of the same name that belongs to another. */
+static const HdOptionSpec *find_spec(const char *argument, HdCommand command, const char **value) {
+    const HdOptionSpec *found = NULL;
+    size_t length = strcspn(argument, "=");
+    *value = argument[length] == '=' ? argument + length + 1 : NULL;
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
+        bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
+        if (!is_long && !is_short(spec, argument))
+            continue;
+        if (!is_long)
+            *value = argument[2] != '\0' ? argument + 2 : NULL;
+        if (found == NULL || (spec->commands & (unsigned)command) != 0)
+            found = spec;
+    }
+    return found;
+}
+
+static void spell_help(const HdCommandSpec *command, char text[128]) {
+    if (command->name == NULL)
+        snprintf(text, 128, "see 'hedron help'");
+    else
+        snprintf(text, 128, "see 'hedron help %s'", command->name);
+}
+
+/* "did you mean '--size'?", or where to look. */
+static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
+                    char text[128]) {
+    if (nearest->name != NULL)
+        snprintf(text, 128, "did you mean '%s%s'?", prefix, nearest->name);
+    else
+        spell_help(command, text);
+}
+
+static HdStatus fail_unknown_option(const Parser *parser, const char *argument, HdError *error) {
+    char word[32], suggestion[128];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(argument, "="), argument);
+    HdNearest nearest = {.word = word};
+    const HdOptionSpec *spec = NULL;
+    while ((spec = hd_option_next(spec, parser->options->command)) != NULL)
+        hd_nearest_offer(&nearest, spec->name);
+    suggest(&nearest, "", parser->command, suggestion);
+    return hd_fail(error, HD_BAD_INPUT, "unknown option '%s'; %s", argument, suggestion);
+}
+
+static void offer_commands(HdNearest *nearest) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL)
+            hd_nearest_offer(nearest, hd_command_specs[i].name);
+}
+
+static HdStatus fail_unknown_command(const Parser *parser, const char *argument, HdError *error) {
+    char suggestion[sizeof error->message];
+    const size_t size = sizeof suggestion;
+    if (hd_path_has_ending(argument, ".json"))
+        snprintf(suggestion, size, "did you mean 'hedron render %s'?", argument);
+    else if (hd_help_form_named(argument) != HD_HELP_TEXT)
+        snprintf(suggestion, size, "did you mean 'hedron help %s'?", argument);
+    else if (strcmp(argument, "version") == 0)
+        snprintf(suggestion, size, "did you mean 'hedron --version'?");
+    else if (strpbrk(argument, "./") != NULL)
+        snprintf(suggestion, size, "the classic mode reads standard input: hedron --cpu < %s",
+                 argument);
+    else {
+        HdNearest nearest = {.word = argument};
+        offer_commands(&nearest);
+        suggest(&nearest, "hedron ", parser->command, suggestion);
+    }
+    return hd_fail(error, HD_BAD_INPUT, "'%s' is neither a command nor an option; %s", argument,
+                   suggestion);
+}
+
+static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
+    HdOptions *options = parser->options;
+    char name[64];
+    if (parser->command->name == NULL)
+        return fail_unknown_command(parser, argument, error);
+    label(parser->command, name);
+    if (argument[0] == '\0')
+        return hd_fail(error, HD_BAD_INPUT, "%s was given an empty name", name);
+    int most = parser->command->most_operands;
+    if (most == 0)
+        return hd_fail(error, HD_BAD_INPUT, "%s takes options only, but '%s' was given", name,
+                       argument);
+    if (most > 0 && options->operand_count == most)
+        return hd_fail(error, HD_BAD_INPUT, "%s takes %s only, but '%s' came after '%s'", name,
+                       most == 1 ? "one name" : "two names", argument, options->operands[most - 1]);
+    options->operands[options->operand_count++] = argument;
+    return HD_OK;
+}
+
+static HdStatus fail_foreign_option(const Parser *parser, const HdOptionSpec *spec,
+                                    HdError *error) {
+    char name[64], help[128];
+    label(parser->command, name);
+    spell_help(parser->command, help);
+    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; %s", spec->name, name, help);
+}
+
+static HdStatus parse_argument(Parser *parser, HdError *error) {
+    char *argument = parser->arguments[parser->next++];
+    const char *value;
+    if (!parser->only_operands && strcmp(argument, "--") == 0) {
+        parser->only_operands = true;
+        return HD_OK;
+    }
+    if (parser->only_operands || argument[0] != '-' || argument[1] == '\0')
+        return add_operand(parser, argument, error);
+    const HdOptionSpec *spec = find_spec(argument, parser->options->command, &value);
+    if (spec == NULL)
+        return fail_unknown_option(parser, argument, error);
+    if (!(spec->commands & (unsigned)parser->options->command))
+        return fail_foreign_option(parser, spec, error);
+    if (spec->value == NULL && value != NULL)
+        return hd_fail(error, HD_BAD_INPUT, "%s takes no value, but '%s' was given", spec->name,
+                       value);
+    if (spec->value != NULL && value == NULL) {
+        if (parser->next >= parser->count)
+            return hd_fail(error, HD_BAD_INPUT, "%s needs a value (%s)", spec->name, spec->value);
+        value = parser->arguments[parser->next++];
+    }
+    if (value == NULL) /* and none is wanted */
+        value = "";
+    return hd_option_apply(parser->options, spec, value, error);
+}
+
+static HdStatus find_topic(HdOptions *options, HdError *error) {
+    const char *name = options->operands[0];
+    const HdCommandSpec *command = hd_command_named(name);
+    HdNearest nearest = {.word = name};
+    char suggestion[128];
+    options->help_topic.form = hd_help_form_named(name);
+    if (command != NULL)
+        options->help_topic.command = command->command;
+    if (command != NULL || options->help_topic.form != HD_HELP_TEXT)
+        return HD_OK;
+    for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
+        hd_nearest_offer(&nearest, hd_help_forms[i]);
+    offer_commands(&nearest);
+    suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
+    return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);
+}
+
+/* What can only be told once all arguments are known. */
+static HdStatus check_together(HdOptions *options, HdError *error) {
+    if (options->command == HD_COMMAND_HELP && options->operand_count > 0)
+        return find_topic(options, error);
+    if (options->command == HD_COMMAND_CHECK && options->schema && options->operand_count > 0)
+        return hd_fail(error, HD_BAD_INPUT, "--schema looks at no scene, but '%s' was given",
+                       options->operands[0]);
+    if (options->command == HD_COMMAND_CHECK && !options->schema && options->operand_count == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron check' needs the name of a scene; see 'hedron help check'");
+    if (options->command == HD_COMMAND_COMPARE && options->operand_count < 2)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron compare' needs the names of two pictures; see 'hedron help "
+                       "compare'");
+    if (options->command == HD_COMMAND_CLASSIC && options->statistics != NULL &&
+        strcmp(options->statistics, "-") == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '-', but standard output has the lines of the classic mode; "
+                       "expected a file");
+    if (options->reference && options->sampling >= 0)
+        return hd_fail(error, HD_BAD_INPUT, "--reference has samples of its own: leave out --aa");
+    if (options->reference)
+        options->render.precision = HD_PRECISION_DOUBLE;
+    return HD_OK;
+}
+
+HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
+    hd_options_reset(options);
+    options->help_topic.command = HD_COMMAND_CLASSIC;
+    const HdCommandSpec *command = count > 1 ? hd_command_named(arguments[1]) : NULL;
+    Parser parser = {
+        .options = options,
+        .command = command != NULL ? command : hd_command_spec(HD_COMMAND_CLASSIC),
+        .count = count,
+        .next = command != NULL ? 2 : 1,
+        .arguments = arguments,
+    };
+    options->command = parser.command->command;
+    options->operands = arguments + parser.next;
+    while (parser.next < count && options->command == parser.command->command) {
+        HdStatus status = parse_argument(&parser, error);
+        if (status != HD_OK)
+            return status;
+    }
+    return options->command == parser.command->command ? check_together(options, error) : HD_OK;
+}
