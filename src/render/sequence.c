@@ -4,7 +4,7 @@
 #include "choice/trial.h"
 #include "render/team.h"
 #include "render/upload.h"
-#include "system/known_folders.h"
+#include "system/atomic_file.h"
 #include "system/machine.h"
 
 typedef struct Run {

@@ -5,15 +5,75 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "system/known_folders.h"
+#include "base/hash.h"
 #include "system/leftovers.h"
 
 enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
+
+/* As many as a run has outputs, and more. A sequence whose folders are numbered has countless ones,
+   but it asks for each but once. */
+enum { MAX_FOLDERS = 32 };
+
+/* What of `path` is before the name, with the slash. */
+static int folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? 0 : (int)(slash - path) + 1;
+}
+
+static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
+    const int length = folder_length(path);
+    snprintf(folder, HD_MAX_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
+    return folder;
+}
+
+/* The folders that this run has written to, so that one that goes away is missed instead of made
+   anew without what was in it. */
+static struct {
+    uint64_t hashes[MAX_FOLDERS]; /* of their names; 0: none */
+    int next;
+    pthread_mutex_t mutex;
+} known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+
+static uint64_t hash_folder(const char *path) {
+    return hd_hash_bytes(HD_HASH_START, path, (size_t)folder_length(path));
+}
+
+static bool is_known(uint64_t hash) {
+    for (int i = 0; i < MAX_FOLDERS; i++)
+        if (known.hashes[i] == hash)
+            return true;
+    return false;
+}
+
+static void remember_folder(const char *path) {
+    uint64_t hash = hash_folder(path);
+    pthread_mutex_lock(&known.mutex);
+    if (!is_known(hash)) {
+        known.hashes[known.next] = hash;
+        known.next = (known.next + 1) % MAX_FOLDERS;
+    }
+    pthread_mutex_unlock(&known.mutex);
+}
+
+static bool remembers_folder(const char *path) {
+    uint64_t hash = hash_folder(path);
+    pthread_mutex_lock(&known.mutex);
+    bool has = is_known(hash);
+    pthread_mutex_unlock(&known.mutex);
+    return has;
+}
+
+void hd_known_folders_forget(void) {
+    pthread_mutex_lock(&known.mutex);
+    memset(known.hashes, 0, sizeof known.hashes);
+    pthread_mutex_unlock(&known.mutex);
+}
 
 static HdStatus check_target(const char *path, HdError *error) {
     struct stat found;
@@ -34,10 +94,9 @@ static HdStatus check_target(const char *path, HdError *error) {
 /* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
 static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
                                HdError *error) {
-    const char *slash = strrchr(path, '/');
-    int folder_length = slash == NULL ? 0 : (int)(slash - path) + 1;
-    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder_length, path,
-                          MAX_NAME, path + folder_length, (long)getpid(), attempt);
+    int folder = folder_length(path);
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder, path, MAX_NAME,
+                          path + folder, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
@@ -48,17 +107,14 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
 /* The temporary name is cut to fit, so that the final one would be found too long only at the end.
  */
 static HdStatus check_length(const char *path, HdError *error) {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash == NULL ? path : slash + 1;
-    char folder[HD_MAX_PATH] = ".";
-    if (slash != NULL)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
-    long most = pathconf(folder, _PC_NAME_MAX);
-    if (most > 0 && strlen(name) > (size_t)most)
+    const size_t length = strlen(path + folder_length(path));
+    char folder[HD_MAX_PATH];
+    long most = pathconf(folder_of(path, folder), _PC_NAME_MAX);
+    if (most > 0 && length > (size_t)most)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write \"%s\": the name of the file has %zu bytes, expected at most "
                        "%ld",
-                       path, strlen(name), most);
+                       path, length, most);
     return HD_OK;
 }
 
@@ -98,11 +154,8 @@ void hd_temporary_remove_stale(const char *temporary) {
 
 /* Of a folder that was there, or of a temporary file. */
 static HdStatus fail_without(const char *path, const char *temporary, HdError *error) {
-    char folder[HD_MAX_PATH] = ".";
-    const char *slash = strrchr(path, '/');
-    if (slash != NULL)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
-    if (access(folder, F_OK) != 0)
+    char folder[HD_MAX_PATH];
+    if (access(folder_of(path, folder), F_OK) != 0)
         return hd_fail(error, HD_FAILED,
                        "cannot write %s: its folder %s is gone; it was there before", path, folder);
     return hd_fail(error, HD_FAILED, "cannot write %s: somebody removed %s", path, temporary);
@@ -110,7 +163,7 @@ static HdStatus fail_without(const char *path, const char *temporary, HdError *e
 
 static HdStatus fail_to_create(const char *path, const char *temporary, int reason,
                                HdError *error) {
-    if (reason == ENOENT && hd_known_folders_has(path))
+    if (reason == ENOENT && remembers_folder(path))
         return fail_without(path, temporary, error);
     return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path, temporary,
                    strerror(reason));
@@ -119,7 +172,7 @@ static HdStatus fail_to_create(const char *path, const char *temporary, int reas
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
-    if (status == HD_OK && !hd_known_folders_has(path))
+    if (status == HD_OK && !remembers_folder(path))
         status = hd_path_make_parents(path, error);
     if (status == HD_OK)
         status = check_length(path, error);
@@ -131,7 +184,7 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
-            hd_known_folders_add(path);
+            remember_folder(path);
             return HD_OK;
         }
         if (*descriptor >= 0)

@@ -31,6 +31,9 @@ void hd_temporary_remove_stale(const char *temporary);
 /* Renames the temporary file to its final name; removes it where that fails. */
 HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *error);
 
+/* Forgets the folders that were there earlier in the run: another run begins. */
+void hd_known_folders_forget(void);
+
 typedef struct HdAtomicFile {
     FILE *stream; /* for the caller to write to */
     int lock;     /* a descriptor */

@@ -16,6 +16,7 @@
 #include "base/hash.h"
 #include "system/atomic_file.h"
 #include "system/cache_limit.h"
+#include "system/file_bytes.h"
 
 /* Then follow the key and the payload. Folders are not shared among machines of different byte
    order, and if they were, the magic number would differ. */
@@ -95,18 +96,6 @@ static const char *find_stat_fault(const struct stat *found) {
     return NULL;
 }
 
-static bool read_all(int descriptor, unsigned char *bytes, size_t size) {
-    for (size_t done = 0; done < size;) {
-        ssize_t count = read(descriptor, bytes + done, size - done);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return false;
-        done += (size_t)count;
-    }
-    return true;
-}
-
 /* Returns what is wrong, or NULL; `*file` is the caller's to free in any case. */
 static const char *read_file(int descriptor, unsigned char **file, size_t *size) {
     struct stat found;
@@ -119,7 +108,8 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     *file = malloc(*size);
     if (*file == NULL)
         return "out of memory";
-    return read_all(descriptor, *file, *size) ? NULL : "it cannot be read";
+    const ssize_t done = hd_read_fully(descriptor, *file, *size);
+    return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
 static const char *find_fault(const unsigned char *file, size_t size, const char *key) {

@@ -11,6 +11,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/growth.h"
+
 enum { STALE_SECONDS = 3600 };
 
 typedef struct Entry {
@@ -21,7 +23,7 @@ typedef struct Entry {
 
 typedef struct Listing {
     Entry *entries;
-    size_t count, capacity;
+    int count, room;
     int64_t bytes;
 } Listing;
 
@@ -30,22 +32,15 @@ static bool ends_in(const char *name, const char *ending) {
     return length >= tail && strcmp(name + length - tail, ending) == 0;
 }
 
-static bool grow(Listing *listing) {
-    if (listing->count < listing->capacity)
-        return true;
-    size_t capacity = listing->capacity == 0 ? 64 : 2 * listing->capacity;
-    Entry *entries = realloc(listing->entries, capacity * sizeof *entries);
-    if (entries == NULL)
-        return false;
-    listing->entries = entries;
-    listing->capacity = capacity;
-    return true;
-}
-
 static void add(Listing *listing, const char *name, const struct stat *found) {
-    if (strlen(name) >= sizeof listing->entries->name || !grow(listing))
+    Entry *entries = hd_grown(listing->entries, sizeof *entries, listing->count, &listing->room);
+    if (entries == NULL)
         return;
-    Entry *entry = &listing->entries[listing->count++];
+    listing->entries = entries;
+    Entry *entry = &entries[listing->count];
+    if (strlen(name) >= sizeof entry->name)
+        return;
+    listing->count++;
     memcpy(entry->name, name, strlen(name) + 1);
     entry->bytes = (int64_t)found->st_size;
     entry->used = found->st_mtim;
@@ -78,8 +73,8 @@ void hd_cache_limit(const char *folder, int64_t most) {
     for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
         look_at(&listing, dirfd(stream), found->d_name);
     if (listing.entries != NULL)
-        qsort(listing.entries, listing.count, sizeof *listing.entries, by_use);
-    for (size_t i = 0; i < listing.count && listing.bytes > most; i++) {
+        qsort(listing.entries, (size_t)listing.count, sizeof *listing.entries, by_use);
+    for (int i = 0; i < listing.count && listing.bytes > most; i++) {
         unlinkat(dirfd(stream), listing.entries[i].name, 0);
         listing.bytes -= listing.entries[i].bytes;
     }

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_PATH = 4096 };
+#include "system/path.h"
 
 /* Nothing is ever unloaded: NVIDIA's driver has threads of its own, and its compiler loses memory
    each time it goes. */
@@ -41,12 +41,12 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
 }
 
 void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
-    char beside[MAX_PATH], path[MAX_PATH];
+    char beside[HD_MAX_PATH], path[HD_MAX_PATH];
     if (!hd_library_path(library, symbol, beside, sizeof beside))
         return NULL;
     const char *slash = strrchr(beside, '/');
     if (!slash)
         return NULL;
     int length = snprintf(path, sizeof path, "%.*s/%s", (int)(slash - beside), beside, name);
-    return length > 0 && length < MAX_PATH ? hd_library_open(path) : NULL;
+    return length > 0 && length < HD_MAX_PATH ? hd_library_open(path) : NULL;
 }

@@ -35,21 +35,29 @@ static HdStatus check_file(const File *file, int64_t most, size_t *size, HdError
     return HD_OK;
 }
 
-static HdStatus read_exactly(const File *file, unsigned char *bytes, size_t size, HdError *error) {
+ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     size_t done = 0;
     while (done < size) {
-        const ssize_t count = read(file->descriptor, bytes + done, size - done);
+        const ssize_t count = read(descriptor, (char *)bytes + done, size - done);
         if (count < 0 && errno == EINTR)
             continue;
         if (count < 0)
-            return fail_reading(file, error);
+            return -1;
         if (count == 0)
-            return hd_fail(error, HD_BAD_INPUT,
-                           "cannot read the %s %s: it ended after %zu of %zu bytes", file->what,
-                           file->path, done, size);
+            break;
         done += (size_t)count;
     }
-    return HD_OK;
+    return (ssize_t)done;
+}
+
+static HdStatus read_exactly(const File *file, unsigned char *bytes, size_t size, HdError *error) {
+    const ssize_t done = hd_read_fully(file->descriptor, bytes, size);
+    if (done < 0)
+        return fail_reading(file, error);
+    if ((size_t)done == size)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
+                   file->what, file->path, done, size);
 }
 
 static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {

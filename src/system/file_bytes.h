@@ -5,8 +5,13 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 
 #include "base/error.h"
+
+/* Reads `size` bytes unless the file ends before, whatever signals come; returns how many these
+   are, or -1 and errno. */
+ssize_t hd_read_fully(int descriptor, void *bytes, size_t size);
 
 /* Reads a regular file of at most `most` bytes; never waits for a pipe. `*bytes` is the caller's to
    free, and NULL on failure; of an empty file it is a place to free too. Messages call the file

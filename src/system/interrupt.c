@@ -59,17 +59,23 @@ static void set_timer(timer_t timer, long after_ms) {
     timer_settime(timer, 0, &once, NULL);
 }
 
-/* As if the signal had never been caught, so that the parent process sees what ended us. */
-static void die(int number) {
-    struct sigaction action;
-    sigset_t only;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = SIG_DFL;
+static void set_handler(int number, void (*handler)(int), int flags) {
+    struct sigaction action = {.sa_handler = handler, .sa_flags = flags};
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, NULL);
+}
+
+static void unblock(int number) {
+    sigset_t only;
     sigemptyset(&only);
     sigaddset(&only, number);
     pthread_sigmask(SIG_UNBLOCK, &only, NULL);
+}
+
+/* As if the signal had never been caught, so that the parent process sees what ended us. */
+static void die(int number) {
+    set_handler(number, SIG_DFL, 0);
+    unblock(number);
     raise(number);
     _exit(128 + number);
 }
@@ -120,18 +126,6 @@ static bool is_ignored(int number) {
     return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
-   background, and nohup its program. */
-static void catch_signal(int number) {
-    struct sigaction action;
-    if (is_ignored(number))
-        return;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = handle;
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
 /* The system hands a signal to the main thread if it can, but that one handles none while it waits
    for a file server that is gone. What was meant for it, it may be missing then. */
 static void *watch(void *main_thread) {
@@ -166,40 +160,28 @@ static void start_watching(void) {
 
 /* False where the system has none left. */
 static bool create_timer(timer_t *timer, int number) {
-    struct sigevent event;
-    memset(&event, 0, sizeof event);
-    event.sigev_notify = SIGEV_SIGNAL;
-    event.sigev_signo = number;
+    struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = number};
     return timer_create(CLOCK_MONOTONIC, &event, timer) == 0;
 }
 
 static void prepare_deadline(void) {
-    struct sigaction action;
-    sigset_t only;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = handle_deadline;
-    action.sa_flags = SA_NODEFER; /* it comes again while the first one is handled */
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGALRM, &action, NULL);
-    sigemptyset(&only);
-    sigaddset(&only, SIGALRM);
-    pthread_sigmask(SIG_UNBLOCK, &only, NULL);
+    /* It comes again while the first one is handled. */
+    set_handler(SIGALRM, handle_deadline, SA_NODEFER);
+    unblock(SIGALRM);
     timers.has_end = create_timer(&timers.end, SIGALRM);
     timers.has_kill = create_timer(&timers.kill, SIGKILL);
 }
 
+/* A signal that the parent process had ignored stays ignored: so shells start jobs in the
+   background, and nohup its program. */
 void hd_interrupt_install(void) {
-    struct sigaction action;
     prepare_deadline();
     for (size_t i = 0; i < sizeof watched_signals / sizeof *watched_signals; i++)
-        catch_signal(watched_signals[i]);
-    memset(&action, 0, sizeof action);
-    sigemptyset(&action.sa_mask);
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &action, NULL);
-    sigaction(SIGPIPE, &action, NULL);
-    action.sa_handler = SIG_DFL;
-    sigaction(SIGCHLD, &action, NULL);
+        if (!is_ignored(watched_signals[i]))
+            set_handler(watched_signals[i], handle, 0);
+    set_handler(SIGXFSZ, SIG_IGN, 0);
+    set_handler(SIGPIPE, SIG_IGN, 0);
+    set_handler(SIGCHLD, SIG_DFL, 0);
     start_watching();
 }
 

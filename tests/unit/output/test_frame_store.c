@@ -3,8 +3,8 @@
 #include <stdbool.h>
 
 #include "output/frame_store.h"
+#include "system/atomic_file.h"
 #include "system/interrupt.h"
-#include "system/known_folders.h"
 #include "system/machine.h"
 #include "test_folder.h"
 

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 
 #include "output/video.h"
-#include "system/known_folders.h"
+#include "system/atomic_file.h"
 #include "test_folder.h"
 
 static char *old_path;
