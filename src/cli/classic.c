@@ -56,13 +56,10 @@ static HdStatus print_default(const HdOptions *options, HdError *error) {
 }
 
 static HdStatus trace_standard_input(const HdOptions *options, HdError *error) {
-    HdClassicInput input;
     HdSceneFile file;
-    HdStatus status = hd_read_classic(&input, NULL, options->variant, error);
+    HdStatus status = hd_read_classic(&file, NULL, options->variant, error);
     if (status != HD_OK)
         return status;
-    hd_scene_file_from_classic(&file, &input);
-    hd_classic_free(&input);
     status = hd_apply_scene_options(&file.scene, options, error);
     if (status == HD_OK)
         status = hd_scene_file_load_texture(&file, error);

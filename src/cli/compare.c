@@ -137,13 +137,7 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
                   "identical", figures->identical, "display", describe_figures(&figures->display),
                   "linear", describe_figures(&figures->linear), "above_1",
                   number_or_null(figures->above_1), "above_8", number_or_null(figures->above_8));
-    if (root == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the figures");
-    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF)
-        return hd_fail(error, HD_FAILED, "cannot write to standard output");
-    return HD_OK;
+    return hd_json_print(root, "the figures", error);
 }
 
 /* ---- what is compared ---- */

@@ -58,13 +58,10 @@ static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *
 HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
     const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
     const char *output = options->output_count > 0 ? options->outputs[0] : NULL;
-    HdClassicInput input;
     HdSceneFile file;
-    HdStatus status = hd_read_classic(&input, source, options->variant, error);
+    HdStatus status = hd_read_classic(&file, source, options->variant, error);
     if (status != HD_OK)
         return status;
-    hd_scene_file_from_classic(&file, &input);
-    hd_classic_free(&input);
     status = keep_texture(&file, output, error);
     if (status == HD_OK)
         status = keep_output(&file, error);

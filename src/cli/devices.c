@@ -50,20 +50,9 @@ static json_t *describe_backend(const HdBackend *backend, const HdDevice *device
                      "devices", list);
 }
 
-static HdStatus print_json(json_t *backends, HdError *error) {
-    json_t *root = json_pack("{s:o}", "backends", backends);
-    if (root == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the list of devices");
-    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF)
-        return hd_fail(error, HD_FAILED, "cannot write to standard output");
-    return HD_OK;
-}
-
 HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
     static HdDevice devices[HD_MAX_DEVICES];
-    json_t *list = json_array();
+    json_t *list = options->json ? json_array() : NULL;
     bool list_failed = false;
     for (int i = 0; i < HD_BACKEND_COUNT; i++) {
         const HdBackend *backend = hd_backends[i];
@@ -75,9 +64,10 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
         else if (json_array_append_new(list, describe_backend(backend, devices, count, obstacle)))
             list_failed = true;
     }
-    if (options->json && !list_failed)
-        return print_json(list, error);
-    json_decref(list);
-    return list_failed ? hd_fail(error, HD_FAILED, "out of memory: no room for the list of devices")
-                       : HD_OK;
+    if (!options->json)
+        return HD_OK;
+    if (list_failed)
+        json_decref(list);
+    return hd_json_print(list_failed ? NULL : json_pack("{s:o}", "backends", list),
+                         "the list of devices", error);
 }

@@ -36,7 +36,7 @@ static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t m
     return HD_OK;
 }
 
-HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, HdError *error) {
+static HdStatus read_classic(HdClassicInput *input, const char *path, int variant, HdError *error) {
     const char *name = path != NULL ? path : standard_input;
     size_t size = 0;
     char *text = malloc(MAX_INPUT_BYTES + 1);
@@ -54,6 +54,21 @@ HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, H
     return status;
 }
 
+HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
+    HdClassicInput input;
+    HdStatus status = read_classic(&input, path, variant, error);
+    if (status != HD_OK)
+        return status;
+    memset(file, 0, sizeof *file);
+    file->scene = input.scene;
+    file->output.style = (HdOutputStyle){.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
+                                         .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND};
+    file->texture_curve = HD_CURVE_LINEAR;
+    memcpy(file->output.path, input.output_pattern, sizeof file->output.path);
+    memcpy(file->texture_path, input.texture_path, sizeof file->texture_path);
+    return HD_OK;
+}
+
 static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *source,
                                     HdError *error) {
     size_t size = 0;
@@ -65,17 +80,6 @@ static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *sour
         status = hd_scene_file_parse(file, text, size, source, error);
     free(text);
     return status;
-}
-
-void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input) {
-    memset(file, 0, sizeof *file);
-    file->scene = input->scene;
-    memset(&input->scene, 0, sizeof input->scene);
-    file->output.style = (HdOutputStyle){.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
-                                         .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND};
-    file->texture_curve = HD_CURVE_LINEAR;
-    memcpy(file->output.path, input->output_pattern, sizeof file->output.path);
-    memcpy(file->texture_path, input->texture_path, sizeof file->texture_path);
 }
 
 const char *hd_operand_name(const char *operand) {

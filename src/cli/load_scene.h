@@ -4,15 +4,11 @@
 #define HD_CLI_LOAD_SCENE_H
 
 #include "cli/options.h"
-#include "input/classic_read.h"
 #include "input/scene_file.h"
 
-/* Reads a classic input from a file, or, `path` being NULL, from standard input. */
-HdStatus hd_read_classic(HdClassicInput *input, const char *path, int variant, HdError *error);
-
-/* Makes of a classic input what its JSON would be: curves are linear everywhere, as they are in the
-   classic mode. Takes the scene out of `input`. */
-void hd_scene_file_from_classic(HdSceneFile *file, HdClassicInput *input);
+/* Reads a classic input from a file, or, `path` being NULL, from standard input, as what its JSON
+   would be: curves are linear everywhere, as they are in the classic mode. */
+HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error);
 
 /* What messages call a scene file that the command line names: "-" is standard input. */
 const char *hd_operand_name(const char *operand);

@@ -99,13 +99,7 @@ static HdStatus print_json(const Run *run, HdError *error) {
         "samples", run->scene->samples_per_side, "candidates", describe_candidates(tuning), "best",
         tuning->best, "remembered", run->obstacle == NULL, "reason",
         run->obstacle != NULL ? hd_json_device_text(run->obstacle) : json_null());
-    if (root == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the candidates");
-    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF)
-        return hd_fail(error, HD_FAILED, "cannot write to standard output");
-    return HD_OK;
+    return hd_json_print(root, "the candidates", error);
 }
 
 /* ---- the command ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/json_device_text.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,4 +18,14 @@ json_t *hd_json_device_text(const char *bytes) {
     text = json_string(ascii);
     free(ascii);
     return text;
+}
+
+HdStatus hd_json_print(json_t *root, const char *what, HdError *error) {
+    if (root == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for %s", what);
+    int failed = json_dumpf(root, stdout, JSON_INDENT(2));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF)
+        return hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
 }
