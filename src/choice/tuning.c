@@ -160,11 +160,15 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
     return status;
 }
 
+#define LISTED(number) number,
+
+/* All bundles but single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
-    static const int lanes[] = {4, 8, 16};
+    static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
+    const int count = (int)(sizeof lanes / sizeof *lanes);
     HdLaunch launch = best_so_far(tuner);
     HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && tuner->options->lanes == 0 && i < 3; i++) {
+    for (int i = 1; status == HD_OK && tuner->options->lanes == 0 && i < count; i++) {
         launch.lanes = lanes[i];
         status = try(tuner, &launch, error);
     }

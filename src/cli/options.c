@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "device/pipeline.h"
 #include "image/file_kind.h"
 #include "input/classic_read.h"
 #include "output/outputs.h"
@@ -13,6 +14,9 @@ enum {
     EVERYTHING = MEASURING | HD_COMMAND_CHECK | HD_COMMAND_CONVERT | HD_COMMAND_DEVICES |
                  HD_COMMAND_COMPARE | HD_COMMAND_HELP
 };
+
+#define QUOTED(number) #number,
+static const char *const lane_counts[] = {HD_LANE_COUNTS(QUOTED) NULL};
 
 static const char modes[] = "--gpu, --cpu and --default";
 static const char loudness[] = "--verbose and --quiet";
@@ -103,15 +107,16 @@ const HdOptionSpec hd_option_specs[] = {
     {"--device", NULL, "DEVICE",
      "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
      HD_COMMAND_TUNE, TEXT(device, "a number, BACKEND:NUMBER or part of a name")},
-    {"--lanes", NULL, "N", "rays traced together on a CPU: 1, 4, 8 or 16 (default: what suits it)",
-     MEASURING, ONE_OF(HD_OPTION_NUMERAL, render.lanes, "1", "4", "8", "16")},
+    {"--lanes", NULL, "N",
+     "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
+     MEASURING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts},
     {"--threads", NULL, "N", "threads of the C backend (default: one for each core)", MEASURING,
      INTEGER(render.threads, 1, HD_MAX_THREADS)},
     {"--pipeline", NULL, "NAME",
      "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
      "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
      "and scene)",
-     MEASURING, CHOICE(render.pipeline, "auto", "mega", "wavefront", "wavefront-uncompacted")},
+     MEASURING, .type = HD_OPTION_CHOICE, AT(render.pipeline), .choices = hd_pipeline_names},
     {"--block", NULL, "N",
      "threads of a GPU's work group, a multiple of 32 (default: what suits it)", MEASURING,
      INTEGER(render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP},

@@ -24,8 +24,9 @@ bool hd_pipeline_is_wavefront(HdPipeline pipeline) {
     return pipeline == HD_PIPELINE_WAVEFRONT || pipeline == HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
 }
 
+const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1] = {"auto", "mega", "wavefront",
+                                                              "wavefront-uncompacted", NULL};
+
 const char *hd_pipeline_name(HdPipeline pipeline) {
-    static const char *const names[HD_PIPELINE_COUNT] = {"auto", "mega", "wavefront",
-                                                         "wavefront-uncompacted"};
-    return names[pipeline];
+    return hd_pipeline_names[pipeline];
 }

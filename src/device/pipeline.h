@@ -20,7 +20,8 @@ bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *op
 /* True for both kinds of wavefront. */
 bool hd_pipeline_is_wavefront(HdPipeline pipeline);
 
-/* As on the command line. */
+/* As on the command line, by HdPipeline; NULL ends them. */
+extern const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1];
 const char *hd_pipeline_name(HdPipeline pipeline);
 
 #endif

@@ -27,11 +27,13 @@ struct HdRenderer {
     } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
 
+#define IS(number) || lanes == (number)
+
 HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error) {
     int lanes = options->lanes;
-    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
-        return hd_fail(error, HD_BAD_INPUT, "the number of lanes must be 1, 4, 8 or 16, not %d",
-                       lanes);
+    if (!(lanes == 0 HD_LANE_COUNTS(IS)))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the number of lanes must be " HD_LANE_COUNTS_IN_WORDS ", not %d", lanes);
     if (options->threads < 0 || options->threads > HD_MAX_THREADS)
         return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
                        (int)HD_MAX_THREADS, options->threads);

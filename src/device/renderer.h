@@ -37,8 +37,12 @@ enum { HD_FRAMES_IN_FLIGHT = 2 };
 /* Devices that may share a sequence. */
 enum { HD_MOST_TRACERS = 64 };
 
+/* X(lanes): how many rays a bundle may have; and the same in words. */
+#define HD_LANE_COUNTS(X)       X(1) X(4) X(8) X(16)
+#define HD_LANE_COUNTS_IN_WORDS "1, 4, 8 or 16"
+
 typedef struct HdRenderOptions {
-    int lanes;     /* 1, 4, 8 or 16; 0: what suits the device */
+    int lanes;     /* one of HD_LANE_COUNTS; 0: what suits the device */
     int threads;   /* of the C backend, up to HD_MAX_THREADS; 0: one for each core */
     int block;     /* threads of a GPU's work group, a multiple of HD_BLOCK_STEP up to HD_MAX_BLOCK;
                       0: what suits the device */

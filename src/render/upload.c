@@ -5,7 +5,9 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-enum { KINDS = 4 }; /* 1, 4, 8 and 16 lanes */
+/* One for each count of lanes. */
+#define COUNTED(lanes) +1
+enum { KINDS = 0 HD_LANE_COUNTS(COUNTED) };
 
 struct HdSceneUpload {
     const HdScene *scene;
