@@ -16,14 +16,6 @@ typedef struct Parser {
     bool only_operands; /* after "--" */
 } Parser;
 
-/* "'hedron render'", or the classic mode. */
-static void label(const HdCommandSpec *command, char text[64]) {
-    if (command->name == NULL)
-        snprintf(text, 64, "the classic mode");
-    else
-        snprintf(text, 64, "'hedron %s'", command->name);
-}
-
 /* "-n", or "-nVALUE" where it takes one. */
 static bool is_short(const HdOptionSpec *spec, const char *argument) {
     if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
@@ -49,20 +41,15 @@ static const HdOptionSpec *find_spec(const char *argument, HdCommand command, co
     return found;
 }
 
-static void spell_help(const HdCommandSpec *command, char text[128]) {
-    if (command->name == NULL)
-        snprintf(text, 128, "see 'hedron help'");
-    else
-        snprintf(text, 128, "see 'hedron help %s'", command->name);
-}
-
 /* "did you mean '--size'?", or where to look. */
 static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
                     char text[128]) {
     if (nearest->name != NULL)
         snprintf(text, 128, "did you mean '%s%s'?", prefix, nearest->name);
+    else if (command->name != NULL)
+        snprintf(text, 128, "see 'hedron help %s'", command->name);
     else
-        spell_help(command, text);
+        snprintf(text, 128, "see 'hedron help'");
 }
 
 static HdStatus fail_unknown_option(const Parser *parser, const char *argument, HdError *error) {
@@ -105,29 +92,31 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
 
 static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
     HdOptions *options = parser->options;
-    char name[64];
-    if (parser->command->name == NULL)
+    const char *name = parser->command->name;
+    const int most = parser->command->most_operands;
+    if (name == NULL)
         return fail_unknown_command(parser, argument, error);
-    label(parser->command, name);
     if (argument[0] == '\0')
-        return hd_fail(error, HD_BAD_INPUT, "%s was given an empty name", name);
-    int most = parser->command->most_operands;
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' was given an empty name", name);
     if (most == 0)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes options only, but '%s' was given", name,
-                       argument);
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' takes options only, but '%s' was given",
+                       name, argument);
     if (most > 0 && options->operand_count == most)
-        return hd_fail(error, HD_BAD_INPUT, "%s takes %s only, but '%s' came after '%s'", name,
-                       most == 1 ? "one name" : "two names", argument, options->operands[most - 1]);
+        return hd_fail(error, HD_BAD_INPUT, "'hedron %s' takes %s only, but '%s' came after '%s'",
+                       name, most == 1 ? "one name" : "two names", argument,
+                       options->operands[most - 1]);
     options->operands[options->operand_count++] = argument;
     return HD_OK;
 }
 
 static HdStatus fail_foreign_option(const Parser *parser, const HdOptionSpec *spec,
                                     HdError *error) {
-    char name[64], help[128];
-    label(parser->command, name);
-    spell_help(parser->command, help);
-    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to %s; %s", spec->name, name, help);
+    const char *name = parser->command->name;
+    if (name == NULL)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s does not belong to the classic mode; see 'hedron help'", spec->name);
+    return hd_fail(error, HD_BAD_INPUT, "%s does not belong to 'hedron %s'; see 'hedron help %s'",
+                   spec->name, name, name);
 }
 
 static HdStatus parse_argument(Parser *parser, HdError *error) {

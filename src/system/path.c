@@ -184,16 +184,13 @@ static Part read_part(const char **text, bool takes_marks, int *digits) {
 }
 
 bool hd_pattern_has_number(const char *path) {
-    const bool takes_marks = !has_directive(path);
-    int digits;
-    while (*path != '\0') {
-        Part part = read_part(&path, takes_marks, &digits);
-        if (part == PART_NUMBER)
+    for (const char *run = strchr(path, '#'); run != NULL; run = strchr(run, '#')) {
+        const size_t marks = strspn(run, "#");
+        if (marks <= MAX_DIGITS)
             return true;
-        if (part == PART_WRONG)
-            path += *path == '#' ? strspn(path, "#") : 1;
+        run += marks;
     }
-    return false;
+    return has_directive(path);
 }
 
 static HdStatus count_numbers(const char *pattern, int *numbers, HdError *error) {
