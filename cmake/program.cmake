@@ -33,7 +33,8 @@ install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/hedron-task
         DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# The man page and the completion script are what the program prints. With the thread sanitizer it starts
+# The man page and the completion script are what the program prints, written whenever it is built, so that
+# it can be installed where nothing else was. With the thread sanitizer it starts
 # on some systems only with help, so there are none of it.
 if(HEDRON_SANITIZE MATCHES thread)
     return()
@@ -43,12 +44,11 @@ endif()
 function(hedron_text topic file)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/share/${file})
     add_custom_command(
-        OUTPUT ${output}
+        TARGET hedron POST_BUILD
         COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:hedron> -DTOPIC=${topic}
                 -DOUTPUT=${output} -P ${PROJECT_SOURCE_DIR}/cmake/write_help.cmake
-        DEPENDS hedron ${PROJECT_SOURCE_DIR}/cmake/write_help.cmake
+        BYPRODUCTS ${output}
         VERBATIM)
-    add_custom_target(hedron_${topic} ALL DEPENDS ${output})
     get_filename_component(folder ${file} DIRECTORY)
     install(FILES ${output} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${folder})
 endfunction()

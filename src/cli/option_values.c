@@ -29,8 +29,8 @@ static HdStatus fail_expecting(const Given *given, const char *expected, HdError
 static HdStatus apply_flag(const Given *given, HdError *error) {
     const char *only_one_of = given->spec->only_one_of;
     *(bool *)given->member = true;
-    for (const HdOptionSpec *other = hd_option_specs; only_one_of && other->name; other++)
-        if (other->only_one_of == only_one_of && other != given->spec &&
+    for (const HdOptionSpec *other = hd_option_specs; other->name != NULL; other++)
+        if (only_one_of != NULL && other->only_one_of == only_one_of && other != given->spec &&
             *(const bool *)at(given->options, other->offset))
             return hd_fail(error, HD_BAD_INPUT, "only one of %s may be given", only_one_of);
     return HD_OK;
