@@ -30,7 +30,6 @@ typedef struct Comparison {
 } Comparison;
 
 static const char *const formats[] = {"PNG", "PFM"}; /* by HdPictureFormat */
-static const char *const curve_names[] = {"linear", "srgb"};
 static const char *const channel_names[] = {"red", "green", "blue"};
 
 /* ---- text ---- */
@@ -83,7 +82,7 @@ static void print_text(const Comparison *comparison) {
     const HdDifferenceFigures *display = &figures->display, *linear = &figures->linear;
     for (int i = 0; i < PICTURES; i++)
         print_picture(comparison, i);
-    printf("%-7s %s\n\n", "curve", curve_names[comparison->curve]);
+    printf("%-7s %s\n\n", "curve", hd_curve_names[comparison->curve]);
     printf("%-20s%*s%*s\n", "", FIGURE_WIDTH, "display, 0..255", FIGURE_WIDTH, "linear, 0..1");
     print_figures("RMSE", "", display->rmse, linear->rmse);
     print_figures("PSNR", " dB", display->psnr, linear->psnr);
@@ -133,7 +132,7 @@ static HdStatus print_json(const Comparison *comparison, HdError *error) {
         json_pack("{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o}", "first",
                   describe_picture(comparison, 0), "second", describe_picture(comparison, 1),
                   "width", comparison->facts[0].width, "height", comparison->facts[0].height,
-                  "curve", curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels,
+                  "curve", hd_curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels,
                   "identical", figures->identical, "display", describe_figures(&figures->display),
                   "linear", describe_figures(&figures->linear), "above_1",
                   number_or_null(figures->above_1), "above_8", number_or_null(figures->above_8));

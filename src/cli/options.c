@@ -18,6 +18,8 @@ enum {
 #define QUOTED(number) #number,
 static const char *const lane_counts[] = {HD_LANE_COUNTS(QUOTED) NULL};
 
+const char *const hd_curve_names[] = {"linear", "srgb", NULL};
+
 static const char modes[] = "--gpu, --cpu and --default";
 static const char loudness[] = "--verbose and --quiet";
 
@@ -164,7 +166,8 @@ const HdOptionSpec hd_option_specs[] = {
     {"--curve", NULL, "NAME",
      "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
      "the files say",
-     HD_COMMAND_COMPARE, CHOICE(curve, "linear", "srgb"), .unset = -1},
+     HD_COMMAND_COMPARE, .type = HD_OPTION_CHOICE, AT(curve), .choices = hd_curve_names,
+     .unset = -1},
     {"--help", "-h", NULL, "print this help", EVERYTHING, COMMAND(HD_COMMAND_HELP)},
     {"--version", "-V", NULL, "print the version", RENDERING, COMMAND(HD_COMMAND_VERSION)},
     {.name = NULL},

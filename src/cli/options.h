@@ -96,6 +96,9 @@ typedef struct HdOptionSpec {
     HdCommand command;       /* that takes over */
 } HdOptionSpec;
 
+/* What --curve may be, by HdCurve; NULL ends them. */
+extern const char *const hd_curve_names[];
+
 /* An option may be there twice, with another meaning for another command. */
 extern const HdOptionSpec hd_option_specs[];
 
