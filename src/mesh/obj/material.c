@@ -2,7 +2,6 @@
 #include "mesh/obj/material.h"
 
 #include "base/limits.h"
-#include "mesh/obj/mtl_text.h"
 
 const HdMtlParameters hd_mtl_defaults = {.Kd = {1.0f, 1.0f, 1.0f},
                                          .Tf = {1.0f, 1.0f, 1.0f},

@@ -6,6 +6,9 @@
 #include "base/problems.h"
 #include "mesh/mesh.h"
 
+/* The value of `illum` for a material that has none. */
+enum { HD_MTL_NO_ILLUM = -1 };
+
 /* The parameters that count, named as in the file. */
 typedef struct HdMtlParameters {
     float Ka[3], Kd[3], Ks[3], Ke[3], Tf[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Memory of one reading: limited, and given back in one go. */
+/* Memory of one reading, of which there is a limit. free() frees it. */
 #ifndef HD_MESH_OBJ_MEMORY_H
 #define HD_MESH_OBJ_MEMORY_H
 
@@ -13,26 +13,24 @@ typedef struct HdObjMemory {
     size_t most; /* bytes at a time */
     size_t used;
     bool is_over; /* something was refused because it would have been more */
-    struct HdObjBlock *blocks;
 } HdObjMemory;
 
-/* As realloc(), of blocks from here. NULL, with the old block as it was, where there is no more. */
-void *hd_obj_reallocate(HdObjMemory *memory, void *block, size_t bytes);
+/* As realloc(), of an array of `before` elements, which may be NULL, to `count` of them. NULL, with
+   the array as it was, where there is no more. */
+void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before, size_t count);
 
-/* What the block was asked for with. */
-size_t hd_obj_block_size(const void *block);
+/* The array with room for `count` elements, and some more where it has to grow; `*room` is what it
+   has room for. NULL as above. */
+void *hd_obj_grow(HdObjMemory *memory, void *array, size_t size, size_t count, size_t *room);
 
-/* `block` may be NULL. */
-void hd_obj_release(HdObjMemory *memory, void *block);
+/* Not zeroed; at least a byte. */
+void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);
 
-/* Memory that counts here, and that free() frees, for what outlives the reading; at least a byte,
-   not zeroed. */
-void *hd_obj_allocate_result(HdObjMemory *memory, size_t count, size_t size);
+/* Frees an array of so many bytes; NULL is allowed. Not needed for what lasts until the reading's
+   end. */
+void hd_obj_release(HdObjMemory *memory, void *array, size_t bytes);
 
 /* Tells why there was no memory to read the mesh at `path`. */
 HdStatus hd_obj_fail_memory(const HdObjMemory *memory, const char *path, HdError *error);
-
-/* Releases every block. */
-void hd_obj_release_all(HdObjMemory *memory);
 
 #endif

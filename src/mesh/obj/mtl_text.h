@@ -1,30 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* What of a material library fast_obj gets to see: whole and well-formed statements that it knows,
-   with the values that it would get wrong put right. */
+/* What a material library says, statement by statement: each is checked and kept in one go. */
 #ifndef HD_MESH_OBJ_MTL_TEXT_H
 #define HD_MESH_OBJ_MTL_TEXT_H
 
 #include "base/problems.h"
-#include "mesh/obj/memory.h"
-#include "mesh/obj/words.h"
+#include "mesh/obj/material.h"
+#include "mesh/obj/names.h"
 
-/* The value of `illum` for a material that has none. */
-enum { HD_MTL_NO_ILLUM = -1 };
+typedef struct HdMtlDefinition {
+    HdMtlParameters parameters;
+    char *texture; /* owned; NULL: none */
+    bool is_defined;
+} HdMtlDefinition;
 
-/* What the name of a texture begins with, lest fast_obj takes its first sign for an option. */
-#define HD_MTL_HERE "./"
+/* The materials that a mesh names. */
+typedef struct HdMtlDefinitions {
+    const HdNameTable *names;
+    HdMtlDefinition *of; /* for each name */
+    int32_t *order;      /* the numbers of those that are defined, in the order of the libraries */
+    int count;
+} HdMtlDefinitions;
 
 typedef struct HdMtlSource {
     const char *path;   /* for notes */
-    const char *folder; /* what the names of its textures are to begin with: empty or "folder/" */
-    HdSpan text;
+    HdSpan text;        /* all of it */
+    HdSpan mesh_folder; /* what paths of textures begin with, */
+    HdSpan folder;      /* and go on with: each empty, or with a slash at its end */
 } HdMtlSource;
 
-/* Makes the text for fast_obj, of which `*size` bytes are the memory's. `illum` stands as the first
-   number of Kt, since fast_obj reads every illum as 0. Materials start with HD_MTL_NO_ILLUM and a
-   shininess of 64; Tr becomes d; names of textures count from the OBJ file's
-   folder and begin with HD_MTL_HERE. What is left out is told in `notes`, each kind of statement
-   once. NULL: the memory does not suffice. */
-char *hd_mtl_clean(const HdMtlSource *source, HdObjMemory *memory, HdProblems *notes, size_t *size);
+/* Takes the definitions of materials that are named and not defined yet, with all parameters that
+   they do not give as in hd_mtl_defaults; Tr becomes d. What is left out is told in `notes`, each
+   kind of statement once. False: the memory does not suffice. */
+bool hd_mtl_read(const HdMtlSource *source, HdMtlDefinitions *definitions, HdObjMemory *memory,
+                 HdProblems *notes);
 
 #endif

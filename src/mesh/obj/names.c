@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh/obj/names.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -14,18 +15,21 @@ enum {
 };
 
 static bool allocate(HdNameTable *table, HdObjMemory *memory) {
-    if (table->names == NULL)
-        table->names =
-            hd_obj_reallocate(memory, NULL, HD_MAX_MESH_MATERIALS * sizeof *table->names);
-    if (table->names != NULL && table->sizes == NULL)
-        table->sizes =
-            hd_obj_reallocate(memory, NULL, HD_MAX_MESH_MATERIALS * sizeof *table->sizes);
-    if (table->names == NULL || table->sizes == NULL)
-        return false;
-    table->slots = hd_obj_reallocate(memory, NULL, SLOTS * sizeof *table->slots);
+    table->names = hd_obj_allocate(memory, HD_MAX_MESH_MATERIALS, sizeof *table->names);
+    table->sizes = hd_obj_allocate(memory, HD_MAX_MESH_MATERIALS, sizeof *table->sizes);
+    table->slots = hd_obj_allocate(memory, SLOTS, sizeof *table->slots);
     if (table->slots != NULL)
         memset(table->slots, -1, SLOTS * sizeof *table->slots);
-    return table->slots != NULL;
+    return table->names != NULL && table->sizes != NULL && table->slots != NULL;
+}
+
+void hd_name_table_free(HdNameTable *table) {
+    for (int i = 0; i < table->count; i++)
+        free(table->names[i]);
+    free(table->names);
+    free(table->sizes);
+    free(table->slots);
+    *table = (HdNameTable){0};
 }
 
 /* Long names are not looked at for each short one that collides with them. */
@@ -54,14 +58,16 @@ int hd_name_table_find(const HdNameTable *table, HdSpan name) {
 
 int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory) {
     const size_t size = (size_t)(name.end - name.begin);
-    if (table->slots == NULL && !allocate(table, memory))
+    if (table->slots == NULL && !allocate(table, memory)) {
+        hd_name_table_free(table);
         return HD_NAME_NO_MEMORY;
+    }
     int32_t *slot = slot_of(table, name);
     if (slot != NULL && *slot >= 0)
         return *slot;
     if (slot == NULL || table->count == HD_MAX_MESH_MATERIALS)
         return HD_NAME_TOO_MANY;
-    char *copy = hd_obj_reallocate(memory, NULL, size + 1);
+    char *copy = hd_obj_allocate(memory, size + 1, 1);
     if (copy == NULL)
         return HD_NAME_NO_MEMORY;
     memcpy(copy, name.begin, size);

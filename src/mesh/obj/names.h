@@ -8,12 +8,12 @@
 #include "mesh/obj/memory.h"
 #include "mesh/obj/words.h"
 
-/* All zeros: empty. What it holds is the memory's. */
+/* All zeros: empty. */
 typedef struct HdNameTable {
     int count;
-    char **names;   /* of HD_MAX_MESH_MATERIALS */
-    int32_t *sizes; /* of the names, without the zero byte */
-    int32_t *slots; /* hashed; -1: empty */
+    char **names;   /* owned; room for HD_MAX_MESH_MATERIALS */
+    int32_t *sizes; /* owned; of the names, without the zero byte */
+    int32_t *slots; /* owned; hashed; -1: empty */
 } HdNameTable;
 
 /* What hd_name_table_add returns instead of a number. */
@@ -24,5 +24,7 @@ int hd_name_table_add(HdNameTable *table, HdSpan name, HdObjMemory *memory);
 
 /* The number of the name, or -1. */
 int hd_name_table_find(const HdNameTable *table, HdSpan name);
+
+void hd_name_table_free(HdNameTable *table);
 
 #endif

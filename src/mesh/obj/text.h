@@ -1,77 +1,64 @@
 /* SPDX-License-Identifier: MIT */
-/* What of an OBJ file fast_obj gets to see. That reader trusts its input: a comment behind a face
-   makes it turn for ever, long lines end the file unseen, "nan" is 0, 1e20 too. So each line is
-   checked first, and only whole lines with nothing but well-formed v, vt, vn, f and mtllib are
-   handed on. Materials are told apart here, since fast_obj would compare each name with all. */
+/* What an OBJ file says, line by line: each is checked and kept in one go. */
 #ifndef HD_MESH_OBJ_TEXT_H
 #define HD_MESH_OBJ_TEXT_H
 
 #include <stdint.h>
 
-#include "base/error.h"
 #include "base/problems.h"
+#include "mesh/obj/lines.h"
 #include "mesh/obj/names.h"
 
-/* The most bytes of a line, continued ones together; comments may be longer. */
-enum { HD_OBJ_MOST_LINE = 65000 };
-
-/* What faces refer to by number. */
+/* What corners of faces refer to by number. */
 typedef enum HdObjKind { HD_OBJ_VERTEX, HD_OBJ_UV, HD_OBJ_NORMAL, HD_OBJ_KIND_COUNT } HdObjKind;
 
 typedef struct HdObjElements {
-    int64_t count;
-    int64_t highest; /* that a face names, 0: none */
+    double *numbers; /* owned; of each, 3 of vertices and normals and 2 of texture coordinates, all
+                        rounded to float */
+    size_t count, room;
+    int64_t highest; /* the number, from 1, that a face names; 0: none */
     size_t line_of_highest;
 } HdObjElements;
 
 /* The material of faces before the first `usemtl`. */
 #define HD_OBJ_NO_MATERIAL "default"
 
-/* Faces from `first_face` on have this material, a number of `names`. */
-typedef struct HdObjRun {
-    uint32_t first_face;
-    int32_t material;
-} HdObjRun;
+typedef struct HdObjFace {
+    int32_t corner_count, material; /* a number of `names` */
+} HdObjFace;
+
+/* Numbers of elements from 0; -1: none. */
+typedef struct HdObjCorner {
+    int32_t element[HD_OBJ_KIND_COUNT];
+} HdObjCorner;
 
 typedef struct HdObjText {
-    const char *path;
-    HdObjMemory *memory;
+    HdObjLines lines;
     HdProblems *notes;
-    HdError *error;
-    HdStatus status; /* of the reading so far */
 
     HdObjElements elements[HD_OBJ_KIND_COUNT];
-    int64_t face_count, triangle_count;
-    int most_corners; /* of a face */
-    HdNameTable names;
-    HdObjRun *runs;
-    size_t run_count;
+    HdObjFace *faces; /* owned */
+    size_t face_count, face_room;
+    HdObjCorner *corners; /* owned; of one face after the other */
+    size_t corner_count, corner_room;
+    int64_t triangle_count;
+    int32_t most_corners; /* of a face */
+    HdNameTable names;    /* of materials */
+    char *libraries;      /* owned; their names as the file has them, each with a zero byte */
+    size_t libraries_size, libraries_room;
 
     /* The rest is this module's own. */
-    int descriptor;
-    bool is_at_end;
-    char *raw; /* what has been read and not yet looked at */
-    size_t raw_begin, raw_end;
-    size_t lines_read, line_number;
-    char *joined; /* a line that is continued on the next */
-    char *clean;  /* the next line for fast_obj */
-    size_t clean_size;
-    size_t run_room;
-    int material; /* -1: none has been named */
+    int32_t material; /* -1: none has been named */
     bool has_left_out;
 } HdObjText;
 
-/* Opens the file. `text` has path, memory, notes and error, and zeros. To be closed afterwards,
-   whether it could be opened or not. */
-HdStatus hd_obj_text_open(HdObjText *text);
+/* Reads the whole file. `text` has the path, memory and error of `lines`, notes, and zeros. To be
+   freed afterwards in any case. */
+HdStatus hd_obj_text_read(HdObjText *text);
 
-/* Writes as many whole lines as fit, which are some unless the text is at its end or is wrong:
-   see `status`. `room` is at least HD_OBJ_MOST_LINE + 8. */
-size_t hd_obj_text_read(HdObjText *text, char *to, size_t room);
+/* The elements as an array of their own, free()'s, of just their size. */
+double *hd_obj_text_take(HdObjText *text, HdObjKind kind);
 
-/* What only the whole file tells: whether there are faces, and what they name. */
-HdStatus hd_obj_text_finish(HdObjText *text);
-
-void hd_obj_text_close(HdObjText *text);
+void hd_obj_text_free(HdObjText *text);
 
 #endif

@@ -8,9 +8,14 @@
 
 enum {
     MOST_SHOWN = 80,
-    LONGEST_NUMBER = 64,  /* longer ones might leave the range of double on their way */
-    FIRST_LOST_POWER = 20 /* fast_obj takes powers of ten from here on, both ways, for 0 */
+    LONGEST_NUMBER = 64, /* longer ones might leave the range of double on their way */
+    MOST_POWER = 19      /* of ten, either way */
 };
+
+static const double powers_of_ten[2 * MOST_POWER + 1] = {
+    1e-19, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
+    1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,  1e5,  1e6,
+    1e7,   1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17, 1e18, 1e19};
 
 int hd_span_shown(HdSpan span) {
     const ptrdiff_t length = span.end - span.begin;
@@ -72,20 +77,20 @@ static const char *read_power(const char *at, const char *end, int *power) {
     return at;
 }
 
-/* Reads digits with a point among them. NULL: there are no digits. */
+/* Reads digits with a point among them, those on either side of it as a whole number. NULL: there
+   are no digits. */
 static const char *read_mantissa(const char *at, const char *end, double *mantissa) {
-    double scale = 1.0;
+    double whole = 0.0, fraction = 0.0, scale = 1.0;
     bool has_digits = false;
-    *mantissa = 0.0;
     for (; is_digit(at, end); at++, has_digits = true)
-        *mantissa = 10.0 * *mantissa + (*at - '0');
+        whole = 10.0 * whole + (*at - '0');
     if (at < end && *at == '.')
         at++;
     for (; is_digit(at, end); at++, has_digits = true) {
-        *mantissa = 10.0 * *mantissa + (*at - '0');
+        fraction = 10.0 * fraction + (*at - '0');
         scale *= 10.0;
     }
-    *mantissa /= scale;
+    *mantissa = whole + fraction / scale;
     return has_digits ? at : NULL;
 }
 
@@ -98,12 +103,15 @@ const char *hd_number_fault(HdSpan word, double *value) {
         at = read_power(at, word.end, &power);
     if (at != word.end)
         return "a decimal number";
+    const bool is_lost = power < -MOST_POWER || power > MOST_POWER;
     if (power != 0 && *value != 0.0)
-        *value *= pow(10.0, power);
+        *value *= is_lost ? pow(10.0, power) : powers_of_ten[power + MOST_POWER];
     if (*value > HD_MAX_NUMBER)
         return "a number from -1e12 to 1e12";
-    if ((power >= FIRST_LOST_POWER || power <= -FIRST_LOST_POWER) && *value >= HD_MIN_LENGTH)
+    if (is_lost && *value >= HD_MIN_LENGTH)
         return "a power of ten from -19 to 19";
+    if (is_lost)
+        *value = 0.0;
     if (*word.begin == '-')
         *value = -*value;
     return NULL;
@@ -136,4 +144,10 @@ const char *hd_file_name_fault(HdSpan name) {
         at = end < name.end ? end + 1 : end;
     }
     return NULL;
+}
+
+void hd_fix_separators(char *name) {
+    for (; *name != '\0'; name++)
+        if (*name == '\\')
+            *name = '/';
 }

@@ -13,9 +13,8 @@ static HdNameTable table;
 
 static int clear(void **state) {
     (void)state;
-    hd_obj_release_all(&memory);
+    hd_name_table_free(&table);
     memory = (HdObjMemory){.most = 64 << 20};
-    table = (HdNameTable){.count = 0};
     return 0;
 }
 

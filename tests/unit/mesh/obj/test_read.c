@@ -128,7 +128,7 @@ static void lines_come_in_many_forms(void **state) {
     }
 }
 
-/* Comments and lines around the sizes of all buffers, each once with what fast_obj would drop. */
+/* Comments and lines around the sizes of all buffers. */
 static void long_lines_and_comments_pass(void **state) {
     (void)state;
     static char text[600000];
