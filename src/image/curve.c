@@ -197,6 +197,19 @@ void hd_curve_encode8(HdCurve curve, const float *restrict values, size_t count,
         out[i] = srgb8(values[i]);
 }
 
+void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba) {
+    enum { AT_ONCE = 256 };
+    uint8_t encoded[AT_ONCE * 3];
+    for (size_t first = 0; first < pixels; first += AT_ONCE) {
+        size_t count = pixels - first < AT_ONCE ? pixels - first : AT_ONCE;
+        hd_curve_encode8(curve, rgb + 3 * first, 3 * count, encoded);
+        for (size_t i = 0; i < count; i++) {
+            memcpy(rgba + 4 * (first + i), encoded + 3 * i, 3);
+            rgba[4 * (first + i) + 3] = 255;
+        }
+    }
+}
+
 /* Halves the range of bits in which the code begins; positive floats have their bits' order. */
 static uint32_t find_linear8(unsigned code) {
     uint32_t below = 0, above = bits_of(1.0f);

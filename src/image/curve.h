@@ -17,6 +17,9 @@ typedef enum HdCurve {
 void hd_curve_encode8(HdCurve curve, const float *values, size_t count, uint8_t *out);
 void hd_curve_encode16(HdCurve curve, const float *values, size_t count, uint16_t *out);
 
+/* As hd_curve_encode8 for r, g, b of each pixel, each followed by an alpha of 255. */
+void hd_curve_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba);
+
 /* By code: the bits of the least float that hd_curve_encode8 gives it; 0 for the code 0. A value
    has the greatest code whose threshold is not above it. */
 void hd_curve_thresholds8(HdCurve curve, int32_t thresholds[256]);

@@ -5,8 +5,11 @@
 #include "image/picture_formats.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/limits.h"
 
 enum { HEAD_SIZE = 8 };
 
@@ -34,7 +37,7 @@ static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t
         if (frame->is_encoded)
             pixels = frame->rgba + width * 4 * (size_t)y;
         else
-            hd_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
+            hd_curve_encode_rgba(curve, frame->rgb + width * 3 * (size_t)y, width, row);
         good = fwrite(pixels, 4, width, stream) == width;
     }
     return good;

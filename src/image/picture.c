@@ -2,12 +2,12 @@
 #include "image/picture.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "image/file_kind.h"
+#include "image/pfm.h"
 #include "image/picture_formats.h"
+#include "image/png.h"
 #include "system/file_bytes.h"
-#include "system/machine.h"
 
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
@@ -38,21 +38,9 @@ void hd_image8_free(HdImage8 *image) {
     *image = (HdImage8){0};
 }
 
-void hd_encode_rgba(HdCurve curve, const float *rgb, size_t pixels, uint8_t *rgba) {
-    enum { AT_ONCE = 256 };
-    uint8_t encoded[AT_ONCE * 3];
-    for (size_t first = 0; first < pixels; first += AT_ONCE) {
-        size_t count = pixels - first < AT_ONCE ? pixels - first : AT_ONCE;
-        hd_curve_encode8(curve, rgb + 3 * first, 3 * count, encoded);
-        for (size_t i = 0; i < count; i++) {
-            memcpy(rgba + 4 * (first + i), encoded + 3 * i, 3);
-            rgba[4 * (first + i) + 3] = 255;
-        }
-    }
-}
-
 void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image) {
-    hd_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)frame->height, image->rgba);
+    hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)frame->height,
+                         image->rgba);
 }
 
 static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *error) {
@@ -73,7 +61,7 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPi
     if (kind == HD_OUTPUT_PNG)
         status = hd_image_png_write(frame, style, fingerprint, file->stream, path, error);
     else if (kind == HD_OUTPUT_PFM)
-        status = hd_image_pfm_write(frame, file->stream, path, error);
+        status = hd_pfm_write(frame, file->stream, path, error);
     else
         status = hd_image_data_write(frame, style->curve, file->stream, path, error);
     if (status != HD_OK)
@@ -86,32 +74,6 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
     HdAtomicFile file;
     HdStatus status = hd_picture_prepare(&file, frame, style, NULL, path, error);
     return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
-}
-
-HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
-                           HdError *error) {
-    if (width < 1 || width > HD_MAX_TEXTURE_SIDE || height < 1 || height > HD_MAX_TEXTURE_SIDE)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the texture %s has %lu x %lu pixels, expected 1..%d each", name,
-                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_SIDE);
-    if ((uint64_t)width * height > HD_MAX_TEXTURE_PIXELS)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the texture %s has %lu x %lu pixels, expected at most %d in all", name,
-                       (unsigned long)width, (unsigned long)height, HD_MAX_TEXTURE_PIXELS);
-    texture->texels =
-        hd_large_allocate((size_t)width * (size_t)height * 3 * sizeof *texture->texels);
-    if (texture->texels == NULL)
-        return hd_fail(error, HD_FAILED,
-                       "out of memory: no room for the texture %s of %lu x %lu pixels", name,
-                       (unsigned long)width, (unsigned long)height);
-    texture->width = (int)width;
-    texture->height = (int)height;
-    return HD_OK;
-}
-
-void hd_texture_clear(HdTexture *texture) {
-    free(texture->texels);
-    *texture = (HdTexture){0};
 }
 
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,

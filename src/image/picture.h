@@ -10,6 +10,7 @@
 #include "base/limits.h"
 #include "image/curve.h"
 #include "image/frame.h"
+#include "image/output_style.h"
 #include "image/texture.h"
 #include "system/atomic_file.h"
 
@@ -18,12 +19,6 @@ typedef struct HdImage8 {
     int width, height;
     uint8_t *rgba; /* owned; width * height * 4 */
 } HdImage8;
-
-/* How a picture stores values; PFM is always linear, and only PNG has more than 8 bits. */
-typedef struct HdPictureStyle {
-    HdCurve curve;
-    int bits; /* 8 or 16 */
-} HdPictureStyle;
 
 /* Allocates a picture of width * height; 1..65535 each. */
 HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error);
@@ -43,7 +38,7 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
                           HdError *error);
 
 /* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. A PNG
-   gets the mark of `fingerprint` (picture_mark.h); NULL: none. On failure nothing is left of
+   gets the mark of `fingerprint` (mark.h); NULL: none. On failure nothing is left of
    `file`. */
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
                             const uint64_t *fingerprint, const char *path, HdError *error);
@@ -55,8 +50,5 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
 /* The same from memory; `name` is for messages. */
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error);
-
-/* Frees what the texture owns and clears it; it may be clear already. */
-void hd_texture_clear(HdTexture *texture);
 
 #endif

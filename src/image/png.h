@@ -1,41 +1,63 @@
 /* SPDX-License-Identifier: MIT */
-/* libpng as every reader and writer here wants it. It reports an error by a jump to png_jmpbuf. */
+/* PNG row by row: of every kind that there is as r, g, b, and r, g, b as a file. */
 #ifndef HD_IMAGE_PNG_H
 #define HD_IMAGE_PNG_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-#include <png.h>
-
 #include "base/error.h"
 
-enum { HD_PNG_MESSAGE_SIZE = 256 };
+typedef struct HdPngFacts {
+    int width, height; /* 1..65535 each */
+    int bits;          /* of a channel: 8 or 16 */
+    bool is_srgb;      /* a chunk says so */
+    bool is_interlaced;
+} HdPngFacts;
 
-/* Structures for reading and writing; NULL where there is no memory. Before the jump an error's
-   sentence goes to `message`, which has to live as long; warnings are dropped. */
-png_structp hd_png_create_reader(char message[HD_PNG_MESSAGE_SIZE]);
-png_structp hd_png_create_writer(char message[HD_PNG_MESSAGE_SIZE]);
+/* True where the bytes begin with PNG's signature. */
+bool hd_image_is_png(const unsigned char *bytes, size_t size);
 
-/* What a reader's error is: HD_FAILED where memory was short, else HD_BAD_INPUT. */
-HdStatus hd_png_reading_status(const char *message);
+/* Where a PNG is read from: a file that stands at its begin, or, where that is NULL, memory. It has
+   to live as long as the reader. */
+typedef struct HdPngSource {
+    FILE *file;
+    const unsigned char *bytes;
+    size_t size;
+} HdPngSource;
 
-/* Refuses more than 65535 pixels a side and chunks without measure, and skips all that is not
-   needed for the pixels. Jumps on error, as all that follows. */
-void hd_png_limit_reading(png_structp png);
+typedef struct HdPngReader HdPngReader;
 
-/* Every kind of PNG becomes RGB, with 16 bits where it has as many, otherwise with 8. */
-void hd_png_convert_to_rgb(png_structp png);
+/* Reads the head. `name` is for messages, and has to live as long as the reader. Chunks without
+   measure are refused, and all but those of pixels and sRGB are passed over. What is wrong with the
+   file is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
+HdStatus hd_png_open(HdPngReader **reader, const HdPngSource *source, const char *name,
+                     HdPngFacts *facts, HdError *error);
 
-/* Where a picture is written to. */
-typedef struct HdPngSink {
-    FILE *stream;
-    uint64_t hash; /* of the bytes so far (hash.h) */
-} HdPngSink;
+/* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
+   pixel, 0..65535 whatever the bits; without alpha. */
+HdStatus hd_png_read_rows(HdPngReader *reader, uint16_t *codes, int count, HdError *error);
 
-/* Writes to `sink`, which has to live as long, and prepares the head of an RGB picture of `bits`
-   bits that is not interlaced. Speed comes before size. */
-void hd_png_begin_rgb(png_structp png, png_infop info, HdPngSink *sink, int width, int height,
-                      int bits);
+/* NULL is allowed. */
+void hd_png_close(HdPngReader *reader);
+
+typedef struct HdPngWriter HdPngWriter;
+
+/* Writes the head of a picture that is not interlaced. `path` is for messages, and has to live as
+   long as the writer; so has the stream, which remains the caller's. Speed comes before size. All
+   errors are HD_FAILED. */
+HdStatus hd_png_begin(HdPngWriter **writer, FILE *stream, const char *path, const HdPngFacts *facts,
+                      HdError *error);
+
+/* The next row from the top as the file has it: with 16 bits the high byte comes first. */
+HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error);
+
+/* Ends the file after its last row, with the mark of `fingerprint` (mark.h); NULL: none. */
+HdStatus hd_png_end(HdPngWriter *writer, const uint64_t *fingerprint, HdError *error);
+
+/* In any case, at the end. NULL is allowed. */
+void hd_png_free(HdPngWriter *writer);
 
 #endif

@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/picture_formats.h"
-#include "image/row_formats.h"
+#include "image/pfm.h"
+#include "image/png.h"
 
 enum { CODES = 65536 };
 
@@ -21,10 +21,9 @@ struct HdPictureReader {
     const char *path; /* the caller's */
     HdPictureFacts facts;
     HdCurve curve;
-    HdPngRows *png; /* one of these two */
-    HdPfmRows *pfm;
-    uint16_t *codes;         /* owned; a row of PNG */
-    float *radiances;        /* owned; a row of PFM */
+    HdPngReader *png; /* owned; NULL: the other one is read */
+    HdPfmRows pfm;
+    void *row;               /* owned; codes of PNG, radiances of PFM */
     HdPictureValue *by_code; /* owned; of PNG: CODES of them */
 };
 
@@ -48,14 +47,46 @@ static HdStatus open_file(HdPictureReader *reader, HdError *error) {
                    strerror(reason));
 }
 
+static HdStatus open_png(HdPictureReader *reader, HdError *error) {
+    const HdPngSource source = {.file = reader->file};
+    HdPngFacts facts;
+    HdStatus status = hd_png_open(&reader->png, &source, reader->path, &facts, error);
+    if (status != HD_OK)
+        return status;
+    if (facts.is_interlaced)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is an interlaced PNG, expected one whose rows follow each other",
+                       reader->path);
+    reader->facts = (HdPictureFacts){
+        .format = HD_PICTURE_PNG,
+        .width = facts.width,
+        .height = facts.height,
+        .bits = facts.bits,
+        .curve = facts.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
+    };
+    return HD_OK;
+}
+
+static HdStatus open_pfm(HdPictureReader *reader, HdError *error) {
+    const HdStatus status = hd_pfm_open(&reader->pfm, reader->file, reader->path, error);
+    reader->facts = (HdPictureFacts){
+        .format = HD_PICTURE_PFM,
+        .width = reader->pfm.width,
+        .height = reader->pfm.height,
+        .bits = 32,
+        .curve = HD_CURVE_LINEAR,
+    };
+    return status;
+}
+
 static HdStatus open_format(HdPictureReader *reader, HdError *error) {
     unsigned char head[8];
     size_t count = fread(head, 1, sizeof head, reader->file);
     rewind(reader->file);
     if (hd_image_is_png(head, count))
-        return hd_png_rows_open(&reader->png, reader->file, reader->path, &reader->facts, error);
+        return open_png(reader, error);
     if (count >= 2 && memcmp(head, "PF", 2) == 0)
-        return hd_pfm_rows_open(&reader->pfm, reader->file, reader->path, &reader->facts, error);
+        return open_pfm(reader, error);
     if (count >= 2 && memcmp(head, "Pf", 2) == 0)
         return hd_fail(error, HD_BAD_INPUT, "%s is a PFM without colour, expected one with r, g, b",
                        reader->path);
@@ -94,48 +125,48 @@ static void fill_codes(HdPictureReader *reader) {
 }
 
 HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError *error) {
-    const size_t count = (size_t)reader->facts.width * 3;
     reader->curve = curve;
-    if (reader->facts.format == HD_PICTURE_PNG) {
-        reader->codes = malloc(count * sizeof *reader->codes);
+    reader->row = malloc((size_t)reader->facts.width * 3 * sizeof(float));
+    if (reader->png != NULL)
         reader->by_code = malloc(CODES * sizeof *reader->by_code);
-    } else {
-        reader->radiances = malloc(count * sizeof *reader->radiances);
-    }
-    bool has_room = reader->radiances != NULL || (reader->codes != NULL && reader->by_code != NULL);
-    if (!has_room)
+    if (reader->row == NULL || (reader->png != NULL && reader->by_code == NULL))
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", reader->path);
-    if (reader->facts.format == HD_PICTURE_PNG)
+    if (reader->png != NULL)
         fill_codes(reader);
     return HD_OK;
 }
 
-HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
-    const size_t count = (size_t)reader->facts.width * 3;
-    HdStatus status = reader->facts.format == HD_PICTURE_PNG
-                          ? hd_png_rows_next(reader->png, reader->codes, error)
-                          : hd_pfm_rows_next(reader->pfm, reader->radiances, error);
-    for (size_t i = 0; i < count && status == HD_OK; i++) {
-        if (reader->facts.format == HD_PICTURE_PNG) {
-            values[i] = reader->by_code[reader->codes[i]];
-        } else {
-            const double linear = (double)reader->radiances[i];
-            values[i].linear = linear;
-            values[i].display = HD_DISPLAY_TOP * hd_curve_to_display(reader->curve, linear);
-        }
+static HdStatus next_of_png(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    const uint16_t *codes = reader->row;
+    const HdStatus status = hd_png_read_rows(reader->png, reader->row, 1, error);
+    for (size_t i = 0; i < (size_t)reader->facts.width * 3 && status == HD_OK; i++)
+        values[i] = reader->by_code[codes[i]];
+    return status;
+}
+
+static HdStatus next_of_pfm(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    const float *radiances = reader->row;
+    const HdStatus status = hd_pfm_next_row(&reader->pfm, reader->row, error);
+    for (size_t i = 0; i < (size_t)reader->facts.width * 3 && status == HD_OK; i++) {
+        const double linear = (double)radiances[i];
+        values[i].linear = linear;
+        values[i].display = HD_DISPLAY_TOP * hd_curve_to_display(reader->curve, linear);
     }
     return status;
+}
+
+HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    return reader->png != NULL ? next_of_png(reader, values, error)
+                               : next_of_pfm(reader, values, error);
 }
 
 void hd_picture_reader_close(HdPictureReader *reader) {
     if (reader == NULL)
         return;
-    hd_png_rows_close(reader->png);
-    hd_pfm_rows_close(reader->pfm);
+    hd_png_close(reader->png);
     if (reader->file != NULL)
         fclose(reader->file);
-    free(reader->codes);
-    free(reader->radiances);
+    free(reader->row);
     free(reader->by_code);
     free(reader);
 }

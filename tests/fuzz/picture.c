@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "fuzz.h"
-#include "image/picture_formats.h"
+#include "image/png.h"
 #include "image/row_reader.h"
 #include "png_sums.h"
 

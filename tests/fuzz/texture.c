@@ -5,7 +5,7 @@
 
 #include "fuzz.h"
 #include "image/picture.h"
-#include "image/picture_formats.h"
+#include "image/png.h"
 #include "png_sums.h"
 
 /* Allocating more takes the campaign's time. */

@@ -1,23 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/row_formats.h"
+#include "image/pfm.h"
 
-#include <stdbool.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 
 #include "base/limits.h"
-
-struct HdPfmRows {
-    FILE *file;
-    const char *path;
-    off_t begin; /* of the values */
-    int width, height, next;
-    bool is_big_endian;
-    unsigned char *bytes; /* owned; a row */
-};
 
 static HdStatus fail_head(const char *path, HdError *error) {
     return hd_fail(error, HD_BAD_INPUT,
@@ -50,7 +41,7 @@ static bool read_head(HdPfmRows *rows) {
 }
 
 static HdStatus check_size(const HdPfmRows *rows, HdError *error) {
-    off_t expected = rows->begin + (off_t)rows->width * rows->height * 12;
+    const int64_t expected = rows->begin + (int64_t)rows->width * rows->height * 12;
     if (fseeko(rows->file, 0, SEEK_END) != 0 || ftello(rows->file) != expected)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s has %lld bytes, expected %lld for %d x %d pixels in PFM", rows->path,
@@ -59,38 +50,9 @@ static HdStatus check_size(const HdPfmRows *rows, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus open_rows(HdPfmRows *rows, HdError *error) {
-    if (!read_head(rows))
-        return fail_head(rows->path, error);
-    HdStatus status = check_size(rows, error);
-    if (status != HD_OK)
-        return status;
-    rows->bytes = malloc((size_t)rows->width * 12);
-    if (rows->bytes == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", rows->path);
-    return HD_OK;
-}
-
-HdStatus hd_pfm_rows_open(HdPfmRows **out, FILE *file, const char *path, HdPictureFacts *facts,
-                          HdError *error) {
-    HdPfmRows *rows = calloc(1, sizeof *rows);
-    if (rows == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
+HdStatus hd_pfm_open(HdPfmRows *rows, FILE *file, const char *path, HdError *error) {
     *rows = (HdPfmRows){.file = file, .path = path};
-    HdStatus status = open_rows(rows, error);
-    if (status != HD_OK) {
-        hd_pfm_rows_close(rows);
-        return status;
-    }
-    *facts = (HdPictureFacts){
-        .format = HD_PICTURE_PFM,
-        .width = rows->width,
-        .height = rows->height,
-        .bits = 32,
-        .curve = HD_CURVE_LINEAR,
-    };
-    *out = rows;
-    return HD_OK;
+    return read_head(rows) ? check_size(rows, error) : fail_head(path, error);
 }
 
 static float get_float(const unsigned char bytes[4], bool is_big_endian) {
@@ -102,22 +64,48 @@ static float get_float(const unsigned char bytes[4], bool is_big_endian) {
     return value;
 }
 
-/* The file has its rows from the bottom. */
-HdStatus hd_pfm_rows_next(HdPfmRows *rows, float *values, HdError *error) {
+/* The file has its rows from the bottom. Its bytes lie where they become values. */
+HdStatus hd_pfm_next_row(HdPfmRows *rows, float *values, HdError *error) {
     const size_t count = (size_t)rows->width * 3;
-    off_t place = rows->begin + (off_t)(rows->height - 1 - rows->next) * rows->width * 12;
-    if (fseeko(rows->file, place, SEEK_SET) != 0 ||
-        fread(rows->bytes, 4, count, rows->file) != count)
+    const unsigned char *bytes = (const unsigned char *)values;
+    const int64_t place = rows->begin + (int64_t)(rows->height - 1 - rows->next) * rows->width * 12;
+    if (fseeko(rows->file, (off_t)place, SEEK_SET) != 0 ||
+        fread(values, 4, count, rows->file) != count)
         return hd_fail(error, HD_BAD_INPUT, "cannot read row %d of %s", rows->next, rows->path);
     for (size_t i = 0; i < count; i++)
-        values[i] = get_float(rows->bytes + 4 * i, rows->is_big_endian);
+        values[i] = get_float(bytes + 4 * i, rows->is_big_endian);
     rows->next++;
     return HD_OK;
 }
 
-void hd_pfm_rows_close(HdPfmRows *rows) {
-    if (rows == NULL)
-        return;
-    free(rows->bytes);
-    free(rows);
+/* Little endian, which the negative scale of the head stands for. */
+static void put_float(unsigned char out[4], float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        out[i] = (unsigned char)(bits >> (8 * i) & 0xff);
+}
+
+static bool write_all(const HdFrame *frame, FILE *stream, unsigned char *row) {
+    const size_t values = (size_t)frame->width * 3;
+    bool good = fprintf(stream, "PF\n%d %d\n-1.0\n", frame->width, frame->height) > 0;
+    for (int y = frame->height - 1; y >= 0 && good; y--) {
+        const float *rgb = frame->rgb + values * (size_t)y;
+        for (size_t i = 0; i < values; i++)
+            put_float(row + 4 * i, rgb[i]);
+        good = fwrite(row, 4, values, stream) == values;
+    }
+    return good;
+}
+
+HdStatus hd_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error) {
+    unsigned char *row = malloc((size_t)frame->width * 12);
+    if (row == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
+    bool good = write_all(frame, stream, row);
+    int reason = errno;
+    free(row);
+    if (!good)
+        return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
+    return HD_OK;
 }
