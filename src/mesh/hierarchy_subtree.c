@@ -5,7 +5,10 @@
 
 #include "mesh/hierarchy_split.h"
 
-int hd_subtree_add_node(HdSubtree *subtree, int axis, const HdBounds *left, const HdBounds *right) {
+enum { MOST_SWEPT = 12 };
+
+/* Adds a node and returns its number. */
+static int add_node(HdSubtree *subtree, int axis, const HdBounds *left, const HdBounds *right) {
     HdBuildNode *node = &subtree->nodes[subtree->node_count];
     node->box[0] = hd_bounds_box(left);
     node->box[1] = hd_bounds_box(right);
@@ -13,16 +16,18 @@ int hd_subtree_add_node(HdSubtree *subtree, int axis, const HdBounds *left, cons
     return subtree->node_count++;
 }
 
-HdBranch hd_subtree_leaf(const HdGroup *group, float area) {
+static HdBranch leaf_of(const HdGroup *group, float area) {
     return (HdBranch){~(group->first << HD_LEAF_SHIFT | group->count), 0,
                       area * (float)group->count};
 }
 
-HdBranch hd_subtree_join(HdSubtree *subtree, const HdGroup *group, int number, HdBranch left,
-                         HdBranch right) {
+/* The cheaper one: a leaf of all items, if they are few enough, in which case the node and what
+   came after it is dropped; or node `number` with two branches. */
+static HdBranch join(HdSubtree *subtree, const HdGroup *group, int number, HdBranch left,
+                     HdBranch right) {
     const HdHierarchyOptions *options = subtree->options;
     const float area = hd_bounds_area(&group->box, subtree->unit);
-    const HdBranch leaf = hd_subtree_leaf(group, area);
+    const HdBranch leaf = leaf_of(group, area);
     const float cost = options->node_cost * area + left.cost + right.cost;
     if (group->count <= options->most_in_leaf && !(cost < leaf.cost)) {
         subtree->node_count = number;
@@ -104,20 +109,160 @@ static int divide(const HdSubtree *subtree, const HdGroup *group, HdGroup sides[
     return 0;
 }
 
+/* A few items, and their order along each axis. A range of places holds the same items on every
+   axis, so that a split reorders within its range only. */
+typedef struct Sweep {
+    HdSubtree *subtree;
+    HdItem items[MOST_SWEPT];
+    float centre[MOST_SWEPT][4];
+    uint8_t sorted[3][MOST_SWEPT];
+} Sweep;
+
+/* By insertion, so stable. */
+static void sort(Sweep *sweep, int count, int axis) {
+    uint8_t *sorted = sweep->sorted[axis];
+    for (int i = 0; i < count; i++) {
+        const float centre = sweep->centre[i][axis];
+        int at = i;
+        for (; at > 0 && centre < sweep->centre[sorted[at - 1]][axis]; at--)
+            sorted[at] = sorted[at - 1];
+        sorted[at] = (uint8_t)i;
+    }
+}
+
+/* costs[i] becomes area times items of the group's first i + 1 along each axis; with a `step` of -1
+   of the last ones, from the i-th on. */
+static void sum_costs(HdLanes *costs, const Sweep *sweep, int begin, int count, int step) {
+    const HdBounds none = hd_bounds_empty();
+    HdBounds box[3] = {none, none, none};
+    int at = step > 0 ? 0 : count - 1;
+    for (int i = 1; i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const HdItem *item = &sweep->items[sweep->sorted[axis][begin + at]];
+            hd_bounds_add(&box[axis], item->lower.lanes, item->upper.lanes);
+        }
+        costs[at] = hd_bounds_areas(box, sweep->subtree->unit) * (float)i;
+        at += step;
+    }
+}
+
+static HdBounds bound_range(const Sweep *sweep, const uint8_t *sorted, int count) {
+    HdBounds box = hd_bounds_empty();
+    for (int i = 0; i < count; i++)
+        hd_bounds_add(&box, sweep->items[sorted[i]].lower.lanes,
+                      sweep->items[sorted[i]].upper.lanes);
+    return box;
+}
+
+/* Puts the items of the first `left_count` places on `axis` first on the other axes too. */
+static void divide_sweep(Sweep *sweep, int begin, int count, int axis, int left_count) {
+    bool is_left[MOST_SWEPT];
+    for (int i = 0; i < count; i++)
+        is_left[sweep->sorted[axis][begin + i]] = i < left_count;
+    for (int other = 0; other < 3; other++) {
+        if (other == axis)
+            continue;
+        uint8_t *sorted = sweep->sorted[other] + begin, right[MOST_SWEPT];
+        int lefts = 0, rights = 0;
+        for (int i = 0; i < count; i++) {
+            const uint8_t item = sorted[i];
+            sorted[lefts] = right[rights] = item;
+            lefts += is_left[item];
+            rights += !is_left[item];
+        }
+        memcpy(sorted + lefts, right, (size_t)rights);
+    }
+}
+
+/* Two items have one split only; the axis is the one that tells them apart best. */
+static int farthest_axis(const Sweep *sweep, int begin) {
+    const float *a = sweep->centre[sweep->sorted[0][begin]];
+    const float *b = sweep->centre[sweep->sorted[0][begin + 1]];
+    int farthest = 0;
+    for (int axis = 1; axis < 3; axis++)
+        if (fabsf(a[axis] - b[axis]) > fabsf(a[farthest] - b[farthest]))
+            farthest = axis;
+    return farthest;
+}
+
+/* Whether the centres of all items are at one place on the axis. */
+static bool is_flat(const Sweep *sweep, int begin, int count, int axis) {
+    const uint8_t *sorted = sweep->sorted[axis] + begin;
+    return !(sweep->centre[sorted[0]][axis] < sweep->centre[sorted[count - 1]][axis]);
+}
+
+static int choose(const Sweep *sweep, int begin, int count, int *left_count) {
+    *left_count = count / 2;
+    if (count == 2)
+        return farthest_axis(sweep, begin);
+    HdLanes below[MOST_SWEPT], above[MOST_SWEPT];
+    sum_costs(below, sweep, begin, count, 1);
+    sum_costs(above, sweep, begin, count, -1);
+    HdBest best = hd_best_none();
+    for (int i = 1; i < count; i++)
+        hd_best_offer(&best, below[i - 1] + above[i], i);
+    for (int axis = 0; axis < 3; axis++)
+        if (is_flat(sweep, begin, count, axis))
+            best.cost[axis] = INFINITY;
+    const int axis = hd_best_axis(&best);
+    if (axis < 0)
+        return 0;
+    *left_count = best.place[axis];
+    return axis;
+}
+
+static HdBranch build_sweep(Sweep *sweep, const HdGroup *group, int begin) {
+    if (group->count == 1)
+        return leaf_of(group, hd_bounds_area(&group->box, sweep->subtree->unit));
+    HdGroup left = {.first = group->first}, right;
+    const int axis = choose(sweep, begin, group->count, &left.count);
+    divide_sweep(sweep, begin, group->count, axis, left.count);
+    const uint8_t *sorted = sweep->sorted[axis] + begin;
+    right.first = group->first + left.count;
+    right.count = group->count - left.count;
+    left.box = bound_range(sweep, sorted, left.count);
+    right.box = bound_range(sweep, sorted + left.count, right.count);
+    const int number = add_node(sweep->subtree, axis, &left.box, &right.box);
+    const HdBranch first = build_sweep(sweep, &left, begin);
+    const HdBranch second = build_sweep(sweep, &right, begin + left.count);
+    return join(sweep->subtree, group, number, first, second);
+}
+
+/* As hd_subtree_build for at most MOST_SWEPT items, which are divided at the best of all places
+   between them. It does not look at the depth. */
+static HdBranch sweep_group(HdSubtree *subtree, const HdGroup *group) {
+    if (group->count <= 1)
+        return leaf_of(group, hd_bounds_area(&group->box, subtree->unit));
+    HdItem *items = subtree->items + group->first;
+    Sweep sweep;
+    sweep.subtree = subtree;
+    for (int i = 0; i < group->count; i++) {
+        sweep.items[i] = items[i];
+        const HdLanes centre = hd_item_centre(&items[i], subtree->unit);
+        memcpy(sweep.centre[i], &centre, sizeof centre);
+    }
+    for (int axis = 0; axis < 3; axis++)
+        sort(&sweep, group->count, axis);
+    const HdBranch branch = build_sweep(&sweep, group, 0);
+    for (int i = 0; i < group->count; i++)
+        items[i] = sweep.items[sweep.sorted[0][i]];
+    return branch;
+}
+
 /* A sweep of n items makes at most n - 1 nodes below each other. */
 static bool can_sweep(const HdGroup *group) {
-    return group->count <= HD_MAX_SWEEP && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH;
+    return group->count <= MOST_SWEPT && group->depth + group->count <= HD_MAX_HIERARCHY_DEPTH;
 }
 
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group) {
     if (can_sweep(group))
-        return hd_subtree_sweep(subtree, group);
+        return sweep_group(subtree, group);
     if (group->count == 1 || group->depth > HD_MAX_HIERARCHY_DEPTH)
-        return hd_subtree_leaf(group, hd_bounds_area(&group->box, subtree->unit));
+        return leaf_of(group, hd_bounds_area(&group->box, subtree->unit));
     HdGroup sides[2];
     const int axis = divide(subtree, group, sides);
-    const int number = hd_subtree_add_node(subtree, axis, &sides[0].box, &sides[1].box);
+    const int number = add_node(subtree, axis, &sides[0].box, &sides[1].box);
     const HdBranch left = hd_subtree_build(subtree, &sides[0]);
     const HdBranch right = hd_subtree_build(subtree, &sides[1]);
-    return hd_subtree_join(subtree, group, number, left, right);
+    return join(subtree, group, number, left, right);
 }

@@ -27,22 +27,6 @@ typedef struct HdBranch {
 /* The cheapest of a leaf and the nodes below `group`. */
 HdBranch hd_subtree_build(HdSubtree *subtree, const HdGroup *group);
 
-/* The same for at most HD_MAX_SWEEP items, which are divided at the best of all places between
-   them. It does not look at the depth. */
-HdBranch hd_subtree_sweep(HdSubtree *subtree, const HdGroup *group);
-
-enum { HD_MAX_SWEEP = 12 };
-
-/* Adds a node and returns its number. */
-int hd_subtree_add_node(HdSubtree *subtree, int axis, const HdBounds *left, const HdBounds *right);
-
-HdBranch hd_subtree_leaf(const HdGroup *group, float area);
-
-/* The cheaper one: a leaf of all items, if they are few enough, in which case the node and what
-   came after it is dropped; or node `number` with two branches. */
-HdBranch hd_subtree_join(HdSubtree *subtree, const HdGroup *group, int number, HdBranch left,
-                         HdBranch right);
-
 /* Whether a group must be halved, because its leaves would come too deep otherwise. */
 bool hd_group_is_deep(const HdGroup *group, const HdHierarchyOptions *options);
 

@@ -171,8 +171,9 @@ static HdSpan next_raw_line(HdObjLines *lines) {
 static bool join(HdObjLines *lines, HdSpan line, size_t *used) {
     const size_t length = (size_t)(line.end - line.begin);
     if (*used + length > HD_OBJ_MOST_LINE)
-        return HD_OBJ_FAIL_LINE(lines, "with those that continue it, it is longer than %d bytes",
-                                HD_OBJ_MOST_LINE);
+        return hd_obj_fail_at(lines, lines->line_number,
+                              "with those that continue it, it is longer than %d bytes",
+                              HD_OBJ_MOST_LINE);
     memcpy(lines->joined + *used, line.begin, length);
     *used += length;
     return true;

@@ -43,7 +43,4 @@ __attribute__((format(printf, 3, 4)))
 #endif
 bool hd_obj_fail_at(HdObjLines *lines, size_t line, const char *format, ...);
 
-/* The same for the line that was taken last. */
-#define HD_OBJ_FAIL_LINE(lines, ...) hd_obj_fail_at((lines), (lines)->line_number, __VA_ARGS__)
-
 #endif

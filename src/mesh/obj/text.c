@@ -22,6 +22,8 @@ static const char *const kinds[HD_OBJ_KIND_COUNT] = {"vertex", "texture coordina
 static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "maplib",
                                        "lod", "bevel", "c_interp", "d_interp"};
 
+#define fail_line(text, ...) hd_obj_fail_at(&(text)->lines, (text)->lines.line_number, __VA_ARGS__)
+
 static bool is_statement_end(HdSpan word) {
     return word.begin == word.end || *word.begin == '#';
 }
@@ -47,13 +49,12 @@ static bool keep_numbers(HdObjText *text, HdObjKind kind, HdSpan line) {
             break;
         const char *fault = hd_number_fault(word, &numbers[i]);
         if (fault != NULL)
-            return HD_OBJ_FAIL_LINE(&text->lines, "number %d of a %s is '%.*s', expected %s", i + 1,
-                                    kinds[kind], hd_span_shown(word), word.begin, fault);
+            return fail_line(text, "number %d of a %s is '%.*s', expected %s", i + 1, kinds[kind],
+                             hd_span_shown(word), word.begin, fault);
         numbers[i] = (double)(float)numbers[i];
     }
     if (text->elements[kind].count == MOST_ELEMENTS)
-        return HD_OBJ_FAIL_LINE(&text->lines, "there are more than %d %s", (int)MOST_ELEMENTS,
-                                plurals[kind]);
+        return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, plurals[kind]);
     double *element = add_element(text, kind);
     if (element == NULL)
         return hd_obj_fail_room(&text->lines);
@@ -90,11 +91,11 @@ static bool keep_index(HdObjText *text, HdObjKind kind, int64_t number, HdSpan w
     corner->element[kind] = (int32_t)(absolute - 1);
     if (absolute > 0)
         return true;
-    return HD_OBJ_FAIL_LINE(&text->lines,
-                            "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
-                            "-%zu counted back from here",
-                            hd_span_shown(word), word.begin, kinds[kind], (long long)number,
-                            elements->count);
+    return fail_line(text,
+                     "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
+                     "-%zu counted back from here",
+                     hd_span_shown(word), word.begin, kinds[kind], (long long)number,
+                     elements->count);
 }
 
 /* "v", "v/t", "v//n" or "v/t/n". */
@@ -114,8 +115,8 @@ static bool read_corner(HdObjText *text, HdSpan word, HdObjCorner *corner) {
         if (*at++ != '/')
             break;
     }
-    return HD_OBJ_FAIL_LINE(
-        &text->lines,
+    return fail_line(
+        text,
         "corner '%.*s' of a face, expected numbers of a vertex, texture coordinate and "
         "normal as 1, 1/2, 1//3 or 1/2/3",
         hd_span_shown(word), word.begin);
@@ -135,9 +136,8 @@ static bool set_material(HdObjText *text, HdSpan name) {
     if (number == HD_NAME_NO_MEMORY)
         return hd_obj_fail_room(&text->lines);
     if (number == HD_NAME_TOO_MANY)
-        return HD_OBJ_FAIL_LINE(&text->lines,
-                                "there are more materials than fit, expected at most %d",
-                                (int)HD_MAX_MESH_MATERIALS);
+        return fail_line(text, "there are more materials than fit, expected at most %d",
+                         (int)HD_MAX_MESH_MATERIALS);
     text->material = number;
     return true;
 }
@@ -164,16 +164,15 @@ static bool keep_face(HdObjText *text, HdSpan line) {
         count++;
     }
     if (count < 3)
-        return HD_OBJ_FAIL_LINE(&text->lines, "a face has %d corner%s, expected at least 3",
-                                (int)count, count == 1 ? "" : "s");
+        return fail_line(text, "a face has %d corner%s, expected at least 3", (int)count,
+                         count == 1 ? "" : "s");
     if (!add_face(text, count))
         return false;
     text->triangle_count += count - 2;
     if (count > text->most_corners)
         text->most_corners = count;
     if (text->triangle_count > HD_MAX_MESH_TRIANGLES)
-        return HD_OBJ_FAIL_LINE(&text->lines, "there are more than %d triangles",
-                                (int)HD_MAX_MESH_TRIANGLES);
+        return fail_line(text, "there are more than %d triangles", (int)HD_MAX_MESH_TRIANGLES);
     return true;
 }
 
@@ -194,7 +193,7 @@ static bool keep_name(HdObjText *text, HdSpan line, const char *what, bool is_li
     const HdSpan name = hd_rest(line);
     const char *fault = hd_name_fault(name);
     if (fault != NULL)
-        return HD_OBJ_FAIL_LINE(&text->lines, "the name of a %s, expected %s", what, fault);
+        return fail_line(text, "the name of a %s, expected %s", what, fault);
     return is_library ? add_library(text, name) : set_material(text, name);
 }
 
@@ -202,9 +201,8 @@ static bool keep_name(HdObjText *text, HdSpan line, const char *what, bool is_li
 static bool leave_out(HdObjText *text, HdSpan word) {
     for (const char *at = word.begin; at < word.end; at++)
         if (*at <= ' ' || *at > '~')
-            return HD_OBJ_FAIL_LINE(&text->lines,
-                                    "it begins with byte 0x%02x, so this is no OBJ file",
-                                    (unsigned)(unsigned char)*at);
+            return fail_line(text, "it begins with byte 0x%02x, so this is no OBJ file",
+                             (unsigned)(unsigned char)*at);
     for (size_t i = 0; i < sizeof harmless / sizeof *harmless; i++)
         if (hd_span_is(word, harmless[i]))
             return true;

@@ -6,8 +6,15 @@
 
 #include <stdbool.h>
 
+#include "scene/scene.h"
 #include "scene/triangulate/segments.h"
-#include "scene/triangulate/solid.h"
+
+/* Numbers of the materials of a solid's mesh: its faces, its rims, then the discs of each of the
+   edge lights' colours twice, outside of the rim and on it, if there are discs. Shadow rays pass
+   discs as they pass what is below: `passes_as` is the face's number or the rim's. */
+enum { HD_SOLID_MATERIAL_FACE, HD_SOLID_MATERIAL_RIM, HD_SOLID_MATERIAL_DISCS };
+
+enum { HD_MIN_DISC_SIDES = 8, HD_MAX_DISC_SIDES = 256 };
 
 enum { HD_MAX_FACE_SIDES = 5 };
 
@@ -41,8 +48,8 @@ void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides
 HdStatus hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network,
                                 HdError *error);
 
-/* Number of the material at a point of a face, as triangulation.h has them: where discs overlap,
-   that of the last edge, as in the kernels. */
+/* Number of the material at a point of a face, as above: where discs overlap, that of the last edge,
+   as in the kernels. */
 int hd_pattern_material(const HdPattern *pattern, int face, HdVec2 point);
 
 /* How far a point of a face's plane is inside of one of its sides. */

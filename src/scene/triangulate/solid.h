@@ -5,13 +5,7 @@
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
-
-/* Numbers of the materials of a solid's mesh: its faces, its rims, then the discs of each of the
-   edge lights' colours twice, outside of the rim and on it, if there are discs. Shadow rays pass
-   discs as they pass what is below: `passes_as` is the face's number or the rim's. */
-enum { HD_SOLID_MATERIAL_FACE, HD_SOLID_MATERIAL_RIM, HD_SOLID_MATERIAL_DISCS };
-
-enum { HD_MIN_DISC_SIDES = 8, HD_MAX_DISC_SIDES = 256 };
+#include "scene/triangulate/pattern.h"
 
 /* The solid about its own centre, turned as it is in the scene: closed, with every inner edge
    shared by exactly two triangles that name the same two vertices, no corner of one within the edge
