@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a hierarchy is built from: boxes in vectors of four floats, which any compiler keeps in
-   registers. For src/hierarchy*.c alone. */
+   registers. For src/mesh/hierarchy*.c alone. */
 #ifndef HD_MESH_HIERARCHY_ITEMS_H
 #define HD_MESH_HIERARCHY_ITEMS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Where to divide the items of a node, by the surface area heuristic. For src/hierarchy*.c alone.
- */
+/* Where to divide the items of a node, by the surface area heuristic. For src/mesh/hierarchy*.c
+   alone. */
 #ifndef HD_MESH_HIERARCHY_SPLIT_H
 #define HD_MESH_HIERARCHY_SPLIT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Builds one subtree of a hierarchy on one thread. For src/hierarchy*.c alone. */
+/* Builds one subtree of a hierarchy on one thread. For src/mesh/hierarchy*.c alone. */
 #ifndef HD_MESH_HIERARCHY_SUBTREE_H
 #define HD_MESH_HIERARCHY_SUBTREE_H
 

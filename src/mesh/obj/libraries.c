@@ -136,36 +136,34 @@ static void define_materials(const Libraries *libraries, HdMesh *mesh) {
     }
 }
 
-static void note_undefined(const Libraries *libraries) {
+static void note_undefined(const Libraries *libraries, const HdMesh *mesh) {
     const HdMtlDefinitions *definitions = &libraries->definitions;
-    const HdNameTable *names = definitions->names;
-    const int count = names->count - definitions->count;
+    const int count = mesh->material_count - definitions->count;
     int first = 0;
     if (count == 0)
         return;
     while (definitions->of[first].is_defined)
         first++;
-    if (names->count == 1 && strcmp(names->names[0], HD_OBJ_NO_MATERIAL) == 0)
+    const char *name = mesh->materials[first].name;
+    if (mesh->material_count == 1 && strcmp(name, HD_OBJ_NO_MATERIAL) == 0)
         return; /* the file wants none */
     hd_problem(libraries->notes,
                "%s: no material library has '%.80s'%s, so the default look is taken: white, opaque",
-               libraries->path, names->names[first],
-               count > 1 ? " and others that faces name" : "");
+               libraries->path, name, count > 1 ? " and others that faces name" : "");
 }
 
-/* Names stay in the table too, in which libraries look for them. */
-static bool name_materials(const HdNameTable *names, HdObjMemory *memory, HdMesh *mesh) {
+/* The names become the mesh's. */
+static bool make_materials(HdNameTable *names, HdObjMemory *memory, HdMesh *mesh) {
     mesh->materials = hd_obj_allocate(memory, (size_t)names->count, sizeof *mesh->materials);
-    for (int i = 0; mesh->materials != NULL && i < names->count; i++) {
-        const size_t size = (size_t)names->sizes[i] + 1;
-        char *name = hd_obj_allocate(memory, size, 1);
-        if (name == NULL)
-            return false;
-        memcpy(name, names->names[i], size);
-        mesh->materials[i] = (HdMeshMaterial){.name = name, .picture = -1, .passes_as = -1};
-        mesh->material_count++;
+    if (mesh->materials == NULL)
+        return false;
+    mesh->material_count = names->count;
+    for (int i = 0; i < names->count; i++) {
+        mesh->materials[i] =
+            (HdMeshMaterial){.name = names->names[i], .picture = -1, .passes_as = -1};
+        names->names[i] = NULL;
     }
-    return mesh->materials != NULL;
+    return true;
 }
 
 bool hd_obj_read_materials(HdObjText *text, HdMesh *mesh) {
@@ -173,12 +171,12 @@ bool hd_obj_read_materials(HdObjText *text, HdMesh *mesh) {
                            .memory = text->lines.memory,
                            .notes = text->notes,
                            .definitions.names = &text->names};
-    const bool has_room = name_materials(&text->names, libraries.memory, mesh) &&
-                          allocate_definitions(&libraries.definitions, libraries.memory) &&
-                          read_libraries(&libraries, text->libraries, text->libraries_size);
+    const bool has_room = allocate_definitions(&libraries.definitions, libraries.memory) &&
+                          read_libraries(&libraries, text->libraries, text->libraries_size) &&
+                          make_materials(&text->names, libraries.memory, mesh);
     if (has_room) {
         define_materials(&libraries, mesh);
-        note_undefined(&libraries);
+        note_undefined(&libraries, mesh);
     }
     free_definitions(&libraries.definitions);
     return has_room;

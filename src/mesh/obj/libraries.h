@@ -6,9 +6,9 @@
 #include "mesh/mesh.h"
 #include "mesh/obj/text.h"
 
-/* Gives the mesh a material for each name of the text, as its libraries define it or, where none
-   does, white and opaque. What is not used is told in the text's notes. False: the memory does not
-   suffice. */
+/* Gives the mesh a material for each name of the text, which is taken from there: as its libraries
+   define it or, where none does, white and opaque. What is not used is told in the text's notes.
+   False: the memory does not suffice. */
 bool hd_obj_read_materials(HdObjText *text, HdMesh *mesh);
 
 #endif

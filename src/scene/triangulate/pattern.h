@@ -48,8 +48,8 @@ void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides
 HdStatus hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network,
                                 HdError *error);
 
-/* Number of the material at a point of a face, as above: where discs overlap, that of the last edge,
-   as in the kernels. */
+/* Number of the material at a point of a face, as above: where discs overlap, that of the last
+   edge, as in the kernels. */
 int hd_pattern_material(const HdPattern *pattern, int face, HdVec2 point);
 
 /* How far a point of a face's plane is inside of one of its sides. */
