@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "system/file_bytes.h"
+
 enum { RAW_SIZE = 1 << 17 };
 
 _Static_assert(RAW_SIZE > HD_OBJ_MOST_LINE + 2, "a line and its end fit into the buffer");
@@ -44,16 +46,11 @@ static bool fill(HdObjLines *lines) {
     memmove(lines->raw, lines->raw + lines->raw_begin, lines->raw_end - lines->raw_begin);
     lines->raw_end -= lines->raw_begin;
     lines->raw_begin = 0;
-    while (!lines->is_at_end && lines->raw_end < RAW_SIZE) {
-        const ssize_t count =
-            read(lines->descriptor, lines->raw + lines->raw_end, RAW_SIZE - lines->raw_end);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return hd_obj_fail_reading(lines, strerror(errno));
-        lines->is_at_end = count == 0;
-        lines->raw_end += (size_t)count;
-    }
+    const ssize_t count =
+        hd_read_fully(lines->descriptor, lines->raw + lines->raw_end, RAW_SIZE - lines->raw_end);
+    if (count < 0)
+        return hd_obj_fail_reading(lines, strerror(errno));
+    lines->raw_end += (size_t)count;
     return true;
 }
 

@@ -18,7 +18,6 @@ typedef struct HdObjLines {
 
     /* The rest is this module's own. */
     int descriptor;
-    bool is_at_end;
     char *raw; /* what has been read and not yet taken */
     size_t raw_begin, raw_end;
     size_t lines_read;
