@@ -115,6 +115,7 @@ static void lines_come_in_many_forms(void **state) {
         "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n",
         "# \\\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\ng b c\ns off\nf 1 2 3\n",
         "v 0.000000000000000000 0 0e99\nv 1 0 1e-32\nv 0 10000000000e-10 0\nf 1 2 3",
+        "v 0 0 0\nv 1 0 0.5e-4294967296\nv 0 1 0\nf 1 2 3",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         HdMesh mesh = read_text(texts[i]);
