@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/check.h"
 #include "input/scene_file.h"
 #include "processor_time.h"
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../tests/conformance/mesh_builder.h"
+#include "input/check.h"
 #include "kernels/common/scene_tables.h"
 #include "system/thread_pool.h"
 

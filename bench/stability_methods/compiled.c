@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/check.h"
 #include "scene/triangulate/scene.h"
 
 enum { DISC_SIDES = 16, DEPTH = 1000 };

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "input/builtin.h"
+#include "input/check.h"
 #include "render/survey.h"
 #include "scene/triangulate/scene.h"
 #include "system/interrupt.h"

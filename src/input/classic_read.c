@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/check.h"
 #include "input/tokens.h"
 
 /* What the input leaves open. Lengths are in circumradii of the solid. */

@@ -23,7 +23,7 @@
     .type = HD_FIELD_VECTOR, .low = (low_number), .high = (high_number)
 #define ANY_NUMBER      NUMBER(-HD_MAX_NUMBER, HD_MAX_NUMBER)
 #define POSITION        VECTOR(-HD_MAX_NUMBER, HD_MAX_NUMBER)
-#define COLOUR          VECTOR(0.0, 1.0)
+#define COLOUR          VECTOR(0.0, 1.0), .is_light = true
 #define DEFAULT(number) .standard = {(number)}
 #define WHITE           .standard = {1.0, 1.0, 1.0}
 #define REQUIRED        .required = true
@@ -51,33 +51,30 @@ static const HdChoice samplings[] = {
 _Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
 
 static const HdField image_fields[] = {
-    {AT(HdSceneFile, scene.width, "width", "Pixels in a row"), INTEGER(1, HD_MAX_IMAGE_SIDE),
-     DEFAULT(640)},
-    {AT(HdSceneFile, scene.height, "height", "Rows of pixels"), INTEGER(1, HD_MAX_IMAGE_SIDE),
-     DEFAULT(480)},
-    {AT(HdSceneFile, scene.samples_per_side, "samples",
+    {AT(HdScene, width, "width", "Pixels in a row"), INTEGER(1, HD_MAX_IMAGE_SIDE), DEFAULT(640)},
+    {AT(HdScene, height, "height", "Rows of pixels"), INTEGER(1, HD_MAX_IMAGE_SIDE), DEFAULT(480)},
+    {AT(HdScene, samples_per_side, "samples",
         "n of the n x n samples that every pixel is the mean of"),
-     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), DEFAULT(3)},
-    {AT(HdSceneFile, scene.depth, "depth",
-        "How many times a ray may go on, mirrored or passing through"),
+     INTEGER(1, HD_MAX_SAMPLES_PER_SIDE), .said = "samples per side", DEFAULT(3)},
+    {AT(HdScene, depth, "depth", "How many times a ray may go on, mirrored or passing through"),
      INTEGER(0, HD_MAX_DEPTH), DEFAULT(8)},
-    {AT(HdSceneFile, scene.cutoff, "cutoff",
-        "Rays whose weight falls below it in every channel end; 0: off"),
+    {AT(HdScene, cutoff, "cutoff", "Rays whose weight falls below it in every channel end; 0: off"),
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
-    {AT(HdSceneFile, scene.sampling, "aa",
+    {AT(HdScene, sampling, "aa",
         "Which of the n x n samples a pixel gets: all of the grid, or as many as it needs"),
      .type = HD_FIELD_CHOICE, .choices = samplings, DEFAULT(HD_SAMPLING_GRID)},
-    {AT(HdSceneFile, scene.max_error, "max_error",
+    {AT(HdScene, max_error, "max_error",
         "What may be left out of a pixel, in steps of 255: depth, cutoff and lights follow from "
         "it; "
         "0: off"),
-     NUMBER(0.0, HD_MAX_ERROR), DEFAULT(0.0)},
-    {AT(HdSceneFile, scene.exposure, "exposure", "What every pixel is multiplied by"),
+     NUMBER(0.0, HD_MAX_ERROR), .least_but_zero = HD_LEAST_ERROR, .said = "max_error",
+     DEFAULT(0.0)},
+    {AT(HdScene, exposure, "exposure", "What every pixel is multiplied by"),
      NUMBER(0.0, HD_MAX_EXPOSURE), .above_low = true, DEFAULT(1.0)},
 };
 static const HdObjectType image = {.fields = image_fields,
                                    .field_count = COUNT_OF(image_fields),
-                                   .size = sizeof(HdSceneFile),
+                                   .size = sizeof(HdScene),
                                    .is_complete = true};
 
 static const HdField cylinder_fields[] = {
@@ -107,20 +104,18 @@ static const HdObjectType cylinder = TYPE(HdPath, cylinder_fields);
     .type = HD_FIELD_PATH, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .object = &cylinder
 
 static const HdField camera_fields[] = {
-    {AT(HdSceneFile, scene.field_of_view_degrees, "field_of_view",
-        "Horizontal field of view, in degrees"),
-     NUMBER(0.0, HD_MAX_FIELD_OF_VIEW), .above_low = true, DEFAULT(60.0)},
-    {AT(HdSceneFile, scene.frame_count, "frames", "Frames of the whole sequence"),
-     INTEGER(1, HD_MAX_FRAMES), DEFAULT(1)},
-    {AT(HdSceneFile, scene.eye, "eye", "Where the eye is: a point, or a path on a cylinder"), PATH,
-     REQUIRED, DEFAULT(1.0)},
-    {AT(HdSceneFile, scene.target, "target",
-        "What the eye looks at: a point, or a path on a cylinder"),
-     PATH, DEFAULT(0.0)},
+    {AT(HdScene, field_of_view_degrees, "field_of_view", "Horizontal field of view, in degrees"),
+     NUMBER(0.0, HD_MAX_FIELD_OF_VIEW), .above_low = true, .unit = " degrees", DEFAULT(60.0)},
+    {AT(HdScene, frame_count, "frames", "Frames of the whole sequence"), INTEGER(1, HD_MAX_FRAMES),
+     .said = "frame count", DEFAULT(1)},
+    {AT(HdScene, eye, "eye", "Where the eye is: a point, or a path on a cylinder"), PATH, REQUIRED,
+     DEFAULT(1.0)},
+    {AT(HdScene, target, "target", "What the eye looks at: a point, or a path on a cylinder"), PATH,
+     DEFAULT(0.0)},
 };
 static const HdObjectType camera = {.fields = camera_fields,
                                     .field_count = COUNT_OF(camera_fields),
-                                    .size = sizeof(HdSceneFile),
+                                    .size = sizeof(HdScene),
                                     .is_complete = true};
 
 static bool has_output_path(const void *owner) {
@@ -202,17 +197,18 @@ static const HdObjectType rim = TYPE(HdSolid, rim_fields);
 
 static const HdField edge_light_fields[] = {
     {AT(HdEdgeLights, per_edge, "per_edge", "Lights on each edge, evenly spaced"),
-     INTEGER(0, HD_MAX_LIGHTS), REQUIRED},
+     INTEGER(0, HD_MAX_LIGHTS), .said = "number of lights per edge", REQUIRED},
     {AT(HdEdgeLights, colours, "colours", "The edges take these in turn; linear"),
      .type = HD_FIELD_VECTORS, .low = 0.0, .high = 1.0, .least = 1, .most = HD_MAX_EDGE_COLOURS,
-     .count_offset = offsetof(HdEdgeLights, colour_count), WHITE},
+     .count_offset = offsetof(HdEdgeLights, colour_count), .said = "edge lights' colour",
+     .is_light = true, WHITE},
     {AT(HdEdgeLights, intensity, "intensity",
         "Of each light, times its colour; 0: it lights nothing"),
-     NUMBER(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' intensity", DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radius, "disc_radius", "Each light is seen as a disc of this radius"),
-     NUMBER(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' disc radius", DEFAULT(0.0)},
     {AT(HdEdgeLights, disc_radiance, "disc_radiance", "Brightness of the disc, times the colour"),
-     NUMBER(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
+     NUMBER(0.0, HD_MAX_NUMBER), .said = "edge lights' disc radiance", DEFAULT(0.0)},
     FALLOFF(HdEdgeLights),
 };
 static const HdObjectType edge_lights = TYPE(HdEdgeLights, edge_light_fields);
@@ -230,7 +226,7 @@ static const HdField solid_fields[] = {
      .choices = kinds, REQUIRED, DEFAULT(HD_TETRAHEDRON)},
     {AT(HdSolid, centre, "centre", "Its centre"), POSITION, DEFAULT(0.0)},
     {AT(HdSolid, circumradius, "circumradius", "From the centre to a corner"), LENGTH,
-     DEFAULT(1.0)},
+     .said = "radius", DEFAULT(1.0)},
     {AT(HdSolid, rotation_degrees, "rotation",
         "Degrees about the x axis, then the y axis, then the z axis"),
      VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
@@ -273,7 +269,7 @@ static const HdField light_fields[] = {
     {AT(HdLight, intensity, "colour", "Linear"), .type = HD_FIELD_UNSCALED, .low = 0.0, .high = 1.0,
      WHITE},
     {AT(HdLight, intensity, "intensity", "What the colour is multiplied by"),
-     .type = HD_FIELD_FACTOR, .low = 0.0, .high = HD_MAX_NUMBER, DEFAULT(1.0)},
+     .type = HD_FIELD_FACTOR, .low = 0.0, .high = HD_MAX_NUMBER, .is_light = true, DEFAULT(1.0)},
     FALLOFF(HdLight),
 };
 static const HdObjectType light = TYPE(HdLight, light_fields);
@@ -300,7 +296,7 @@ static const HdField floor_fields[] = {
         "Of a flat and convex quadrilateral, in their order around it, from the texture's top "
         "left"),
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
-     REQUIRED},
+     .said = "corner", REQUIRED},
     {AT(HdSceneFile, scene.floor.material, "material", "Name of its material"), MATERIAL},
     {.key = "texture",
      .about = "Picture that tints the floor",
@@ -322,17 +318,16 @@ static const HdField scene_fields[] = {
      .type = HD_FIELD_CHOICE,
      .choices = versions,
      REQUIRED},
-    {.key = "image",
-     .about = "The picture and what it may cost",
-     .type = HD_FIELD_OBJECT,
+    {AT(HdSceneFile, scene, "image", "The picture and what it may cost"), .type = HD_FIELD_OBJECT,
      .object = &image},
-    {.key = "camera", .about = "The view", .type = HD_FIELD_OBJECT, .object = &camera, REQUIRED},
+    {AT(HdSceneFile, scene, "camera", "The view"), .type = HD_FIELD_OBJECT, .object = &camera,
+     REQUIRED},
     {.key = "output",
      .about = "What becomes of the frames",
      .type = HD_FIELD_OBJECT,
      .object = &output},
     {AT(HdSceneFile, scene.background, "background", "Where a ray meets nothing; linear"),
-     VECTOR(0.0, HD_MAX_NUMBER), DEFAULT(0.0)},
+     VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, DEFAULT(0.0)},
     {.key = "materials",
      .about = "Materials by their names",
      .type = HD_FIELD_MATERIALS,
@@ -343,7 +338,7 @@ static const HdField scene_fields[] = {
      .count_offset = offsetof(HdSceneFile, scene.solid_count)},
     {AT(HdSceneFile, mesh_entries, "meshes", "Meshes of triangles, each in its place"),
      .type = HD_FIELD_LIST, .object = &mesh, .most = HD_MAX_INSTANCES,
-     .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
+     .said = "meshes in their places", .count_offset = offsetof(HdSceneFile, mesh_entry_count)},
     {AT(HdSceneFile, scene.lights, "lights", "Point lights"), .type = HD_FIELD_LIST,
      .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
@@ -372,6 +367,26 @@ bool hd_field_is_given(const HdField *field, const void *owner) {
     if (field->flag_offset != 0)
         return *(const bool *)(const void *)((const char *)owner + field->flag_offset);
     return field->is_given == NULL || field->is_given(owner);
+}
+
+void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]) {
+    snprintf(out, HD_SAID_SIZE, "%s", field->said != NULL ? field->said : field->key);
+    for (char *c = out; field->said == NULL && *c != '\0'; c++)
+        if (*c == '_')
+            *c = ' ';
+}
+
+const char *hd_field_choice(const HdField *field, int value) {
+    const HdChoice *choice = field->choices;
+    while (choice[1].json != NULL && choice->value != value)
+        choice++;
+    return choice->json;
+}
+
+int hd_field_count(const HdField *field, const void *owner) {
+    if (field->count_offset == 0)
+        return field->most;
+    return *(const int *)(const void *)((const char *)owner + field->count_offset);
 }
 
 bool hd_field_holds(const HdField *field, double value) {

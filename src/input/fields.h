@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The one table of what a scene file may say. The reader, the writer and the JSON Schema follow it,
-   and so does what messages expect. */
+/* The one table of what a scene may say. The reader, the writer, the checks and the JSON Schema
+   follow it, and so does what messages expect. */
 #ifndef HD_INPUT_FIELDS_H
 #define HD_INPUT_FIELDS_H
 
@@ -9,7 +9,7 @@
 
 #include "input/scene_file.h"
 
-enum { HD_MAX_MATERIALS = 1024, HD_EXPECTED_SIZE = 256 };
+enum { HD_MAX_MATERIALS = 1024, HD_EXPECTED_SIZE = 256, HD_SAID_SIZE = 48 };
 
 /* What a field is in JSON, and in the struct at its offset. */
 typedef enum HdFieldType {
@@ -45,6 +45,9 @@ typedef struct HdField {
     bool required;
     bool above_low, below_high; /* that bound itself is out of the range */
     double low, high;           /* of the number, or of every number of a vector */
+    double least_but_zero;      /* a valid scene's number is 0 or at least this; 0: as above */
+    bool is_light;              /* vectors are red, green and blue, not x, y and z */
+    const char *said, *unit;    /* how the checks call it (NULL: its key) and end (NULL: not) */
     double standard[3];         /* the default; where it is required, a valid stand-in */
     size_t offset;              /* in the struct of the object that the field belongs to */
     size_t count_offset;        /* of the number of elements; 0: `most`, always */
@@ -80,6 +83,15 @@ bool hd_field_may_be_absent(const HdField *field);
 
 /* Whether the struct at `owner` has it. */
 bool hd_field_is_given(const HdField *field, const void *owner);
+
+/* What the checks call it: "mirror tint". */
+void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]);
+
+/* The JSON of the choice that has the value; of the last one where none has. */
+const char *hd_field_choice(const HdField *field, int value);
+
+/* Elements of its list, or vectors, in the struct at `owner`. */
+int hd_field_count(const HdField *field, const void *owner);
 
 /* Whether the number is in the field's range. */
 bool hd_field_holds(const HdField *field, double value);

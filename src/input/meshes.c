@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image/picture.h"
+#include "input/check.h"
 #include "input/scene_file.h"
 #include "mesh/obj/read.h"
 #include "system/interrupt.h"

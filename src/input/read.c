@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "input/builtin.h"
+#include "input/check.h"
 #include "input/fields.h"
 #include "input/report.h"
 #include "input/scene_texts.h"
@@ -273,7 +274,7 @@ static void check_shares(Reader *reader, HdMaterial *material) {
     char place[HD_JSON_PATH_SIZE + 2];
     const int before = reader->report.problems->count;
     snprintf(place, sizeof place, "%s: ", reader->report.path);
-    hd_material_check_shares(material, place, reader->report.problems);
+    hd_material_check(material, place, reader->report.problems);
     if (reader->report.problems->count != before)
         material->reflection = material->inner_reflection = 0.0;
 }
@@ -429,8 +430,8 @@ static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
     HdScene *scene = &file->scene;
     bool is_any_wrong = false;
     if (reader->report.is_view_wrong) {
-        hd_field_reset(hd_field(camera, "eye"), file);
-        hd_field_reset(hd_field(camera, "target"), file);
+        hd_field_reset(hd_field(camera, "eye"), scene);
+        hd_field_reset(hd_field(camera, "target"), scene);
     }
     if (reader->report.is_floor_wrong)
         scene->floor.present = false;

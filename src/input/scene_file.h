@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "base/problems.h"
 #include "image/curve.h"
 #include "image/output_style.h"
 #include "scene/scene.h"

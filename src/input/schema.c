@@ -137,13 +137,6 @@ static void print_type(HdJsonPrinter *printer, const HdField *field) {
     }
 }
 
-static void print_default_choice(HdJsonPrinter *printer, const HdField *field) {
-    const HdChoice *choice = field->choices;
-    while (choice->value != (int)field->standard[0])
-        choice++;
-    hd_json_raw(printer, choice->json);
-}
-
 /* Of what may be left out; what then is not there at all has none. */
 static void print_default(HdJsonPrinter *printer, const HdField *field) {
     const HdVec3 vector = hd_vec3(field->standard[0], field->standard[1], field->standard[2]);
@@ -156,7 +149,7 @@ static void print_default(HdJsonPrinter *printer, const HdField *field) {
         hd_json_raw(printer, "false");
         break;
     case HD_FIELD_CHOICE:
-        print_default_choice(printer, field);
+        hd_json_raw(printer, hd_field_choice(field, (int)field->standard[0]));
         break;
     case HD_FIELD_VECTORS:
         hd_json_open(printer, '[');

@@ -121,28 +121,12 @@ static HdVec3 light_colour(HdVec3 light) {
 
 /* Fields */
 
-static int element_count(const HdField *field, const void *owner) {
-    if (field->count_offset == 0)
-        return field->most;
-    return *(const int *)(const void *)((const char *)owner + field->count_offset);
-}
-
 static void write_vectors(Writer *writer, const HdField *field, const void *owner) {
     const HdVec3 *vectors = place_of(field, owner);
     hd_json_open(&writer->printer, '[');
-    for (int i = 0; i < element_count(field, owner); i++)
+    for (int i = 0; i < hd_field_count(field, owner); i++)
         hd_json_vector(&writer->printer, vectors[i]);
     hd_json_close(&writer->printer, ']');
-}
-
-static void write_choice(Writer *writer, const HdField *field, const void *owner) {
-    const HdChoice *choice = field->choices;
-    if (choice[1].json != NULL) {
-        const int value = *(const int *)place_of(field, owner);
-        while (choice[1].json != NULL && choice->value != value)
-            choice++;
-    }
-    hd_json_raw(&writer->printer, choice->json);
 }
 
 static void write_path(Writer *writer, const HdField *field, const HdPath *path) {
@@ -156,7 +140,7 @@ static void write_list(Writer *writer, const HdField *field, const void *owner) 
     const char *elements;
     memcpy(&elements, place_of(field, owner), sizeof elements);
     hd_json_open(&writer->printer, '[');
-    for (int i = 0; i < element_count(field, owner); i++)
+    for (int i = 0; i < hd_field_count(field, owner); i++)
         write_object(writer, field->object, elements + (size_t)i * field->object->size);
     hd_json_close(&writer->printer, ']');
 }
@@ -201,7 +185,7 @@ static void write_value(Writer *writer, const HdField *field, const void *owner)
         write_vectors(writer, field, owner);
         break;
     case HD_FIELD_CHOICE:
-        write_choice(writer, field, owner);
+        hd_json_raw(printer, hd_field_choice(field, *(const int *)place));
         break;
     case HD_FIELD_SCALE:
         write_scale(writer, *(const HdVec3 *)place);
@@ -258,10 +242,10 @@ static bool is_default(const HdField *field, const void *owner) {
     case HD_FIELD_UNSCALED:
         return is_standard_vector(field, light_colour(*(const HdVec3 *)place));
     case HD_FIELD_VECTORS:
-        return element_count(field, owner) == 1 &&
+        return hd_field_count(field, owner) == 1 &&
                is_standard_vector(field, *(const HdVec3 *)place);
     case HD_FIELD_LIST:
-        return element_count(field, owner) == 0;
+        return hd_field_count(field, owner) == 0;
     default:
         return false;
     }

@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "base/limits.h"
-#include "base/problems.h"
 #include "base/vector.h"
 #include "image/texture.h"
 #include "mesh/material.h"
@@ -163,24 +162,6 @@ int hd_scene_endless_light_count(const HdScene *scene);
 
 /* Triangles of all meshes, each counted once however often it is placed. */
 int64_t hd_scene_triangle_count(const HdScene *scene);
-
-/* How messages name the parts of a scene: "solid 2", or as JSON does, "solids[1]". */
-typedef enum HdNaming { HD_NAMING_PROSE, HD_NAMING_JSON } HdNaming;
-
-/* Checks every value and what values must be to each other: the two shares of a side, a flat and
-   convex floor, refracting solids that overlap nothing, an eye that is never at its target. Adds
-   all that is wrong to `problems`. Library code may rely on a scene in which nothing was found. */
-void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems);
-
-/* Checks the instances alone, whose meshes are built, as a part of hd_scene_check. */
-void hd_scene_check_instances(const HdScene *scene, HdNaming naming, HdProblems *problems);
-
-/* Checks the shares of both sides of a material alone; `place` begins the messages. */
-void hd_material_check_shares(const HdMaterial *material, const char *place, HdProblems *problems);
-
-/* The same as hd_scene_check, in prose; on failure the error names the first value that is wrong.
- */
-HdStatus hd_scene_validate(const HdScene *scene, HdError *error);
 
 /* Frees the meshes, their instances and pictures; the scene then has none. */
 void hd_scene_drop_meshes(HdScene *scene);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/check.h"
 #include "render/adaptive.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {

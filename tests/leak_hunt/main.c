@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "../conformance/render_scene.h"
+#include "input/check.h"
 #include "hunt.h"
 
 enum { LANE_COUNTS = 4, PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES, ALL = -1 };

@@ -3,6 +3,7 @@
 
 #include "device/self_test_scenes.h"
 #include "expect.h"
+#include "input/check.h"
 #include "kernels/common/scene_tables.h"
 
 static HdError error;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "expect.h"
+#include "input/check.h"
 #include "scene/scene.h"
 
 /* A valid scene; each test spoils one value of it. */

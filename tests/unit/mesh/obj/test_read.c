@@ -3,9 +3,9 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "input/check.h"
 #include "mesh/obj/read.h"
 #include "mesh/obj/text.h"
-#include "scene/scene.h"
 #include "test_folder.h"
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -373,7 +373,7 @@ static HdMeshMaterial read_material(const char *text) {
     assert_string_equal(mesh.materials[0].name, "m");
     const HdMeshMaterial material = mesh.materials[0];
     const HdMaterial *m = &material.material;
-    hd_material_check_shares(m, "", &problems);
+    hd_material_check(m, "", &problems);
     assert_int_equal(problems.count, 0);
     assert_in_range(m->shininess, 1, HD_MAX_SHININESS);
     assert_true(m->index_of_refraction >= HD_MIN_INDEX_OF_REFRACTION &&
@@ -826,7 +826,7 @@ static void check_mesh(const HdMesh *mesh) {
     }
     for (int i = 0; i < mesh->material_count; i++) {
         HdProblems problems = {0};
-        hd_material_check_shares(&mesh->materials[i].material, "", &problems);
+        hd_material_check(&mesh->materials[i].material, "", &problems);
         assert_int_equal(problems.count, 0);
     }
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Where the parts of a scene are to each other and to themselves. */
+#include "input/check_geometry.h"
+
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "input/fields.h"
 #include "scene/camera.h"
-#include "scene/checker.h"
 #include "scene/overlap.h"
 
 /* The cross product of the diagonals is normal to both, so two opposite corners are always equally
@@ -95,10 +97,8 @@ void hd_check_flight(HdSceneChecker *checker, const HdScene *scene) {
         return;
     for (int frame = 0; status == HD_OK && frame < frames; frame++)
         status = hd_camera_at(&camera, scene, frame, &error);
-    hd_checker_enter(checker, "", "camera");
     if (status != HD_OK)
         hd_problem(checker->problems, "%s%s", checker->place, error.message);
-    hd_checker_leave(checker);
 }
 
 static bool refracts(const HdSolid *solid) {
@@ -108,16 +108,13 @@ static bool refracts(const HdSolid *solid) {
 /* "solids[1] (cube)" */
 static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
                        char out[48]) {
-    static const char *const kinds[HD_SOLID_KIND_COUNT] = {
-        [HD_TETRAHEDRON] = "tetrahedron", [HD_HEXAHEDRON] = "cube",
-        [HD_OCTAHEDRON] = "octahedron",   [HD_DODECAHEDRON] = "dodecahedron",
-        [HD_ICOSAHEDRON] = "icosahedron",
-    };
-    const char *kind = kinds[solid->kind];
+    const HdObjectType *type = hd_field(&hd_scene_fields, "solids")->object;
+    const char *quoted = hd_field_choice(hd_field(type, "kind"), (int)solid->kind);
+    const int length = (int)strlen(quoted) - 2;
     if (checker->naming == HD_NAMING_JSON)
-        snprintf(out, 48, "solids[%d] (%s)", index, kind);
+        snprintf(out, 48, "solids[%d] (%.*s)", index, length, quoted + 1);
     else
-        snprintf(out, 48, "solid %d (%s)", index + 1, kind);
+        snprintf(out, 48, "solid %d (%.*s)", index + 1, length, quoted + 1);
 }
 
 static void add_overlap(HdSceneChecker *checker, const char *refracting, const char *other,
