@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input/builtin.h"
 #include "input/check.h"
-#include "input/scene_file.h"
+#include "input/load.h"
+#include "input/meshes.h"
 #include "processor_time.h"
 
 enum { PEAK_ROUNDS = 1 << 16 };

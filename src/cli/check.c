@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/load_scene.h"
+#include "input/schema.h"
 
 static void print_notes(const char *name, const HdProblems *notes) {
     for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)

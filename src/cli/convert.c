@@ -9,6 +9,7 @@
 #include "cli/load_scene.h"
 #include "image/file_kind.h"
 #include "input/builtin.h"
+#include "input/write.h"
 #include "system/atomic_file.h"
 
 /* A scene's texture counts from the scene's folder, that of a classic input from the current one.

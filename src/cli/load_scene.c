@@ -8,6 +8,7 @@
 
 #include "input/builtin.h"
 #include "input/check.h"
+#include "input/load.h"
 #include "render/survey.h"
 #include "scene/triangulate/scene.h"
 #include "system/interrupt.h"

@@ -26,13 +26,16 @@ bool hd_texture_path_is_relative(const char *path) {
            strcmp(path, HD_BUILTIN_TEXTURE) != 0;
 }
 
-HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error) {
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error) {
+    HdTexture *texture = &file->scene.floor.texture;
     char expanded[HD_MAX_PATH];
-    if (strcmp(path, HD_BUILTIN_TEXTURE) == 0)
-        return hd_texture_decode(&scene->floor.texture, hd_default_texture, hd_default_texture_size,
-                                 "the built-in texture", curve, error);
-    HdStatus status = hd_path_expand_home(path, expanded, error);
+    if (file->texture_path[0] == '\0')
+        return HD_OK;
+    if (strcmp(file->texture_path, HD_BUILTIN_TEXTURE) == 0)
+        return hd_texture_decode(texture, hd_default_texture, hd_default_texture_size,
+                                 "the built-in texture", file->texture_curve, error);
+    HdStatus status = hd_path_expand_home(file->texture_path, expanded, error);
     if (status != HD_OK)
         return status;
-    return hd_texture_read(&scene->floor.texture, expanded, curve, error);
+    return hd_texture_read(texture, expanded, file->texture_curve, error);
 }

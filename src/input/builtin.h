@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-#include "image/curve.h"
 #include "input/classic_read.h"
+#include "input/scene_file.h"
 
 /* The texture path that stands for the embedded texture. */
 #define HD_BUILTIN_TEXTURE "builtin:floor"
@@ -21,8 +21,8 @@ const char *hd_default_scene_text(size_t *size);
 /* The most colourful configuration that the classic input can tell, without its texture. */
 HdStatus hd_default_input(HdClassicInput *input, HdError *error);
 
-/* Reads the texture of the scene's floor: the embedded one, or a file ("~" is the home folder),
-   whose numbers are on `curve`. */
-HdStatus hd_load_floor_texture(HdScene *scene, const char *path, HdCurve curve, HdError *error);
+/* Reads the texture that the scene names, if any: the embedded one, or a file ("~" is
+   the home folder). */
+HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
 
 #endif

@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "input/fields.h"
-#include "input/json/json_path.h"
 #include "input/json/words.h"
 
 /* One step of a path: a key, or, where that is empty, an index. */

@@ -56,8 +56,7 @@ static void add_value(HdSceneChecker *checker, const char *what, const char *par
 
 /* NaN compares false with everything, so it is outside every range. */
 static bool is_allowed(const HdField *field, double value) {
-    const bool is_large = value == 0.0 || value >= field->least_but_zero;
-    return hd_field_holds(field, value) && is_large;
+    return hd_field_holds(field, value) && (value == 0.0 || fabs(value) >= field->least_but_zero);
 }
 
 static void check_number(HdSceneChecker *checker, const HdField *field, const char *what,

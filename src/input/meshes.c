@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Loads what the entries of "meshes" name: each file once for all entries that agree. */
+#include "input/meshes.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -7,7 +8,6 @@
 
 #include "image/picture.h"
 #include "input/check.h"
-#include "input/scene_file.h"
 #include "mesh/obj/read.h"
 #include "system/interrupt.h"
 #include "system/machine.h"

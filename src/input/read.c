@@ -10,7 +10,6 @@
 #include "input/check.h"
 #include "input/fields.h"
 #include "input/report.h"
-#include "input/scene_texts.h"
 
 typedef struct NamedMaterial {
     const char *name; /* of the tree */

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+#include "image/file_kind.h"
+#include "input/builtin.h"
 #include "input/changes.h"
-#include "input/json/words.h"
-#include "input/synonyms.h"
 
 /* The longest word, with room. */
 enum { HD_CHOICE_SIZE = 32 };
@@ -78,6 +79,82 @@ void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *
     hd_report(report, "is %s; did you mean %s?", words, quoted);
 }
 
+/* What other programs call the things of a scene. A word may mean something else in each place;
+ * only one of its names is there. */
+static const struct Synonym {
+    const char *word, *name;
+} synonyms[] = {
+    {"fov", "field_of_view"},
+    {"position", "eye"},
+    {"position", "centre"},
+    {"centre", "position"},
+    {"center", "position"},
+    {"translation", "position"},
+    {"translate", "position"},
+    {"instances", "meshes"},
+    {"models", "meshes"},
+    {"objects", "meshes"},
+    {"obj", "file"},
+    {"model", "file"},
+    {"mesh", "file"},
+    {"shading", "normals"},
+    {"smooth", "normals"},
+    {"angle", "crease"},
+    {"look_at", "target"},
+    {"lookat", "target"},
+    {"center", "centre"},
+    {"color", "colour"},
+    {"colors", "colours"},
+    {"ior", "index_of_refraction"},
+    {"refraction", "index_of_refraction"},
+    {"transparency", "transmission"},
+    {"opacity", "transmission"},
+    {"emission", "ambient"},
+    {"radius", "circumradius"},
+    {"radius", "disc_radius"},
+    {"size", "circumradius"},
+    {"size", "scale"},
+    {"type", "kind"},
+    {"shape", "kind"},
+    {"count", "per_edge"},
+    {"lights", "per_edge"},
+    {"fps", "frames_per_second"},
+    {"gamma", "curve"},
+    {"file", "path"},
+    {"path", "file"},
+    {"hexahedron", "cube"},
+};
+
+static char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static bool is_same_word(const char *a, const char *b) {
+    while (*a != '\0' && lower(*a) == lower(*b)) {
+        a++;
+        b++;
+    }
+    return *a == *b;
+}
+
+static bool means(const char *word, const char *name) {
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (is_same_word(synonyms[i].word, word) && strcmp(synonyms[i].name, name) == 0)
+            return true;
+    return is_same_word(word, name);
+}
+
+/* hd_nearest_offer, but a name that means the word, or is the word but for upper and lower case, is
+   nearer than any other. */
+static void offer_meant(HdNearest *nearest, const char *name) {
+    if (!means(nearest->word, name)) {
+        hd_nearest_offer(nearest, name);
+        return;
+    }
+    nearest->name = name;
+    nearest->distance = -1;
+}
+
 void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value) {
     char words[16][HD_CHOICE_SIZE];
     HdNearest nearest = {.word = json_is_string(value) ? json_string_value(value) : ""};
@@ -86,7 +163,7 @@ void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t 
         if (json[0] != '"')
             continue;
         snprintf(words[i], sizeof words[i], "%.*s", (int)strlen(json) - 2, json + 1);
-        hd_synonym_offer(&nearest, words[i]);
+        offer_meant(&nearest, words[i]);
     }
     if (nearest.name != NULL)
         hd_report_mistaken(report, value, nearest.name);
@@ -96,7 +173,7 @@ void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t 
 
 static void offer_keys(HdNearest *nearest, const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++)
-        hd_synonym_offer(nearest, type->fields[i].key);
+        offer_meant(nearest, type->fields[i].key);
 }
 
 /* At the top people also write what belongs into one of the objects there. */
@@ -142,4 +219,53 @@ void hd_report_unknown_keys(HdSceneReport *report, const HdObjectType *type, con
         else
             report_unknown_key(report, type, key);
     }
+}
+
+/* Names of files */
+
+bool hd_check_file_name(HdSceneReport *report, const json_t *value) {
+    const size_t length = json_string_length(value);
+    if (length >= HD_MAX_PATH) {
+        hd_report(report, "has %zu bytes, expected fewer than %d", length, HD_MAX_PATH);
+        return false;
+    }
+    for (const char *c = json_string_value(value); *c != '\0'; c++)
+        if (hd_control_bytes(c) > 0) {
+            hd_report_value(report, value, "a name without control characters");
+            return false;
+        }
+    return true;
+}
+
+void hd_check_output_path(HdSceneReport *report, const char *path) {
+    char quoted[HD_WORDS_SIZE];
+    HdError error;
+    const HdOutputKind kind = hd_output_kind(path);
+    hd_quoted(path, quoted);
+    if (path[0] == '\0')
+        return;
+    if (kind == HD_OUTPUT_UNKNOWN)
+        hd_report(report,
+                  "is %s, expected the name of a film (" HD_FILM_ENDINGS
+                  ") or of a picture (" HD_PICTURE_ENDINGS ")",
+                  quoted);
+    else if (hd_output_is_film(kind) && hd_pattern_has_number(path))
+        hd_report(report,
+                  "is %s, expected a film without a number (%%d or #) in its name, or pictures "
+                  "(" HD_PICTURE_ENDINGS ")",
+                  quoted);
+    else if (!hd_output_is_film(kind) && strpbrk(path, "%#") != NULL &&
+             hd_pattern_check(path, &error) != HD_OK)
+        hd_report(report, "cannot be used: %s", error.message);
+}
+
+bool hd_check_texture_path(HdSceneReport *report, const char *path) {
+    static const char built_in[] = "builtin:";
+    char quoted[HD_WORDS_SIZE];
+    if (strncmp(path, built_in, strlen(built_in)) != 0 || strcmp(path, HD_BUILTIN_TEXTURE) == 0)
+        return true;
+    hd_quoted(path, quoted);
+    hd_report(report, "is %s, which is unknown, expected \"" HD_BUILTIN_TEXTURE "\" or a file",
+              quoted);
+    return false;
 }

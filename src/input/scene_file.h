@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes as JSON (docs/formats.md). One table of fields (scene_fields.h) drives the reader, the
-   writer and the JSON Schema. */
+/* What a scene file (docs/formats.md) tells. */
 #ifndef HD_INPUT_SCENE_FILE_H
 #define HD_INPUT_SCENE_FILE_H
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
 
 #include "base/problems.h"
 #include "image/curve.h"
@@ -14,11 +12,7 @@
 #include "scene/scene.h"
 #include "system/path.h"
 
-enum {
-    HD_MAX_SCENE_BYTES = 32 << 20,
-    HD_DEFAULT_FRAMES_PER_SECOND = 30,
-    HD_MAX_FRAMES_PER_SECOND = 240
-};
+enum { HD_DEFAULT_FRAMES_PER_SECOND = 30, HD_MAX_FRAMES_PER_SECOND = 240 };
 
 /* What becomes of the frames. */
 typedef struct HdOutputSettings {
@@ -69,38 +63,6 @@ typedef struct HdSceneSource {
     HdProblems *notes;      /* gets what is seldom meant (scene_notes.h), and the whole sequence is
                                checked; NULL: neither */
 } HdSceneSource;
-
-/* Reads a scene from `size` bytes of JSON, fills in every default, and checks all of it. Messages
-   begin with the name and tell every problem: with line and column where the text is not JSON or
-   repeats a key, otherwise with the JSON path, as "solids[1].circumradius is -1, expected ...",
-   behind "--set CHANGE: " where a change brought the value. On failure `file` is left empty. */
-HdStatus hd_scene_file_parse(HdSceneFile *file, const char *text, size_t size,
-                             const HdSceneSource *source, HdError *error);
-
-/* The same from a file of at most HD_MAX_SCENE_BYTES, which gives the name and the folder. */
-HdStatus hd_scene_file_read(HdSceneFile *file, const char *path, const HdSceneSource *source,
-                            HdError *error);
-
-/* Reads the texture that the scene names, if any: the embedded "builtin:floor", or a file. */
-HdStatus hd_scene_file_load_texture(HdSceneFile *file, HdError *error);
-
-/* Reads the files that the scene's meshes name, with their materials and textures, builds the
-   hierarchies, and fills in the scene's meshes, instances and pictures; without any mesh it does
-   nothing. Every file that cannot be used is told in `problems`. Where that has any in the end,
-   those from before included, the scene has no meshes.
-   Notes of the reader, and textures that cannot be read, whose materials keep their colour, are
-   told in `notes`; NULL: they are not. Other than HD_OK: there is too little memory (HD_FAILED), or
-   a signal came (HD_INTERRUPTED). */
-HdStatus hd_scene_file_load_meshes(HdSceneFile *file, HdProblems *problems, HdProblems *notes,
-                                   HdError *error);
-
-/* Writes a scene, which must be valid, as JSON that reads back as the same scene, number for number
-   (only a point light beyond 2^39 may come back a rounding off). Materials get names: "solid_1",
-   "rim_1", "mesh_1", "floor". Fails with HD_BAD_INPUT where a path is not UTF-8. */
-HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error);
-
-/* Writes the JSON Schema (draft 2020-12) of the format. */
-HdStatus hd_scene_schema_print(FILE *out, HdError *error);
 
 void hd_scene_file_free(HdSceneFile *file);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes the JSON Schema of the format from the table of fields. */
+#include "input/schema.h"
+
 #include <errno.h>
 #include <string.h>
 

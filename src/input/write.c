@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes scenes, field by field of the table; defaults are left out but where an object is
- * complete. */
+/* Field by field of the table; defaults are left out but where an object is complete. */
+#include "input/write.h"
+
 #include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "input/fields.h"
 #include "input/json/print.h"
 
 typedef struct NamedMaterial {
@@ -22,6 +22,11 @@ typedef struct Writer {
 } Writer;
 
 static void write_object(Writer *writer, const HdObjectType *type, const void *owner);
+
+/* A hash takes everything by its value: it is of scenes too that no file can tell. */
+static bool is_hashed(const Writer *writer) {
+    return writer->printer.out == NULL;
+}
 
 static const void *place_of(const HdField *field, const void *owner) {
     return (const char *)owner + field->offset;
@@ -129,6 +134,20 @@ static void write_vectors(Writer *writer, const HdField *field, const void *owne
     hd_json_close(&writer->printer, ']');
 }
 
+static void write_choice(Writer *writer, const HdField *field, int value) {
+    if (is_hashed(writer) && field->choices[1].json != NULL)
+        hd_json_number(&writer->printer, value);
+    else
+        hd_json_raw(&writer->printer, hd_field_choice(field, value));
+}
+
+static void write_material(Writer *writer, const HdMaterial *material) {
+    if (is_hashed(writer))
+        write_object(writer, &hd_material_fields, material);
+    else
+        hd_json_string(&writer->printer, material_name(writer, material));
+}
+
 static void write_path(Writer *writer, const HdField *field, const HdPath *path) {
     if (path->is_fixed)
         hd_json_vector(&writer->printer, path->point);
@@ -185,7 +204,7 @@ static void write_value(Writer *writer, const HdField *field, const void *owner)
         write_vectors(writer, field, owner);
         break;
     case HD_FIELD_CHOICE:
-        hd_json_raw(printer, hd_field_choice(field, *(const int *)place));
+        write_choice(writer, field, *(const int *)place);
         break;
     case HD_FIELD_SCALE:
         write_scale(writer, *(const HdVec3 *)place);
@@ -197,7 +216,7 @@ static void write_value(Writer *writer, const HdField *field, const void *owner)
         write_file(writer, place);
         break;
     case HD_FIELD_MATERIAL:
-        hd_json_string(printer, material_name(writer, place));
+        write_material(writer, place);
         break;
     case HD_FIELD_PATH:
         write_path(writer, field, place);
@@ -251,13 +270,19 @@ static bool is_default(const HdField *field, const void *owner) {
     }
 }
 
+static bool is_left_out(const Writer *writer, const HdField *field) {
+    return is_hashed(writer) &&
+           (field->type == HD_FIELD_TEXT || field->type == HD_FIELD_FILE ||
+            field->type == HD_FIELD_MATERIALS || strcmp(field->key, "output") == 0);
+}
+
 static void write_object(Writer *writer, const HdObjectType *type, const void *owner) {
     hd_json_open(&writer->printer, '{');
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
         const bool is_absent = !hd_field_is_given(field, owner);
         const bool is_wanted = field->required || type->is_complete;
-        if (is_absent || (!is_wanted && is_default(field, owner)))
+        if (is_absent || is_left_out(writer, field) || (!is_wanted && is_default(field, owner)))
             continue;
         hd_json_key(&writer->printer, field->key);
         write_value(writer, field, owner);
@@ -294,4 +319,10 @@ HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error)
     if (fflush(out) != 0 || ferror(out))
         return hd_fail(error, HD_FAILED, "cannot write the scene: %s", strerror(errno));
     return HD_OK;
+}
+
+uint64_t hd_object_hash(uint64_t hash, const HdObjectType *type, const void *owner) {
+    Writer writer = {.printer = {.hash = hash}};
+    write_object(&writer, type, owner);
+    return writer.printer.hash;
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "input/fields.h"
+#include "input/write.h"
 
 /* Made by cmake/sources_hash.cmake. */
 extern const char hd_sources_hash[];
@@ -30,102 +30,6 @@ static void add_array(uint64_t *hash, const void *array, int count, size_t size)
         *hash = hd_hash_words(*hash, array, (size_t)count * size);
 }
 
-/* What the table says */
-
-static void add_object(uint64_t *hash, const HdObjectType *type, const void *owner);
-
-/* Names of files stand for what is in them, a factor lies where its vector does, and materials
-   where they are used. What becomes of the frames is said on the command line too. */
-static bool is_skipped(const HdField *field) {
-    return field->type == HD_FIELD_TEXT || field->type == HD_FIELD_FILE ||
-           field->type == HD_FIELD_FACTOR || field->type == HD_FIELD_MATERIALS ||
-           strcmp(field->key, "output") == 0;
-}
-
-static int element_count(const HdField *field, const void *owner) {
-    if (field->count_offset == 0)
-        return field->most;
-    return *(const int *)(const void *)((const char *)owner + field->count_offset);
-}
-
-static void add_vectors(uint64_t *hash, const HdVec3 *vectors, int count) {
-    add_integer(hash, count);
-    for (int i = 0; i < count; i++)
-        add_vector(hash, vectors[i]);
-}
-
-static void add_path(uint64_t *hash, const HdField *field, const HdPath *path) {
-    add_integer(hash, path->is_fixed);
-    if (path->is_fixed)
-        add_vector(hash, path->point);
-    else
-        add_object(hash, field->object, path);
-}
-
-static void add_list(uint64_t *hash, const HdField *field, const void *place, int count) {
-    const char *elements;
-    memcpy(&elements, place, sizeof elements);
-    add_integer(hash, count);
-    for (int i = 0; i < count; i++)
-        add_object(hash, field->object, elements + (size_t)i * field->object->size);
-}
-
-static void add_value(uint64_t *hash, const HdField *field, const void *owner) {
-    const void *place = (const char *)owner + field->offset;
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        add_integer(hash, *(const bool *)place);
-        break;
-    case HD_FIELD_INTEGER:
-        add_integer(hash, *(const int *)place);
-        break;
-    case HD_FIELD_CHOICE:
-        if (field->choices[1].json != NULL) /* something to choose */
-            add_integer(hash, *(const int *)place);
-        break;
-    case HD_FIELD_NUMBER:
-        add(hash, place, sizeof(double));
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_UNSCALED:
-    case HD_FIELD_SCALE:
-        add_vector(hash, *(const HdVec3 *)place);
-        break;
-    case HD_FIELD_VECTORS:
-        add_vectors(hash, place, element_count(field, owner));
-        break;
-    case HD_FIELD_MATERIAL:
-        add_object(hash, &hd_material_fields, place);
-        break;
-    case HD_FIELD_PATH:
-        add_path(hash, field, place);
-        break;
-    case HD_FIELD_OBJECT:
-        add_object(hash, field->object, place);
-        break;
-    case HD_FIELD_LIST:
-        add_list(hash, field, place, element_count(field, owner));
-        break;
-    case HD_FIELD_FACTOR:
-    case HD_FIELD_TEXT:
-    case HD_FIELD_FILE:
-    case HD_FIELD_MATERIALS:
-        break;
-    }
-}
-
-static void add_object(uint64_t *hash, const HdObjectType *type, const void *owner) {
-    for (int i = 0; i < type->field_count; i++) {
-        const HdField *field = &type->fields[i];
-        if (is_skipped(field))
-            continue;
-        const bool is_given = hd_field_is_given(field, owner);
-        add_integer(hash, is_given);
-        if (is_given)
-            add_value(hash, field, owner);
-    }
-}
-
 /* What files hold, and the command line changed */
 
 static void add_texture(uint64_t *hash, const HdTexture *texture) {
@@ -137,7 +41,7 @@ static void add_texture(uint64_t *hash, const HdTexture *texture) {
 static void add_mesh_materials(uint64_t *hash, const HdMesh *mesh) {
     for (int i = 0; i < mesh->material_count; i++) {
         const HdMeshMaterial *material = &mesh->materials[i];
-        add_object(hash, &hd_material_fields, &material->material);
+        *hash = hd_object_hash(*hash, &hd_material_fields, &material->material);
         add_vector(hash, material->emission);
         add_integer(hash, material->picture);
         add_integer(hash, material->passes_as);
@@ -161,13 +65,10 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
 }
 
 static void add_instance(uint64_t *hash, const HdInstance *instance) {
+    const HdObjectType *type = hd_field(&hd_scene_fields, "meshes")->object;
+    const HdMeshEntry entry = {.instance = *instance};
     add_integer(hash, instance->mesh);
-    add_vector(hash, instance->position);
-    add_vector(hash, instance->rotation_degrees);
-    add_vector(hash, instance->scale);
-    add_integer(hash, instance->has_material);
-    if (instance->has_material)
-        add_object(hash, &hd_material_fields, &instance->material);
+    *hash = hd_object_hash(*hash, type, &entry);
 }
 
 static void add_content(uint64_t *hash, const HdScene *scene) {
@@ -197,7 +98,7 @@ static void add_options(uint64_t *hash, const HdScene *scene) {
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style) {
     uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_sources_hash, strlen(hd_sources_hash));
-    add_object(&hash, &hd_scene_fields, file);
+    hash = hd_object_hash(hash, &hd_scene_fields, file);
     add_content(&hash, &file->scene);
     add_options(&hash, &file->scene);
     add_integer(&hash, (int)precision);

@@ -3,7 +3,7 @@
    and read back. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "input/scene_file.h"
+#include "input/load.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 
 #include "base/problems.h"
 #include "fuzz.h"
+#include "input/write.h"
 #include "scene_work.h"
 
 static HdStatus parse(HdSceneFile *file, const char *text, size_t size, HdError *error) {

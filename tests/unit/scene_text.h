@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "expect.h"
-#include "input/scene_file.h"
+#include "input/load.h"
 
 /* What must be there, and nothing else. */
 static const char least_text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 0]}}";

@@ -1,10 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/print.h"
 
+#include <string.h>
+
+#include "base/hash.h"
 #include "base/text.h"
 
+static void put(HdJsonPrinter *printer, const char *text) {
+    if (printer->out != NULL)
+        fputs(text, printer->out);
+    else
+        printer->hash = hd_hash_bytes(printer->hash, text, strlen(text));
+}
+
 static void start_line(HdJsonPrinter *printer) {
-    fprintf(printer->out, "\n%*s", 2 * printer->depth, "");
+    put(printer, "\n");
+    for (int i = 0; i < printer->depth; i++)
+        put(printer, "  ");
 }
 
 /* What stands between the value before and the key or value that comes now. */
@@ -14,56 +26,60 @@ static void separate(HdJsonPrinter *printer) {
         return;
     }
     if (printer->has_elements)
-        putc(',', printer->out);
+        put(printer, ",");
     if (printer->depth > 0)
         start_line(printer);
     printer->has_elements = true;
 }
 
-static void print_string(FILE *out, const char *text) {
-    putc('"', out);
+static void put_string(HdJsonPrinter *printer, const char *text) {
+    char piece[8];
+    put(printer, "\"");
     for (; *text != '\0'; text++) {
         const unsigned char c = (unsigned char)*text;
         if (c == '"' || c == '\\')
-            fprintf(out, "\\%c", c);
+            snprintf(piece, sizeof piece, "\\%c", c);
         else if (c < 0x20 || c == 0x7f)
-            fprintf(out, "\\u%04x", c);
+            snprintf(piece, sizeof piece, "\\u%04x", c);
         else
-            putc(c, out);
+            snprintf(piece, sizeof piece, "%c", c);
+        put(printer, piece);
     }
-    putc('"', out);
+    put(printer, "\"");
 }
 
 void hd_json_key(HdJsonPrinter *printer, const char *key) {
     separate(printer);
-    print_string(printer->out, key);
-    fputs(": ", printer->out);
+    put_string(printer, key);
+    put(printer, ": ");
     printer->has_key = true;
 }
 
 void hd_json_open(HdJsonPrinter *printer, char bracket) {
+    const char text[2] = {bracket, '\0'};
     separate(printer);
-    putc(bracket, printer->out);
+    put(printer, text);
     printer->depth++;
     printer->has_elements = false;
 }
 
 void hd_json_close(HdJsonPrinter *printer, char bracket) {
+    const char text[2] = {bracket, '\0'};
     printer->depth--;
     if (printer->has_elements)
         start_line(printer);
-    putc(bracket, printer->out);
+    put(printer, text);
     printer->has_elements = true;
 }
 
 void hd_json_raw(HdJsonPrinter *printer, const char *json) {
     separate(printer);
-    fputs(json, printer->out);
+    put(printer, json);
 }
 
 void hd_json_string(HdJsonPrinter *printer, const char *text) {
     separate(printer);
-    print_string(printer->out, text);
+    put_string(printer, text);
 }
 
 void hd_json_number(HdJsonPrinter *printer, double value) {
@@ -74,9 +90,12 @@ void hd_json_number(HdJsonPrinter *printer, double value) {
 
 void hd_json_vector(HdJsonPrinter *printer, HdVec3 value) {
     const double parts[3] = {value.x, value.y, value.z};
-    char text[3][HD_NUMBER_SIZE];
-    for (int i = 0; i < 3; i++)
-        hd_exact_number(parts[i], text[i]);
+    char text[HD_NUMBER_SIZE];
     separate(printer);
-    fprintf(printer->out, "[%s, %s, %s]", text[0], text[1], text[2]);
+    for (int i = 0; i < 3; i++) {
+        hd_exact_number(parts[i], text);
+        put(printer, i == 0 ? "[" : ", ");
+        put(printer, text);
+    }
+    put(printer, "]");
 }

@@ -6,13 +6,15 @@
 #define HD_INPUT_JSON_PRINT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "base/vector.h"
 
-/* Start with the stream alone. */
+/* Start with the stream alone, or with the hash alone, which then goes on with the text. */
 typedef struct HdJsonPrinter {
-    FILE *out;
+    FILE *out; /* NULL: nothing is printed */
+    uint64_t hash;
     int depth;
     bool has_elements; /* the innermost object or array has */
     bool has_key;      /* the next value's key is written */

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/text.h"
 
-#include <stdbool.h>
+#include <jansson.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
 
 typedef struct Counter {
     int values, depth;
@@ -52,4 +55,47 @@ HdStatus hd_json_check_limits(const char *text, size_t size, const char *name, H
                            HD_MAX_JSON_DEPTH, error);
     }
     return HD_OK;
+}
+
+static bool is_space(char c) {
+    return c != '\0' && strchr(" \t\r\n", c) != NULL;
+}
+
+static bool has_comma_before(const char *text, size_t end) {
+    while (end > 0 && is_space(text[end - 1]))
+        end--;
+    return end > 0 && text[end - 1] == ',';
+}
+
+const char *hd_json_hint(const char *text, size_t position) {
+    if (position == 0)
+        return NULL;
+    const char last = text[position - 1];
+    if (last == '}' && has_comma_before(text, position - 1))
+        return "JSON has no comma before '}'";
+    if (last == ']' && has_comma_before(text, position - 1))
+        return "JSON has no comma before ']'";
+    if (last == '/' || last == '#')
+        return "JSON has no comments";
+    if (last == '\'')
+        return "use double quotes";
+    return NULL;
+}
+
+static atomic_bool failed;
+
+static void *allocate(size_t bytes) {
+    void *memory = malloc(bytes);
+    if (memory == NULL)
+        atomic_store(&failed, true);
+    return memory;
+}
+
+void hd_json_memory_watch(void) {
+    atomic_store(&failed, false);
+    json_set_alloc_funcs(allocate, free);
+}
+
+bool hd_json_memory_failed(void) {
+    return atomic_load(&failed);
 }

@@ -2,6 +2,7 @@
 /* Meshes of scene files: what an entry says, which entries share a mesh, and what is wrong. */
 #define _XOPEN_SOURCE 700
 
+#include "input/meshes.h"
 #include "scene_text.h"
 #include "test_folder.h"
 

@@ -2,6 +2,7 @@
 /* Scene files are read as they say, and refused with all that is wrong. */
 #define _XOPEN_SOURCE 700
 
+#include "input/builtin.h"
 #include "scene_text.h"
 #include "test_folder.h"
 

@@ -6,7 +6,8 @@
 #include <jansson.h>
 
 #include "classic_text.h"
-#include "input/fields.h"
+#include "input/schema.h"
+#include "input/write.h"
 #include "scene_text.h"
 
 #define SCHEMA "scenes/schema/hedron-scene.schema.json"
