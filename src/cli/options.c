@@ -5,7 +5,7 @@
 
 #include "device/pipeline.h"
 #include "image/file_kind.h"
-#include "input/classic_read.h"
+#include "input/classic.h"
 #include "output/outputs.h"
 
 enum {

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "input/classic_read.h"
+#include "input/classic.h"
 #include "input/scene_file.h"
 
 /* The texture path that stands for the embedded texture. */

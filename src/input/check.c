@@ -62,15 +62,19 @@ static bool is_allowed(const HdField *field, double value) {
 static void check_number(HdSceneChecker *checker, const HdField *field, const char *what,
                          const char *part, double value) {
     const char *unit = field->unit != NULL ? field->unit : "";
-    const char *form = field->least_but_zero > 0.0 ? "0, or a number from %.15g to %.15g%s"
-                       : field->above_low          ? "more than %.15g and at most %.15g%s"
-                       : field->below_high         ? "at least %.15g and less than %.15g%s"
-                                                   : "a number from %.15g to %.15g%s";
-    const double low = field->least_but_zero > 0.0 ? field->least_but_zero : field->low;
+    const double low = field->low, high = field->high;
     char expected[96];
     if (is_allowed(field, value))
         return;
-    snprintf(expected, sizeof expected, form, low, field->high, unit);
+    if (field->least_but_zero > 0.0)
+        snprintf(expected, sizeof expected, "0, or a number from %.15g to %.15g",
+                 field->least_but_zero, high);
+    else if (field->above_low)
+        snprintf(expected, sizeof expected, "more than %.15g and at most %.15g%s", low, high, unit);
+    else if (field->below_high)
+        snprintf(expected, sizeof expected, "at least %.15g and less than %.15g", low, high);
+    else
+        snprintf(expected, sizeof expected, "a number from %.15g to %.15g", low, high);
     add_value(checker, what, part, value, expected);
 }
 

@@ -8,8 +8,13 @@
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
-#define TYPE(struct_name, table)                                                                   \
-    { .fields = (table), .field_count = COUNT_OF(table), .size = sizeof(struct_name) }
+#define TYPE_OF(struct_name, table, writes_all)                                                    \
+    {                                                                                              \
+        .fields = (table), .field_count = COUNT_OF(table), .size = sizeof(struct_name),            \
+        .is_complete = (writes_all)                                                                \
+    }
+#define TYPE(struct_name, table)          TYPE_OF(struct_name, table, false)
+#define COMPLETE_TYPE(struct_name, table) TYPE_OF(struct_name, table, true)
 
 /* What begins a field: its place, its key, and what it is about. */
 #define AT(struct_name, member, key_text, about_text)                                              \
@@ -72,31 +77,22 @@ static const HdField image_fields[] = {
     {AT(HdScene, exposure, "exposure", "What every pixel is multiplied by"),
      NUMBER(0.0, HD_MAX_EXPOSURE), .above_low = true, DEFAULT(1.0)},
 };
-static const HdObjectType image = {.fields = image_fields,
-                                   .field_count = COUNT_OF(image_fields),
-                                   .size = sizeof(HdScene),
-                                   .is_complete = true};
+static const HdObjectType image = COMPLETE_TYPE(HdScene, image_fields);
+
+#define CYLINDER(member, about_text)                                                               \
+    { AT(HdPath, cylinder.member, #member, about_text), ANY_NUMBER }
 
 static const HdField cylinder_fields[] = {
-    {AT(HdPath, cylinder.r0, "r0", "Mean distance from the z axis"), ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.z0, "z0", "Mean height"), ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.phi0, "phi0", "Angle about the z axis at the start, in radians"),
-     ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.r_amplitude, "r_amplitude", "How far the distance swings"), ANY_NUMBER,
-     DEFAULT(0.0)},
-    {AT(HdPath, cylinder.z_amplitude, "z_amplitude", "How far the height swings"), ANY_NUMBER,
-     DEFAULT(0.0)},
-    {AT(HdPath, cylinder.r_frequency, "r_frequency",
-        "Swings of the distance in the whole sequence"),
-     ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.z_frequency, "z_frequency", "Swings of the height in the whole sequence"),
-     ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.phi_frequency, "phi_frequency", "Turns about the z axis"), ANY_NUMBER,
-     DEFAULT(0.0)},
-    {AT(HdPath, cylinder.r_phase, "r_phase", "Phase of the distance's swing, in radians"),
-     ANY_NUMBER, DEFAULT(0.0)},
-    {AT(HdPath, cylinder.z_phase, "z_phase", "Phase of the height's swing, in radians"), ANY_NUMBER,
-     DEFAULT(0.0)},
+    CYLINDER(r0, "Mean distance from the z axis"),
+    CYLINDER(z0, "Mean height"),
+    CYLINDER(phi0, "Angle about the z axis at the start, in radians"),
+    CYLINDER(r_amplitude, "How far the distance swings"),
+    CYLINDER(z_amplitude, "How far the height swings"),
+    CYLINDER(r_frequency, "Swings of the distance in the whole sequence"),
+    CYLINDER(z_frequency, "Swings of the height in the whole sequence"),
+    CYLINDER(phi_frequency, "Turns about the z axis"),
+    CYLINDER(r_phase, "Phase of the distance's swing, in radians"),
+    CYLINDER(z_phase, "Phase of the height's swing, in radians"),
 };
 static const HdObjectType cylinder = TYPE(HdPath, cylinder_fields);
 
@@ -113,10 +109,7 @@ static const HdField camera_fields[] = {
     {AT(HdScene, target, "target", "What the eye looks at: a point, or a path on a cylinder"), PATH,
      DEFAULT(0.0)},
 };
-static const HdObjectType camera = {.fields = camera_fields,
-                                    .field_count = COUNT_OF(camera_fields),
-                                    .size = sizeof(HdScene),
-                                    .is_complete = true};
+static const HdObjectType camera = COMPLETE_TYPE(HdScene, camera_fields);
 
 static bool has_output_path(const void *owner) {
     return ((const HdSceneFile *)owner)->output.path[0] != '\0';
@@ -134,10 +127,7 @@ static const HdField output_fields[] = {
     {AT(HdSceneFile, output.style.picture.bits, "bits", "Bits of a channel"),
      .type = HD_FIELD_CHOICE, .choices = bits, DEFAULT(8)},
 };
-static const HdObjectType output = {.fields = output_fields,
-                                    .field_count = COUNT_OF(output_fields),
-                                    .size = sizeof(HdSceneFile),
-                                    .is_complete = true};
+static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields);
 
 static bool has_inner_side(const void *owner) {
     return ((const HdMaterial *)owner)->has_inner_side;

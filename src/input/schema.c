@@ -47,27 +47,20 @@ static void print_choices(HdJsonPrinter *printer, const HdField *field) {
     hd_json_close(printer, ']');
 }
 
-static void print_path(HdJsonPrinter *printer, const HdField *field) {
+/* A vector, or else an object or a number. */
+static void print_either(HdJsonPrinter *printer, const HdField *field, bool vector_is_first) {
     hd_json_key(printer, "oneOf");
     hd_json_open(printer, '[');
-    hd_json_open(printer, '{');
-    print_vector(printer, field);
-    hd_json_close(printer, '}');
-    hd_json_open(printer, '{');
-    print_object(printer, field->object);
-    hd_json_close(printer, '}');
-    hd_json_close(printer, ']');
-}
-
-static void print_scale(HdJsonPrinter *printer, const HdField *field) {
-    hd_json_key(printer, "oneOf");
-    hd_json_open(printer, '[');
-    hd_json_open(printer, '{');
-    print_range(printer, field, "number");
-    hd_json_close(printer, '}');
-    hd_json_open(printer, '{');
-    print_vector(printer, field);
-    hd_json_close(printer, '}');
+    for (int i = 0; i < 2; i++) {
+        hd_json_open(printer, '{');
+        if ((i == 0) == vector_is_first)
+            print_vector(printer, field);
+        else if (field->object != NULL)
+            print_object(printer, field->object);
+        else
+            print_range(printer, field, "number");
+        hd_json_close(printer, '}');
+    }
     hd_json_close(printer, ']');
 }
 
@@ -112,7 +105,7 @@ static void print_type(HdJsonPrinter *printer, const HdField *field) {
         print_choices(printer, field);
         break;
     case HD_FIELD_SCALE:
-        print_scale(printer, field);
+        print_either(printer, field, false);
         break;
     case HD_FIELD_TEXT:
     case HD_FIELD_FILE:
@@ -122,7 +115,7 @@ static void print_type(HdJsonPrinter *printer, const HdField *field) {
         print_text(printer, 0);
         break;
     case HD_FIELD_PATH:
-        print_path(printer, field);
+        print_either(printer, field, true);
         break;
     case HD_FIELD_OBJECT:
         print_object(printer, field->object);

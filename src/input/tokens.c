@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,12 +29,24 @@ static const char *shown(const char *token, char out[44]) {
     return out;
 }
 
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static void
+refuse(HdTokenReader *reader, const char *what, const char *format, ...) {
+    char text[160];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    reader->status = hd_fail(reader->error, HD_BAD_INPUT, "%s:%d: %s%s %s", reader->name,
+                             reader->line, reader->where, what, text);
+}
+
 static void fail_token(HdTokenReader *reader, const char *what, const Token *token,
                        const char *expected) {
     char value[44];
-    reader->status =
-        hd_fail(reader->error, HD_BAD_INPUT, "%s:%d: %s%s is '%s', expected %s", reader->name,
-                reader->line, reader->where, what, shown(token->text, value), expected);
+    refuse(reader, what, "is '%s', expected %s", shown(token->text, value), expected);
 }
 
 static void skip_space(HdTokenReader *reader) {
@@ -56,16 +69,11 @@ static bool read_token(HdTokenReader *reader, const char *what, const char *expe
         length++;
     reader->position += length;
     if (length == 0)
-        reader->status = hd_fail(reader->error, HD_BAD_INPUT, "%s:%d: %s%s is missing, expected %s",
-                                 reader->name, reader->line, reader->where, what, expected);
+        refuse(reader, what, "is missing, expected %s", expected);
     else if (length >= sizeof token->text)
-        reader->status = hd_fail(
-            reader->error, HD_BAD_INPUT, "%s:%d: %s%s has %zu characters, expected at most %d",
-            reader->name, reader->line, reader->where, what, length, HD_MAX_PATH - 1);
+        refuse(reader, what, "has %zu characters, expected at most %d", length, HD_MAX_PATH - 1);
     else if (memchr(start, '\0', length) != NULL)
-        reader->status =
-            hd_fail(reader->error, HD_BAD_INPUT, "%s:%d: %s%s holds a zero byte, expected %s",
-                    reader->name, reader->line, reader->where, what, expected);
+        refuse(reader, what, "holds a zero byte, expected %s", expected);
     if (reader->status != HD_OK)
         return false;
     memcpy(token->text, start, length);
@@ -139,9 +147,7 @@ void hd_read_share(HdTokenReader *reader, const char *what, double *value) {
     if (number >= 0.0 && number <= 1.0)
         *value = number;
     else
-        reader->status = hd_fail(reader->error, HD_BAD_INPUT,
-                                 "%s:%d: %s%s is %.15g, expected a number from 0 to 1",
-                                 reader->name, reader->line, reader->where, what, number);
+        refuse(reader, what, "is %.15g, expected a number from 0 to 1", number);
 }
 
 void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int *value) {

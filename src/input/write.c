@@ -8,10 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "input/json/print.h"
 
 typedef struct NamedMaterial {
     const HdMaterial *material;
+    uint64_t hash; /* by which it is known */
     char name[32];
 } NamedMaterial;
 
@@ -32,36 +34,12 @@ static const void *place_of(const HdField *field, const void *owner) {
     return (const char *)owner + field->offset;
 }
 
-/* Numbers are compared by their bits, lest 0 and -0 become one. */
-static bool are_same(const double *a, const double *b, size_t count) {
-    return memcmp(a, b, count * sizeof *a) == 0;
-}
-
 /* Materials */
 
-static bool is_same_field(const HdField *field, const void *a, const void *b) {
-    const void *first = place_of(field, a), *second = place_of(field, b);
-    if (field->type == HD_FIELD_BOOLEAN)
-        return *(const bool *)first == *(const bool *)second;
-    if (field->type == HD_FIELD_INTEGER)
-        return *(const int *)first == *(const int *)second;
-    return are_same(first, second, field->type == HD_FIELD_VECTOR ? 3 : 1);
-}
-
-static bool is_same_material(const HdMaterial *a, const HdMaterial *b) {
-    if (a->has_inner_side != b->has_inner_side)
-        return false;
-    for (int i = 0; i < hd_material_fields.field_count; i++) {
-        const HdField *field = &hd_material_fields.fields[i];
-        if (hd_field_is_given(field, a) && !is_same_field(field, a, b))
-            return false;
-    }
-    return true;
-}
-
 static const char *material_name(const Writer *writer, const HdMaterial *material) {
+    const uint64_t hash = hd_object_hash(HD_HASH_START, &hd_material_fields, material);
     for (int i = 0; i < writer->material_count; i++)
-        if (is_same_material(writer->materials[i].material, material))
+        if (writer->materials[i].hash == hash)
             return writer->materials[i].name;
     return NULL;
 }
@@ -71,6 +49,7 @@ static void add_material(Writer *writer, const HdMaterial *material, const char 
         return;
     NamedMaterial *named = &writer->materials[writer->material_count++];
     named->material = material;
+    named->hash = hd_object_hash(HD_HASH_START, &hd_material_fields, material);
     if (number > 0)
         snprintf(named->name, sizeof named->name, "%s_%d", name, number);
     else
@@ -234,6 +213,11 @@ static void write_value(Writer *writer, const HdField *field, const void *owner)
 }
 
 /* Objects */
+
+/* Numbers are compared by their bits, lest 0 and -0 become one. */
+static bool are_same(const double *a, const double *b, size_t count) {
+    return memcmp(a, b, count * sizeof *a) == 0;
+}
 
 static bool is_standard_vector(const HdField *field, HdVec3 vector) {
     const double parts[3] = {vector.x, vector.y, vector.z};

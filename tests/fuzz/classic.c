@@ -2,7 +2,7 @@
 /* The classic input. Input: a byte that picks the variant, and the text. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "input/classic_read.h"
+#include "input/classic.h"
 
 #include <stdlib.h>
 #include <string.h>

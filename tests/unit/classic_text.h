@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "expect.h"
-#include "input/classic_read.h"
+#include "input/classic.h"
 
 /* The official example of the task. */
 static const char official[] =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What messages about scene files say to people who are used to other words. */
-#include "input/classic_read.h"
+#include "input/classic.h"
 #include "scene_text.h"
 
 static HdSceneFile file;

@@ -10,8 +10,8 @@
      number of lights (0 to 4), then each: position(3) colour(3)
      depth, square root of the number of rays per pixel
    Which solids the three are is not part of the text: the variant, 1 to 10, tells. */
-#ifndef HD_INPUT_CLASSIC_READ_H
-#define HD_INPUT_CLASSIC_READ_H
+#ifndef HD_INPUT_CLASSIC_H
+#define HD_INPUT_CLASSIC_H
 
 #include <stddef.h>
 #include <stdio.h>
