@@ -60,7 +60,7 @@ typedef struct HdSceneSource {
                          rest */
     HdProblems *file_notes; /* gets what of the files of meshes is not used, where they are loaded;
                                NULL: nothing does */
-    HdProblems *notes;      /* gets what is seldom meant (scene_notes.h), and the whole sequence is
+    HdProblems *notes;      /* gets what is seldom meant (notes.h), and the whole sequence is
                                checked; NULL: neither */
 } HdSceneSource;
 

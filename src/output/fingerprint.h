@@ -10,7 +10,7 @@
 #include "tables/tables.h"
 
 /* Of frames of a scene whose files are loaded, as strict arithmetic renders them and PNG pictures
-   of that style hold them: every field of the scene file (scene_fields.h) but names of files and
+   of that style hold them: every field of the scene file (fields.h) but names of files and
    what becomes of the frames, what the files hold, what the command line changed, precision, curve
    and bits, and the text of this program. Which device renders it, and how, changes no strict
    pixel. The frame's own number is left to hd_picture_fingerprint. */

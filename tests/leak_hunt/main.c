@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "../conformance/render_scene.h"
-#include "input/check.h"
 #include "hunt.h"
+#include "input/check.h"
 
 enum { LANE_COUNTS = 4, PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES, ALL = -1 };
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };

@@ -338,6 +338,21 @@ static void how_it_is_rendered_and_stored_changes_it(void **state) {
     assert_true(hd_picture_fingerprint(usual, 0) != hd_picture_fingerprint(usual + 1, 0));
 }
 
+/* A scene file can tell of the first two alone. */
+static void every_sampling_has_its_own(void **state) {
+    (void)state;
+    const HdSampling was = file.scene.sampling;
+    uint64_t marks[3];
+    for (int i = 0; i < 3; i++) {
+        file.scene.sampling = (HdSampling)i;
+        marks[i] = fingerprint();
+    }
+    file.scene.sampling = was;
+    assert_true(marks[HD_SAMPLING_GRID] != marks[HD_SAMPLING_ADAPTIVE]);
+    assert_true(marks[HD_SAMPLING_ADAPTIVE] != marks[HD_SAMPLING_REFERENCE]);
+    assert_true(marks[HD_SAMPLING_REFERENCE] != marks[HD_SAMPLING_GRID]);
+}
+
 static int read_scene(void **state) {
     (void)state;
     expect_scene(&file, rich_text, NULL);
@@ -362,6 +377,7 @@ int main(void) {
         cmocka_unit_test(arrays_that_are_missing_change_it),
         cmocka_unit_test(names_in_files_do_not),
         cmocka_unit_test(how_it_is_rendered_and_stored_changes_it),
+        cmocka_unit_test(every_sampling_has_its_own),
     };
     return cmocka_run_group_tests(tests, read_scene, free_scene);
 }
