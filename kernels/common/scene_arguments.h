@@ -1,10 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* How functions hand the tables on (structs hold no pointers), the bounds of private arrays, and
-   what the scene needs at all. */
+/* How functions hand the tables on (structs hold no pointers), how lists of arguments become
+   parameters, the bounds of private arrays, and what the scene needs at all. */
 #ifndef HD_SCENE_ARGUMENTS_H
 #define HD_SCENE_ARGUMENTS_H
 
+#include "kernel_arguments.h"
 #include "scene_tables.h"
+
+/* What a list of kernel_arguments.h is in a list of parameters and in a call. */
+#define HD_PARAMETER_INPUT(type, name)      GLOBAL const type *RESTRICT name
+#define HD_PARAMETER_BUFFER(type, name)     GLOBAL type *RESTRICT name
+#define HD_PARAMETER_NUMBER(type, name)     type name
+#define HD_LAST_PARAMETER(kind, type, name) HD_PARAMETER_##kind(type, name)
+#define HD_PARAMETER(kind, type, name)      HD_PARAMETER_##kind(type, name),
+#define HD_ARGUMENT(kind, type, name)       name,
 
 #define HD_TABLE_PARAMETER(type, name) GLOBAL const type *RESTRICT name,
 #define HD_TABLE_ARGUMENT(type, name)  name,

@@ -10,14 +10,9 @@
 #include "render.h"
 #include "wave_stack.h"
 
-/* The queue and the batch's sums as structures of arrays: ray_reals has WAVE_REALS arrays of
-   queue_stride numbers, ray_ints WAVE_INTS, sums WAVE_SUMS of sum_stride. `compact` is 0 where rays
-   are appended with the dead ones of their bundle or group, to see what leaving them out is worth.
- */
-#define QUEUE_PARAMETERS                                                                           \
-    GLOBAL real *RESTRICT ray_reals, GLOBAL int *RESTRICT ray_ints, GLOBAL fixed64 *RESTRICT sums, \
-        int queue_stride, int sum_stride, int compact,
-#define QUEUE_ARGUMENTS ray_reals, ray_ints, sums, queue_stride, sum_stride, compact,
+/* As SCENE_PARAMETERS and SCENE_ARGUMENTS. */
+#define QUEUE_PARAMETERS HD_QUEUE_ARGUMENTS(HD_PARAMETER)
+#define QUEUE_ARGUMENTS  HD_QUEUE_ARGUMENTS(HD_ARGUMENT)
 
 /* ---- the queue ---- */
 
