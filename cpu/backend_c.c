@@ -11,7 +11,7 @@
 #include "device/pipeline.h"
 #include "device/renderer.h"
 #include "device/wave_plan.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"

@@ -2,23 +2,22 @@
 /* Entry point for plain C, named by HD_KERNEL_NAME. */
 #include "cpu/kernel.h"
 
+#include "cpu/dialect.h"
 #include "cpu/kernel_tables.h"
 #include "kernels/common/wavefront.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */
-#define APART static __attribute__((noinline))
-
-APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
-                                float *pixels) {
-    HD_DECLARE_TABLES
+FN_APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
+                                   float *pixels) {
+    HD_DECLARE_TABLES(scene, frame)
     RayCounts counted;
     render_item(SCENE_ARGUMENTS item, pixels, &counted);
     return counted;
 }
 
-APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
-                                const HdCpuQueue *queue, float *pixels) {
-    HD_DECLARE_TABLES
+FN_APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, int item,
+                                   const HdCpuQueue *queue, float *pixels) {
+    HD_DECLARE_TABLES(scene, frame)
     RayCounts counted;
     render_item_by_waves(SCENE_ARGUMENTS queue->reals, queue->ints, queue->sums,
                          queue->queue_stride, queue->sum_stride, queue->compact, item, pixels,

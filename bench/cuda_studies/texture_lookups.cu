@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "check.h"
+#include "kernels/cuda/dialect.h"
+
 #include "kernels/common/texture.h"
 
 enum { SIDE = 1024, THREADS = 256, LOOKUPS = 64, TIMED_ROUNDS = 20 };

@@ -44,7 +44,7 @@ static int sum_of_lanes(vint a) {
 
 /* The bundle that begins at sample `first` of an item; 0 where it lies outside of the picture. */
 static int look(const HdTable *scene, const HdTable *frame, int item, int first, Sight *sight) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     Vec3 direction;
     vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
     if (!any_lane(alive))
@@ -70,7 +70,7 @@ static int is_of_kind(const Sight *sight, int kind) {
 
 static void bundle_of(const HdTable *scene, const HdTable *frame, const Sight *sight, int kind,
                       Bundle *bundle) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     bundle->ray = sight->ray;
     bundle->is_eye = kind != HD_RAYS_MIRRORED && kind != HD_RAYS_INSIDE;
     if (bundle->is_eye)
@@ -150,7 +150,7 @@ static HdWork make_rays(const HdTable *scene, const HdTable *frame, int kind, in
 /* As the ray tree does it before it calls for the direct light. */
 static void visit_points(const HdTable *scene, const HdTable *frame, const Sight *sight,
                          Walk *walk) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     Points points;
     if (!any_lane(sight->struck))
         return;
@@ -194,7 +194,7 @@ NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
 
 NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame,
                                       const HdWork *rays) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     const Bundle *bundles = rays->items;
     vreal nearest = splat(REAL_LARGE);
     vint mixed = splat_int(0);
@@ -210,7 +210,7 @@ NOT_INLINED uint64_t OF_BUILD(search)(const HdTable *scene, const HdTable *frame
 
 NOT_INLINED uint64_t OF_BUILD(light)(const HdTable *scene, const HdTable *frame,
                                      const HdWork *points, double *sum) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     const Points *all = points->items;
     vint tests = splat_int(0);
     Vec3 radiance = vec3_zero();

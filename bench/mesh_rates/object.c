@@ -8,7 +8,7 @@
 
 #include "../../tests/conformance/mesh_builder.h"
 #include "input/check.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 #include "system/thread_pool.h"
 
 const double hd_object_tangent = 0.6;

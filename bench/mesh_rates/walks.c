@@ -32,7 +32,7 @@ static Start load_start(const HdRays *rays, int first, int meshes) {
 
 static void search_closest(const HdTable *scene, const HdTable *frame, const Start *start,
                            int first, HdHits *hits) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     Ray ray;
     ray.origin = start->origin;
     ray.direction = start->direction;
@@ -53,7 +53,7 @@ static void search_closest(const HdTable *scene, const HdTable *frame, const Sta
 
 static void search_light(const HdTable *scene, const HdTable *frame, const Start *start, int first,
                          HdHits *hits) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     WorldRays world;
     Vec3 passing;
     vmask all = mask_all();
@@ -71,8 +71,7 @@ static void search_light(const HdTable *scene, const HdTable *frame, const Start
 }
 
 static void search(const HdObject *object, const HdRays *rays, HdHits *hits) {
-    const HdTable *scene = object->tables.table, *frame = object->frame.table;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(object->tables.table, object->frame.table)
     for (int first = 0; first < rays->count; first += HD_LANES) {
         Start start = load_start(rays, first, header->floor_end);
         if (rays->kind == HD_RAYS_SHADOW)

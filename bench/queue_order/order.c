@@ -139,8 +139,7 @@ FN void append(Waves *waves, const Ray *mirror, const Ray *through, vint numbers
 }
 
 static void trace_first(Waves *waves, int first_item, int items) {
-    const HdTable *scene = waves->scene, *frame = waves->frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(waves->scene, waves->frame)
     for (int number = 0; number < items * waves->per_item; number += HD_LANES) {
         Sample sample = empty_sample();
         Ray mirror, through;
@@ -165,8 +164,7 @@ static Ray load(const Waves *waves, const Queue *queue, int place, int count, vi
 }
 
 static void trace_run(Waves *waves, int level, int first, int count) {
-    const HdTable *scene = waves->scene, *frame = waves->frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(waves->scene, waves->frame)
     for (int i = 0; i < count; i += HD_LANES) {
         Sample sample = empty_sample();
         Ray mirror, through;
@@ -201,8 +199,7 @@ static int different(vint numbers, vmask alive) {
 
 /* 0: nothing is met; else the face's number and 1. */
 static vint faces_met(const Waves *waves, const Ray *ray) {
-    const HdTable *scene = waves->scene, *frame = waves->frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(waves->scene, waves->frame)
     Reference reference = reference_of(SCENE_ARGUMENTS ray->touched, 0);
     Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
     return pick_int(lt_int(hit.object, splat_int(0)), splat_int(0), hit.face + 1);
@@ -395,8 +392,7 @@ static bool trace_levels(Waves *waves, int first_item, int items) {
 
 /* As the kernels of CPUs do it: an item is a batch. */
 static bool trace_by_product(Waves *waves, int first_item, int items) {
-    const HdTable *scene = waves->scene, *frame = waves->frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(waves->scene, waves->frame)
     RayCounts counts = {0};
     if (!reserve(&waves->now, wave_least_capacity(view->depth, round_up(waves->per_item))))
         return false;

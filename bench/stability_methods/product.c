@@ -32,7 +32,7 @@ static HdBounce bounce_of(const HdTable *scene, const Ray *next) {
 
 static int mirror_path(const HdTable *scene, const HdTable *frame, HdVec3 direction, int most,
                        HdBounce *bounces) {
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     Ray ray = eye_ray(rounded(direction), mask_all());
     Sample sample = no_sample();
     int count = 0;
@@ -49,7 +49,7 @@ static int mirror_path(const HdTable *scene, const HdTable *frame, HdVec3 direct
 
 static HdCrossings pierce(const HdTable *scene, const HdTable *frame, HdVec3 direction) {
     enum { MOST = 16 };
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, frame)
     Ray ray = eye_ray(rounded(direction), mask_all());
     Hit hit = closest_hit(SCENE_ARGUMENTS & ray, reference_of(SCENE_ARGUMENTS ray.touched, 1));
     HdCrossings crossings = {.first = (double)hit.t};
@@ -116,14 +116,13 @@ static LitPoints points_of(const HdLitPoint *point) {
 }
 
 static double transmittance(const HdTable *scene, const HdLitPoint *point, int light) {
-    const HdTable *frame = no_frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, no_frame)
     Surface surface = surface_of(point);
     LitPoints points = points_of(point);
-    vreal coordinates[PLANE_BOUND];
-    vint outer[SOLID_BOUND];
-    uint some_outer[SOLID_BOUND];
-    vmask open_to[SOLID_BOUND];
+    vreal coordinates[PLANE_BOUND(header)];
+    vint outer[SOLID_BOUND(header)];
+    uint some_outer[SOLID_BOUND(header)];
+    vmask open_to[SOLID_BOUND(header)];
     measure_planes(SCENE_ARGUMENTS & surface, &points, coordinates, outer, some_outer, open_to);
     LightRows rows = light_rows(SCENE_ARGUMENTS points.object);
     Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, light), surface.point);
@@ -133,8 +132,7 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
 }
 
 static double radiance(const HdTable *scene, const HdLitPoint *point) {
-    const HdTable *frame = no_frame;
-    HD_DECLARE_TABLES
+    HD_DECLARE_TABLES(scene, no_frame)
     Surface surface = surface_of(point);
     LitPoints points = points_of(point);
     vint tests = splat_int(0);

@@ -17,7 +17,7 @@ FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
         hit_solid(SCENE_ARGUMENTS ray, reference, object, &hit);
     for (int object = header->solid_count; object < header->floor_end; object++)
         hit_floor(SCENE_ARGUMENTS ray, reference, object, &hit);
-    if (MESHES)
+    if (MESHES(header))
         closest_mesh_hit(SCENE_ARGUMENTS ray, &reference, &hit);
     return hit;
 }

@@ -3,7 +3,7 @@
 #ifndef HD_ENCODE_H
 #define HD_ENCODE_H
 
-#include "dialect.h"
+#include "real.h"
 
 enum { INFINITE_BITS = 0x7f800000 };
 

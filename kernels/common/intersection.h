@@ -35,7 +35,7 @@ typedef struct {
 
 /* Where numbers may be those of mesh instances: the object that these belong to. */
 FN vint object_of(SCENE_PARAMETERS vint number) {
-    return MESHES ? least_int(number, splat_int(header->floor_end)) : number;
+    return MESHES(header) ? least_int(number, splat_int(header->floor_end)) : number;
 }
 
 /* Where mesh instances are, relative to the meshes' centre; other objects: zero. */
@@ -55,7 +55,7 @@ FN Vec3 start_of_instance(SCENE_PARAMETERS vint number) {
 FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
     Reference reference;
     reference.start = vec3_zero();
-    if (MESHES && !is_eye)
+    if (MESHES(header) && !is_eye)
         reference.start = start_of_instance(SCENE_ARGUMENTS object);
     object = object_of(SCENE_ARGUMENTS object);
     reference.is_eye = is_eye;
@@ -67,7 +67,7 @@ FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
 /* The point `point`, relative to `reference`, made relative to the object `to`. */
 FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to) {
     GLOBAL const Vector *table = reference.is_eye ? eye_offsets : object_offsets;
-    if (MESHES)
+    if (MESHES(header))
         point = vec3_add(point, reference.start);
     return vec3_add(point, fetch_vector(table, reference.row + to, reference.same));
 }

@@ -3,7 +3,7 @@
 #ifndef HD_LIGHTS_H
 #define HD_LIGHTS_H
 
-#include "identity.h"
+#include "surface.h"
 
 /* The lit points of a bundle. */
 typedef struct {
@@ -240,7 +240,7 @@ FN Vec3 transmittance_to(SCENE_PARAMETERS int light, Vec3 to_light, const Surfac
     for (int object = 0; object < header->solid_count; object++)
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
                     some_outer[object], open_to[object] & lit, &transmittance);
-    if (MESHES && any_lane(lit))
+    if (MESHES(header) && any_lane(lit))
         transmittance =
             vec3_mul(transmittance, transmittance_of_meshes(SCENE_ARGUMENTS surface->point,
                                                             to_light, points->object, points->face,
@@ -296,15 +296,15 @@ FN Vec3 light_position(GLOBAL const Vector *light_offsets, const LightRows *rows
 FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
                      Vec3 mirrored, vint *shadow_tests) {
     Vec3 sum = vec3_zero();
-    vreal coordinates[PLANE_BOUND];
-    vint outer[SOLID_BOUND];
-    uint some_outer[SOLID_BOUND];
-    vmask open_to[SOLID_BOUND];
+    vreal coordinates[PLANE_BOUND(header)];
+    vint outer[SOLID_BOUND(header)];
+    uint some_outer[SOLID_BOUND(header)];
+    vmask open_to[SOLID_BOUND(header)];
     measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
     LightRows rows = light_rows(SCENE_ARGUMENTS object_of(SCENE_ARGUMENTS points->object));
     Vec3 point = surface->point;
-    if (MESHES)
+    if (MESHES(header))
         point = vec3_add(point, start_of_instance(SCENE_ARGUMENTS points->object));
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;

@@ -73,7 +73,7 @@ FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays 
 /* The rays of `m`, which all run that way, through the hierarchy over the instances. */
 FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
                        vmask m, const Way *way) {
-    int stack[NODE_STACK];
+    int stack[NODE_STACK(header)];
     int waiting = 1;
     stack[0] = header->top_root;
     while (waiting > 0) {
@@ -154,7 +154,7 @@ FN_APART void closest_mesh_hit(SCENE_PARAMETERS const Ray *ray, const Reference 
 /* 2^-x of x = octaves 2^-24 + rest 2^-48: the Taylor series about the middle of an octave. */
 FN vreal passing_share(vint octaves, vint rest) {
     vreal one = splat(R(1.0));
-    vint whole = octaves >> 24;
+    vint whole = octaves >> HD_OCTAVE_BITS;
     vreal part = multiply_add(to_real(rest), splat(R(3.5527136788005009e-15)),
                               to_real(octaves & (HD_OCTAVE - 1)) * splat(R(5.9604644775390625e-8)));
     vreal x = (splat(R(0.5)) - part) * splat(R(0.69314718055994530942));

@@ -4,6 +4,7 @@
 #ifndef HD_RAY_TREE_H
 #define HD_RAY_TREE_H
 
+#include "identity.h"
 #include "lights.h"
 
 /* What a bundle of samples gathered. Sums are fixed point, so that their order does not matter. */
@@ -61,7 +62,7 @@ FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
         weak = ~le(splat(view->cutoff), greatest_component(next->weight));
     if (level == view->depth)
         weak = mask_all();
-    if (SURVEYED) {
+    if (SURVEYED(header)) {
         Vec3 most = vec3_splat(header->radiance_bound[0], header->radiance_bound[1],
                                header->radiance_bound[2]);
         vreal bound = bound_of(SCENE_ARGUMENTS next->weight, most);
@@ -152,13 +153,13 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     points.object = spread_first(hit->object, struck);
     points.face = hit->face;
     points.inside = ~hit->entering;
-    if (SURVEYED)
+    if (SURVEYED(header))
         points.active =
             end_lights(SCENE_ARGUMENTS points.active, ray->weight, &surface.material, sample);
     Vec3 radiance =
         vec3_scale_add(surface.material.colour, surface.material.ambient, surface.emission);
     Surface lit = surface;
-    for (int side = 0; side <= LIT_FROM_BEHIND; side++) {
+    for (int side = 0; side <= LIT_FROM_BEHIND(header); side++) {
         if (side > 0)
             turn_over(&lit, &points);
         if (any_lane(points.active))
@@ -169,7 +170,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     vreal reflection = surface.material.reflection, transmission = surface.material.transmission;
     Vec3 passing = ray->direction;
     vmask total = mask_none();
-    if (REFRACTS) {
+    if (REFRACTS(header)) {
         passing = refract(ray->direction, surface.normal, facing, surface.material.relative_index,
                           &total);
         reflection = pick(total, reflection + transmission, reflection);
@@ -180,7 +181,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     *through =
         next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
                  hit->entering, struck & ~total & lt(zero, transmission));
-    if (SURVEYED)
+    if (SURVEYED(header))
         identify(ray, &surface, hit, struck, sample, mirror, through);
     return radiance;
 }
@@ -223,8 +224,8 @@ FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *
 /* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
    for each level waits on the stack. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
-    Ray stack[DEPTH_BOUND];
-    int stack_level[DEPTH_BOUND];
+    Ray stack[DEPTH_BOUND(view)];
+    int stack_level[DEPTH_BOUND(view)];
     int waiting = 0, level = 0;
     Ray ray = eye_ray(direction, alive);
     for (;;) {

@@ -133,7 +133,7 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
         sums[0] += lane_fix(&sample->r, lane) >> view->pixel_shift;
         sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
-        if (SURVEYED) {
+        if (SURVEYED(header)) {
             sums[HD_RADIANCE_SUMS] += saturated(lane_fix(&sample->bound, lane));
             sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
         }
@@ -166,7 +166,7 @@ FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, Gathered 
 FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
                      const Gathered *gathered, GLOBAL float *pixels) {
     real samples = (real)view->samples;
-    int floats = SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS;
+    int floats = SURVEYED(header) ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS;
     Pixel corner = block_of_item(view, item);
     for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
         Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
@@ -177,7 +177,7 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
         GLOBAL float *out = pixels + number * (uint64)floats;
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             out[channel] = (float)((real)sums[channel] * view->from_fixed / samples);
-        if (SURVEYED) {
+        if (SURVEYED(header)) {
             real one = (real)(1 << BOUND_BITS) / view->to_fixed;
             out[HD_RADIANCE_SUMS] = (float)((real)sums[HD_RADIANCE_SUMS] * one / samples);
             out[HD_RADIANCE_SUMS + 1] = (float)(sums[HD_RADIANCE_SUMS + 1] & HD_IDENTITY_MASK);

@@ -31,27 +31,27 @@
 /* Every solid has three planes at least. Constants where the kernels are built at run time,
  * otherwise the scene's own numbers. */
 #ifdef HD_PLANE_BOUND
-#define PLANE_BOUND     HD_PLANE_BOUND
-#define SOLID_BOUND     (HD_PLANE_BOUND / 3 + 1)
-#define DEPTH_BOUND     HD_DEPTH_BOUND
-#define REFRACTS        HD_REFRACTS
-#define LIT_FROM_BEHIND HD_LIT_FROM_BEHIND
-#define SURVEYED        HD_SURVEYED
-#define PIXEL_SUMS      (HD_SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS)
-#define MESHES          (HD_NODE_STACK > 0 && header->instance_count > 0)
-#define NODE_STACK      (HD_NODE_STACK + 1)
-#define WIDE_STACK      (HD_WIDE_STACK + 1)
+#define PLANE_BOUND(header)     HD_PLANE_BOUND
+#define SOLID_BOUND(header)     (HD_PLANE_BOUND / 3 + 1)
+#define DEPTH_BOUND(view)       HD_DEPTH_BOUND
+#define REFRACTS(header)        HD_REFRACTS
+#define LIT_FROM_BEHIND(header) HD_LIT_FROM_BEHIND
+#define SURVEYED(header)        HD_SURVEYED
+#define PIXEL_SUMS              (HD_SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS)
+#define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
+#define NODE_STACK(header)      (HD_NODE_STACK + 1)
+#define WIDE_STACK(header)      (HD_WIDE_STACK + 1)
 #else
-#define PLANE_BOUND     (header->plane_count + 1)
-#define SOLID_BOUND     (header->solid_count + 1)
-#define DEPTH_BOUND     (view->depth + 1)
-#define REFRACTS        (header->refracts)
-#define LIT_FROM_BEHIND (header->lit_from_behind)
-#define SURVEYED        (header->surveyed)
-#define PIXEL_SUMS      HD_SURVEY_SUMS
-#define MESHES          (header->instance_count > 0)
-#define NODE_STACK      (header->node_stack + 1)
-#define WIDE_STACK      (header->wide_stack + 1)
+#define PLANE_BOUND(header)     ((header)->plane_count + 1)
+#define SOLID_BOUND(header)     ((header)->solid_count + 1)
+#define DEPTH_BOUND(view)       ((view)->depth + 1)
+#define REFRACTS(header)        ((header)->refracts)
+#define LIT_FROM_BEHIND(header) ((header)->lit_from_behind)
+#define SURVEYED(header)        ((header)->surveyed)
+#define PIXEL_SUMS              HD_SURVEY_SUMS
+#define MESHES(header)          ((header)->instance_count > 0)
+#define NODE_STACK(header)      ((header)->node_stack + 1)
+#define WIDE_STACK(header)      ((header)->wide_stack + 1)
 #endif
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a kernel reads: the tables of a compiled scene and of one frame. The host fills them
-   (src/tables/builder.inc), a backend copies them as they are.
+   (src/tables), a backend copies them as they are.
 
    Every struct holds reals first, then 32-bit integers, each a multiple of four in number, so that
    it has no padding in float and in double. "Object" is a solid, the floor or, last of all, one
@@ -10,7 +10,7 @@
 #ifndef HD_SCENE_TABLES_H
 #define HD_SCENE_TABLES_H
 
-#include "dialect.h"
+#include "real.h"
 
 typedef struct ALIGNED_16 {
     real x, y, z, unused;
@@ -166,7 +166,12 @@ typedef struct ALIGNED_16 {
     int unused_int[2];
 } Skin;
 
-enum { HD_OCTAVE = 1 << 24, HD_OPAQUE_OCTAVES = 41 << 24, HD_DARK_OCTAVES = 40 << 24 };
+enum {
+    HD_OCTAVE_BITS = 24,
+    HD_OCTAVE = 1 << HD_OCTAVE_BITS,
+    HD_OPAQUE_OCTAVES = 41 << HD_OCTAVE_BITS,
+    HD_DARK_OCTAVES = 40 << HD_OCTAVE_BITS
+};
 
 /* A texture of meshes: repeated without end, or its border's texels continued outwards. */
 typedef struct ALIGNED_16 {
@@ -222,23 +227,7 @@ HD_ASSERT_SIZE(Picture, 0, 4);
 HD_ASSERT_SIZE(TextureCoordinates, 4, 0);
 HD_ASSERT_SIZE(View, 16, 12);
 
-/* The tables of a scene, in the order of the kernels' arguments:
-   light_offsets[object * light_count + light]   the light's position relative to the object
-   light_coordinates[light * plane_count + plane]  n.L of a solid's plane, exactly that of an edge
-                                                  light's own faces; the distance to a floor's plane
-   light_sides[light * object_count + object]    of solids only
-   object_offsets[from * object_count + to]      centre of `from` minus centre of `to`
-   texels                                        two words each: r | g << 16, b; row by row, and one
-                                                 more after the last; the floor's first
-   triangles                                     of all meshes, in the order of the leaves
-   mesh_nodes                                    over the instances; where bundles have one lane
-                                                 of all meshes too
-   wide_bounds, wide_children                    of the wide nodes, which have as many children as a
-                                                 bundle has lanes: lower x, y, z of all of them,
-   then upper; no entries where bundles have one lane top_items numbers of instances
-   corner_normals[3 * triangle + corner]         places in mesh_normals; negative: the triangle is
-                                                 flat
-   corner_uvs[3 * triangle + corner]             places in mesh_uvs */
+/* The tables of a scene, in the order of the kernels' arguments. */
 #define HD_SCENE_TABLES(X)                                                                         \
     X(Header, header)                                                                              \
     X(Object, objects)                                                                             \
@@ -246,31 +235,48 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(Edge, edges)                                                                                 \
     X(Material, materials)                                                                         \
     X(Light, lights)                                                                               \
+    /* [object * light_count + light]: the light relative to the object */                         \
     X(Vector, light_offsets)                                                                       \
+    /* [light * plane_count + plane]: n.L of a solid's plane, exactly that of an edge light's      \
+       own faces; the distance to a floor's plane */                                               \
     X(real, light_coordinates)                                                                     \
+    /* [light * object_count + object], of solids only */                                          \
     X(LightSides, light_sides)                                                                     \
+    /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \
+    /* two words each: r | g << 16, b; row by row, and one more after the last; the floor's        \
+       first */                                                                                    \
     X(uint, texels)                                                                                \
     X(Instance, instances)                                                                         \
+    /* of all meshes, in the order of the leaves */                                                \
     X(Triangle, triangles)                                                                         \
+    /* over the instances; where bundles have one lane of all meshes too */                        \
     X(MeshNode, mesh_nodes)                                                                        \
+    /* of nodes with as many children as bundles have lanes: lower x, y, z of all of them, then    \
+       upper; none where bundles have one lane */                                                  \
     X(real, wide_bounds)                                                                           \
+    /* likewise */                                                                                 \
     X(int, wide_children)                                                                          \
+    /* numbers of instances */                                                                     \
     X(int, top_items)                                                                              \
     X(Skin, skins)                                                                                 \
     X(Vector, mesh_normals)                                                                        \
+    /* [3 * triangle + corner]: places in mesh_normals; negative: it is flat */                    \
     X(int, corner_normals)                                                                         \
     X(TextureCoordinates, mesh_uvs)                                                                \
+    /* [3 * triangle + corner]: places in mesh_uvs */                                              \
     X(int, corner_uvs)                                                                             \
     X(Picture, pictures)
 
-/* The tables of a frame, whose arguments follow: eye_offsets[to] is the eye minus the centre of
-   `to`; entries and sample_places are those of a listed frame. */
+/* The tables of a frame, whose arguments follow. */
 #define HD_FRAME_TABLES(X)                                                                         \
     X(View, view)                                                                                  \
+    /* [to]: the eye minus the centre of `to` */                                                   \
     X(Vector, eye_offsets)                                                                         \
+    /* of a listed frame (View) */                                                                 \
     X(int, entries)                                                                                \
+    /* likewise */                                                                                 \
     X(int, sample_places)
 
 #define HD_TABLE_INDEX(type, name) HD_TABLE_##name,

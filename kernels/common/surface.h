@@ -185,6 +185,7 @@ FN Vec3 direction_of(Vec3 v) {
 FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
                       vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
     vint within = triangle - instance->first_triangle;
+    enum { NORMAL_STRIDE = sizeof(Vector) / sizeof(real) };
     FourWords corner = fetch_corner_words(corner_normals, instance->first_corner_normals, within);
     vmask has = ~lt_int(corner.word[0], splat_int(0));
     if (!any_lane(has))
@@ -196,7 +197,8 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
     shares[1] = crossing->b;
     shares[2] = crossing->c;
     for (int i = 0; i < 3; i++) {
-        FourReals n = fetch_four_reals(table, pick_int(has, corner.word[i], splat_int(0)) * 4);
+        vint place = pick_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
+        FourReals n = fetch_four_reals(table, place);
         sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), shares[i], sum);
     }
     vreal towards = pick(entering, splat(R(1.0)), splat(R(-1.0)));
@@ -210,6 +212,7 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
 /* The colour of a skin's picture; white without one. */
 FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOBAL const Skin *skin,
                           vint triangle, const TriangleCrossing *crossing) {
+    enum { UV_STRIDE = sizeof(TextureCoordinates) / sizeof(real) };
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
     if (skin->picture < 0 || instance->first_corner_uvs < 0)
         return white;
@@ -223,7 +226,8 @@ FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOB
     shares[1] = crossing->b;
     shares[2] = crossing->c;
     for (int i = 0; i < 3; i++) {
-        FourReals at = fetch_four_reals(table, pick_int(has, corner.word[i], splat_int(0)) * 4);
+        vint place = pick_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
+        FourReals at = fetch_four_reals(table, place);
         u = multiply_add(at.number[0], shares[i], u);
         v = multiply_add(at.number[1], shares[i], v);
     }
@@ -399,7 +403,7 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
         int object = lane_int(&hit->object, first_lane(left));
         vmask m = left & eq_int(hit->object, splat_int(object));
         left = left & ~m;
-        if (MESHES && object >= header->floor_end) {
+        if (MESHES(header) && object >= header->floor_end) {
             describe_mesh(SCENE_ARGUMENTS ray, &reference, object - header->floor_end, &m, hit,
                           &surface);
             continue;

@@ -10,7 +10,7 @@
 #ifndef HD_WAVE_STACK_H
 #define HD_WAVE_STACK_H
 
-#include "dialect.h"
+#include "real.h"
 
 /* Arrays of the queue, of reals and of ints, and of a batch's sums; behind each buffer there is
    room for another bundle. */

@@ -116,7 +116,7 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
-        for (int part = HD_RADIANCE_SUMS; SURVEYED && part < HD_SURVEY_SUMS; part++)
+        for (int part = HD_RADIANCE_SUMS; SURVEYED(header) && part < HD_SURVEY_SUMS; part++)
             pixel[part] += saturated(sums[(uint64)part * (uint64)sum_stride + (uint64)i]);
         left--;
         if (left == 0) {
@@ -180,23 +180,24 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
             ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, take.count - i);
             numbers = numbers_from(number);
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES, SURVEYED, &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES(header),
+                            SURVEYED(header), &numbers);
         }
         if (!any_lane(ray.alive)) {
             if (take.level == 0)
-                set_sums(QUEUE_ARGUMENTS number, SURVEYED, &sample);
+                set_sums(QUEUE_ARGUMENTS number, SURVEYED(header), &sample);
             continue;
         }
         follow(SCENE_ARGUMENTS & ray, take.level, &sample, &mirror, &through);
         if (take.level == 0)
-            set_sums(QUEUE_ARGUMENTS number, SURVEYED, &sample);
+            set_sums(QUEUE_ARGUMENTS number, SURVEYED(header), &sample);
         else
-            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, SURVEYED, &sample);
+            add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, SURVEYED(header), &sample);
         add_vector_counts(&sample, &sum);
-        *passing +=
-            append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES, SURVEYED, numbers);
-        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror, MESHES,
-                                 SURVEYED, numbers);
+        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES(header),
+                                SURVEYED(header), numbers);
+        *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror,
+                                 MESHES(header), SURVEYED(header), numbers);
     }
     add_counts(&sum, counts);
 }
@@ -204,7 +205,7 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
 /* Traces the samples [first, first + batch) of an item. */
 FN void trace_batch(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first, int batch,
                     RayCounts *counts) {
-    WaveSegment stack[WAVE_STACK_SIZE(DEPTH_BOUND)];
+    WaveSegment stack[WAVE_STACK_SIZE(DEPTH_BOUND(view))];
     int top = -1;
     wave_put(stack, &top, 0, 0, batch);
     while (top >= 0) {
@@ -338,17 +339,18 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         mirror.alive = through.alive = ray.alive = mask_none();
         if (i < count)
             ray = level == 0 ? first_ray(SAMPLE_ARGUMENTS first_item, first + i)
-                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES, SURVEYED, &number);
+                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES(header),
+                                         SURVEYED(header), &number);
         if (any_lane(ray.alive)) {
             follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
             if (level > 0)
-                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, SURVEYED, &sample);
+                add_to_sums(QUEUE_ARGUMENTS ray.alive, number, SURVEYED(header), &sample);
         }
         if (level == 0 && i < count)
-            set_sums(QUEUE_ARGUMENTS first + i, SURVEYED, &sample);
-        uint64 total =
-            append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES, SURVEYED,
-                            number, &sample, thread, thread_count, room, place, taken);
+            set_sums(QUEUE_ARGUMENTS first + i, SURVEYED(header), &sample);
+        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through,
+                                       MESHES(header), SURVEYED(header), number, &sample, thread,
+                                       thread_count, room, place, taken);
         sum.mirrored += total & COUNT_MASK;
         sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
         sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry points for CUDA; their parameters are those of kernel_arguments.h, by the names there. */
+#include "dialect.h"
+
 #include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Entry points for OpenCL; their parameters are those of kernel_arguments.h, by the names there.
    Without a group size every work item renders for itself, which suits CPUs. */
+#include "dialect.h"
+
 #include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT

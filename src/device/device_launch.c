@@ -2,7 +2,7 @@
 #include "device/device_launch.h"
 
 #include "image/frame.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 _Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied as they are");
 

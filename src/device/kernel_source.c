@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 void hd_kernel_defines(const HdKernelShape *shape,
                        char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]) {

@@ -10,7 +10,7 @@
 #include "device/kernel_cache.h"
 #include "device/pipeline.h"
 #include "device/self_test.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 struct HdRenderer {
     const HdBackend *backend;

@@ -6,8 +6,7 @@
 #include <stdio.h>
 
 #include "base/limits.h"
-#include "kernels/common/scene_tables.h"
-#include "kernels/common/wave_stack.h"
+#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
 

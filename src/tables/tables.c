@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "image/frame.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 #include "tables/builder.h"
 
 _Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&

@@ -17,6 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cpu/dialect.h"
 #include "device/cuda/api.h"
 #include "kernels/common/encode.h"
 #include "kernels/common/scene_tables.h"

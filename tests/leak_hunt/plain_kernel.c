@@ -2,6 +2,7 @@
 /* The plain C kernels with the test of Moeller and Trumbore (1997, Fast, Minimum Storage
    Ray/Triangle Intersection) in place of their own: what the hunt must find leaks with. */
 #define cross_triangle exact_cross_triangle
+#include "cpu/dialect.h"
 #include "kernels/common/triangle.h"
 #undef cross_triangle
 

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "cpu/dialect.h"
 #include "kernels/common/wavefront.h"
 
 #define CLOSE(found, expected) assert_true(fabs((double)(found) - (double)(expected)) < 1e-5)

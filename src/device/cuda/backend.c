@@ -12,7 +12,7 @@
 #include "device/kernel_cache.h"
 #include "device/pipeline.h"
 #include "device/wave_plan.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "tables/room.h"

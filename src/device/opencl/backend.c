@@ -10,7 +10,7 @@
 #include "device/opencl/program.h"
 #include "device/pipeline.h"
 #include "device/wave_plan.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
 

@@ -4,7 +4,7 @@
 #include "device/self_test_scenes.h"
 #include "expect.h"
 #include "input/check.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 static HdError error;
 

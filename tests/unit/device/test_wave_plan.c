@@ -12,8 +12,7 @@
 #include <cmocka.h>
 
 #include "device/wave_plan.h"
-#include "kernels/common/scene_tables.h"
-#include "kernels/common/wave_stack.h"
+#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 
 /* Every ray has `children` rays that go on, which a launch appends with those of its group: places

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels' conversion to 8 bits makes the bytes that the host's does. */
+#include "cpu/dialect.h"
 #include "expect.h"
 #include "image/curve.h"
 #include "kernels/common/encode.h"

@@ -10,7 +10,7 @@
 #include "device/renderer.h"
 #include "device/self_test_scenes.h"
 #include "expect.h"
-#include "kernels/common/scene_tables.h"
+#include "kernels/host/shared.h"
 
 /* Sanitizers take more of the address space than this test leaves. gcc tells of them by macros,
    clang by features. */

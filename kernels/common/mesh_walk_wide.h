@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: MIT */
+/* The walk of bundles through a mesh. Nodes are wide: the lanes are a node's children, which all
+   rays of a walk are tested against at once; where few rays are left each walks by itself, and the
+   lanes are a leaf's triangles too. */
+#ifndef HD_MESH_WALK_WIDE_H
+#define HD_MESH_WALK_WIDE_H
+
+#include "mesh_walk.h"
+
+/* Reals in the bounds of a wide node: a lower and an upper one of each axis for each child. */
+enum { WIDE_STRIDE = 6 * HD_LANES };
+
+/* Begins to load what a walk comes to later: a node, or the triangles of a leaf. */
+FN void prefetch_place(SCENE_PARAMETERS int place) {
+    enum { NODE_BYTES = WIDE_STRIDE * (int)sizeof(real), LEAF_BYTES = 192 };
+    if (place < 0) {
+        prefetch_bytes((GLOBAL const char *)(triangles + (~place >> HD_LEAF_ITEM_BITS)),
+                       LEAF_BYTES);
+        return;
+    }
+    prefetch_bytes((GLOBAL const char *)wide_bounds + (uint64)place * NODE_BYTES, NODE_BYTES);
+    prefetch_bytes((GLOBAL const char *)(wide_children + (uint64)place * HD_LANES),
+                   HD_LANES * (int)sizeof(int));
+}
+
+/* Where the bounds of an axis begin in a wide node, those of one side each. */
+FN int place_of_bounds(const int side[3], const Way *way, int axis) {
+    return (3 * side[axis] + way->axis[axis]) * HD_LANES;
+}
+
+/* ---- a ray by itself ---- */
+
+FN vreal spread_real(vreal a, int lane) {
+    return splat(lane_real(&a, lane));
+}
+
+FN Vec3 spread_vector(Vec3 a, int lane) {
+    return vec3(spread_real(a.x, lane), spread_real(a.y, lane), spread_real(a.z, lane));
+}
+
+FN vmask spread_mask(uint bits, int lane) {
+    return bits >> lane & 1 ? mask_all() : mask_none();
+}
+
+/* One lane's ray in all lanes. */
+FN MeshRays spread_rays(const MeshRays *rays, int lane) {
+    MeshRays one = *rays;
+    one.frame.origin = spread_vector(rays->frame.origin, lane);
+    one.frame.across = spread_real(rays->frame.across, lane);
+    one.frame.upward = spread_real(rays->frame.upward, lane);
+    one.frame.forward = spread_real(rays->frame.forward, lane);
+    one.frame.backward = spread_mask(lane_bits(rays->frame.backward), lane);
+    one.slabs.inverse = spread_vector(rays->slabs.inverse, lane);
+    one.slabs.near = spread_vector(rays->slabs.near, lane);
+    one.slabs.far = spread_vector(rays->slabs.far, lane);
+    for (int axis = 0; axis < 3; axis++)
+        one.slabs.negative[axis] = spread_mask(lane_bits(rays->slabs.negative[axis]), lane);
+    one.own = spread_mask(lane_bits(rays->own), lane);
+    one.inside = spread_mask(lane_bits(rays->inside), lane);
+    one.own_face = splat_int(lane_int(&rays->own_face, lane));
+    return one;
+}
+
+FN Findings spread_findings(const Findings *found, int lane) {
+    Findings one;
+    one.alive = mask_all();
+    one.limit = spread_real(found->limit, lane);
+    one.object = splat_int(lane_int(&found->object, lane));
+    one.triangle = splat_int(lane_int(&found->triangle, lane));
+    one.entering = spread_mask(lane_bits(found->entering), lane);
+    for (int channel = 0; channel < 3; channel++)
+        one.octaves[channel] = one.rest[channel] = splat_int(0);
+    return one;
+}
+
+/* `count` triangles side by side, at most as many as there are lanes. */
+FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first, int count,
+                                    const int axis[3], int first_face, int first_skin) {
+    GLOBAL const real *row = (GLOBAL const real *)(triangles + first);
+    FourReals a = load_rows(row, TRIANGLE_STRIDE, count);
+    FourReals b = load_rows(row + CORNER_STRIDE, TRIANGLE_STRIDE, count);
+    FourReals c = load_rows(row + 2 * CORNER_STRIDE, TRIANGLE_STRIDE, count);
+    TriangleLanes lanes;
+    lanes.a = vec3(a.number[axis[0]], a.number[axis[1]], a.number[axis[2]]);
+    lanes.b = vec3(b.number[axis[0]], b.number[axis[1]], b.number[axis[2]]);
+    lanes.c = vec3(c.number[axis[0]], c.number[axis[1]], c.number[axis[2]]);
+    name_triangles(&lanes, lane_numbers() + first, to_int(a.number[3]), first_face, first_skin);
+    return lanes;
+}
+
+/* Tries the triangles of a leaf side by side. What is found in the lanes is brought together, so
+   that all of them hold it. */
+FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                         int leaf) {
+    int first = ~leaf >> HD_LEAF_ITEM_BITS, count = ~leaf & HD_LEAF_ITEM_MASK;
+    for (int done = 0; done < count; done += HD_LANES) {
+        int rest = count - done < HD_LANES ? count - done : HD_LANES;
+        vmask m = lanes_below(rest);
+        TriangleCrossing crossing;
+        TriangleLanes triangle = adjacent_triangles(triangles, first + done, rest, way->axis,
+                                                    ray->first_face, ray->first_skin);
+        vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
+        if (!any_lane(met))
+            continue;
+        if (ray->is_shadow) {
+            keep_filter(skins, found, ray, &triangle, met, &crossing);
+            if (any_lane(~found->alive))
+                found->alive = mask_none();
+            continue;
+        }
+        vmask closer = met & is_closer(found, crossing.t, ray->object, triangle.number);
+        uint entering = lane_bits(crossing.entering);
+        for (uint left = lane_bits(closer); left; left &= left - 1) {
+            int lane = lowest_bit(left);
+            vreal t = spread_real(crossing.t, lane);
+            vint triangle_number = splat_int(lane_int(&triangle.number, lane));
+            vmask best = is_closer(found, t, ray->object, triangle_number);
+            if (!any_lane(best))
+                continue;
+            found->limit = t;
+            found->object = splat_int(ray->object);
+            found->triangle = triangle_number;
+            found->entering = spread_mask(entering, lane);
+        }
+    }
+}
+
+/* The ray that all lanes of `ray` hold. */
+FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                   int root) {
+    int stack[WIDE_STACK(header)];
+    real stack_near[WIDE_STACK(header)];
+    int lower[3], upper[3];
+    for (int axis = 0; axis < 3; axis++) {
+        lower[axis] = place_of_bounds(way->entry, way, axis);
+        upper[axis] = place_of_bounds(way->exit, way, axis);
+    }
+    int waiting = 1;
+    stack[0] = root;
+    stack_near[0] = R(0.0);
+    while (waiting > 0) {
+        waiting--;
+        int current = stack[waiting];
+        if (lane_real(&found->limit, 0) < stack_near[waiting])
+            continue;
+        if (current < 0) {
+            try_leaf_at_once(SCENE_ARGUMENTS found, ray, way, current);
+            if (ray->is_shadow && !any_lane(found->alive))
+                return;
+            continue;
+        }
+        GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
+        const Slabs *slabs = &ray->slabs;
+        vreal near = multiply_add(load_reals(bounds + lower[0]), slabs->inverse.x, slabs->near.x);
+        vreal far = multiply_add(load_reals(bounds + upper[0]), slabs->inverse.x, slabs->far.x);
+        near = greater(
+            near, multiply_add(load_reals(bounds + lower[1]), slabs->inverse.y, slabs->near.y));
+        far = lesser(far,
+                     multiply_add(load_reals(bounds + upper[1]), slabs->inverse.y, slabs->far.y));
+        near = greater(
+            near, multiply_add(load_reals(bounds + lower[2]), slabs->inverse.z, slabs->near.z));
+        far = lesser(far,
+                     multiply_add(load_reals(bounds + upper[2]), slabs->inverse.z, slabs->far.z));
+        near = greater(near, splat(R(0.0)));
+        far = lesser(far, found->limit);
+        int bottom = waiting;
+        for (uint left = lane_bits(le(near, far)); left; left &= left - 1) {
+            int lane = lowest_bit(left);
+            real at = lane_real(&near, lane);
+            int place = waiting;
+            while (place > bottom && stack_near[place - 1] < at) {
+                stack[place] = stack[place - 1];
+                stack_near[place] = stack_near[place - 1];
+                place--;
+            }
+            int child = wide_children[(uint64)current * HD_LANES + (uint64)lane];
+            prefetch_place(SCENE_ARGUMENTS child);
+            stack[place] = child;
+            stack_near[place] = at;
+            waiting++;
+        }
+    }
+}
+
+FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const Way *way,
+                     int lane, int root) {
+    MeshRays ray = spread_rays(rays, lane);
+    Findings one = spread_findings(found, lane);
+    walk_alone(SCENE_ARGUMENTS & one, &ray, way, root);
+    vmask m = eq_int(lane_numbers(), splat_int(lane));
+    if (rays->is_shadow) {
+        for (int channel = 0; channel < 3; channel++) {
+            int sum = 0, rest = 0;
+            for (int i = 0; i < HD_LANES; i++) {
+                sum += lane_int(&one.octaves[channel], i);
+                sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+                rest += lane_int(&one.rest[channel], i);
+            }
+            rest += lane_int(&found->rest[channel], lane);
+            sum += lane_int(&found->octaves[channel], lane) + (rest >> HD_OCTAVE_BITS);
+            sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
+            rest &= HD_OCTAVE - 1;
+            found->octaves[channel] = pick_int(m, splat_int(sum), found->octaves[channel]);
+            found->rest[channel] = pick_int(m, splat_int(rest), found->rest[channel]);
+        }
+        found->alive = found->alive & (~m | one.alive);
+        return;
+    }
+    found->limit = pick(m, one.limit, found->limit);
+    found->object = pick_int(m, one.object, found->object);
+    found->triangle = pick_int(m, one.triangle, found->triangle);
+    found->entering = pick_mask(m, one.entering, found->entering);
+}
+
+/* ---- rays that share a walk ---- */
+
+/* Fewer rays than these walk alone. */
+enum { FEW_RAYS = HD_LANES / 8 + 1 };
+
+/* What holds for all rays of a bundle, whose directions have the same signs: between which origins
+   they begin, for where they enter and leave a box, and the least and greatest inverse of their
+   directions. */
+typedef struct {
+    vreal first[3], last[3];
+    vreal least[3], greatest[3];
+    int entry[3], exit[3]; /* where the bounds begin in a node that they enter and leave by */
+} Beam;
+
+FN void bound_axis(Beam *beam, int axis, vreal origin, vreal inverse, vmask m, const Way *way,
+                   real slack) {
+    real least = least_lane(origin, m), greatest = greatest_lane(origin, m);
+    int negative = way->entry[axis];
+    beam->first[axis] = splat(negative ? least - slack : greatest + slack);
+    beam->last[axis] = splat(negative ? greatest + slack : least - slack);
+    beam->least[axis] = splat(least_lane(inverse, m));
+    beam->greatest[axis] = splat(greatest_lane(inverse, m));
+    beam->entry[axis] = place_of_bounds(way->entry, way, axis);
+    beam->exit[axis] = place_of_bounds(way->exit, way, axis);
+}
+
+FN Beam beam_of(const MeshRays *rays, vmask m, const Way *way) {
+    Vec3 origin = rays->frame.origin, inverse = rays->slabs.inverse;
+    real far_out = greatest_lane(
+        greater(absolute(origin.x), greater(absolute(origin.y), absolute(origin.z))), m);
+    /* Twice what ray_slabs allows for each ray, since this rounds otherwise. */
+    real slack = (far_out + R(1.0)) * (R(2.0) * SLAB_MARGIN);
+    Beam beam;
+    bound_axis(&beam, 0, origin.x, inverse.x, m, way, slack);
+    bound_axis(&beam, 1, origin.y, inverse.y, m, way, slack);
+    bound_axis(&beam, 2, origin.z, inverse.z, m, way, slack);
+    return beam;
+}
+
+/* No ray of the beam meets the children's bounds of an axis earlier, or later. */
+FN vreal beam_entry(const Beam *beam, GLOBAL const real *bounds, int axis) {
+    vreal way = load_reals(bounds + beam->entry[axis]) - beam->first[axis];
+    return lesser(way * beam->least[axis], way * beam->greatest[axis]);
+}
+FN vreal beam_exit(const Beam *beam, GLOBAL const real *bounds, int axis) {
+    vreal way = load_reals(bounds + beam->exit[axis]) - beam->last[axis];
+    return greater(way * beam->least[axis], way * beam->greatest[axis]);
+}
+
+/* Where each ray enters the box of a child, and leaves it. */
+FN vreal ray_entry(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
+    vreal x = multiply_add(splat(bounds[beam->entry[0]]), slabs->inverse.x, slabs->near.x);
+    vreal y = multiply_add(splat(bounds[beam->entry[1]]), slabs->inverse.y, slabs->near.y);
+    vreal z = multiply_add(splat(bounds[beam->entry[2]]), slabs->inverse.z, slabs->near.z);
+    return greater(greater(x, y), greater(z, splat(R(0.0))));
+}
+FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slabs) {
+    vreal x = multiply_add(splat(bounds[beam->exit[0]]), slabs->inverse.x, slabs->far.x);
+    vreal y = multiply_add(splat(bounds[beam->exit[1]]), slabs->inverse.y, slabs->far.y);
+    vreal z = multiply_add(splat(bounds[beam->exit[2]]), slabs->inverse.z, slabs->far.z);
+    return lesser(lesser(x, y), z);
+}
+
+/* The rays of `m`, which all run that way. */
+FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
+                  int root) {
+    int stack[WIDE_STACK(header)];
+    vreal stack_near[WIDE_STACK(header)]; /* beyond every limit in lanes that miss */
+    real stack_key[WIDE_STACK(header)];
+    Beam beam = beam_of(rays, m, way);
+    vreal furthest = splat(greatest_lane(found->limit, m));
+    int waiting = 1;
+    stack[0] = root;
+    stack_near[0] = splat(R(0.0));
+    stack_key[0] = R(0.0);
+    while (waiting > 0) {
+        waiting--;
+        int current = stack[waiting];
+        vmask alive = m & found->alive & le(stack_near[waiting], found->limit);
+        uint bits = lane_bits(alive);
+        if (!bits)
+            continue;
+        if (current >= 0 && count_bits(bits) < FEW_RAYS) {
+            for (; bits; bits &= bits - 1)
+                search_alone(SCENE_ARGUMENTS found, rays, way, lowest_bit(bits), current);
+            continue;
+        }
+        if (current < 0) {
+            try_leaf(SCENE_ARGUMENTS found, rays, alive, way, current);
+            furthest = splat(greatest_lane(found->limit, m));
+            continue;
+        }
+        GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
+        vreal entry = greater(beam_entry(&beam, bounds, 0), beam_entry(&beam, bounds, 1));
+        entry = greater(entry, greater(beam_entry(&beam, bounds, 2), splat(R(0.0))));
+        vreal leave = lesser(beam_exit(&beam, bounds, 0), beam_exit(&beam, bounds, 1));
+        leave = lesser(leave, lesser(beam_exit(&beam, bounds, 2), furthest));
+        int bottom = waiting;
+        for (uint left = lane_bits(le(entry, leave)); left; left &= left - 1) {
+            int child = lowest_bit(left);
+            vreal near = ray_entry(&beam, bounds + child, &rays->slabs);
+            vreal far = lesser(ray_exit(&beam, bounds + child, &rays->slabs), found->limit);
+            vmask meets = alive & le(near, far);
+            if (!any_lane(meets))
+                continue;
+            real key = lane_real(&entry, child);
+            int place = waiting;
+            while (place > bottom && stack_key[place - 1] < key) {
+                stack[place] = stack[place - 1];
+                stack_near[place] = stack_near[place - 1];
+                stack_key[place] = stack_key[place - 1];
+                place--;
+            }
+            stack[place] = wide_children[(uint64)current * HD_LANES + (uint64)child];
+            prefetch_place(SCENE_ARGUMENTS stack[place]);
+            stack_near[place] = pick(meets, near, splat(REAL_LARGE * R(2.0)));
+            stack_key[place] = key;
+            waiting++;
+        }
+    }
+}
+
+#endif

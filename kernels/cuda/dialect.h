@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* The dialect of the kernels (../common/dialect.h) in CUDA C++: bundles of one lane. */
+#ifndef HD_CUDA_DIALECT_H
+#define HD_CUDA_DIALECT_H
+
+#define FN       static __device__ __forceinline__
+#define FN_APART static __device__ __forceinline__
+#define GLOBAL
+#define LOCAL
+/* Threads of a warp that left loops at different times come together again. Left to themselves,
+   NVIDIA's compilers (13.0, sm_90) lose what some of them do where loops are nested deeply. */
+#define BARRIER()    (__syncwarp(), __syncthreads())
+#define RECONVERGE() __syncwarp(__activemask())
+#define RESTRICT     __restrict__
+#define ALIGNED_16   __align__(16)
+typedef unsigned int uint;
+typedef unsigned long long uint64;
+typedef long long fixed64;
+
+#include "../common/one_lane.h"
+
+#if HD_DOUBLE
+FN vbits bits_of(vreal a) {
+    return __double_as_longlong(a);
+}
+FN vreal from_bits(vbits a) {
+    return __longlong_as_double(a);
+}
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __fma_rn(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrt(a);
+}
+#else
+FN vbits bits_of(vreal a) {
+    return __float_as_int(a);
+}
+FN vreal from_bits(vbits a) {
+    return __int_as_float(a);
+}
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return __fmaf_rn(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrtf(a);
+}
+#endif
+FN vreal absolute(vreal a) {
+    return fabs(a); /* overloaded */
+}
+FN int lowest_bit(uint bits) {
+    return __ffs((int)bits) - 1;
+}
+FN int count_bits(uint bits) {
+    return __popc(bits);
+}
+FN void prefetch_bytes(GLOBAL const char *from, int count) {
+    (void)from;
+    (void)count;
+}
+
+#if HD_GROUP_SIZE
+FN void add_shared(fixed64 *sum, fixed64 amount) {
+    atomicAdd((uint64 *)sum, (uint64)amount);
+}
+FN uint take_shared(uint *counter, uint amount) {
+    return atomicAdd(counter, amount);
+}
+#endif
+
+#endif

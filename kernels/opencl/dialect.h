@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* The dialect of the kernels (../common/dialect.h) in OpenCL C 1.2. */
+#ifndef HD_OPENCL_DIALECT_H
+#define HD_OPENCL_DIALECT_H
+
+#if HD_STRICT
+#pragma OPENCL FP_CONTRACT OFF
+#endif
+#if HD_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+#define FN        static inline
+#define FN_APART  static
+#define GLOBAL    __global
+#define LOCAL     __local
+#define BARRIER() barrier(CLK_LOCAL_MEM_FENCE)
+#ifdef cl_nv_pragma_unroll /* NVIDIA's compiler; see CUDA's dialect */
+#define RECONVERGE()                                                                               \
+    __asm__ volatile("{ .reg .b32 m; activemask.b32 m; bar.warp.sync m; }" ::: "memory")
+#else
+#define RECONVERGE() ((void)0)
+#endif
+#define RESTRICT   restrict
+#define ALIGNED_16 __attribute__((aligned(16)))
+typedef ulong uint64;
+typedef long fixed64;
+
+#include "../common/real.h"
+
+#if HD_LANES == 1
+
+#include "../common/one_lane.h"
+#define HD_WIDE(name) name
+
+#else
+
+#define HD_WIDE(name) HD_PASTE(name, HD_LANES)
+
+#if HD_DOUBLE
+typedef HD_WIDE(double) vreal;
+typedef HD_WIDE(long) vint;
+typedef long real_bits;
+#define HD_CONVERT_INT  HD_WIDE(convert_long)
+#define HD_CONVERT_REAL HD_WIDE(convert_double)
+#else
+typedef HD_WIDE(float) vreal;
+typedef HD_WIDE(int) vint;
+typedef int real_bits;
+#define HD_CONVERT_INT  HD_WIDE(convert_int)
+#define HD_CONVERT_REAL HD_WIDE(convert_float)
+#endif
+typedef vint vmask;
+typedef vint vbits;
+typedef HD_WIDE(long) vfix;
+
+FN vreal splat(real a) {
+    return (vreal)(a);
+}
+FN vbits splat_bits(real_bits a) {
+    return (vbits)(a);
+}
+FN vint splat_int(int a) {
+    return (vint)(a);
+}
+FN vmask lt(vreal a, vreal b) {
+    return a < b;
+}
+FN vmask le(vreal a, vreal b) {
+    return a <= b;
+}
+FN vmask eq_int(vint a, vint b) {
+    return a == b;
+}
+FN vmask lt_int(vint a, vint b) {
+    return a < b;
+}
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return select(b, a, m);
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return select(b, a, m);
+}
+/* A byte for each lane: drivers for CPUs are slow with any(). */
+#if HD_LANES == 16
+FN int any_lane(vmask m) {
+    ulong2 bytes = as_ulong2(convert_char16(m));
+    return (bytes.x | bytes.y) != 0;
+}
+#elif HD_LANES == 8
+FN int any_lane(vmask m) {
+    return as_ulong(convert_char8(m)) != 0;
+}
+#else
+FN int any_lane(vmask m) {
+    return as_int(convert_char4(m)) != 0;
+}
+#endif
+FN real lane_real(const vreal *a, int lane) {
+    return ((const real *)a)[lane];
+}
+FN int lane_int(const vint *a, int lane) {
+    return (int)((const real_bits *)a)[lane];
+}
+FN fixed64 lane_fix(const vfix *a, int lane) {
+    return ((const fixed64 *)a)[lane];
+}
+FN void set_lane_int(vint *a, int lane, int value) {
+    ((real_bits *)a)[lane] = value;
+}
+FN vint to_int(vreal a) {
+    return HD_CONVERT_INT(a);
+}
+FN vreal to_real(vint a) {
+    return HD_CONVERT_REAL(a);
+}
+FN vfix truncate_to_fix(vreal a) {
+    return HD_WIDE(convert_long)(a);
+}
+FN vreal gather_reals(const real *from) {
+    return HD_WIDE(vload)(0, from);
+}
+FN vreal load_reals(GLOBAL const real *from) {
+    return HD_WIDE(vload)(0, from);
+}
+FN vint load_ints(GLOBAL const int *from) {
+    return HD_CONVERT_INT(HD_WIDE(vload)(0, from));
+}
+
+#endif
+
+#if HD_DOUBLE
+FN vbits bits_of(vreal a) {
+    return HD_WIDE(as_long)(a);
+}
+FN vreal from_bits(vbits a) {
+    return HD_WIDE(as_double)(a);
+}
+#else
+FN vbits bits_of(vreal a) {
+    return HD_WIDE(as_int)(a);
+}
+FN vreal from_bits(vbits a) {
+    return HD_WIDE(as_float)(a);
+}
+#endif
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return fma(a, b, c);
+}
+FN vreal square_root(vreal a) {
+    return sqrt(a);
+}
+FN vreal absolute(vreal a) {
+    return fabs(a);
+}
+FN int lowest_bit(uint bits) {
+    return 31 - (int)clz(bits & (0u - bits));
+}
+FN int count_bits(uint bits) {
+    return (int)popcount(bits);
+}
+FN void prefetch_bytes(GLOBAL const char *from, int count) {
+    (void)from;
+    (void)count;
+}
+
+#if HD_GROUP_SIZE
+#ifdef cl_khr_int64_base_atomics
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+FN void add_shared(GLOBAL fixed64 *sum, fixed64 amount) {
+    atom_add(sum, amount);
+}
+#endif
+FN uint take_shared(GLOBAL uint *counter, uint amount) {
+    return atomic_add(counter, amount);
+}
+#endif
+
+#endif
