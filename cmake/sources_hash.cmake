@@ -3,7 +3,7 @@
 # may decide a pixel. A changed comment counts as well: a hash that errs, errs to the safe side.
 set(patterns "")
 foreach(folder src cpu kernels)
-    foreach(ending c h inc cl cu)
+    foreach(ending c h cl cu)
         list(APPEND patterns ${FOLDER}/${folder}/*.${ending})
     endforeach()
 endforeach()

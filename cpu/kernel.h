@@ -5,7 +5,7 @@
 #define HD_CPU_KERNEL_H
 
 #include "image/frame.h"
-#include "tables/tables.h"
+#include "tables/table.h"
 
 /* The queue that a thread works off its rays with (kernels/common/wavefront.h). */
 typedef struct HdCpuQueue {

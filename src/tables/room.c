@@ -2,6 +2,9 @@
 #include "tables/room.h"
 
 #include <stdio.h>
+#include <string.h>
+
+#include "system/machine.h"
 
 const char hd_room_advice[] = "fewer triangles, a device with more memory or --backend c may do";
 
@@ -50,5 +53,20 @@ HdStatus hd_check_room(const HdSceneTables *tables, const HdRoom *room, HdError 
         return fail_all(tables, largest, all, room, error);
     if (room->at_once > 0.0 && (double)tables->table[largest].bytes > room->at_once)
         return fail_table(tables, largest, room, error);
+    return HD_OK;
+}
+
+static HdStatus lack_table(const HdTable *table, const char *what, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)table->bytes, need);
+    return hd_fail(error, HD_FAILED, "out of memory: the %s need %s", what, need);
+}
+
+HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error) {
+    size_t bytes = (table->bytes + 63) / 64 * 64 + 64;
+    table->data = hd_large_allocate(bytes);
+    if (table->data == NULL)
+        return lack_table(table, what, error);
+    memset(table->data, 0, bytes);
     return HD_OK;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a scene's tables fit a memory, told in words that help where they do not. */
+/* Memory for tables: whether a scene's fit, told in words that help where they do not. */
 #ifndef HD_TABLES_ROOM_H
 #define HD_TABLES_ROOM_H
 
-#include "tables/tables.h"
+#include "base/error.h"
+#include "tables/table.h"
 
 enum { HD_BYTE_TEXT_SIZE = 32 };
 
@@ -23,5 +24,9 @@ typedef struct HdRoom {
 /* HD_UNAVAILABLE where a table, or all of them, can never fit, however much is free: with what is
    too large, what it needs, and what there is. */
 HdStatus hd_check_room(const HdSceneTables *tables, const HdRoom *room, HdError *error);
+
+/* Memory for table->bytes, zeroed and aligned for the widest loads; at least one unit, so that no
+   table is NULL. `what` names it in a message: "scene's triangles". */
+HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error);
 
 #endif

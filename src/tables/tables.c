@@ -1,61 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "tables/tables.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "image/frame.h"
 #include "kernels/host/shared.h"
-#include "tables/builder.h"
+#include "tables/precisions.h"
 
 _Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
                    (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
                "a float comes of each sum");
-
-const char *hd_scene_table_content(int table) {
-    static const char *const contents[HD_SCENE_TABLE_COUNT] = {
-        [HD_TABLE_header] = "numbers",
-        [HD_TABLE_objects] = "objects",
-        [HD_TABLE_planes] = "planes",
-        [HD_TABLE_edges] = "edges",
-        [HD_TABLE_materials] = "materials",
-        [HD_TABLE_lights] = "lights",
-        [HD_TABLE_light_offsets] = "places of lights",
-        [HD_TABLE_light_coordinates] = "distances of lights from planes",
-        [HD_TABLE_light_sides] = "sides of lights",
-        [HD_TABLE_object_offsets] = "places of objects",
-        [HD_TABLE_floor_map] = "maps of the floor",
-        [HD_TABLE_texels] = "texels",
-        [HD_TABLE_instances] = "instances of meshes",
-        [HD_TABLE_triangles] = "triangles",
-        [HD_TABLE_mesh_nodes] = "nodes over triangles",
-        [HD_TABLE_wide_bounds] = "boxes of wide nodes",
-        [HD_TABLE_wide_children] = "children of wide nodes",
-        [HD_TABLE_top_items] = "lists of instances",
-        [HD_TABLE_skins] = "materials of meshes",
-        [HD_TABLE_mesh_normals] = "normals",
-        [HD_TABLE_corner_normals] = "normals of corners",
-        [HD_TABLE_mesh_uvs] = "texture coordinates",
-        [HD_TABLE_corner_uvs] = "texture coordinates of corners",
-        [HD_TABLE_pictures] = "textures",
-    };
-    return contents[table];
-}
-
-static void free_tables(HdTable *table, int count) {
-    for (int i = 0; i < count; i++)
-        free(table[i].data);
-}
-
-void hd_scene_tables_free(HdSceneTables *tables) {
-    free_tables(tables->table, tables->table_count);
-    memset(tables, 0, sizeof *tables);
-}
-
-void hd_frame_tables_free(HdFrameTables *tables) {
-    free_tables(tables->table, tables->table_count);
-    memset(tables, 0, sizeof *tables);
-}
 
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           int lanes, HdError *error) {

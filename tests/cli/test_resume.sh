@@ -106,8 +106,8 @@ sources_hash() {
 }
 
 if command -v cmake >"$logs/which"; then
-    mkdir -p a/{src,cpu,cmake,kernels/common}
-    sources=(CMakeLists.txt src/a.c src/b.h src/c.inc cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu
+    mkdir -p a/{src/c,cpu,cmake,kernels/common}
+    sources=(CMakeLists.txt src/a.c src/b.h src/c/d.c cpu/k.c kernels/common/d.h kernels/e.cl kernels/f.cu
         cmake/compile_options.cmake cmake/cpu_kernels.cmake)
     for file in "${sources[@]}"; do
         echo text >"a/$file"

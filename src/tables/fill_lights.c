@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/* Tables of lights; compiled for each precision. */
+#include "tables/builder.h"
+
+/* From the unrounded normals of a solid; a light is exactly on its own two faces. */
+static void fill_solid_coordinates(const HdBuilder *builder, int light, int solid,
+                                   const Plane *planes, real *out) {
+    const HdLightSource *source = &builder->sources[light];
+    const HdPlatonic *shape = &builder->shapes[solid];
+    HdVec3 offset = hd_light_offset(builder, source, solid);
+    int step = hd_faces_per_plane(shape);
+    for (int i = 0; i < hd_solid_plane_count(shape); i++)
+        out[i] = (real)hd_dot(shape->face_normal[i * step], offset);
+    for (int i = 0; source->owner == solid && i < 2; i++) {
+        int plane = source->face[i] / step;
+        out[plane] = source->face[i] % step == 0 ? planes[plane].distance : -planes[plane].distance;
+    }
+}
+
+static void add_side(LightSides *sides, int bit, real distance) {
+    if (distance > R(0.0))
+        sides->outside |= (uint)1 << bit;
+    else if (!(distance < R(0.0)))
+        sides->on_plane |= (uint)1 << bit;
+}
+
+/* From the rounded coordinates, so that both tables agree. */
+static LightSides sides_of_solid(const Object *solid, const Plane *planes,
+                                 const real *coordinates) {
+    LightSides sides = {0, 0, {0, 0}};
+    for (int i = 0; i < solid->plane_count; i++) {
+        add_side(&sides, 2 * i, coordinates[i] - planes[i].distance);
+        if (solid->paired)
+            add_side(&sides, 2 * i + 1, -coordinates[i] - planes[i].distance);
+    }
+    return sides;
+}
+
+static void fill_floor_distances(const HdBuilder *builder, int light, const HdFloorFrame *frame,
+                                 real *out) {
+    int first = builder->plane_count - HD_FLOOR_PLANES;
+    HdVec3 offset = hd_light_offset(builder, &builder->sources[light], builder->solid_count);
+    out[first] = (real)hd_dot(frame->normal, offset);
+    const Plane *planes = (const Plane *)builder->table[HD_TABLE_planes] + first;
+    for (int i = 1; i < 5; i++)
+        out[first + i] = (real)((double)planes[i].x * offset.x + (double)planes[i].y * offset.y +
+                                (double)planes[i].z * offset.z - (double)planes[i].distance);
+}
+
+static void fill_falloff(Light *light, const HdFalloff *falloff) {
+    double length = falloff->end > 0.0 ? falloff->end : falloff->distance;
+    light->inverse_falloff_squared = length > 0.0 ? (real)(1.0 / (length * length)) : R(0.0);
+    light->falloff_ends = falloff->end > 0.0;
+}
+
+/* The kernels' number of a solid's face: 2 * plane + side, planes counted from `first_plane`. */
+static int face_number(const HdPlatonic *shape, int first_plane, int face) {
+    return 2 * first_plane + (hd_faces_per_plane(shape) == 2 ? face : 2 * face);
+}
+
+/* A solid's face, or the group of triangles that it became. */
+static int own_face(const HdBuilder *builder, const HdLightSource *source, int face) {
+    const Object *objects = builder->table[HD_TABLE_objects];
+    const Instance *instances = builder->table[HD_TABLE_instances];
+    if (builder->scene->geometry == HD_GEOMETRY_TRIANGLES)
+        return instances[source->owner].first_face + face;
+    return face_number(&builder->shapes[source->owner], objects[source->owner].first_plane, face);
+}
+
+static void set_own_faces(const HdBuilder *builder, const HdLightSource *source, Light *light) {
+    for (int i = 0; i < 2; i++)
+        light->own_face[i] = source->owner < 0 ? -1 : own_face(builder, source, source->face[i]);
+}
+
+void NAMED(hd_fill_lights)(const HdBuilder *builder) {
+    Light *lights = builder->table[HD_TABLE_lights];
+    const Plane *planes = builder->table[HD_TABLE_planes];
+    Vector *offsets = builder->table[HD_TABLE_light_offsets];
+    const Object *objects = builder->table[HD_TABLE_objects];
+    HdFloorFrame frame = {0};
+    if (builder->has_floor)
+        frame = hd_floor_frame(&builder->scene->floor);
+    for (int i = 0; i < builder->light_count; i++) {
+        const HdLightSource *source = &builder->sources[i];
+        hd_store3(lights[i].intensity, source->intensity);
+        fill_falloff(&lights[i], &source->falloff);
+        set_own_faces(builder, source, &lights[i]);
+        for (int object = 0; object < builder->object_count; object++)
+            offsets[object * builder->light_count + i] =
+                hd_as_vector(hd_light_offset(builder, source, object));
+        real *row = (real *)builder->table[HD_TABLE_light_coordinates] +
+                    (size_t)i * (size_t)builder->plane_count;
+        LightSides *sides = (LightSides *)builder->table[HD_TABLE_light_sides] +
+                            (size_t)i * (size_t)builder->object_count;
+        for (int s = 0; s < builder->solid_count; s++) {
+            int first = objects[s].first_plane;
+            fill_solid_coordinates(builder, i, s, planes + first, row + first);
+            sides[s] = sides_of_solid(&objects[s], planes + first, row + first);
+        }
+        if (builder->has_floor)
+            fill_floor_distances(builder, i, &frame, row);
+    }
+}

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: MIT */
+/* Tables of meshes; compiled for each precision. */
+#include "tables/builder.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- triangles ---- */
+
+static void store_corner(real out[3], const HdMesh *mesh, int corner) {
+    HdVec3 from_middle = hd_sub(mesh->vertices[corner], hd_mesh_middle(mesh));
+    hd_store3(out, hd_scale(from_middle, 1.0 / hd_mesh_half_side(mesh)));
+}
+
+static int triangle_in_order(const HdMesh *mesh, int place) {
+    return mesh->tree.order != NULL ? mesh->tree.order[place] : place;
+}
+
+static void fill_triangles(const HdBuilder *builder, const HdMesh *mesh, const HdMeshPlace *place) {
+    Triangle *out = (Triangle *)builder->table[HD_TABLE_triangles] + place->first_triangle;
+    for (int i = 0; i < mesh->triangle_count; i++) {
+        int number = triangle_in_order(mesh, i);
+        const int32_t *corner = mesh->corners[number];
+        int material = mesh->material_of != NULL ? mesh->material_of[number] : 0;
+        int group = mesh->group_of != NULL ? mesh->group_of[number] : 0;
+        store_corner(out[i].a, mesh, corner[0]);
+        store_corner(out[i].b, mesh, corner[1]);
+        store_corner(out[i].c, mesh, corner[2]);
+        out[i].tag = (real)(material * HD_TRIANGLE_GROUPS + group);
+    }
+}
+
+static void fill_corners(int *out, const HdMesh *mesh, int32_t (*const corners)[3], int first) {
+    for (int i = 0; i < mesh->triangle_count; i++)
+        for (int k = 0; k < 3; k++) {
+            int32_t corner = corners[triangle_in_order(mesh, i)][k];
+            *out++ = corner < 0 ? -1 : first + corner;
+        }
+}
+
+static void fill_normals_and_uvs(const HdBuilder *builder, const HdMesh *mesh,
+                                 const HdMeshPlace *place) {
+    Vector *normals = (Vector *)builder->table[HD_TABLE_mesh_normals] + place->first_normal;
+    TextureCoordinates *uvs =
+        (TextureCoordinates *)builder->table[HD_TABLE_mesh_uvs] + place->first_uv;
+    for (int i = 0; i < mesh->normal_count; i++)
+        normals[i] = hd_as_vector(hd_normalize(mesh->normals[i]));
+    for (int i = 0; i < mesh->uv_count; i++) /* rows of pictures count downwards */
+        uvs[i] = (TextureCoordinates){
+            (real)mesh->uvs[i][0], (real)(1.0 - mesh->uvs[i][1]), {R(0.0), R(0.0)}};
+    if (place->first_corner_normals >= 0)
+        fill_corners((int *)builder->table[HD_TABLE_corner_normals] + place->first_corner_normals,
+                     mesh, mesh->corner_normals, place->first_normal);
+    if (place->first_corner_uvs >= 0)
+        fill_corners((int *)builder->table[HD_TABLE_corner_uvs] + place->first_corner_uvs, mesh,
+                     mesh->corner_uvs, place->first_uv);
+}
+
+/* ---- hierarchies ---- */
+
+/* Leaves count their items from `first_item` on, nodes from `first_node` on. */
+static int move_child(int child, int first_node, int first_item) {
+    if (child >= 0)
+        return first_node + child;
+    return ~(~child + first_item * (1 << HD_LEAF_ITEM_BITS));
+}
+
+static void fill_nodes(MeshNode *out, const HdHierarchy *tree, int first_node, int first_item) {
+    for (int i = 0; i < tree->node_count; i++) {
+        const HdBuildNode *node = &tree->nodes[i];
+        for (int child = 0; child < 2; child++) {
+            for (int axis = 0; axis < 3; axis++) {
+                out[i].bounds[axis][0][child] = (real)node->box[child].lower[axis];
+                out[i].bounds[axis][1][child] = (real)node->box[child].upper[axis];
+            }
+            out[i].child[child] = move_child(node->child[child], first_node, first_item);
+        }
+        out[i].axis = node->axis;
+    }
+}
+
+static void fill_wide_nodes(const HdBuilder *builder, const HdMeshPlace *place) {
+    size_t lanes = (size_t)builder->lanes, count = (size_t)place->wide.node_count;
+    size_t first = (size_t)place->first_wide;
+    real *bounds = (real *)builder->table[HD_TABLE_wide_bounds] + first * 6 * lanes;
+    int *child = (int *)builder->table[HD_TABLE_wide_children] + first * lanes;
+    for (size_t i = 0; i < count * 6 * lanes; i++)
+        bounds[i] = (real)place->wide.bounds[i];
+    for (size_t i = 0; i < count * lanes; i++)
+        child[i] = move_child(place->wide.child[i], place->first_wide, place->first_triangle);
+}
+
+/* ---- instances ---- */
+
+static void store_rows(real rows[3][3], const HdVec3 columns[3]) {
+    for (int i = 0; i < 3; i++) {
+        rows[0][i] = (real)columns[i].x;
+        rows[1][i] = (real)columns[i].y;
+        rows[2][i] = (real)columns[i].z;
+    }
+}
+
+/* The columns of the inverse; `to` are perpendicular to each other. */
+static void invert_columns(const HdVec3 to[3], HdVec3 back[3]) {
+    HdVec3 rows[3];
+    for (int i = 0; i < 3; i++)
+        rows[i] = hd_scale(to[i], 1.0 / hd_dot(to[i], to[i]));
+    back[0] = hd_vec3(rows[0].x, rows[1].x, rows[2].x);
+    back[1] = hd_vec3(rows[0].y, rows[1].y, rows[2].y);
+    back[2] = hd_vec3(rows[0].z, rows[1].z, rows[2].z);
+}
+
+/* How far rounding may put a point of a mesh from it, with room to spare, in the mesh's own
+   coordinates, to whose origin it is relative. In the world it is rounded to the longest of the
+   axes, `to`, which the way back makes more of along the shortest. */
+static double contact_distance(const HdVec3 to[3]) {
+    double precision = sizeof(real) == sizeof(double) ? 0x1p-52 : 0x1p-23;
+    double x = hd_length(to[0]), y = hd_length(to[1]), z = hd_length(to[2]);
+    return precision * (64.0 + fmax(x, fmax(y, z)) / fmin(x, fmin(y, z)));
+}
+
+static void fill_instance(const HdBuilder *builder, Instance *out, int number, int first_skin,
+                          int first_face) {
+    const HdMeshPlace *place = &builder->places[builder->scene->instances[number].mesh];
+    HdPlacement to = hd_placement_of(builder->scene, number);
+    HdVec3 back[3];
+    hd_store3(out->start, hd_sub(to.start, builder->mesh_centre));
+    invert_columns(to.columns, back);
+    store_rows(out->to_world, to.columns);
+    store_rows(out->to_mesh, back);
+    double contact = contact_distance(to.columns);
+    out->contact_squared = (real)(contact * contact);
+    const HdMesh *mesh = hd_mesh_of(builder->scene, number);
+    out->root = builder->lanes > 1 ? place->first_wide : place->first_node;
+    if (!hd_has_hierarchy(builder->scene, mesh))
+        out->root = -1;
+    out->first_triangle = place->first_triangle;
+    out->triangle_count = mesh->triangle_count;
+    out->first_skin = first_skin;
+    out->first_face = first_face;
+    out->first_corner_normals = place->first_corner_normals;
+    out->first_corner_uvs = place->first_corner_uvs;
+}
+
+/* ---- skins ---- */
+
+/* Of 0 < x <= 1. Digit by digit, for library functions differ; an error of a late digit's square is
+   worth little. */
+static double octaves_below_one(double x) {
+    int exponent;
+    double fraction = 2.0 * frexp(x, &exponent), digits = 0.0;
+    for (int i = 1; i <= 52; i++) {
+        fraction *= fraction;
+        if (fraction >= 2.0) {
+            fraction *= 0.5;
+            digits += ldexp(1.0, -i);
+        }
+    }
+    return (double)(1 - exponent) - digits;
+}
+
+/* A share of light in octaves, and what that leaves out. */
+static void set_filter(Skin *skin, int side, int channel, double passes) {
+    if (!(passes > 0.0)) {
+        skin->filter[side][channel] = HD_OPAQUE_OCTAVES;
+        return;
+    }
+    double octaves = octaves_below_one(passes) * (double)HD_OCTAVE;
+    double whole = floor(octaves);
+    if (whole >= (double)HD_OPAQUE_OCTAVES) {
+        skin->filter[side][channel] = HD_OPAQUE_OCTAVES;
+        return;
+    }
+    skin->filter[side][channel] = (int)whole;
+    skin->filter_rest[side][channel] = (int)((octaves - whole) * (double)HD_OCTAVE);
+}
+
+static void set_filters(Skin *skin, const HdMaterial *material, bool is_opaque) {
+    double outer = is_opaque ? 0.0 : material->transmission;
+    double inner = is_opaque                  ? 0.0
+                   : material->has_inner_side ? material->inner_transmission
+                                              : material->transmission;
+    double shares[2] = {outer, inner};
+    for (int side = 0; side < 2; side++) {
+        set_filter(skin, side, 0, shares[side] * material->colour.x);
+        set_filter(skin, side, 1, shares[side] * material->colour.y);
+        set_filter(skin, side, 2, shares[side] * material->colour.z);
+        bool passes_nothing = true;
+        for (int channel = 0; channel < 3; channel++)
+            passes_nothing &= skin->filter[side][channel] == HD_OPAQUE_OCTAVES;
+        skin->filter[side][3] = passes_nothing;
+    }
+}
+
+/* Returns how many there are. */
+static int fill_skins(const HdBuilder *builder, int number, Skin *skins, Material *materials,
+                      int first) {
+    const HdInstance *instance = &builder->scene->instances[number];
+    const HdMesh *mesh = hd_mesh_of(builder->scene, number);
+    for (int i = 0; i < mesh->material_count; i++) {
+        const HdMeshMaterial *material = &mesh->materials[i];
+        const HdMeshMaterial *filter =
+            material->passes_as >= 0 ? &mesh->materials[material->passes_as] : material;
+        Skin *skin = &skins[first + i];
+        hd_store3(skin->emission, material->emission);
+        skin->material = builder->first_mesh_material + first + i;
+        skin->picture = material->picture;
+        NAMED(hd_fill_material)(&materials[skin->material], hd_material_of(instance, material));
+        set_filters(skin, hd_material_of(instance, filter), filter->is_opaque_to_shadows);
+    }
+    return mesh->material_count;
+}
+
+static void fill_pictures(const HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    Picture *out = builder->table[HD_TABLE_pictures];
+    size_t first = builder->first_picture_texel;
+    for (int i = 0; i < scene->picture_count; i++) {
+        const HdTexture *picture = &scene->pictures[i].texture;
+        out[i] =
+            (Picture){(int)first, picture->width, picture->height, scene->pictures[i].is_clamped};
+        uint *words = (uint *)builder->table[HD_TABLE_texels] + 2 * first;
+        for (int row = 0; row <= picture->height; row++)
+            for (int column = 0; column <= picture->width; column++) {
+                size_t place = (size_t)(row % picture->height) * (size_t)picture->width +
+                               (size_t)(column % picture->width);
+                hd_pack_texel(words, picture->texels + 3 * place);
+                words += 2;
+            }
+        first += ((size_t)picture->width + 1) * ((size_t)picture->height + 1);
+    }
+}
+
+/* ---- all of it ---- */
+
+void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    Header *header = builder->table[HD_TABLE_header];
+    MeshNode *nodes = builder->table[HD_TABLE_mesh_nodes];
+    if (scene->instance_count == 0)
+        return;
+    header->instance_count = scene->instance_count;
+    header->node_stack = builder->node_stack;
+    header->wide_stack = builder->wide_stack;
+    header->mesh_reach = (real)builder->mesh_reach;
+    for (int i = 0; i < scene->mesh_count; i++) {
+        const HdMesh *mesh = &scene->meshes[i];
+        const HdMeshPlace *place = &builder->places[i];
+        fill_triangles(builder, mesh, place);
+        fill_normals_and_uvs(builder, mesh, place);
+        if (!hd_has_hierarchy(scene, mesh))
+            continue;
+        if (builder->lanes > 1)
+            fill_wide_nodes(builder, place);
+        else
+            fill_nodes(nodes + place->first_node, &mesh->tree, place->first_node,
+                       place->first_triangle);
+    }
+    int skin = 0;
+    for (int i = 0; i < scene->instance_count; i++) {
+        fill_instance(builder, (Instance *)builder->table[HD_TABLE_instances] + i, i, skin,
+                      2 * builder->plane_count + i * HD_TRIANGLE_GROUPS);
+        skin += fill_skins(builder, i, builder->table[HD_TABLE_skins],
+                           builder->table[HD_TABLE_materials], skin);
+    }
+    fill_pictures(builder);
+    if (builder->top.node_count > 0) {
+        header->top_root = builder->first_top_node;
+        fill_nodes(nodes + builder->first_top_node, &builder->top, builder->first_top_node, 0);
+        memcpy(builder->table[HD_TABLE_top_items], builder->top.order,
+               (size_t)scene->instance_count * sizeof(int));
+    }
+}

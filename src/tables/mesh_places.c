@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* Where meshes and their instances are, in the tables and in space, before anything is rounded. */
+#include "tables/builder.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "system/thread_pool.h"
+
+const HdMesh *hd_mesh_of(const HdScene *scene, int instance) {
+    return &scene->meshes[scene->instances[instance].mesh];
+}
+
+const HdMaterial *hd_material_of(const HdInstance *instance, const HdMeshMaterial *material) {
+    return instance->has_material ? &instance->material : &material->material;
+}
+
+/* The rotation's columns. */
+static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
+    columns[0] = hd_vec3(1.0, 0.0, 0.0);
+    columns[1] = hd_vec3(0.0, 1.0, 0.0);
+    columns[2] = hd_vec3(0.0, 0.0, 1.0);
+    hd_rotate_points(columns, 3, instance->rotation_degrees);
+}
+
+/* In world space. */
+HdPlacement hd_placement_of(const HdScene *scene, int number) {
+    const HdInstance *instance = &scene->instances[number];
+    const HdMesh *mesh = hd_mesh_of(scene, number);
+    HdVec3 middle = hd_mesh_middle(mesh);
+    HdPlacement to;
+    rotation_of(instance, to.columns);
+    to.columns[0] = hd_scale(to.columns[0], instance->scale.x);
+    to.columns[1] = hd_scale(to.columns[1], instance->scale.y);
+    to.columns[2] = hd_scale(to.columns[2], instance->scale.z);
+    to.start = instance->position;
+    to.start = hd_add(to.start, hd_scale(to.columns[0], middle.x));
+    to.start = hd_add(to.start, hd_scale(to.columns[1], middle.y));
+    to.start = hd_add(to.start, hd_scale(to.columns[2], middle.z));
+    for (int i = 0; i < 3; i++)
+        to.columns[i] = hd_scale(to.columns[i], hd_mesh_half_side(mesh));
+    return to;
+}
+
+static HdVec3 larger(HdVec3 a, HdVec3 b) {
+    return hd_vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+}
+
+static HdVec3 smaller(HdVec3 a, HdVec3 b) {
+    return hd_vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+}
+
+/* Half the sides of the box about a placed mesh. */
+HdVec3 hd_reach_of(const HdMesh *mesh, const HdPlacement *to) {
+    HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
+    const HdVec3 *c = to->columns;
+    return hd_vec3(fabs(c[0].x) * half.x + fabs(c[1].x) * half.y + fabs(c[2].x) * half.z,
+                   fabs(c[0].y) * half.x + fabs(c[1].y) * half.y + fabs(c[2].y) * half.z,
+                   fabs(c[0].z) * half.x + fabs(c[1].z) * half.y + fabs(c[2].z) * half.z);
+}
+
+/* The middle of the box about all instances, in world space; returns half its longest side. */
+double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
+    HdVec3 lower = {0}, upper = {0};
+    for (int i = 0; i < scene->instance_count; i++) {
+        HdPlacement to = hd_placement_of(scene, i);
+        HdVec3 reach = hd_reach_of(hd_mesh_of(scene, i), &to);
+        lower = i == 0 ? hd_sub(to.start, reach) : smaller(lower, hd_sub(to.start, reach));
+        upper = i == 0 ? hd_add(to.start, reach) : larger(upper, hd_add(to.start, reach));
+    }
+    HdVec3 half = hd_scale(hd_sub(upper, lower), 0.5);
+    *centre = hd_add(lower, half);
+    return fmax(half.x, fmax(half.y, half.z));
+}
+
+/* Up to so many triangles trying each of them takes no longer (docs/performance.md). */
+enum { FEW_TRIANGLES = 8 };
+
+bool hd_has_hierarchy(const HdScene *scene, const HdMesh *mesh) {
+    return scene->accel == HD_ACCEL_BVH ||
+           (scene->accel == HD_ACCEL_AUTO && mesh->triangle_count > FEW_TRIANGLES);
+}
+
+/* Adds up the sizes of all meshes' tables. */
+static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
+    const HdScene *scene = builder->scene;
+    HdMeshSizes *sizes = &builder->sizes;
+    builder->places = calloc((size_t)scene->mesh_count + 1, sizeof *builder->places);
+    if (builder->places == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d meshes",
+                       scene->mesh_count);
+    for (int i = 0; i < scene->mesh_count; i++) {
+        const HdMesh *mesh = &scene->meshes[i];
+        HdMeshPlace *place = &builder->places[i];
+        place->first_triangle = (int)sizes->triangles;
+        place->first_node = (int)sizes->nodes;
+        place->first_wide = (int)sizes->wide_nodes;
+        place->first_normal = (int)sizes->normals;
+        place->first_uv = (int)sizes->uvs;
+        place->first_corner_normals = mesh->normals != NULL ? (int)sizes->corner_normals : -1;
+        place->first_corner_uvs = mesh->uvs != NULL ? (int)sizes->corner_uvs : -1;
+        size_t triangles = (size_t)mesh->triangle_count;
+        sizes->triangles += triangles;
+        sizes->corner_normals += mesh->normals != NULL ? 3 * triangles : 0;
+        sizes->corner_uvs += mesh->uvs != NULL ? 3 * triangles : 0;
+        sizes->normals += (size_t)mesh->normal_count;
+        sizes->uvs += (size_t)mesh->uv_count;
+        if (!hd_has_hierarchy(scene, mesh))
+            continue;
+        builder->node_stack =
+            mesh->tree.depth > builder->node_stack ? mesh->tree.depth : builder->node_stack;
+        if (builder->lanes == 1) {
+            sizes->nodes += (size_t)mesh->tree.node_count;
+            continue;
+        }
+        HdStatus status = hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error);
+        if (status != HD_OK)
+            return status;
+        sizes->wide_nodes += (size_t)place->wide.node_count;
+        int stack = (builder->lanes - 1) * place->wide.depth + 1;
+        builder->wide_stack = stack > builder->wide_stack ? stack : builder->wide_stack;
+    }
+    if (sizes->triangles > HD_MAX_MESH_TRIANGLES)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the meshes have %zu triangles in all, expected at most %d",
+                       sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
+    for (int i = 0; i < scene->instance_count; i++)
+        sizes->skins += (size_t)hd_mesh_of(builder->scene, i)->material_count;
+    for (int i = 0; i < scene->picture_count; i++)
+        sizes->texels += 2 * ((size_t)scene->pictures[i].texture.width + 1) *
+                         ((size_t)scene->pictures[i].texture.height + 1);
+    return HD_OK;
+}
+
+/* ---- over the instances ---- */
+
+/* In floats, a little too large. */
+static HdBox box_of_instance(const HdBuilder *builder, int number) {
+    HdPlacement to = hd_placement_of(builder->scene, number);
+    HdVec3 middle = hd_sub(to.start, builder->mesh_centre);
+    HdVec3 reach = hd_reach_of(hd_mesh_of(builder->scene, number), &to);
+    double low[3] = {middle.x - reach.x, middle.y - reach.y, middle.z - reach.z};
+    double high[3] = {middle.x + reach.x, middle.y + reach.y, middle.z + reach.z};
+    double slack = 0x1p-20 * builder->mesh_reach;
+    HdBox box;
+    for (int axis = 0; axis < 3; axis++) {
+        box.lower[axis] = (float)(low[axis] - slack);
+        box.upper[axis] = (float)(high[axis] + slack);
+    }
+    return box;
+}
+
+/* Fewer instances are tried one by one. */
+enum { FEW_INSTANCES = 4 };
+
+static HdStatus build_top(HdBuilder *builder, HdError *error) {
+    const HdScene *scene = builder->scene;
+    const HdHierarchyOptions options = {.node_cost = 0.1f, .most_in_leaf = 1};
+    if (scene->accel == HD_ACCEL_BRUTE || scene->instance_count < FEW_INSTANCES)
+        return HD_OK;
+    HdThreadPool *pool = NULL;
+    HdBox *boxes = calloc((size_t)scene->instance_count, sizeof *boxes);
+    if (boxes == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: the scene has %d mesh instances",
+                       scene->instance_count);
+    for (int i = 0; i < scene->instance_count; i++)
+        boxes[i] = box_of_instance(builder, i);
+    HdStatus status = hd_thread_pool_create(&pool, 1, error);
+    if (status == HD_OK)
+        status =
+            hd_hierarchy_build(&builder->top, boxes, scene->instance_count, &options, pool, error);
+    hd_thread_pool_destroy(pool);
+    free(boxes);
+    builder->first_top_node = (int)builder->sizes.nodes;
+    builder->sizes.nodes += (size_t)builder->top.node_count;
+    if (builder->top.depth + 1 > builder->node_stack)
+        builder->node_stack = builder->top.depth + 1;
+    return status;
+}
+
+/* ---- all of it ---- */
+
+HdStatus hd_builder_prepare_meshes(HdBuilder *builder, HdError *error) {
+    if (builder->scene->instance_count == 0)
+        return HD_OK;
+    HdStatus status = count_meshes(builder, error);
+    if (status == HD_OK) {
+        builder->mesh_reach = hd_box_meshes(builder->scene, &builder->mesh_centre);
+        status = build_top(builder, error);
+    }
+    if (builder->node_stack == 0)
+        builder->node_stack = 1;
+    return status;
+}
+
+void hd_builder_free_meshes(HdBuilder *builder) {
+    for (int i = 0; builder->places != NULL && i < builder->scene->mesh_count; i++)
+        hd_wide_hierarchy_free(&builder->places[i].wide);
+    free(builder->places);
+    hd_hierarchy_free(&builder->top);
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* The tables of a scene and of a frame, as a host has them. */
+#ifndef HD_TABLES_TABLE_H
+#define HD_TABLES_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Bytes for a device, laid out as the kernels' structs. Empty tables are allowed. */
+typedef struct HdTable {
+    void *data;
+    size_t bytes;
+} HdTable;
+
+typedef enum HdPrecision { HD_PRECISION_FLOAT, HD_PRECISION_DOUBLE } HdPrecision;
+
+/* In the order of HD_SCENE_TABLES; the counts are those that kernels are specialised by. */
+typedef struct HdSceneTables {
+    HdTable table[32];
+    int table_count;
+    HdPrecision precision;
+    int lanes; /* of the kernels' bundles: nodes for single rays have as many children */
+    int plane_count;
+    int depth;
+    int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
+    bool refracts;        /* some solid has an index of refraction that is not 1 */
+    bool lit_from_behind; /* some material is */
+    bool surveyed;        /* pixels come with bounds of what was left out and with identities */
+} HdSceneTables;
+
+/* In the order of HD_FRAME_TABLES. */
+typedef struct HdFrameTables {
+    HdTable table[4];
+    int table_count;
+    int width, height;
+    int samples; /* of a pixel */
+    int floats;  /* that come of a pixel: 3, of surveyed scenes 5 (HdFrame) */
+    HdPrecision precision;
+} HdFrameTables;
+
+/* The pixels of a listed frame, of the whole picture and in any order, and the samples of each. */
+typedef struct HdSampleList {
+    const int *entries; /* two numbers for each: x | y << 16, and the first sample in `places` */
+    int entry_count;
+    const int *places; /* of samples in their pixel: column | row << 16 */
+    int place_count;
+    int grid_side; /* columns and rows are less */
+    int samples;   /* of each entry: those that follow the first one */
+    double
+        bound_cutoff; /* rays and lights that cannot add more than this to a sample are left out */
+} HdSampleList;
+
+enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */
+
+/* What the scene's table with that number has, in the plural, for messages: "triangles". */
+const char *hd_scene_table_content(int table);
+
+void hd_scene_tables_free(HdSceneTables *tables);
+void hd_frame_tables_free(HdFrameTables *tables);
+
+#endif
