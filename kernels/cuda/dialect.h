@@ -20,32 +20,27 @@ typedef long long fixed64;
 #include "../common/one_lane.h"
 
 #if HD_DOUBLE
-FN vbits bits_of(vreal a) {
-    return __double_as_longlong(a);
-}
-FN vreal from_bits(vbits a) {
-    return __longlong_as_double(a);
-}
-FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return __fma_rn(a, b, c);
-}
-FN vreal square_root(vreal a) {
-    return sqrt(a);
-}
+#define HD_AS_BITS __double_as_longlong
+#define HD_AS_REAL __longlong_as_double
+#define HD_FMA     __fma_rn
 #else
+#define HD_AS_BITS __float_as_int
+#define HD_AS_REAL __int_as_float
+#define HD_FMA     __fmaf_rn
+#endif
+
 FN vbits bits_of(vreal a) {
-    return __float_as_int(a);
+    return HD_AS_BITS(a);
 }
 FN vreal from_bits(vbits a) {
-    return __int_as_float(a);
+    return HD_AS_REAL(a);
 }
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return __fmaf_rn(a, b, c);
+    return HD_FMA(a, b, c);
 }
 FN vreal square_root(vreal a) {
-    return sqrtf(a);
+    return sqrt(a); /* overloaded */
 }
-#endif
 FN vreal absolute(vreal a) {
     return fabs(a); /* overloaded */
 }

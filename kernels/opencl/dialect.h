@@ -129,20 +129,19 @@ FN vint load_ints(GLOBAL const int *from) {
 #endif
 
 #if HD_DOUBLE
-FN vbits bits_of(vreal a) {
-    return HD_WIDE(as_long)(a);
-}
-FN vreal from_bits(vbits a) {
-    return HD_WIDE(as_double)(a);
-}
+#define HD_AS_BITS HD_WIDE(as_long)
+#define HD_AS_REAL HD_WIDE(as_double)
 #else
+#define HD_AS_BITS HD_WIDE(as_int)
+#define HD_AS_REAL HD_WIDE(as_float)
+#endif
+
 FN vbits bits_of(vreal a) {
-    return HD_WIDE(as_int)(a);
+    return HD_AS_BITS(a);
 }
 FN vreal from_bits(vbits a) {
-    return HD_WIDE(as_float)(a);
+    return HD_AS_REAL(a);
 }
-#endif
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return fma(a, b, c);
 }

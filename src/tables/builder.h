@@ -131,4 +131,17 @@ void NAMED(hd_fill_meshes)(const HdBuilder *builder);
 /* After the others: from what they stored. */
 void NAMED(hd_fill_lights)(const HdBuilder *builder);
 
+/* ---- the whole (compile_scene.c, compile_frame.c) ---- */
+
+/* As hd_compile_scene and hd_compile_frame (tables.h), which choose one of both. `list` is NULL
+   where all pixels have all places of the grid. */
+#define HD_DECLARE_COMPILERS(precision)                                                            \
+    HdStatus hd_compile_scene_##precision(HdSceneTables *tables, const HdScene *scene,             \
+                                          HdError *error);                                         \
+    HdStatus hd_compile_frame_##precision(HdFrameTables *tables, const HdScene *scene,             \
+                                          const HdCamera *camera, const HdSampleList *list,        \
+                                          HdError *error);
+HD_DECLARE_COMPILERS(float)
+HD_DECLARE_COMPILERS(double)
+
 #endif

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "tables/precisions.h"
 #include "tables/room.h"
 
 static int ceil_log2(int n) {

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "system/machine.h"
-#include "tables/precisions.h"
 #include "tables/room.h"
 
 _Static_assert(HD_SCENE_TABLE_COUNT <= sizeof((HdSceneTables){0}.table) / sizeof(HdTable),

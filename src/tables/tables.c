@@ -5,7 +5,7 @@
 
 #include "image/frame.h"
 #include "kernels/host/shared.h"
-#include "tables/precisions.h"
+#include "tables/builder.h"
 
 _Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
                    (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
