@@ -71,7 +71,8 @@ static void search_light(const HdTable *scene, const HdTable *frame, const Start
 }
 
 static void search(const HdObject *object, const HdRays *rays, HdHits *hits) {
-    HD_DECLARE_TABLES(object->tables.table, object->frame.table)
+    const HdTable *scene = object->tables.table, *frame = object->frame.table;
+    HD_DECLARE_TABLES(scene, frame)
     for (int first = 0; first < rays->count; first += HD_LANES) {
         Start start = load_start(rays, first, header->floor_end);
         if (rays->kind == HD_RAYS_SHADOW)

@@ -3,6 +3,7 @@
 #include "order.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "../kernel_rates/processor_time.h"
 #include "cpu/kernel_tables.h"
