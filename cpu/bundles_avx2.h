@@ -7,42 +7,50 @@
 
 #include "cpu/bundles.h"
 
-#if HD_DOUBLE
-typedef __m256d Reals;
-#define HD_REALS(name) _mm256_##name##_pd
-#elif HD_LANES == 4
-typedef __m128 Reals;
-#define HD_REALS(name) _mm_##name##_ps
+#if HD_LANES == 4 && !HD_DOUBLE
+
+FN vreal multiply_add(vreal a, vreal b, vreal c) {
+    return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
+}
+FN vreal square_root(vreal a) {
+    return (vreal)_mm_sqrt_ps((__m128)a);
+}
+FN int any_lane(vint m) {
+    return _mm_movemask_ps((__m128)m) != 0;
+}
+
 #else
-typedef __m256 Reals;
-#define HD_REALS(name) _mm256_##name##_ps
+
+#if HD_DOUBLE
+typedef __m256d Reals256;
+#define HD_REALS_256(name) _mm256_##name##_pd
+#else
+typedef __m256 Reals256;
+#define HD_REALS_256(name) _mm256_##name##_ps
+#define HD_OWN_LANE_BITS
+FN uint lane_bits(vint m) {
+    return (uint)_mm256_movemask_ps((__m256)m);
+}
 #endif
 
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)HD_REALS(fmadd)((Reals)a, (Reals)b, (Reals)c);
+    return (vreal)HD_REALS_256(fmadd)((Reals256)a, (Reals256)b, (Reals256)c);
 }
 FN vreal square_root(vreal a) {
-    return (vreal)HD_REALS(sqrt)((Reals)a);
+    return (vreal)HD_REALS_256(sqrt)((Reals256)a);
 }
 FN int any_lane(vint m) {
-    return HD_REALS(movemask)((Reals)m) != 0;
+    return HD_REALS_256(movemask)((Reals256)m) != 0;
 }
 
-#if HD_LANES == 8
-#define HD_OWN_LANE_BITS
-FN uint lane_bits(vint m) {
-    return (uint)HD_REALS(movemask)((Reals)m);
-}
-#endif
-
-#if HD_LANES * (HD_DOUBLE + 1) == 8
 #define HD_OWN_LESSER
 FN vreal lesser(vreal a, vreal b) {
-    return (vreal)HD_REALS(min)((Reals)a, (Reals)b);
+    return (vreal)HD_REALS_256(min)((Reals256)a, (Reals256)b);
 }
 FN vreal greater(vreal a, vreal b) {
-    return (vreal)HD_REALS(max)((Reals)a, (Reals)b);
+    return (vreal)HD_REALS_256(max)((Reals256)a, (Reals256)b);
 }
+
 #endif
 
 #endif

@@ -11,40 +11,40 @@
 
 typedef uint32_t vmask; /* bits above the lanes' have no meaning */
 #if HD_DOUBLE
-typedef __m512d Reals;
-#define HD_MASK(m)             ((__mmask8)(m))
-#define HD_REALS(name, ending) _mm512_##name##_pd##ending
-#define HD_INTS(name, ending)  _mm512_##name##_epi64##ending
+typedef __m512d Reals512;
+#define HD_MASK(m)                 ((__mmask8)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_pd##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi64##ending
 #else
-typedef __m512 Reals;
-#define HD_MASK(m)             ((__mmask16)(m))
-#define HD_REALS(name, ending) _mm512_##name##_ps##ending
-#define HD_INTS(name, ending)  _mm512_##name##_epi32##ending
+typedef __m512 Reals512;
+#define HD_MASK(m)                 ((__mmask16)(m))
+#define HD_REALS_512(name, ending) _mm512_##name##_ps##ending
+#define HD_INTS_512(name, ending)  _mm512_##name##_epi32##ending
 #endif
 
 FN vmask lt(vreal a, vreal b) {
-    return HD_REALS(cmp, _mask)((Reals)a, (Reals)b, _CMP_LT_OQ);
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LT_OQ);
 }
 FN vmask le(vreal a, vreal b) {
-    return HD_REALS(cmp, _mask)((Reals)a, (Reals)b, _CMP_LE_OQ);
+    return HD_REALS_512(cmp, _mask)((Reals512)a, (Reals512)b, _CMP_LE_OQ);
 }
 FN vmask eq_int(vint a, vint b) {
-    return HD_INTS(cmpeq, _mask)((__m512i)a, (__m512i)b);
+    return HD_INTS_512(cmpeq, _mask)((__m512i)a, (__m512i)b);
 }
 FN vmask lt_int(vint a, vint b) {
-    return HD_INTS(cmplt, _mask)((__m512i)a, (__m512i)b);
+    return HD_INTS_512(cmplt, _mask)((__m512i)a, (__m512i)b);
 }
 FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)HD_REALS(mask_blend, )(HD_MASK(m), (Reals)b, (Reals)a);
+    return (vreal)HD_REALS_512(mask_blend, )(HD_MASK(m), (Reals512)b, (Reals512)a);
 }
 FN vint pick_int(vmask m, vint a, vint b) {
-    return (vint)HD_INTS(mask_blend, )(HD_MASK(m), (__m512i)b, (__m512i)a);
+    return (vint)HD_INTS_512(mask_blend, )(HD_MASK(m), (__m512i)b, (__m512i)a);
 }
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
-    return (vreal)HD_REALS(fmadd, )((Reals)a, (Reals)b, (Reals)c);
+    return (vreal)HD_REALS_512(fmadd, )((Reals512)a, (Reals512)b, (Reals512)c);
 }
 FN vreal square_root(vreal a) {
-    return (vreal)HD_REALS(sqrt, )((Reals)a);
+    return (vreal)HD_REALS_512(sqrt, )((Reals512)a);
 }
 FN int any_lane(vmask m) {
     return HD_MASK(m) != 0;
@@ -68,24 +68,24 @@ FN uint lane_bits(vmask m) {
 
 #define HD_OWN_LESSER
 FN vreal lesser(vreal a, vreal b) {
-    return (vreal)HD_REALS(min, )((Reals)a, (Reals)b);
+    return (vreal)HD_REALS_512(min, )((Reals512)a, (Reals512)b);
 }
 FN vreal greater(vreal a, vreal b) {
-    return (vreal)HD_REALS(max, )((Reals)a, (Reals)b);
+    return (vreal)HD_REALS_512(max, )((Reals512)a, (Reals512)b);
 }
 
 #define HD_OWN_LEAST_LANE
 FN real least_lane(vreal a, vmask m) {
-    return HD_REALS(mask_reduce_min, )(HD_MASK(m), (Reals)a);
+    return HD_REALS_512(mask_reduce_min, )(HD_MASK(m), (Reals512)a);
 }
 FN real greatest_lane(vreal a, vmask m) {
-    return HD_REALS(mask_reduce_max, )(HD_MASK(m), (Reals)a);
+    return HD_REALS_512(mask_reduce_max, )(HD_MASK(m), (Reals512)a);
 }
 
 #define HD_OWN_STORE_LANES
 FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *a) {
     (void)offset;
-    HD_REALS(storeu, )(to, HD_REALS(maskz_compress, )(HD_MASK(m), (Reals)*a));
+    HD_REALS_512(storeu, )(to, HD_REALS_512(maskz_compress, )(HD_MASK(m), (Reals512)*a));
 }
 
 #if !HD_DOUBLE

@@ -173,23 +173,6 @@ FN FourWords fetch_corner_words(GLOBAL const int *table, int first, vint triangl
     return fetch_four_words((GLOBAL const uint *)table, triangle * 3 + first);
 }
 
-/* What rows of four numbers hold at the corners, blended in a point; of the first three. */
-FN Vec3 blend_corners(GLOBAL const real *table, const FourWords *corner, vmask has,
-                      const TriangleCrossing *crossing) {
-    enum { STRIDE = 4 };
-    Vec3 sum = vec3_zero();
-    vreal shares[3];
-    shares[0] = crossing->a;
-    shares[1] = crossing->b;
-    shares[2] = crossing->c;
-    for (int i = 0; i < 3; i++) {
-        vint place = pick_int(has, corner->word[i], splat_int(0)) * STRIDE;
-        FourReals row = fetch_four_reals(table, place);
-        sum = vec3_scale_add(vec3(row.number[0], row.number[1], row.number[2]), shares[i], sum);
-    }
-    return sum;
-}
-
 /* Unit; no component may be much smaller than the least normal number's root. */
 FN Vec3 direction_of(Vec3 v) {
     vreal most = greater(absolute(v.x), greater(absolute(v.y), absolute(v.z)));
@@ -202,11 +185,22 @@ FN Vec3 direction_of(Vec3 v) {
 FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint triangle,
                       vmask entering, const TriangleCrossing *crossing, Vec3 direction, Vec3 flat) {
     vint within = triangle - instance->first_triangle;
+    enum { NORMAL_STRIDE = sizeof(Vector) / sizeof(real) };
     FourWords corner = fetch_corner_words(corner_normals, instance->first_corner_normals, within);
     vmask has = ~lt_int(corner.word[0], splat_int(0));
     if (!any_lane(has))
         return flat;
-    Vec3 sum = blend_corners((GLOBAL const real *)mesh_normals, &corner, has, crossing);
+    GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
+    Vec3 sum = vec3_zero();
+    vreal shares[3];
+    shares[0] = crossing->a;
+    shares[1] = crossing->b;
+    shares[2] = crossing->c;
+    for (int i = 0; i < 3; i++) {
+        vint place = pick_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
+        FourReals n = fetch_four_reals(table, place);
+        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), shares[i], sum);
+    }
     vreal towards = pick(entering, splat(R(1.0)), splat(R(-1.0)));
     Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
     vreal facing = vec3_dot(smooth, direction);
@@ -218,14 +212,26 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
 /* The colour of a skin's picture; white without one. */
 FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOBAL const Skin *skin,
                           vint triangle, const TriangleCrossing *crossing) {
+    enum { UV_STRIDE = sizeof(TextureCoordinates) / sizeof(real) };
     Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
     if (skin->picture < 0 || instance->first_corner_uvs < 0)
         return white;
     FourWords corner = fetch_corner_words(corner_uvs, instance->first_corner_uvs,
                                           triangle - instance->first_triangle);
     vmask has = ~lt_int(corner.word[0], splat_int(0));
-    Vec3 uv = blend_corners((GLOBAL const real *)mesh_uvs, &corner, has, crossing);
-    return vec3_pick(has, sample_picture(pictures + skin->picture, texels, uv.x, uv.y), white);
+    GLOBAL const real *table = (GLOBAL const real *)mesh_uvs;
+    vreal u = splat(R(0.0)), v = splat(R(0.0));
+    vreal shares[3];
+    shares[0] = crossing->a;
+    shares[1] = crossing->b;
+    shares[2] = crossing->c;
+    for (int i = 0; i < 3; i++) {
+        vint place = pick_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
+        FourReals at = fetch_four_reals(table, place);
+        u = multiply_add(at.number[0], shares[i], u);
+        v = multiply_add(at.number[1], shares[i], v);
+    }
+    return vec3_pick(has, sample_picture(pictures + skin->picture, texels, u, v), white);
 }
 
 FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
