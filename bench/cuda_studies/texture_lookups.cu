@@ -3,10 +3,10 @@
    error. The same picture of 8-bit colours in every form. */
 #include <cmath>
 
+#include "../../kernels/cuda/dialect.h"
 #include "check.h"
-#include "kernels/cuda/dialect.h"
 
-#include "kernels/common/texture.h"
+#include "../../kernels/common/texture.h"
 
 enum { SIDE = 1024, THREADS = 256, LOOKUPS = 64, TIMED_ROUNDS = 20 };
 enum { THREAD_COUNT = 1 << 18 };
