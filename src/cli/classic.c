@@ -29,16 +29,19 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
     HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
     if (status != HD_OK)
         return status;
+    const char *name = file->output.path;
+    HdOutputPlan outputs;
     HdRendering rendering = {
         .name = "standard input",
-        .scene = &file->scene,
         .file = file,
         .frames = &frames,
-        .outputs = {.names = {file->output.path}, .count = 1, .style = file->output.style},
+        .outputs = &outputs,
         .device_kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU,
         .stored = print_frame_line,
     };
-    status = hd_render(&rendering, options, error);
+    status = hd_outputs_settle(&outputs, &name, 1, &file->output.style, frames.count, error);
+    if (status == HD_OK)
+        status = hd_render(&rendering, options, error);
     hd_frame_list_free(&frames);
     return status;
 }

@@ -52,7 +52,7 @@ void hd_note_scene(const char *name, const HdScene *scene) {
 void hd_note_outputs(const HdOutputPlan *plan, int frame_count) {
     fprintf(stderr, "outputs   ");
     for (int i = 0; i < plan->count; i++)
-        fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->names[i]);
+        fprintf(stderr, "%s%s", i > 0 ? ", " : "", plan->list[i].name);
     fprintf(stderr, " (%d frame%s, %d bits where the format has a choice, %s)\n", frame_count,
             hd_plural(frame_count), plan->style.picture.bits,
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");

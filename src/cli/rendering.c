@@ -22,7 +22,6 @@ enum { RENDERER_LINE = 512 };
 typedef struct Run {
     const HdRendering *rendering;
     const HdOptions *options;
-    HdOutputPlan outputs; /* with marks */
     HdResume resume;
     HdProgress progress;
     HdStatistics statistics; /* stream NULL: not wanted */
@@ -77,7 +76,7 @@ static void tell_progress(Run *run, const HdStoredFrame *stored) {
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
     Run *run = context;
     HdRunFacts facts = {
-        .scene = run->rendering->scene,
+        .scene = &run->rendering->file->scene,
         .device = &run->team.devices[stored->tracer],
         .renderer = run->renderer_lines[stored->tracer],
     };
@@ -112,7 +111,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
         .device = options->device,
         .kind = run->rendering->device_kind,
     };
-    HdScene plain = *run->rendering->scene; /* what it owns stays with the other */
+    HdScene plain = run->rendering->file->scene; /* what it owns stays with the other */
     HdJob job = {
         .scene = &plain,
         .first_frame = run->resume.missing.frames[0],
@@ -167,11 +166,10 @@ static void note_changes(const Run *run) {
 static HdStatus render_all(Run *run, HdError *error) {
     const HdRendering *rendering = run->rendering;
     HdSequence sequence = {
-        .scene = rendering->scene,
-        .frames = rendering->frames,
+        .scene = &rendering->file->scene,
         .resume = &run->resume,
         .precision = run->options->render.precision,
-        .outputs = &run->outputs,
+        .outputs = rendering->outputs,
         .renderers = run->team.renderers,
         .renderer_count = run->team.count,
         .uploaded = scene_uploaded,
@@ -192,7 +190,7 @@ static HdStatus render_all(Run *run, HdError *error) {
     if (run->options->verbose)
         note_changes(run);
     if (status == HD_OK && !run->options->quiet)
-        hd_note_missing(rendering->scene, run->missing);
+        hd_note_missing(&rendering->file->scene, run->missing);
     return status;
 }
 
@@ -227,15 +225,13 @@ static HdStatus render_with_statistics(Run *run, HdError *error) {
 }
 
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
-static void mark_outputs(Run *run) {
-    const HdRendering *rendering = run->rendering;
-    const HdRenderOptions *render = &run->options->render;
-    run->outputs = rendering->outputs;
-    run->outputs.resumes = rendering->resumes;
-    run->outputs.is_marked = render->math == HD_MATH_STRICT && hd_outputs_have_png(&run->outputs);
-    if (run->outputs.is_marked)
-        run->outputs.fingerprint =
-            hd_run_fingerprint(rendering->file, render->precision, &run->outputs.style.picture);
+static void mark_outputs(const HdRendering *rendering, const HdRenderOptions *render) {
+    HdOutputPlan *outputs = rendering->outputs;
+    if (render->math == HD_MATH_STRICT && outputs->has_png)
+        hd_outputs_mark(
+            outputs,
+            hd_run_fingerprint(rendering->file, render->precision, &outputs->style.picture),
+            rendering->resumes);
 }
 
 static void tell_finished(const Run *run) {
@@ -247,19 +243,19 @@ static void tell_finished(const Run *run) {
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error) {
     Run run = {.rendering = rendering, .options = options, .telling = PTHREAD_MUTEX_INITIALIZER};
     const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
-    HdStatus status = hd_outputs_check(&rendering->outputs, rendering->frames->count, error);
-    if (status == HD_OK && options->statistics != NULL)
-        status = hd_statistics_check(options->statistics, scene, &rendering->outputs,
+    HdStatus status = HD_OK;
+    if (options->statistics != NULL)
+        status = hd_statistics_check(options->statistics, scene, rendering->outputs,
                                      rendering->frames->frames[0], error);
     if (status != HD_OK)
         return status;
     if (options->verbose) {
-        hd_note_scene(rendering->name, rendering->scene);
-        hd_note_outputs(&rendering->outputs, rendering->frames->count);
+        hd_note_scene(rendering->name, &rendering->file->scene);
+        hd_note_outputs(rendering->outputs, rendering->frames->count);
     }
-    hd_stale_files_remove(&rendering->outputs, rendering->frames);
-    mark_outputs(&run);
-    status = hd_resume_find(&run.resume, &run.outputs, rendering->frames, error);
+    hd_stale_files_remove(rendering->outputs, rendering->frames);
+    mark_outputs(rendering, &options->render);
+    status = hd_resume_find(&run.resume, rendering->outputs, rendering->frames, error);
     if (status != HD_OK)
         return status;
     tell_finished(&run);

@@ -9,11 +9,10 @@
 #include "render/sequence.h"
 
 typedef struct HdRendering {
-    const char *name;     /* of the scene, for people */
-    const HdScene *scene; /* valid; that of `file` */
+    const char *name; /* of the scene, for people */
     const HdSceneFile *file;
     const HdFrameList *frames;
-    HdOutputPlan outputs;
+    HdOutputPlan *outputs; /* settled for these frames; is marked */
     HdDeviceKind device_kind;
     bool resumes;        /* frames that are finished are not rendered again */
     bool tells_progress; /* in plain lines, where standard error is no terminal */
@@ -21,10 +20,10 @@ typedef struct HdRendering {
     HdStatus (*stored)(const HdStoredFrame *stored, HdError *error);
 } HdRendering;
 
-/* Renders the frames that are missing (resume.h) and stores them. The outputs are checked against
-   the number of frames first, then, unless nothing is missing, devices are chosen by the options
-   and `device_kind` and opened. Progress goes to standard error, and so does a sentence if a GPU
-   was preferred and none was found, and what --verbose asks for; with --quiet nothing does. */
+/* Renders the frames that are missing (resume.h) and stores them. Unless nothing is
+   missing, devices are chosen by the options and `device_kind` and opened first. Progress goes to
+   standard error, and so does a sentence if a GPU was preferred and none was found, and what
+   --verbose asks for; with --quiet nothing does. */
 HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdError *error);
 
 #endif

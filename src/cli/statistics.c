@@ -51,7 +51,7 @@ HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutput
     if (status == HD_OK && scene != NULL && hd_path_is_same(file, scene))
         return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is the scene", path);
     for (int i = 0; i < plan->count && status == HD_OK; i++) {
-        status = hd_output_file(plan->names[i], frame_number, output, error);
+        status = hd_output_file(&plan->list[i], frame_number, output, error);
         if (status == HD_OK && hd_path_is_same(file, output))
             return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
     }

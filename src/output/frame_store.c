@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "output/frame_store.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "device/renderer.h"
-#include "output/parcel.h"
+#include "image/mark.h"
+#include "image/picture.h"
 #include "output/stages.h"
+#include "output/video.h"
+#include "system/atomic_file.h"
 #include "system/machine.h"
 
 enum {
@@ -20,8 +24,12 @@ enum {
 };
 static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for each tracer */
 
+/* A frame on its way into the outputs. One thread at a time works on it, but films take it side by
+   side. */
 typedef struct Place {
-    HdParcel *parcel;
+    HdFrame frame;
+    HdImage8 image; /* what films get, and room for what a device encodes; empty: nobody needs it */
+    HdAtomicFile files[HD_MAX_OUTPUTS]; /* stream NULL: not written, or published */
     int tracer;
     HdFrameTimes times;
     HdSpan films[HD_MAX_OUTPUTS]; /* by output */
@@ -30,6 +38,7 @@ typedef struct Place {
 typedef struct Film {
     HdFrameStore *store;
     int index; /* of the output */
+    HdVideo *video;
 } Film;
 
 struct HdFrameStore {
@@ -38,7 +47,7 @@ struct HdFrameStore {
     Place *places; /* a frame's is its place in the list modulo their number */
     int place_count;
     int stored;
-    Film films[HD_MAX_OUTPUTS];
+    Film films[HD_MAX_OUTPUTS]; /* by output; without a video: pictures */
     HdStage list[HD_MAX_STAGES];
     int stage_count;
 };
@@ -49,6 +58,14 @@ static Place *place_of(HdFrameStore *store, int item) {
     return &store->places[item % store->place_count];
 }
 
+static int number_of(const HdFrameStore *store, int item) {
+    return store->plan.resume->all->frames[item];
+}
+
+static bool was_finished(const HdFrameStore *store, int item) {
+    return store->plan.resume->is_finished[item];
+}
+
 static HdSpan begin(const HdFrameStore *store) {
     return (HdSpan){.began = hd_monotonic_seconds() - store->plan.start};
 }
@@ -57,42 +74,59 @@ static void end(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
-static bool was_finished(const HdFrameStore *store, int item) {
-    return store->plan.resume != NULL && store->plan.resume->is_finished[item];
-}
+/* ---- the stages' work ---- */
 
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
+    const HdOutputPlan *outputs = store->plan.outputs;
     Place *place = place_of(store, item);
     if (was_finished(store, item)) /* which nobody traced */
-        return hd_resume_load(hd_outputs_plan(store->plan.outputs),
-                              store->plan.frames->frames[item], hd_parcel_frame(place->parcel),
-                              error);
-    if (hd_parcel_frame(place->parcel)->is_encoded)
+        return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
+    if (place->frame.is_encoded)
         return HD_OK;
     place->times.convert = begin(store);
-    hd_parcel_convert(place->parcel);
+    hd_frame_to_image8(&place->frame, outputs->style.picture.curve, &place->image);
     end(store, &place->times.convert);
     return HD_OK;
 }
 
+/* Blocks while FFmpeg is busy. */
 static HdStatus add_to_film(void *context, int item, HdError *error) {
     const Film *film = context;
     Place *place = place_of(film->store, item);
     HdSpan *span = &place->films[film->index];
     *span = begin(film->store);
-    HdStatus status = hd_parcel_film(place->parcel, film->index, error);
+    HdStatus status = hd_video_add(film->video, &place->image, error);
     end(film->store, span);
+    return status;
+}
+
+/* Under a temporary name. */
+static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *place, int number,
+                              HdError *error) {
+    const uint64_t fingerprint = hd_picture_fingerprint(outputs->fingerprint, number);
+    HdAtomicFile *file = &place->files[index];
+    char path[HD_MAX_PATH];
+    HdStatus status = hd_output_file(&outputs->list[index], number, path, error);
+    if (status == HD_OK)
+        status = hd_picture_prepare(file, &place->frame, &outputs->style.picture,
+                                    outputs->is_marked ? &fingerprint : NULL, path, error);
+    if (status != HD_OK)
+        file->stream = NULL;
     return status;
 }
 
 static HdStatus write_pictures(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
+    const HdOutputPlan *outputs = store->plan.outputs;
     Place *place = place_of(store, item);
+    HdStatus status = HD_OK;
     if (was_finished(store, item))
         return HD_OK;
     place->times.store = begin(store);
-    HdStatus status = hd_parcel_write(place->parcel, store->plan.frames->frames[item], error);
+    for (int i = 0; i < outputs->count && status == HD_OK; i++)
+        if (!outputs->list[i].is_film)
+            status = write_picture(outputs, i, place, number_of(store, item), error);
     end(store, &place->times.store);
     return status;
 }
@@ -102,7 +136,7 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
     double ended = 0.0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
         const HdSpan *span = &place->films[i];
-        if (hd_outputs_film(store->plan.outputs, i) == NULL)
+        if (store->films[i].video == NULL)
             continue;
         if (whole.began < 0.0 || span->began < whole.began)
             whole.began = span->began;
@@ -119,21 +153,26 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
-    HdStatus status = hd_parcel_publish(place->parcel, error);
+    HdStatus status = HD_OK;
+    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++)
+        if (place->files[i].stream != NULL)
+            status = hd_atomic_file_commit(&place->files[i], error);
     if (status != HD_OK)
         return status;
     store->stored = item + 1;
     place->times.film = span_of_films(store, place);
     HdStoredFrame stored = {
-        .number = store->plan.frames->frames[item],
+        .number = number_of(store, item),
         .tracer = place->tracer,
         .done = item + 1,
-        .frame = hd_parcel_frame(place->parcel),
+        .frame = &place->frame,
         .was_finished = was_finished(store, item),
         .times = place->times,
     };
     return store->plan.stored(store->plan.context, &stored, error);
 }
+
+/* ---- which stages, and how many frames at a time ---- */
 
 /* Returns the stage's bit. */
 static unsigned add_stage(HdFrameStore *store, HdStage stage) {
@@ -150,31 +189,31 @@ static int spare_count(const HdFrameStorePlan *plan) {
     return SPARE_FRAMES + FRAMES_OF_A_TRACER * (plan->tracers - 1);
 }
 
+static int picture_count(const HdFrameStorePlan *plan) {
+    return plan->outputs->count - plan->outputs->film_count;
+}
+
 /* Where tracing has all processors too, they share them; elsewhere none of them idles. */
 static int encoder_count(const HdFrameStorePlan *plan) {
-    bool has_pictures =
-        hd_outputs_film_count(plan->outputs) < hd_outputs_plan(plan->outputs)->count;
-    if (!has_pictures)
+    if (picture_count(plan) == 0)
         return 0;
-    return least(least(hd_processor_count(), MAX_ENCODERS), plan->frames->count);
+    return least(least(hd_processor_count(), MAX_ENCODERS), plan->resume->all->count);
 }
 
 /* Reading frames back takes longer than converting them. */
 static int converter_count(const HdFrameStorePlan *plan) {
-    bool reads = plan->resume != NULL && plan->resume->finished_count > 0;
-    return reads ? encoder_count(plan) : 1;
+    return plan->resume->finished_count > 0 ? encoder_count(plan) : 1;
 }
 
 static void add_films(HdFrameStore *store) {
     const int converters = converter_count(&store->plan);
     unsigned converted = 0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (hd_outputs_film(store->plan.outputs, i) == NULL)
+        if (store->films[i].video == NULL)
             continue;
         if (converted == 0)
             converted = add_stage(
                 store, (HdStage){.work = convert, .context = store, .threads = converters});
-        store->films[i] = (Film){.store = store, .index = i};
         add_stage(store, (HdStage){.work = add_to_film,
                                    .context = &store->films[i],
                                    .threads = 1,
@@ -191,36 +230,124 @@ static void list_stages(HdFrameStore *store) {
     add_stage(store, (HdStage){.work = publish, .context = store, .threads = 1, .after = all});
 }
 
+static bool has_image(const HdOutputPlan *outputs) {
+    return outputs->film_count > 0 || !outputs->wish.radiance;
+}
+
+static size_t bytes_of_place(const HdFrameStorePlan *plan) {
+    const size_t pixels = (size_t)plan->width * (size_t)plan->height;
+    return sizeof(Place) + pixels * 3 * sizeof(float) + (has_image(plan->outputs) ? 4 * pixels : 0);
+}
+
 static int choose_place_count(const HdFrameStorePlan *plan) {
-    int wanted = least(encoder_count(plan) + spare_count(plan), plan->frames->count);
-    int pictures = hd_outputs_plan(plan->outputs)->count - hd_outputs_film_count(plan->outputs);
-    if (pictures > 0)
-        wanted = least(wanted, MOST_OPEN_PICTURES / pictures);
-    size_t fitting = MAX_BYTES * (size_t)plan->tracers /
-                     hd_parcel_bytes(plan->outputs, plan->width, plan->height);
+    int wanted = least(encoder_count(plan) + spare_count(plan), plan->resume->all->count);
+    if (picture_count(plan) > 0)
+        wanted = least(wanted, MOST_OPEN_PICTURES / picture_count(plan));
+    size_t fitting = MAX_BYTES * (size_t)plan->tracers / bytes_of_place(plan);
     if (fitting < 1)
         return 1;
     return fitting < (size_t)wanted ? (int)fitting : wanted;
 }
 
-static HdStatus create_places(HdFrameStore *store, HdError *error) {
+/* ---- the begin ---- */
+
+static HdStatus probe_picture(const HdOutput *output, int number, HdError *error) {
+    char path[HD_MAX_PATH], temporary[HD_MAX_PATH];
+    int descriptor;
+    HdStatus status = hd_output_file(output, number, path, error);
+    if (status == HD_OK)
+        status = hd_temporary_create(path, temporary, &descriptor, error);
+    if (status != HD_OK)
+        return status;
+    close(descriptor);
+    hd_temporary_remove(temporary);
+    return HD_OK;
+}
+
+/* Whether the pictures of the first frame can be written; makes their folders. */
+static HdStatus probe_pictures(const HdFrameStorePlan *plan, HdError *error) {
+    const HdOutputPlan *outputs = plan->outputs;
+    HdStatus status = HD_OK;
+    if (plan->resume->missing.count == 0)
+        return HD_OK;
+    for (int i = 0; i < outputs->count && status == HD_OK; i++)
+        if (!outputs->list[i].is_film)
+            status = probe_picture(&outputs->list[i], plan->resume->missing.frames[0], error);
+    return status;
+}
+
+static HdStatus open_film(HdFrameStore *store, int index, HdError *error) {
     const HdFrameStorePlan *plan = &store->plan;
-    int count = choose_place_count(plan);
+    Film *film = &store->films[index];
+    char path[HD_MAX_PATH];
+    *film = (Film){.store = store, .index = index};
+    HdStatus status = hd_path_expand_home(plan->outputs->list[index].name, path, error);
+    if (status == HD_OK)
+        status = hd_video_open(&film->video, path, plan->width, plan->height,
+                               plan->outputs->style.frames_per_second, error);
+    return status;
+}
+
+static HdStatus open_films(HdFrameStore *store, HdError *error) {
+    const HdOutputPlan *outputs = store->plan.outputs;
+    HdStatus status = HD_OK;
+    for (int i = 0; i < outputs->count && status == HD_OK; i++)
+        if (outputs->list[i].is_film)
+            status = open_film(store, i, error);
+    return status;
+}
+
+static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
+    HdStatus status = hd_frame_create(&place->frame, plan->width, plan->height, error);
+    if (status == HD_OK && has_image(plan->outputs))
+        status = hd_image8_create(&place->image, plan->width, plan->height, error);
+    place->frame.rgba = place->image.rgba;
+    return status;
+}
+
+static HdStatus create_places(HdFrameStore *store, HdError *error) {
+    int count = choose_place_count(&store->plan);
     HdStatus status = HD_OK;
     store->places = calloc((size_t)count, sizeof *store->places);
     if (store->places == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d frames", count);
     for (; store->place_count < count && status == HD_OK; store->place_count++)
-        status = hd_parcel_create(&store->places[store->place_count].parcel, plan->outputs,
-                                  plan->width, plan->height, error);
+        status = create_place(&store->places[store->place_count], &store->plan, error);
     return status;
 }
 
-static void destroy(HdFrameStore *store) {
-    for (int i = 0; i < store->place_count; i++)
-        hd_parcel_free(store->places[i].parcel);
+/* Drops pictures that were written but not published. */
+static void free_places(HdFrameStore *store) {
+    for (int i = 0; i < store->place_count; i++) {
+        Place *place = &store->places[i];
+        for (int k = 0; k < HD_MAX_OUTPUTS; k++)
+            if (place->files[k].stream != NULL)
+                hd_atomic_file_discard(&place->files[k]);
+        hd_image8_free(&place->image);
+        hd_frame_free(&place->frame);
+    }
     free(store->places);
+}
+
+/* Drops the films; pictures stay. */
+static void destroy(HdFrameStore *store) {
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        if (store->films[i].video != NULL)
+            hd_video_abort(store->films[i].video);
     free(store);
+}
+
+static HdStatus start_stages(HdFrameStore *store, HdError *error) {
+    const HdResume *resume = store->plan.resume;
+    list_stages(store);
+    HdStatus status = create_places(store, error);
+    if (status == HD_OK)
+        status =
+            hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
+                            resume->is_finished, store->place_count, error);
+    if (status != HD_OK)
+        free_places(store);
+    return status;
 }
 
 HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, HdError *error) {
@@ -229,18 +356,19 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
     if (store == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to store frames");
     store->plan = *plan;
-    list_stages(store);
-    HdStatus status = create_places(store, error);
+    HdStatus status = probe_pictures(plan, error);
     if (status == HD_OK)
-        status = hd_stages_start(
-            &store->stages, store->list, store->stage_count, plan->frames->count,
-            plan->resume != NULL ? plan->resume->is_finished : NULL, store->place_count, error);
+        status = open_films(store, error);
+    if (status == HD_OK)
+        status = start_stages(store, error);
     if (status == HD_OK)
         *out = store;
     else
         destroy(store);
     return status;
 }
+
+/* ---- frames ---- */
 
 /* A tracer alone begins frames before there is room for them. One of several may be given an
    earlier frame than those it has begun, which others wait for: it begins what it can finish. */
@@ -263,7 +391,7 @@ HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **tim
     Place *found = place_of(store, place);
     found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
-    return hd_parcel_frame(found->parcel);
+    return &found->frame;
 }
 
 void hd_frame_store_give(HdFrameStore *store, int place, int tracer) {
@@ -287,9 +415,34 @@ void hd_frame_store_stop(HdFrameStore *store) {
     hd_stages_stop(store->stages);
 }
 
-HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error) {
-    HdStatus status = hd_stages_end(store->stages, error);
-    *stored_count = store->stored;
+/* ---- the end ---- */
+
+/* A film that fails takes those after it with it; those before it stay. */
+static HdStatus close_films(HdFrameStore *store, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
+        if (store->films[i].video == NULL)
+            continue;
+        status = hd_video_close(store->films[i].video, error);
+        store->films[i].video = NULL;
+    }
+    return status;
+}
+
+/* What fails in the store comes before what its caller met: its frames are earlier ones. */
+HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error) {
+    HdError own;
+    HdStatus status = hd_stages_end(store->stages, &own);
+    free_places(store);
+    if (status != HD_OK)
+        *error = own;
+    else
+        status = traced;
+    if (status == HD_INTERRUPTED)
+        hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", store->stored,
+                store->plan.resume->all->count);
+    if (status == HD_OK)
+        status = close_films(store, error);
     destroy(store);
     return status;
 }

@@ -9,7 +9,6 @@
 #include "image/frame.h"
 #include "output/outputs.h"
 #include "output/resume.h"
-#include "scene/frame_list.h"
 
 /* When something was done, in seconds. */
 typedef struct HdSpan {
@@ -39,10 +38,9 @@ typedef struct HdStoredFrame {
 } HdStoredFrame;
 
 typedef struct HdFrameStorePlan {
-    HdOutputs *outputs;
-    const HdFrameList *frames;
-    const HdResume *resume; /* which of them are finished: the store takes these by itself, and
-                               reads them back for films; NULL: none */
+    const HdOutputPlan *outputs; /* settled */
+    const HdResume *resume;      /* which frames are finished: the store takes these by itself, and
+                                    reads them back for films */
     int width, height;
     int tracers;  /* how many trace frames, 1 or more */
     double start; /* of the run, by hd_monotonic_seconds */
@@ -54,7 +52,9 @@ typedef struct HdFrameStorePlan {
 
 typedef struct HdFrameStore HdFrameStore;
 
-/* What the plan points to must live on. */
+/* Finds out whether the pictures of the first missing frame can be written, which makes their
+   folders, and starts the films. What the plan points to must live on. On failure no file is left
+   behind. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
 /* Takes the first frame of the list that is not finished and that nobody has traced or is tracing:
@@ -87,8 +87,10 @@ void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error);
 void hd_frame_store_stop(HdFrameStore *store);
 
 /* Waits until the frames are stored that were given or finished, those after one that failed or was
-   not given excepted; frees `store`. Tells how many were stored: they are the first ones, and no
-   later one has left pictures. */
-HdStatus hd_frame_store_end(HdFrameStore *store, int *stored_count, HdError *error);
+   not given excepted: they are the first ones, and no later one has left pictures. Ends the films
+   if all went well, or else drops them; frees `store`. `traced` is how tracing ended, and `error`
+   then its error, which that of an earlier frame replaces; HD_INTERRUPTED tells how many frames
+   were stored. */
+HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error);
 
 #endif

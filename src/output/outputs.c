@@ -1,19 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "output/outputs.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#include "image/file_kind.h"
-#include "system/atomic_file.h"
-
-struct HdOutputs {
-    const HdOutputPlan *plan;
-    HdVideo *films[HD_MAX_OUTPUTS]; /* NULL: pictures */
-};
 
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
     if (hd_output_kind(name) == HD_OUTPUT_UNKNOWN)
@@ -24,16 +13,23 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
     return HD_OK;
 }
 
-static HdStatus check_output(const char *name, int frame_count, HdError *error) {
-    if (hd_name_is_film(name) && hd_pattern_has_number(name))
+static HdStatus settle_output(HdOutput *output, const char *name, int frame_count, HdError *error) {
+    const HdOutputKind kind = hd_output_kind(name);
+    char file[HD_MAX_PATH];
+    *output = (HdOutput){
+        .name = name,
+        .kind = kind,
+        .is_film = hd_output_is_film(kind),
+        .is_numbered = hd_pattern_has_number(name),
+    };
+    if (output->is_film && output->is_numbered)
         return hd_fail(error, HD_BAD_INPUT,
                        "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
                        "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
-    if (hd_name_is_film(name))
+    if (output->is_film)
         return HD_OK;
-    char file[HD_MAX_PATH];
-    if (hd_pattern_has_number(name))
+    if (output->is_numbered)
         return hd_pattern_check(name, error);
     if (frame_count == 1)
         return hd_pattern_format_single(name, file, error);
@@ -43,148 +39,77 @@ static HdStatus check_output(const char *name, int frame_count, HdError *error) 
                    name, frame_count);
 }
 
-HdStatus hd_output_name(const char *name, int number, char out[HD_MAX_PATH], HdError *error) {
-    if (!hd_name_is_film(name) && hd_pattern_has_number(name))
-        return hd_pattern_format(name, number, out, error);
-    if (!hd_name_is_film(name))
-        return hd_pattern_format_single(name, out, error);
-    if (snprintf(out, HD_MAX_PATH, "%s", name) >= HD_MAX_PATH)
+HdStatus hd_output_name(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error) {
+    if (output->is_numbered)
+        return hd_pattern_format(output->name, number, out, error);
+    if (!output->is_film)
+        return hd_pattern_format_single(output->name, out, error);
+    if (snprintf(out, HD_MAX_PATH, "%s", output->name) >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
-                       "the name of the output has %zu bytes, expected fewer than %d", strlen(name),
-                       (int)HD_MAX_PATH);
+                       "the name of the output has %zu bytes, expected fewer than %d",
+                       strlen(output->name), (int)HD_MAX_PATH);
     return HD_OK;
 }
 
-HdStatus hd_output_file(const char *name, int number, char out[HD_MAX_PATH], HdError *error) {
+HdStatus hd_output_file(const HdOutput *output, int number, char out[HD_MAX_PATH], HdError *error) {
     char expanded[HD_MAX_PATH];
-    HdStatus status = hd_output_name(name, number, expanded, error);
+    HdStatus status = hd_output_name(output, number, expanded, error);
     return status == HD_OK ? hd_path_expand_home(expanded, out, error) : status;
 }
 
 /* Patterns are compared by the name of a late frame, for "#" and "##" differ only before that. */
-static HdStatus check_different(const char *name, const char *other, int frame_count,
+static HdStatus check_different(const HdOutput *output, const HdOutput *other, int frame_count,
                                 HdError *error) {
     char file[HD_MAX_PATH], other_file[HD_MAX_PATH];
-    HdStatus status = hd_output_file(name, frame_count - 1, file, error);
+    HdStatus status = hd_output_file(output, frame_count - 1, file, error);
     if (status == HD_OK)
         status = hd_output_file(other, frame_count - 1, other_file, error);
     if (status != HD_OK || !hd_path_is_same(file, other_file))
         return status;
-    if (strcmp(name, other) == 0)
-        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", name);
+    if (strcmp(output->name, other->name) == 0)
+        return hd_fail(error, HD_BAD_INPUT, "the output '%s' is there twice", output->name);
     return hd_fail(error, HD_BAD_INPUT, "the outputs '%.4000s' and '%.4000s' are the same file",
-                   other, name);
+                   other->name, output->name);
 }
 
-HdStatus hd_outputs_check(const HdOutputPlan *plan, int frame_count, HdError *error) {
+static bool needs_radiance(const HdOutput *output, int bits) {
+    return output->kind == HD_OUTPUT_PFM || (output->kind == HD_OUTPUT_PNG && bits > 8);
+}
+
+/* Pictures other than numbered PNG must be rendered anyway, and films cannot be made of 16 bits. */
+static void sum_up(HdOutputPlan *plan) {
+    const int bits = plan->style.picture.bits;
+    int sequences = 0;
+    for (int i = 0; i < plan->count; i++) {
+        const HdOutput *output = &plan->list[i];
+        plan->film_count += output->is_film;
+        plan->has_png |= output->kind == HD_OUTPUT_PNG;
+        plan->wish.radiance |= needs_radiance(output, bits);
+        sequences += output->kind == HD_OUTPUT_PNG && output->is_numbered;
+    }
+    plan->can_resume = sequences > 0 && sequences + plan->film_count == plan->count &&
+                       (plan->film_count == 0 || bits == 8);
+}
+
+HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
+                           const HdOutputStyle *style, int frame_count, HdError *error) {
     HdStatus status = HD_OK;
-    for (int i = 0; i < plan->count && status == HD_OK; i++) {
-        status = check_output(plan->names[i], frame_count, error);
+    *plan = (HdOutputPlan){
+        .count = count,
+        .style = *style,
+        .wish = {.curve = style->picture.curve},
+    };
+    for (int i = 0; i < count && status == HD_OK; i++) {
+        status = settle_output(&plan->list[i], names[i], frame_count, error);
         for (int j = 0; j < i && status == HD_OK; j++)
-            status = check_different(plan->names[i], plan->names[j], frame_count, error);
+            status = check_different(&plan->list[i], &plan->list[j], frame_count, error);
     }
+    sum_up(plan);
     return status;
 }
 
-static HdStatus open_film(HdOutputs *outputs, int index, int width, int height, HdError *error) {
-    char path[HD_MAX_PATH];
-    HdStatus status = hd_path_expand_home(outputs->plan->names[index], path, error);
-    if (status == HD_OK)
-        status = hd_video_open(&outputs->films[index], path, width, height,
-                               outputs->plan->style.frames_per_second, error);
-    return status;
-}
-
-static HdStatus probe_picture(const char *name, int number, HdError *error) {
-    char path[HD_MAX_PATH], temporary[HD_MAX_PATH];
-    int descriptor;
-    HdStatus status = hd_output_file(name, number, path, error);
-    if (status == HD_OK)
-        status = hd_temporary_create(path, temporary, &descriptor, error);
-    if (status != HD_OK)
-        return status;
-    close(descriptor);
-    hd_temporary_remove(temporary);
-    return HD_OK;
-}
-
-bool hd_outputs_have_png(const HdOutputPlan *plan) {
-    for (int i = 0; i < plan->count; i++)
-        if (hd_output_kind(plan->names[i]) == HD_OUTPUT_PNG)
-            return true;
-    return false;
-}
-
-static bool needs_radiance(const char *name, int bits) {
-    HdOutputKind kind = hd_output_kind(name);
-    return kind == HD_OUTPUT_PFM || (kind == HD_OUTPUT_PNG && bits > 8);
-}
-
-HdFrameWish hd_outputs_wish(const HdOutputPlan *plan) {
-    HdFrameWish wish = {.curve = plan->style.picture.curve};
-    for (int i = 0; i < plan->count; i++)
-        if (needs_radiance(plan->names[i], plan->style.picture.bits))
-            wish.radiance = true;
-    return wish;
-}
-
-HdStatus hd_outputs_probe(const HdOutputPlan *plan, int first_number, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < plan->count && status == HD_OK; i++)
-        if (!hd_name_is_film(plan->names[i]))
-            status = probe_picture(plan->names[i], first_number, error);
-    return status;
-}
-
-HdStatus hd_outputs_open(HdOutputs **outputs, const HdOutputPlan *plan, int width, int height,
-                         HdError *error) {
-    HdStatus status = HD_OK;
-    *outputs = calloc(1, sizeof **outputs);
-    if (*outputs == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the outputs");
-    (*outputs)->plan = plan;
-    for (int i = 0; i < plan->count && status == HD_OK; i++)
-        if (hd_name_is_film(plan->names[i]))
-            status = open_film(*outputs, i, width, height, error);
-    if (status != HD_OK) {
-        hd_outputs_abort(*outputs);
-        *outputs = NULL;
-    }
-    return status;
-}
-
-const HdOutputPlan *hd_outputs_plan(const HdOutputs *outputs) {
-    return outputs->plan;
-}
-
-HdVideo *hd_outputs_film(const HdOutputs *outputs, int index) {
-    return outputs->films[index];
-}
-
-int hd_outputs_film_count(const HdOutputs *outputs) {
-    int count = 0;
-    for (int i = 0; i < outputs->plan->count; i++)
-        count += outputs->films[i] != NULL;
-    return count;
-}
-
-HdStatus hd_outputs_close(HdOutputs *outputs, HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
-        if (outputs->films[i] == NULL)
-            continue;
-        status = hd_video_close(outputs->films[i], error);
-        outputs->films[i] = NULL;
-    }
-    hd_outputs_abort(outputs);
-    return status;
-}
-
-void hd_outputs_abort(HdOutputs *outputs) {
-    if (outputs == NULL)
-        return;
-    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        if (outputs->films[i] != NULL)
-            hd_video_abort(outputs->films[i]);
-    free(outputs);
+void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
+    plan->is_marked = plan->has_png;
+    plan->fingerprint = fingerprint;
+    plan->resumes = resumes && plan->can_resume;
 }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/file_kind.h"
 #include "image/mark.h"
 #include "image/picture_formats.h"
 #include "system/file_bytes.h"
@@ -12,29 +11,14 @@
 
 static const int64_t MAX_PICTURE_BYTES = INT64_C(1) << 36;
 
-static bool may_be_resumed(const HdOutputPlan *plan) {
-    bool has_films = false, has_pictures = false;
-    for (int i = 0; i < plan->count; i++) {
-        HdOutputKind kind = hd_output_kind(plan->names[i]);
-        if (hd_output_is_film(kind))
-            has_films = true;
-        else if (kind == HD_OUTPUT_PNG && hd_pattern_has_number(plan->names[i]))
-            has_pictures = true;
-        else
-            return false;
-    }
-    return plan->is_marked && plan->resumes && has_pictures &&
-           (!has_films || plan->style.picture.bits == 8);
-}
-
 /* A file that cannot be read is not finished, for whatever reason. `*bytes` is the caller's to free
    then too. */
-static bool read_whole(const HdOutputPlan *plan, const char *name, int number,
+static bool read_whole(const HdOutputPlan *plan, const HdOutput *output, int number,
                        unsigned char **bytes, size_t *size) {
     char path[HD_MAX_PATH];
     HdError ignored;
     *bytes = NULL;
-    return hd_output_file(name, number, path, &ignored) == HD_OK &&
+    return hd_output_file(output, number, path, &ignored) == HD_OK &&
            hd_file_read(path, "picture", MAX_PICTURE_BYTES, bytes, size, &ignored) == HD_OK &&
            hd_picture_is_whole(*bytes, *size, hd_picture_fingerprint(plan->fingerprint, number));
 }
@@ -44,22 +28,21 @@ static bool is_finished(const HdOutputPlan *plan, int number) {
     for (int i = 0; i < plan->count && whole; i++) {
         unsigned char *bytes = NULL;
         size_t size;
-        if (hd_name_is_film(plan->names[i]))
+        if (plan->list[i].is_film)
             continue;
-        whole = read_whole(plan, plan->names[i], number, &bytes, &size);
+        whole = read_whole(plan, &plan->list[i], number, &bytes, &size);
         free(bytes);
     }
     return whole;
 }
 
 static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdError *error) {
-    const bool may_be = may_be_resumed(plan);
     for (int i = 0; i < resume->all->count; i++) {
         const int number = resume->all->frames[i];
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after 0 of %d frames",
                            resume->all->count);
-        resume->is_finished[i] = may_be && is_finished(plan, number);
+        resume->is_finished[i] = plan->resumes && is_finished(plan, number);
         if (resume->is_finished[i])
             resume->finished_count++;
         else
@@ -87,17 +70,17 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error) {
     unsigned char *bytes;
     size_t size;
-    int first = 0;
-    while (hd_name_is_film(plan->names[first]))
-        first++;
+    const HdOutput *output = plan->list;
+    while (output->is_film)
+        output++;
     HdStatus status = HD_FAILED;
-    if (read_whole(plan, plan->names[first], number, &bytes, &size))
-        status = hd_image_png_load(frame, bytes, size, plan->names[first], error);
+    if (read_whole(plan, output, number, &bytes, &size))
+        status = hd_image_png_load(frame, bytes, size, output->name, error);
     else
         hd_fail(error, HD_FAILED,
                 "frame %d of %s was finished, but has changed since or cannot be read: start the "
                 "run again",
-                number, plan->names[first]);
+                number, output->name);
     free(bytes);
     return status;
 }

@@ -18,10 +18,9 @@ typedef struct HdResume {
     int finished_count;
 } HdResume;
 
-/* Looks at the pictures of an accepted plan. No frame counts as finished where the plan does not
-   want it so, and where it has pictures other than numbered PNG, which must be rendered anyway, or
-   films beside pictures of 16 bits, which they cannot be made of. The list must live on.
-   HD_INTERRUPTED where a signal came (interrupt.h). On failure there is nothing to free. */
+/* Looks at the pictures of a settled plan. No frame counts as finished where the plan does not
+   resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). On failure there
+   is nothing to free. */
 HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFrameList *frames,
                         HdError *error);
 

@@ -8,11 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/file_kind.h"
 #include "system/atomic_file.h"
 
 typedef struct Search {
-    const char *output; /* as the plan names it */
+    const HdOutput *output;
     const HdFrameList *frames;
     char folder[HD_MAX_PATH]; /* with its last slash; empty: the current one */
 } Search;
@@ -36,7 +35,7 @@ static bool is_of_frame(const Search *search, const char *entry, int frame) {
 }
 
 static bool is_of_run(const Search *search, const char *entry) {
-    if (hd_name_is_film(search->output))
+    if (search->output->is_film)
         return is_of_frame(search, entry, 0);
     for (int i = 0; i < search->frames->count; i++)
         if (is_of_frame(search, entry, search->frames->frames[i]))
@@ -60,7 +59,7 @@ static void search_folder(const Search *search) {
 }
 
 /* Frames that follow each other lie mostly in one folder. */
-static void search_output(const char *output, const HdFrameList *frames) {
+static void search_output(const HdOutput *output, const HdFrameList *frames) {
     Search search = {.output = output, .frames = frames};
     char path[HD_MAX_PATH];
     HdError ignored;
@@ -78,5 +77,5 @@ static void search_output(const char *output, const HdFrameList *frames) {
 
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
     for (int i = 0; i < plan->count; i++)
-        search_output(plan->names[i], frames);
+        search_output(&plan->list[i], frames);
 }

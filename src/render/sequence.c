@@ -1,102 +1,192 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "render/sequence.h"
 
+#include <pthread.h>
+#include <string.h>
+
 #include "choice/trial.h"
-#include "render/team.h"
+#include "render/tracer.h"
 #include "render/upload.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
 
-typedef struct Run {
+typedef struct Run Run;
+
+/* A device of the team that traces the frames; it may be the only one. */
+typedef struct Member {
+    Run *run;
+    int number;
+    bool has_thread;
+    pthread_t thread;
+} Member;
+
+struct Run {
     const HdSequence *sequence;
-    HdSceneUpload *upload;
-    HdOutputs *outputs;
+    HdSceneUpload upload;
+    HdTurns turns; /* its mutex is taken after the store's, never before it */
     HdTracerJob job;
-} Run;
+    Member members[HD_MOST_TRACERS];
+    pthread_mutex_t mutex; /* of what follows */
+    int alive;
+    HdStatus status;
+    HdError error;
+};
 
-typedef struct Uploading {
-    const HdSequence *sequence;
-    int renderer;
-} Uploading;
+/* ---- the scene on a device ---- */
 
-static void uploaded(void *context, const HdSceneTables *tables) {
-    const Uploading *uploading = context;
-    const HdSequence *sequence = uploading->sequence;
-    sequence->uploaded(sequence->context, uploading->renderer, tables);
-}
-
-static HdStatus upload(Run *run, int renderer, HdError *error) {
+static HdStatus upload(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
-    Uploading uploading = {sequence, renderer};
-    return hd_scene_upload(run->upload, sequence->renderers[renderer], uploaded, &uploading, error);
+    return hd_scene_upload(&run->upload, sequence->renderers[number], number, sequence->uploaded,
+                           sequence->context, error);
 }
 
-/* What has to be rendered. */
-static const HdFrameList *missing_frames(const HdSequence *sequence) {
-    return sequence->resume != NULL ? &sequence->resume->missing : sequence->frames;
-}
-
-/* ---- several renderers ---- */
-
-static bool has_gpu(const HdSequence *sequence) {
-    for (int i = 0; i < sequence->renderer_count; i++)
-        if (!hd_renderer_device(sequence->renderers[i])->is_cpu)
+static bool has_gpu(const HdTurns *turns) {
+    for (int i = 0; i < turns->count; i++)
+        if (!turns->list[i].is_cpu)
             return true;
     return false;
 }
 
 /* Beside GPUs a CPU may be so slow that its first frame would keep them all waiting. */
-static HdStatus prepare_member(void *context, int renderer, double *seconds, HdError *error) {
-    Run *run = context;
+static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
-    HdRenderer *own = sequence->renderers[renderer];
+    const HdFrameList *missing = &sequence->resume->missing;
     const HdJob job = {
         .scene = sequence->scene,
-        .first_frame = missing_frames(sequence)->frames[0],
-        .frame_count = missing_frames(sequence)->count,
+        .first_frame = missing->frames[0],
+        .frame_count = missing->count,
     };
-    HdStatus status = upload(run, renderer, error);
-    if (status != HD_OK || hd_scene_is_surveyed(sequence->scene) || !has_gpu(sequence) ||
-        !hd_renderer_device(own)->is_cpu)
+    double seconds;
+    if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
+        hd_scene_is_surveyed(sequence->scene))
+        return HD_OK;
+    HdStatus status = hd_trial_estimate_on(sequence->renderers[number], sequence->precision, &job,
+                                           0.0, &seconds, error);
+    if (status != HD_OK)
         return status;
-    return hd_trial_estimate_on(own, sequence->precision, &job, 0.0, seconds, error);
+    hd_turns_estimate(&run->turns, number, seconds);
+    hd_frame_store_ask_again(run->job.store);
+    return HD_OK;
 }
 
-static void drop_member(void *context, int renderer, const HdError *error) {
-    const Run *run = context;
-    run->sequence->dropped(run->sequence->context, renderer, error);
+/* Several devices get the scene while frames are traced; one alone has it already. */
+static HdStatus prepare(Run *run, int number, HdError *error) {
+    HdStatus status = run->sequence->renderer_count > 1 ? upload(run, number, error) : HD_OK;
+    return status == HD_OK ? estimate_pace(run, number, error) : status;
 }
 
-static HdStatus trace_together(Run *run, HdError *error) {
-    const HdTracerTeam team = {
-        .job = &run->job,
-        .renderers = run->sequence->renderers,
-        .count = run->sequence->renderer_count,
-        .prepare = prepare_member,
-        .dropped = drop_member,
-        .context = run,
-    };
-    return hd_tracer_team_run(&team, error);
+/* ---- the end of a device ---- */
+
+static void end_run(Run *run, HdStatus status, const HdError *error) {
+    if (run->status == HD_OK) {
+        run->status = status;
+        run->error = *error;
+    }
+}
+
+static void drop_device(Run *run, int number, HdStatus status, const HdError *error) {
+    hd_turns_leave(&run->turns, number);
+    if (--run->alive > 0)
+        run->sequence->dropped(run->sequence->context, number, error);
+    else if (run->status == HD_OK)
+        run->status = hd_fail(&run->error, status, "no device is left, for the last one failed: %s",
+                              error->message);
+}
+
+/* The words of one alone are the run's. */
+static void leave(const Member *member, HdStatus status, const HdError *error,
+                  bool is_fault_of_device) {
+    Run *run = member->run;
+    pthread_mutex_lock(&run->mutex);
+    if (status != HD_OK && is_fault_of_device && run->sequence->renderer_count > 1)
+        drop_device(run, member->number, status, error);
+    else if (status != HD_OK)
+        end_run(run, status, error);
+    bool is_over = run->status != HD_OK;
+    pthread_mutex_unlock(&run->mutex);
+    if (is_over)
+        hd_frame_store_stop(run->job.store);
+    else
+        hd_frame_store_ask_again(run->job.store);
+}
+
+/* ---- threads ---- */
+
+static void *trace(void *argument) {
+    const Member *member = argument;
+    Run *run = member->run;
+    HdError error;
+    HdStatus status = prepare(run, member->number, &error);
+    bool is_fault_of_device = status != HD_INTERRUPTED;
+    if (status == HD_OK)
+        status = hd_trace_frames(&run->job, run->sequence->renderers[member->number],
+                                 member->number, &is_fault_of_device, &error);
+    leave(member, status, &error, is_fault_of_device);
+    return NULL;
+}
+
+static void start_member(Member *member) {
+    HdError error;
+    int reason = pthread_create(&member->thread, NULL, trace, member);
+    member->has_thread = reason == 0;
+    if (reason == 0)
+        return;
+    HdStatus status =
+        hd_fail(&error, HD_FAILED, "cannot start a thread for the device: %s", strerror(reason));
+    leave(member, status, &error, true);
+}
+
+/* One alone needs no thread of its own. */
+static HdStatus trace_all(Run *run, HdError *error) {
+    const int count = run->sequence->renderer_count;
+    for (int i = 0; i < count; i++) {
+        run->members[i] = (Member){.run = run, .number = i};
+        if (count > 1)
+            start_member(&run->members[i]);
+        else
+            trace(&run->members[i]);
+    }
+    for (int i = 0; i < count; i++)
+        if (run->members[i].has_thread)
+            pthread_join(run->members[i].thread, NULL);
+    if (run->status != HD_OK)
+        *error = run->error;
+    return run->status;
 }
 
 /* ---- the sequence ---- */
 
-static HdStatus trace_alone(Run *run, HdError *error) {
-    HdTracer tracer;
-    HdStatus status = hd_tracer_open(&tracer, &run->job, run->sequence->renderers[0], 0, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_tracer_run(&tracer, NULL, error);
-    hd_tracer_close(&tracer);
-    return status;
+static void start_run(Run *run, const HdSequence *sequence) {
+    memset(run, 0, sizeof *run);
+    run->sequence = sequence;
+    run->alive = run->turns.count = sequence->renderer_count;
+    run->job = (HdTracerJob){
+        .scene = sequence->scene,
+        .frames = sequence->resume->all,
+        .precision = sequence->precision,
+        .wish = sequence->outputs->wish,
+        .start = hd_monotonic_seconds(),
+        .turns = &run->turns,
+    };
+    pthread_mutex_init(&run->mutex, NULL);
+    pthread_mutex_init(&run->turns.mutex, NULL);
+    for (int i = 0; i < sequence->renderer_count; i++)
+        run->turns.list[i].is_cpu = hd_renderer_device(sequence->renderers[i])->is_cpu;
+    hd_scene_upload_start(&run->upload, sequence->scene, sequence->precision,
+                          sequence->renderer_count);
 }
 
-/* What fails in the store comes before what fails here: its frames are earlier ones. */
-static HdStatus trace_and_store(Run *run, HdError *error) {
+static void end_devices(Run *run) {
+    hd_scene_upload_end(&run->upload);
+    pthread_mutex_destroy(&run->turns.mutex);
+    pthread_mutex_destroy(&run->mutex);
+}
+
+static HdStatus start_store(Run *run, HdError *error) {
     const HdSequence *sequence = run->sequence;
     const HdFrameStorePlan plan = {
-        .outputs = run->outputs,
-        .frames = sequence->frames,
+        .outputs = sequence->outputs,
         .resume = sequence->resume,
         .width = sequence->scene->width,
         .height = sequence->scene->height,
@@ -105,66 +195,19 @@ static HdStatus trace_and_store(Run *run, HdError *error) {
         .stored = sequence->stored,
         .context = sequence->context,
     };
-    HdError store_error;
-    int stored = 0;
-    HdStatus status = hd_frame_store_start(&run->job.store, &plan, error);
-    if (status != HD_OK)
-        return status;
-    if (sequence->renderer_count == 1)
-        status = trace_alone(run, error);
-    else if (sequence->renderer_count > 1)
-        status = trace_together(run, error);
-    HdStatus store_status = hd_frame_store_end(run->job.store, &stored, &store_error);
-    if (store_status != HD_OK) {
-        status = store_status;
-        *error = store_error;
-    }
-    if (status == HD_INTERRUPTED)
-        return hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", stored,
-                       sequence->frames->count);
-    return status;
+    return hd_frame_store_start(&run->job.store, &plan, error);
 }
 
-/* One renderer gets its scene before there are outputs; several get theirs while frames are traced.
- */
-static HdStatus prepare_devices(Run *run, HdError *error) {
-    const HdSequence *sequence = run->sequence;
-    const HdScene *scene = sequence->scene;
-    HdStatus status = hd_scene_upload_create(&run->upload, scene, sequence->precision,
-                                             sequence->renderer_count, error);
-    if (status == HD_OK && sequence->renderer_count == 1)
-        status = upload(run, 0, error);
-    if (status == HD_OK)
-        status = hd_outputs_probe(sequence->outputs, missing_frames(sequence)->frames[0], error);
-    return status;
-}
-
-static HdStatus prepare(Run *run, HdError *error) {
-    const HdSequence *sequence = run->sequence;
-    HdStatus status = sequence->renderer_count > 0 ? prepare_devices(run, error) : HD_OK;
-    if (status == HD_OK)
-        status = hd_outputs_open(&run->outputs, sequence->outputs, sequence->scene->width,
-                                 sequence->scene->height, error);
-    return status;
-}
-
+/* One device alone gets the scene before there are outputs. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
-    Run run = {
-        .sequence = sequence,
-        .job = {.scene = sequence->scene,
-                .frames = sequence->frames,
-                .precision = sequence->precision,
-                .wish = hd_outputs_wish(sequence->outputs),
-                .start = hd_monotonic_seconds()},
-    };
+    Run run;
+    start_run(&run, sequence);
     hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
-    HdStatus status = prepare(&run, error);
+    HdStatus status = sequence->renderer_count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)
-        status = trace_and_store(&run, error);
+        status = start_store(&run, error);
     if (status == HD_OK)
-        status = hd_outputs_close(run.outputs, error);
-    else
-        hd_outputs_abort(run.outputs);
-    hd_scene_upload_free(run.upload);
+        status = hd_frame_store_end(run.job.store, trace_all(&run, error), error);
+    end_devices(&run);
     return status;
 }

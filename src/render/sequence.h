@@ -5,17 +5,13 @@
 
 #include "device/renderer.h"
 #include "output/frame_store.h"
-#include "output/outputs.h"
-#include "render/tracer_pace.h"
-#include "scene/frame_list.h"
 #include "scene/scene.h"
 
 typedef struct HdSequence {
     const HdScene *scene;
-    const HdFrameList *frames;
-    const HdResume *resume; /* which of them are finished; NULL: none */
+    const HdResume *resume; /* which frames there are, and which of them are finished */
     HdPrecision precision;
-    const HdOutputPlan *outputs;  /* one that hd_outputs_check accepted */
+    const HdOutputPlan *outputs;  /* settled */
     HdRenderer *const *renderers; /* open */
     int renderer_count;           /* 1 to HD_MOST_TRACERS; may be 0 where nothing is missing */
     /* Called once the scene is on a renderer, before its first frame. With several renderers both

@@ -1,37 +1,48 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/tracer.h"
 
+#include "render/adaptive.h"
 #include "scene/camera.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 
-static double seconds_since_start(const HdTracer *tracer) {
+/* A frame that the renderer works on. */
+typedef struct Flight {
+    int place; /* in the list */
+    HdFrameTables tables;
+    HdSpan prepare;
+    double begun; /* seconds since the start of the run */
+} Flight;
+
+typedef struct Tracer {
+    const HdTracerJob *job;
+    int number;
+    HdRenderer *renderer;
+    HdRefinement *refinement; /* NULL: the scene is not surveyed */
+    int begun, ended;         /* frames so far */
+    Flight flights[HD_FRAMES_IN_FLIGHT];
+    double traced;   /* when the last frame's tracing was over */
+    double finished; /* when the last frame was */
+} Tracer;
+
+static double seconds_since_start(const Tracer *tracer) {
     return hd_monotonic_seconds() - tracer->job->start;
 }
 
-static HdFlight *flight_of(HdTracer *tracer, int count) {
+static Flight *flight_of(Tracer *tracer, int count) {
     return &tracer->flights[count % HD_FRAMES_IN_FLIGHT];
 }
 
-HdStatus hd_tracer_open(HdTracer *tracer, const HdTracerJob *job, HdRenderer *renderer, int number,
-                        HdError *error) {
-    *tracer = (HdTracer){.job = job, .renderer = renderer, .number = number};
-    if (!hd_scene_is_surveyed(job->scene))
-        return HD_OK;
-    return hd_refinement_create(&tracer->refinement, job->scene, renderer, job->precision,
-                                job->wish.curve, error);
-}
-
-static int in_flight(const HdTracer *tracer) {
+static int in_flight(const Tracer *tracer) {
     return tracer->begun - tracer->ended;
 }
 
 /* A surveyed frame is made of several, which are waited for one after the other. */
-static bool has_room(const HdTracer *tracer) {
+static bool has_room(const Tracer *tracer) {
     return in_flight(tracer) < (tracer->refinement != NULL ? 1 : HD_FRAMES_IN_FLIGHT);
 }
 
-static HdStatus submit(HdTracer *tracer, HdFlight *flight, const HdCamera *camera, HdError *error) {
+static HdStatus submit(Tracer *tracer, Flight *flight, const HdCamera *camera, HdError *error) {
     const HdTracerJob *job = tracer->job;
     HdStatus status = hd_compile_frame(&flight->tables, job->scene, camera, job->precision, error);
     if (status != HD_OK)
@@ -44,12 +55,12 @@ static HdStatus submit(HdTracer *tracer, HdFlight *flight, const HdCamera *camer
 }
 
 /* On failure the frame is not begun; the earlier ones are still under way. */
-static HdStatus begin(HdTracer *tracer, int place, HdError *error) {
+static HdStatus begin(Tracer *tracer, int place, HdError *error) {
     const HdTracerJob *job = tracer->job;
-    HdFlight *flight = flight_of(tracer, tracer->begun);
+    Flight *flight = flight_of(tracer, tracer->begun);
     double now = seconds_since_start(tracer);
     HdCamera camera;
-    *flight = (HdFlight){.place = place, .prepare = {.began = now}, .begun = now};
+    *flight = (Flight){.place = place, .prepare = {.began = now}, .begun = now};
     HdStatus status = HD_OK;
     if (tracer->refinement == NULL) {
         status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
@@ -64,7 +75,7 @@ static HdStatus begin(HdTracer *tracer, int place, HdError *error) {
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was
    traced then; another one as soon as the device could. What a device says by its own clock may not
    agree with ours to the last digit. */
-static void note_times(HdTracer *tracer, const HdFlight *flight, double waited_from,
+static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
                        double trace_seconds, HdFrameTimes *times) {
     double now = seconds_since_start(tracer);
     double prepared = flight->prepare.began + flight->prepare.seconds;
@@ -78,7 +89,7 @@ static void note_times(HdTracer *tracer, const HdFlight *flight, double waited_f
     times->copy = (HdSpan){rest_from, now - rest_from};
 }
 
-static HdStatus collect(HdTracer *tracer, HdFlight *flight, HdFrame *frame, HdFrameTimes *times,
+static HdStatus collect(Tracer *tracer, Flight *flight, HdFrame *frame, HdFrameTimes *times,
                         HdError *error) {
     double waited_from = seconds_since_start(tracer);
     HdStatus status = hd_renderer_collect(tracer->renderer, frame, error);
@@ -88,8 +99,8 @@ static HdStatus collect(HdTracer *tracer, HdFlight *flight, HdFrame *frame, HdFr
     return status;
 }
 
-static HdStatus refine(HdTracer *tracer, const HdFlight *flight, HdFrame *frame,
-                       HdFrameTimes *times, HdError *error) {
+static HdStatus refine(Tracer *tracer, const Flight *flight, HdFrame *frame, HdFrameTimes *times,
+                       HdError *error) {
     const HdTracerJob *job = tracer->job;
     double began = seconds_since_start(tracer);
     HdCamera camera;
@@ -105,8 +116,8 @@ static HdStatus refine(HdTracer *tracer, const HdFlight *flight, HdFrame *frame,
 }
 
 /* Fills the oldest frame under way, which it stays. */
-static HdStatus fill_oldest(HdTracer *tracer, HdError *error) {
-    HdFlight *flight = flight_of(tracer, tracer->ended);
+static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
+    Flight *flight = flight_of(tracer, tracer->ended);
     HdFrameTimes *times;
     HdFrame *frame = hd_frame_store_frame(tracer->job->store, flight->place, &times);
     HdStatus status = tracer->refinement != NULL ? refine(tracer, flight, frame, times, error)
@@ -116,29 +127,27 @@ static HdStatus fill_oldest(HdTracer *tracer, HdError *error) {
     return status == HD_OK && hd_interrupt_signal() != 0 ? HD_INTERRUPTED : status;
 }
 
-static void give_oldest(HdTracer *tracer, const HdTracerWatch *watch) {
-    const HdFlight *flight = flight_of(tracer, tracer->ended++);
+static void give_oldest(Tracer *tracer) {
+    const Flight *flight = flight_of(tracer, tracer->ended++);
     double now = seconds_since_start(tracer);
     double from = flight->begun > tracer->finished ? flight->begun : tracer->finished;
     tracer->finished = now;
-    if (watch != NULL)
-        watch->finished(watch->context, now - from);
+    hd_turns_finished(tracer->job->turns, tracer->number, now - from, hd_monotonic_seconds());
     hd_frame_store_give(tracer->job->store, flight->place, tracer->number);
 }
 
-static void give_all_back(HdTracer *tracer, const HdTracerWatch *watch) {
+static void give_all_back(Tracer *tracer) {
     hd_renderer_drop(tracer->renderer);
     for (; tracer->ended < tracer->begun; tracer->ended++) {
-        HdFlight *flight = flight_of(tracer, tracer->ended);
+        Flight *flight = flight_of(tracer, tracer->ended);
         hd_frame_tables_free(&flight->tables);
-        if (watch != NULL)
-            watch->given_back(watch->context);
+        hd_turns_given_back(tracer->job->turns, tracer->number, hd_monotonic_seconds());
         hd_frame_store_give_back(tracer->job->store, flight->place);
     }
 }
 
 /* Whether the store is told of what failed, for no device would do better. */
-static bool is_told(HdTracer *tracer, int place, HdStatus status, const HdError *error) {
+static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *error) {
     if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->renderer))
         return false;
     hd_frame_store_fail(tracer->job->store, place, error);
@@ -147,35 +156,38 @@ static bool is_told(HdTracer *tracer, int place, HdStatus status, const HdError 
 
 /* Once the store wants the oldest frame no more, another tracer may still fail at an earlier one,
    which is then to be taken. */
-static HdStatus finish_oldest(HdTracer *tracer, const HdTracerWatch *watch, HdError *error) {
+static HdStatus finish_oldest(Tracer *tracer, HdError *error) {
     int place = flight_of(tracer, tracer->ended)->place;
     HdStatus status = HD_OK;
     bool is_wanted = hd_frame_store_wait(tracer->job->store, place);
     if (is_wanted)
         status = fill_oldest(tracer, error);
     if (is_wanted && status == HD_OK) {
-        give_oldest(tracer, watch);
+        give_oldest(tracer);
         return HD_OK;
     }
     if (is_wanted && !is_told(tracer, place, status, error))
         return status;
-    give_all_back(tracer, watch);
+    give_all_back(tracer);
     return HD_OK;
 }
 
-/* Negative: none now. */
-static int take_frame(HdTracer *tracer, const HdTracerWatch *watch) {
-    if (!has_room(tracer))
-        return -1;
-    return hd_frame_store_take(tracer->job->store, watch != NULL ? watch->wants : NULL,
-                               watch != NULL ? watch->context : NULL, in_flight(tracer) == 0);
+static bool wants(void *context, int left) {
+    const Tracer *tracer = context;
+    return hd_turns_want(tracer->job->turns, tracer->number, left, hd_monotonic_seconds());
 }
 
-static HdStatus begin_taken(HdTracer *tracer, int place, const HdTracerWatch *watch,
-                            HdError *error) {
+/* Negative: none now. */
+static int take_frame(Tracer *tracer) {
+    if (!has_room(tracer))
+        return -1;
+    return hd_frame_store_take(tracer->job->store, wants, tracer, in_flight(tracer) == 0);
+}
+
+static HdStatus begin_taken(Tracer *tracer, int place, HdError *error) {
     HdStatus status = begin(tracer, place, error);
-    if (status == HD_OK && watch != NULL)
-        watch->begun(watch->context);
+    if (status == HD_OK)
+        hd_turns_begun(tracer->job->turns, tracer->number, hd_monotonic_seconds());
     if (status == HD_OK || is_told(tracer, place, status, error))
         return HD_OK;
     hd_frame_store_give_back(tracer->job->store, place);
@@ -183,26 +195,37 @@ static HdStatus begin_taken(HdTracer *tracer, int place, const HdTracerWatch *wa
 }
 
 /* Where the device takes no more, it may still finish what it has. */
-HdStatus hd_tracer_run(HdTracer *tracer, const HdTracerWatch *watch, HdError *error) {
+static HdStatus trace(Tracer *tracer, HdError *error) {
     HdStatus status = HD_OK, beginning = HD_OK;
     HdError of_beginning;
     while (status == HD_OK) {
-        int place = beginning == HD_OK ? take_frame(tracer, watch) : -1;
+        int place = beginning == HD_OK ? take_frame(tracer) : -1;
         if (place >= 0)
-            beginning = begin_taken(tracer, place, watch, &of_beginning);
+            beginning = begin_taken(tracer, place, &of_beginning);
         else if (in_flight(tracer) > 0)
-            status = finish_oldest(tracer, watch, error);
+            status = finish_oldest(tracer, error);
         else
             break;
     }
-    give_all_back(tracer, watch);
+    give_all_back(tracer);
     if (status != HD_OK || beginning == HD_OK)
         return status;
     *error = of_beginning;
     return beginning;
 }
 
-void hd_tracer_close(HdTracer *tracer) {
-    hd_refinement_free(tracer->refinement);
-    tracer->refinement = NULL;
+HdStatus hd_trace_frames(const HdTracerJob *job, HdRenderer *renderer, int number,
+                         bool *is_fault_of_device, HdError *error) {
+    Tracer tracer = {.job = job, .renderer = renderer, .number = number};
+    HdStatus status = HD_OK;
+    *is_fault_of_device = true;
+    if (hd_scene_is_surveyed(job->scene))
+        status = hd_refinement_create(&tracer.refinement, job->scene, renderer, job->precision,
+                                      job->wish.curve, error);
+    if (status != HD_OK)
+        return status;
+    status = trace(&tracer, error);
+    *is_fault_of_device = status != HD_INTERRUPTED && hd_renderer_has_failed(renderer);
+    hd_refinement_free(tracer.refinement);
+    return status;
 }

@@ -2,33 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/upload.h"
 
-#include <pthread.h>
-#include <stdlib.h>
-
-/* One for each count of lanes. */
-#define COUNTED(lanes) +1
-enum { KINDS = 0 HD_LANE_COUNTS(COUNTED) };
-
-struct HdSceneUpload {
-    const HdScene *scene;
-    HdPrecision precision;
-    pthread_mutex_t mutex; /* of what follows */
-    HdSceneTables tables[KINDS];
-    int count;
-    int waiting; /* renderers that have not got the scene */
-};
-
-HdStatus hd_scene_upload_create(HdSceneUpload **out, const HdScene *scene, HdPrecision precision,
-                                int renderer_count, HdError *error) {
-    HdSceneUpload *upload = calloc(1, sizeof *upload);
-    *out = upload;
-    if (upload == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene's tables");
-    upload->scene = scene;
-    upload->precision = precision;
-    upload->waiting = renderer_count;
+void hd_scene_upload_start(HdSceneUpload *upload, const HdScene *scene, HdPrecision precision,
+                           int renderer_count) {
+    *upload = (HdSceneUpload){.scene = scene, .precision = precision, .waiting = renderer_count};
     pthread_mutex_init(&upload->mutex, NULL);
-    return HD_OK;
 }
 
 static HdStatus find_tables(HdSceneUpload *upload, int lanes, const HdSceneTables **found,
@@ -51,8 +28,8 @@ static void free_tables(HdSceneUpload *upload) {
         hd_scene_tables_free(&upload->tables[upload->count - 1]);
 }
 
-HdStatus hd_scene_upload(HdSceneUpload *upload, HdRenderer *renderer,
-                         void (*uploaded)(void *context, const HdSceneTables *tables),
+HdStatus hd_scene_upload(HdSceneUpload *upload, HdRenderer *renderer, int number,
+                         void (*uploaded)(void *context, int number, const HdSceneTables *tables),
                          void *context, HdError *error) {
     const HdSceneTables *tables;
     pthread_mutex_lock(&upload->mutex);
@@ -62,17 +39,14 @@ HdStatus hd_scene_upload(HdSceneUpload *upload, HdRenderer *renderer,
         status = hd_renderer_upload(renderer, tables, error);
     pthread_mutex_lock(&upload->mutex);
     if (status == HD_OK)
-        uploaded(context, tables);
+        uploaded(context, number, tables);
     if (--upload->waiting == 0)
         free_tables(upload);
     pthread_mutex_unlock(&upload->mutex);
     return status;
 }
 
-void hd_scene_upload_free(HdSceneUpload *upload) {
-    if (upload == NULL)
-        return;
+void hd_scene_upload_end(HdSceneUpload *upload) {
     free_tables(upload);
     pthread_mutex_destroy(&upload->mutex);
-    free(upload);
 }

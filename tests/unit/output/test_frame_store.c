@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 #include <stdbool.h>
+#include <time.h>
 
 #include "output/frame_store.h"
 #include "system/atomic_file.h"
@@ -17,6 +18,7 @@ typedef struct Listener {
     int fails_at; /* the call that fails; -1: none */
     bool in_order;
     bool was_there; /* each frame's pictures, when it was told of */
+    int stored;     /* frames, by what it was told last */
     HdFrameTimes last;
 } Listener;
 
@@ -30,51 +32,68 @@ static HdStatus note_stored(void *context, const HdStoredFrame *stored, HdError 
     if (access(name, R_OK) != 0 || stored->frame->width != WIDTH)
         listener->was_there = false;
     listener->last = stored->times;
+    listener->stored = stored->done;
     if (listener->calls++ == listener->fails_at)
         return hd_fail(failure, HD_FAILED, "the listener failed");
     return HD_OK;
 }
 
-/* Stores frames until there are no more or the store wants no more. */
-static HdStatus store_frames(Listener *listener, const char *second_output, int *stored) {
-    HdOutputPlan plan = {
-        .names = {"run/%d.data", second_output},
-        .count = second_output != NULL ? 2 : 1,
-        .style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8}, .frames_per_second = 30},
-    };
+/* What a run is about: frames FIRST to FIRST + FRAMES - 1 in one or two outputs. */
+typedef struct Setup {
+    HdOutputPlan outputs;
     int numbers[FRAMES];
-    HdFrameList frames = {.frames = numbers, .count = FRAMES};
-    HdFrameStorePlan store_plan = {.frames = &frames,
-                                   .width = WIDTH,
-                                   .height = HEIGHT,
-                                   .tracers = 1,
-                                   .start = hd_monotonic_seconds(),
-                                   .stored = note_stored,
-                                   .context = listener};
-    HdFrameStore *store;
-    HdFrameTimes *times;
-    int place;
+    HdFrameList frames;
+    HdResume resume;
+    HdFrameStorePlan plan;
+} Setup;
+
+static HdStatus start(HdFrameStore **store, Setup *setup, const char *first, const char *second,
+                      Listener *listener) {
+    const HdOutputStyle style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8},
+                                 .frames_per_second = 30};
+    const char *const names[] = {first, second};
     for (int i = 0; i < FRAMES; i++)
-        numbers[i] = FIRST + i;
+        setup->numbers[i] = FIRST + i;
+    setup->frames = (HdFrameList){.frames = setup->numbers, .count = FRAMES};
     hd_known_folders_forget(); /* that of another test is gone */
     *listener = (Listener){.fails_at = listener->fails_at, .in_order = true, .was_there = true};
-    assert_int_equal(hd_outputs_open(&store_plan.outputs, &plan, WIDTH, HEIGHT, &error), HD_OK);
-    assert_int_equal(hd_frame_store_start(&store, &store_plan, &error), HD_OK);
-    while ((place = hd_frame_store_take(store, NULL, NULL, true)) >= 0) {
-        if (!hd_frame_store_wait(store, place))
-            continue;
-        HdFrame *frame = hd_frame_store_frame(store, place, &times);
-        for (int value = 0; value < WIDTH * HEIGHT * 3; value++)
-            frame->rgb[value] = (float)place / FRAMES;
-        times->trace = (HdSpan){hd_monotonic_seconds() - store_plan.start, 0.0};
-        hd_frame_store_give(store, place, place % 3);
-    }
-    HdStatus status = hd_frame_store_end(store, stored, &error);
-    HdError ignored;
-    if (status == HD_OK)
-        assert_int_equal(hd_outputs_close(store_plan.outputs, &ignored), HD_OK);
-    else
-        hd_outputs_abort(store_plan.outputs);
+    assert_int_equal(
+        hd_outputs_settle(&setup->outputs, names, second != NULL ? 2 : 1, &style, FRAMES, &error),
+        HD_OK);
+    assert_int_equal(hd_resume_find(&setup->resume, &setup->outputs, &setup->frames, &error),
+                     HD_OK);
+    setup->plan = (HdFrameStorePlan){.outputs = &setup->outputs,
+                                     .resume = &setup->resume,
+                                     .width = WIDTH,
+                                     .height = HEIGHT,
+                                     .tracers = 1,
+                                     .start = hd_monotonic_seconds(),
+                                     .stored = note_stored,
+                                     .context = listener};
+    return hd_frame_store_start(store, &setup->plan, &error);
+}
+
+/* The frame has room. */
+static void give(HdFrameStore *store, const Setup *setup, int place) {
+    HdFrameTimes *times;
+    HdFrame *frame = hd_frame_store_frame(store, place, &times);
+    for (int value = 0; value < WIDTH * HEIGHT * 3; value++)
+        frame->rgb[value] = (float)place / FRAMES;
+    times->trace = (HdSpan){hd_monotonic_seconds() - setup->plan.start, 0.0};
+    hd_frame_store_give(store, place, place % 3);
+}
+
+/* Stores frames until there are no more or the store wants no more. */
+static HdStatus store_frames(Listener *listener, const char *second_output) {
+    Setup setup;
+    HdFrameStore *store;
+    int place;
+    assert_int_equal(start(&store, &setup, "run/%d.data", second_output, listener), HD_OK);
+    while ((place = hd_frame_store_take(store, NULL, NULL, true)) >= 0)
+        if (hd_frame_store_wait(store, place))
+            give(store, &setup, place);
+    HdStatus status = hd_frame_store_end(store, HD_OK, &error);
+    hd_resume_free(&setup.resume);
     assert_true(listener->in_order);
     assert_true(listener->was_there);
     return status;
@@ -95,9 +114,8 @@ static int byte_of(int number) {
 static void frames_are_stored_in_order(void **state) {
     (void)state;
     Listener listener = {.fails_at = -1};
-    int stored;
-    assert_int_equal(store_frames(&listener, "run/%d.png", &stored), HD_OK);
-    assert_int_equal(stored, FRAMES);
+    assert_int_equal(store_frames(&listener, "run/%d.png"), HD_OK);
+    assert_int_equal(listener.stored, FRAMES);
     assert_int_equal(listener.calls, FRAMES);
     assert_int_equal(count_entries("run"), 2 * FRAMES);
     assert_int_equal(byte_of(FIRST), 0);
@@ -123,10 +141,9 @@ static void check_first_frames(int count) {
 static void a_listener_that_fails_ends_it(void **state) {
     (void)state;
     Listener listener = {.fails_at = 4};
-    int stored;
-    assert_int_equal(store_frames(&listener, NULL, &stored), HD_FAILED);
+    assert_int_equal(store_frames(&listener, NULL), HD_FAILED);
     assert_string_equal(error.message, "the listener failed");
-    assert_int_equal(stored, 5);
+    assert_int_equal(listener.stored, 5);
     assert_int_equal(listener.calls, 5);
     check_first_frames(5);
 }
@@ -134,16 +151,90 @@ static void a_listener_that_fails_ends_it(void **state) {
 static void a_picture_that_cannot_be_written_ends_it(void **state) {
     (void)state;
     Listener listener = {.fails_at = -1};
-    int stored;
     mkdir("other", 0777);
     mkdir("other/107.data", 0777);
-    assert_int_equal(store_frames(&listener, "other/%d.data", &stored), HD_BAD_INPUT);
+    assert_int_equal(store_frames(&listener, "other/%d.data"), HD_BAD_INPUT);
     expect_contains(error.message, "other/107.data");
-    assert_int_equal(stored, 7);
+    assert_int_equal(listener.stored, 7);
     assert_int_equal(listener.calls, 7);
     check_first_frames(7);
     assert_int_equal(count_entries("other"), 8);
     assert_int_equal(remove_folder("other"), 0);
+}
+
+static void an_interruption_tells_how_far_it_came(void **state) {
+    (void)state;
+    Listener listener = {.fails_at = -1};
+    Setup setup;
+    HdFrameStore *store;
+    assert_int_equal(start(&store, &setup, "run/%d.data", NULL, &listener), HD_OK);
+    for (int i = 0; i < 2; i++) {
+        int place = hd_frame_store_take(store, NULL, NULL, true);
+        assert_true(hd_frame_store_wait(store, place));
+        give(store, &setup, place);
+    }
+    assert_int_equal(hd_frame_store_end(store, HD_INTERRUPTED, &error), HD_INTERRUPTED);
+    assert_string_equal(error.message, "interrupted after 2 of 30 frames");
+    hd_resume_free(&setup.resume);
+    check_first_frames(2);
+}
+
+static void wait_for_entries(const char *folder, int count) {
+    while (access(folder, F_OK) != 0 || count_entries(folder) < count)
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+/* A frame is given, but not the one before it. */
+static void what_is_not_published_goes(void **state) {
+    (void)state;
+    Listener listener = {.fails_at = -1};
+    Setup setup;
+    HdFrameStore *store;
+    if (hd_processor_count() < 2) /* which writes frames in order */
+        skip();
+    assert_int_equal(start(&store, &setup, "four/a_%d.data", "four/a_%d.png", &listener), HD_OK);
+    assert_int_equal(count_entries("four"), 0);
+    for (int i = 0; i < 2; i++)
+        assert_true(hd_frame_store_wait(store, hd_frame_store_take(store, NULL, NULL, true)));
+    give(store, &setup, 1);
+    wait_for_entries("four", 2);
+    assert_int_equal(count_entries("four"), 2);
+    assert_int_not_equal(access("four/a_101.data", F_OK), 0);
+    hd_frame_store_give_back(store, 0);
+    assert_int_equal(hd_frame_store_end(store, HD_OK, &error), HD_OK);
+    hd_resume_free(&setup.resume);
+    assert_int_equal(listener.calls, 0);
+    assert_int_equal(count_entries("four"), 0);
+}
+
+static void what_cannot_be_begun_leaves_nothing(void **state) {
+    (void)state;
+    Listener listener = {.fails_at = -1};
+    Setup setup;
+    HdFrameStore *store;
+    assert_int_equal(start(&store, &setup, "/dev/null/a_%d.data", "three/a_%d.data", &listener),
+                     HD_FAILED);
+    assert_null(store);
+    hd_resume_free(&setup.resume);
+    assert_int_not_equal(access("three", F_OK), 0);
+}
+
+/* Of a frame whose second picture cannot be written the first is not there either. */
+static void the_first_failure_ends_it(void **state) {
+    (void)state;
+    Listener listener = {.fails_at = -1};
+    Setup setup;
+    HdFrameStore *store;
+    assert_int_equal(start(&store, &setup, "five/%d.data", "six/%d.data", &listener), HD_OK);
+    assert_int_equal(rmdir("six"), 0);
+    int place = hd_frame_store_take(store, NULL, NULL, true);
+    assert_true(hd_frame_store_wait(store, place));
+    give(store, &setup, place);
+    assert_int_equal(hd_frame_store_end(store, HD_OK, &error), HD_FAILED);
+    hd_resume_free(&setup.resume);
+    assert_int_equal(listener.calls, 0);
+    assert_int_equal(count_entries("five"), 0);
+    assert_int_not_equal(access("six", F_OK), 0);
 }
 
 static bool has_ffmpeg(void) {
@@ -171,11 +262,10 @@ static void check_order_in_film(const char *film) {
 static void films_and_pictures_go_side_by_side(void **state) {
     (void)state;
     Listener listener = {.fails_at = -1};
-    int stored;
     if (!has_ffmpeg())
         skip();
-    assert_int_equal(store_frames(&listener, "film.mkv", &stored), HD_OK);
-    assert_int_equal(stored, FRAMES);
+    assert_int_equal(store_frames(&listener, "film.mkv"), HD_OK);
+    assert_int_equal(listener.stored, FRAMES);
     assert_true(listener.last.convert.began >= listener.last.trace.began);
     assert_true(listener.last.film.began >=
                 listener.last.convert.began + listener.last.convert.seconds - 1e-6);
@@ -183,7 +273,7 @@ static void films_and_pictures_go_side_by_side(void **state) {
     check_first_frames(FRAMES);
     /* A film with a failing listener leaves no file. */
     listener.fails_at = 10;
-    assert_int_equal(store_frames(&listener, "other.mkv", &stored), HD_FAILED);
+    assert_int_equal(store_frames(&listener, "other.mkv"), HD_FAILED);
     assert_int_not_equal(access("other.mkv", F_OK), 0);
     check_first_frames(11);
 }
@@ -193,6 +283,10 @@ int main(void) {
         cmocka_unit_test(frames_are_stored_in_order),
         cmocka_unit_test(a_listener_that_fails_ends_it),
         cmocka_unit_test(a_picture_that_cannot_be_written_ends_it),
+        cmocka_unit_test(an_interruption_tells_how_far_it_came),
+        cmocka_unit_test(what_is_not_published_goes),
+        cmocka_unit_test(what_cannot_be_begun_leaves_nothing),
+        cmocka_unit_test(the_first_failure_ends_it),
         cmocka_unit_test(films_and_pictures_go_side_by_side),
     };
     hd_interrupt_install();

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
+#include <stdlib.h>
+
+#include "expect.h"
 #include "output/outputs.h"
-#include "output/parcel.h"
-#include "test_folder.h"
 
 static HdError error;
 
-static HdOutputPlan plan_of(const char *first, const char *second) {
-    HdOutputPlan plan = {
-        .names = {first, second},
-        .count = second != NULL ? 2 : 1,
-        .style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8}, .frames_per_second = 30},
-    };
-    return plan;
+static HdStatus settle(HdOutputPlan *plan, const char *first, const char *second, int bits,
+                       int frames) {
+    const HdOutputStyle style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = bits},
+                                 .frames_per_second = 30};
+    const char *const names[] = {first, second};
+    return hd_outputs_settle(plan, names, second != NULL ? 2 : 1, &style, frames, &error);
 }
 
 static void check_accepted(const char *name, int frames) {
-    HdOutputPlan plan = plan_of(name, NULL);
-    assert_int_equal(hd_outputs_check(&plan, frames, &error), HD_OK);
+    HdOutputPlan plan;
+    assert_int_equal(settle(&plan, name, NULL, 8, frames), HD_OK);
 }
 
 static void check_refused(const char *first, const char *second, int frames, const char *part) {
-    HdOutputPlan plan = plan_of(first, second);
-    assert_int_equal(hd_outputs_check(&plan, frames, &error), HD_BAD_INPUT);
+    HdOutputPlan plan;
+    assert_int_equal(settle(&plan, first, second, 8, frames), HD_BAD_INPUT);
     expect_contains(error.message, part);
 }
 
@@ -61,58 +61,48 @@ static void names_tell_what_to_write(void **state) {
     }
 }
 
-static void store(HdParcel *parcel, int number) {
-    assert_int_equal(hd_parcel_write(parcel, number, &error), HD_OK);
-    assert_int_equal(hd_parcel_publish(parcel, &error), HD_OK);
+static void a_plan_says_what_frames_must_hold(void **state) {
+    (void)state;
+    HdOutputPlan plan;
+    assert_int_equal(settle(&plan, "a_%d.png", "b.MKV", 8, 2), HD_OK);
+    assert_true(plan.list[0].is_numbered && !plan.list[0].is_film);
+    assert_true(plan.list[1].is_film && !plan.list[1].is_numbered);
+    assert_int_equal(plan.list[1].kind, HD_OUTPUT_MKV);
+    assert_int_equal(plan.film_count, 1);
+    assert_true(plan.has_png && plan.can_resume && !plan.wish.radiance && !plan.is_marked);
+    assert_int_equal(plan.wish.curve, HD_CURVE_LINEAR);
+    assert_int_equal(settle(&plan, "a_%d.png", NULL, 16, 2), HD_OK);
+    assert_true(plan.wish.radiance && plan.can_resume);
+    assert_int_equal(settle(&plan, "a_%d.pfm", NULL, 8, 2), HD_OK);
+    assert_true(plan.wish.radiance && !plan.can_resume && !plan.has_png);
 }
 
-static void one_frame_goes_everywhere(void **state) {
+static void only_what_can_be_resumed_is(void **state) {
     (void)state;
-    HdOutputPlan plan = plan_of("one/a_%d.data", "two/a.pfm");
-    HdOutputs *outputs;
-    HdParcel *parcel;
-    assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
-    assert_null(hd_outputs_film(outputs, 0));
-    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_parcel_frame(parcel)->width, 3);
-    store(parcel, 5);
-    store(parcel, 6);
-    hd_parcel_free(parcel);
-    assert_int_equal(hd_outputs_close(outputs, &error), HD_OK);
-    assert_int_equal(count_entries("one"), 2);
-    assert_int_equal(access("one/a_5.data", R_OK), 0);
-    assert_int_equal(access("one/a_6.data", R_OK), 0);
-    assert_int_equal(count_entries("two"), 1);
+    HdOutputPlan plan;
+    assert_int_equal(settle(&plan, "a_%d.png", NULL, 8, 2), HD_OK);
+    hd_outputs_mark(&plan, 5, false);
+    assert_true(plan.is_marked && plan.fingerprint == 5 && !plan.resumes);
+    hd_outputs_mark(&plan, 5, true);
+    assert_true(plan.resumes);
+    assert_int_equal(settle(&plan, "a_%d.png", "b.mp4", 16, 2), HD_OK);
+    hd_outputs_mark(&plan, 5, true);
+    assert_true(plan.is_marked && !plan.resumes);
 }
 
-static void what_is_not_published_goes(void **state) {
+static void frames_have_files(void **state) {
     (void)state;
-    HdOutputPlan plan = plan_of("four/a_%d.data", "four/a_%d.png");
-    HdOutputs *outputs;
-    HdParcel *parcel;
-    assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_parcel_write(parcel, 5, &error), HD_OK);
-    assert_int_equal(count_entries("four"), 2);
-    assert_int_not_equal(access("four/a_5.data", F_OK), 0);
-    hd_parcel_free(parcel);
-    hd_parcel_free(NULL);
-    assert_int_equal(count_entries("four"), 0);
-    assert_int_equal(hd_outputs_close(outputs, &error), HD_OK);
-}
-
-static void the_first_failure_ends_it(void **state) {
-    (void)state;
-    HdOutputPlan plan = plan_of("/dev/null/a_%d.data", "three/a.data");
-    HdOutputs *outputs;
-    HdParcel *parcel;
-    assert_int_equal(hd_outputs_open(&outputs, &plan, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_parcel_create(&parcel, outputs, 3, 2, &error), HD_OK);
-    assert_int_equal(hd_parcel_write(parcel, 0, &error), HD_FAILED);
-    hd_parcel_free(parcel);
-    hd_outputs_abort(outputs);
-    hd_outputs_abort(NULL);
-    assert_int_not_equal(access("three", F_OK), 0);
+    HdOutputPlan plan;
+    char file[HD_MAX_PATH];
+    assert_int_equal(settle(&plan, "~/a_###.png", "100%%.mp4", 8, 2), HD_OK);
+    assert_int_equal(setenv("HOME", "/home/a%d", 1), 0);
+    assert_int_equal(hd_output_file(&plan.list[0], 7, file, &error), HD_OK);
+    assert_string_equal(file, "/home/a%d/a_007.png");
+    assert_int_equal(hd_output_name(&plan.list[1], 7, file, &error), HD_OK);
+    assert_string_equal(file, "100%%.mp4");
+    assert_int_equal(settle(&plan, "100%%.png", NULL, 8, 1), HD_OK);
+    assert_int_equal(hd_output_name(&plan.list[0], 7, file, &error), HD_OK);
+    assert_string_equal(file, "100%.png");
 }
 
 int main(void) {
@@ -120,9 +110,9 @@ int main(void) {
         cmocka_unit_test(outputs_suit_the_number_of_frames),
         cmocka_unit_test(every_output_is_checked),
         cmocka_unit_test(names_tell_what_to_write),
-        cmocka_unit_test(one_frame_goes_everywhere),
-        cmocka_unit_test(what_is_not_published_goes),
-        cmocka_unit_test(the_first_failure_ends_it),
+        cmocka_unit_test(a_plan_says_what_frames_must_hold),
+        cmocka_unit_test(only_what_can_be_resumed_is),
+        cmocka_unit_test(frames_have_files),
     };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,14 +15,20 @@ static HdError error;
 static int numbers[FRAMES] = {2, 3, 5, 7, 11};
 static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
 
+static HdOutputPlan plan_with(const char *first, const char *second, int bits) {
+    const HdOutputStyle style = {.picture = {.curve = HD_CURVE_SRGB, .bits = bits},
+                                 .frames_per_second = 30};
+    const char *const names[] = {first, second};
+    HdOutputPlan plan;
+    assert_int_equal(hd_outputs_settle(&plan, names, second != NULL ? 2 : 1, &style,
+                                       strchr(first, '%') != NULL ? FRAMES : 1, &error),
+                     HD_OK);
+    hd_outputs_mark(&plan, 12345, true);
+    return plan;
+}
+
 static HdOutputPlan plan_of(const char *first, const char *second) {
-    return (HdOutputPlan){
-        .names = {first, second},
-        .count = second != NULL ? 2 : 1,
-        .style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8}, .frames_per_second = 30},
-        .is_marked = true,
-        .fingerprint = 12345,
-        .resumes = true};
+    return plan_with(first, second, 8);
 }
 
 static HdFrame make_frame(int number) {
@@ -34,12 +40,12 @@ static HdFrame make_frame(int number) {
 }
 
 /* As the run of that plan would. */
-static void write_frame(const HdOutputPlan *plan, const char *name, int number) {
+static void write_frame(const HdOutputPlan *plan, int index, int number) {
     const uint64_t fingerprint = hd_picture_fingerprint(plan->fingerprint, number);
     char path[HD_MAX_PATH];
     HdAtomicFile file;
     HdFrame frame = make_frame(number);
-    assert_int_equal(hd_output_file(name, number, path, &error), HD_OK);
+    assert_int_equal(hd_output_file(&plan->list[index], number, path, &error), HD_OK);
     assert_int_equal(
         hd_picture_prepare(&file, &frame, &plan->style.picture, &fingerprint, path, &error), HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
@@ -63,7 +69,7 @@ static void frames_with_the_right_mark_are_finished(void **state) {
     HdOutputPlan plan = plan_of("a/%d.png", NULL);
     expect_finished(&plan, 0);
     for (int i = 0; i < FRAMES; i++) {
-        write_frame(&plan, plan.names[0], numbers[i]);
+        write_frame(&plan, 0, numbers[i]);
         expect_finished(&plan, i + 1);
     }
     plan.fingerprint++;
@@ -79,7 +85,7 @@ static void files_of_other_kinds_are_not(void **state) {
     (void)state;
     HdOutputPlan plan = plan_of("b/%d.png", NULL);
     for (int i = 0; i < FRAMES; i++)
-        write_frame(&plan, plan.names[0], numbers[i]);
+        write_frame(&plan, 0, numbers[i]);
     assert_int_equal(truncate("b/2.png", 0), 0);
     assert_int_equal(unlink("b/3.png"), 0);
     assert_int_equal(mkdir("b/3.png", 0777), 0);
@@ -92,21 +98,21 @@ static void what_must_be_rendered_anyway_is_not(void **state) {
     (void)state;
     const HdOutputPlan marks = plan_of("c/%d.png", NULL);
     for (int i = 0; i < FRAMES; i++)
-        write_frame(&marks, marks.names[0], numbers[i]);
+        write_frame(&marks, 0, numbers[i]);
     HdOutputPlan plan = plan_of("c/%d.png", "c/%d.pfm");
     expect_finished(&plan, 0);
     plan = plan_of("c/%d.png", "c/%d.data");
     expect_finished(&plan, 0);
     plan = plan_of("c/%d.png", "c/film.mkv");
     expect_finished(&plan, FRAMES);
-    plan.style.picture.bits = 16;
+    plan = plan_with("c/%d.png", "c/film.mkv", 16);
     expect_finished(&plan, 0);
     plan = marks;
-    plan.resumes = false;
+    hd_outputs_mark(&plan, marks.fingerprint, false);
     expect_finished(&plan, 0);
-    plan = marks;
-    plan.is_marked = false;
-    expect_finished(&plan, 0);
+    const char *const name = "c/%d.png";
+    assert_int_equal(hd_outputs_settle(&plan, &name, 1, &marks.style, FRAMES, &error), HD_OK);
+    expect_finished(&plan, 0); /* it is not marked */
     plan = plan_of("c/film.mkv", NULL);
     expect_finished(&plan, 0);
     plan = plan_of("c/2.png", NULL);
@@ -117,9 +123,9 @@ static void all_pictures_of_a_frame_must_be_there(void **state) {
     (void)state;
     const HdOutputPlan plan = plan_of("d/%d.png", "e/%d.png");
     for (int i = 0; i < FRAMES; i++)
-        write_frame(&plan, plan.names[0], numbers[i]);
+        write_frame(&plan, 0, numbers[i]);
     expect_finished(&plan, 0);
-    write_frame(&plan, plan.names[1], numbers[1]);
+    write_frame(&plan, 1, numbers[1]);
     expect_finished(&plan, 1);
 }
 
@@ -128,7 +134,7 @@ static void a_frame_is_read_back_as_it_was_encoded(void **state) {
     const HdOutputPlan plan = plan_of("f/film.mkv", "f/%d.png");
     HdImage8 expected, room;
     HdFrame made = make_frame(7), read = make_frame(0);
-    write_frame(&plan, plan.names[1], 7);
+    write_frame(&plan, 1, 7);
     assert_int_equal(hd_image8_create(&expected, WIDTH, HEIGHT, &error), HD_OK);
     assert_int_equal(hd_image8_create(&room, WIDTH, HEIGHT, &error), HD_OK);
     hd_frame_to_image8(&made, HD_CURVE_SRGB, &expected);

@@ -19,7 +19,10 @@ static void make_file(const char *path) {
 }
 
 static void remove_stale(const char *first, const char *second) {
-    const HdOutputPlan plan = {.names = {first, second}, .count = 2};
+    const HdOutputStyle style = {.picture = {.bits = 8}};
+    const char *const names[] = {first, second};
+    HdOutputPlan plan;
+    assert_int_equal(hd_outputs_settle(&plan, names, 2, &style, frames.count, &error), HD_OK);
     hd_stale_files_remove(&plan, &frames);
 }
 

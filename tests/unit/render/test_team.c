@@ -120,15 +120,14 @@ static int threads_for_sequence = -1, threads_allowed = -1, threads_left;
 /* The arithmetic is fast, so that the kernels do not test themselves first. */
 static HdStatus render(const char *output, int count) {
     const HdRenderOptions options = {.threads = 1, .math = HD_MATH_FAST};
-    HdOutputPlan plan = {
-        .names = {output},
-        .count = 1,
-        .style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8}, .frames_per_second = 30},
-    };
+    const HdOutputStyle style = {.picture = {.curve = HD_CURVE_SRGB, .bits = 8},
+                                 .frames_per_second = 30};
+    HdOutputPlan plan;
+    HdResume resume;
     HdRenderer *renderers[DEVICES];
     HdSequence sequence = {
         .scene = &scene,
-        .frames = &frames,
+        .resume = &resume,
         .outputs = &plan,
         .renderers = renderers,
         .renderer_count = count,
@@ -136,6 +135,8 @@ static HdStatus render(const char *output, int count) {
         .dropped = note_dropped,
         .stored = note_stored,
     };
+    assert_int_equal(hd_outputs_settle(&plan, &output, 1, &style, frames.count, &error), HD_OK);
+    assert_int_equal(hd_resume_find(&resume, &plan, &frames, &error), HD_OK);
     for (int i = 0; i < count; i++) {
         HdDevice device = fake_device();
         device.index = i;
@@ -148,6 +149,7 @@ static HdStatus render(const char *output, int count) {
     threads_allowed = -1;
     for (int i = 0; i < count; i++)
         hd_renderer_close(renderers[i]);
+    hd_resume_free(&resume);
     return status;
 }
 
