@@ -5,10 +5,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "device/renderer.h"
 #include "image/mark.h"
 #include "image/picture.h"
-#include "output/stages.h"
 #include "output/video.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
@@ -370,49 +368,17 @@ HdStatus hd_frame_store_start(HdFrameStore **out, const HdFrameStorePlan *plan, 
 
 /* ---- frames ---- */
 
-/* A tracer alone begins frames before there is room for them. One of several may be given an
-   earlier frame than those it has begun, which others wait for: it begins what it can finish. */
-int hd_frame_store_take(HdFrameStore *store, bool (*wants)(void *context, int left), void *context,
-                        bool waits) {
-    const HdTaker taker = {
-        .wants = wants,
-        .context = context,
-        .ahead = store->plan.tracers == 1 ? HD_FRAMES_IN_FLIGHT : 0,
-    };
-    return hd_stages_take(store->stages, &taker, waits);
+HdStages *hd_frame_store_stages(HdFrameStore *store) {
+    return store->stages;
 }
 
-bool hd_frame_store_wait(HdFrameStore *store, int place) {
-    return hd_stages_wait(store->stages, place);
-}
-
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **times) {
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFrameTimes **times) {
     static const HdSpan nothing = {.began = -1.0};
     Place *found = place_of(store, place);
+    found->tracer = tracer;
     found->times = (HdFrameTimes){nothing, nothing, nothing, nothing, nothing, nothing, -1.0};
     *times = &found->times;
     return &found->frame;
-}
-
-void hd_frame_store_give(HdFrameStore *store, int place, int tracer) {
-    place_of(store, place)->tracer = tracer;
-    hd_stages_give(store->stages, place);
-}
-
-void hd_frame_store_give_back(HdFrameStore *store, int place) {
-    hd_stages_give_back(store->stages, place);
-}
-
-void hd_frame_store_ask_again(HdFrameStore *store) {
-    hd_stages_ask_again(store->stages);
-}
-
-void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error) {
-    hd_stages_fail(store->stages, place, error);
-}
-
-void hd_frame_store_stop(HdFrameStore *store) {
-    hd_stages_stop(store->stages);
 }
 
 /* ---- the end ---- */

@@ -9,6 +9,7 @@
 #include "image/frame.h"
 #include "output/outputs.h"
 #include "output/resume.h"
+#include "output/stages.h"
 
 /* When something was done, in seconds. */
 typedef struct HdSpan {
@@ -57,34 +58,12 @@ typedef struct HdFrameStore HdFrameStore;
    behind. */
 HdStatus hd_frame_store_start(HdFrameStore **store, const HdFrameStorePlan *plan, HdError *error);
 
-/* Takes the first frame of the list that is not finished and that nobody has traced or is tracing:
-   its place in the list.
-   The caller must give it, or give it back. `wants` says whether a tracer wants one (HdTaker);
-   NULL: it does. Negative where there is none for it now; with `waits`, where there will be none.
- */
-int hd_frame_store_take(HdFrameStore *store, bool (*wants)(void *context, int left), void *context,
-                        bool waits);
+/* Where tracers take frames that are not finished, by their place in the list, and give them. */
+HdStages *hd_frame_store_stages(HdFrameStore *store);
 
-/* Waits for room for a frame that was taken. False where it is not wanted any more. */
-bool hd_frame_store_wait(HdFrameStore *store, int place);
-
-/* A frame that has room, to be filled by who took it, its times up to `copy` included. */
-HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, HdFrameTimes **times);
-
-/* Gives a frame to the store that was filled. */
-void hd_frame_store_give(HdFrameStore *store, int place, int tracer);
-
-/* Gives a frame back that was taken and cannot be traced, so that another tracer takes it. */
-void hd_frame_store_give_back(HdFrameStore *store, int place);
-
-/* Asks tracers that wait whether they want a frame now. */
-void hd_frame_store_ask_again(HdFrameStore *store);
-
-/* A frame that was taken cannot be had: the error of the whole run, if no earlier one fails. */
-void hd_frame_store_fail(HdFrameStore *store, int place, const HdError *error);
-
-/* No tracer gets another frame. */
-void hd_frame_store_stop(HdFrameStore *store);
+/* A frame that was taken and has room, to be filled by the tracer that took it, its times up to
+   `copy` included, before it is given. */
+HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFrameTimes **times);
 
 /* Waits until the frames are stored that were given or finished, those after one that failed or was
    not given excepted: they are the first ones, and no later one has left pictures. Ends the films

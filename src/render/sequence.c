@@ -66,7 +66,7 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     if (status != HD_OK)
         return status;
     hd_turns_estimate(&run->turns, number, seconds);
-    hd_frame_store_ask_again(run->job.store);
+    hd_stages_ask_again(run->job.stages);
     return HD_OK;
 }
 
@@ -106,9 +106,9 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
     bool is_over = run->status != HD_OK;
     pthread_mutex_unlock(&run->mutex);
     if (is_over)
-        hd_frame_store_stop(run->job.store);
+        hd_stages_stop(run->job.stages);
     else
-        hd_frame_store_ask_again(run->job.store);
+        hd_stages_ask_again(run->job.stages);
 }
 
 /* ---- threads ---- */
@@ -157,18 +157,9 @@ static HdStatus trace_all(Run *run, HdError *error) {
 
 /* ---- the sequence ---- */
 
-static void start_run(Run *run, const HdSequence *sequence) {
-    memset(run, 0, sizeof *run);
-    run->sequence = sequence;
-    run->alive = run->turns.count = sequence->renderer_count;
-    run->job = (HdTracerJob){
-        .scene = sequence->scene,
-        .frames = sequence->resume->all,
-        .precision = sequence->precision,
-        .wish = sequence->outputs->wish,
-        .start = hd_monotonic_seconds(),
-        .turns = &run->turns,
-    };
+static void begin_devices(Run *run) {
+    const HdSequence *sequence = run->sequence;
+    run->job.turns = &run->turns;
     pthread_mutex_init(&run->mutex, NULL);
     pthread_mutex_init(&run->turns.mutex, NULL);
     for (int i = 0; i < sequence->renderer_count; i++)
@@ -195,13 +186,25 @@ static HdStatus start_store(Run *run, HdError *error) {
         .stored = sequence->stored,
         .context = sequence->context,
     };
-    return hd_frame_store_start(&run->job.store, &plan, error);
+    HdStatus status = hd_frame_store_start(&run->job.store, &plan, error);
+    if (status == HD_OK)
+        run->job.stages = hd_frame_store_stages(run->job.store);
+    return status;
 }
 
 /* One device alone gets the scene before there are outputs. */
 HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
-    Run run;
-    start_run(&run, sequence);
+    Run run = {
+        .sequence = sequence,
+        .job = {.scene = sequence->scene,
+                .frames = sequence->resume->all,
+                .precision = sequence->precision,
+                .wish = sequence->outputs->wish,
+                .start = hd_monotonic_seconds()},
+        .turns = {.count = sequence->renderer_count},
+        .alive = sequence->renderer_count,
+    };
+    begin_devices(&run);
     hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
     HdStatus status = sequence->renderer_count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)

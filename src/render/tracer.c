@@ -119,7 +119,8 @@ static HdStatus refine(Tracer *tracer, const Flight *flight, HdFrame *frame, HdF
 static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
     Flight *flight = flight_of(tracer, tracer->ended);
     HdFrameTimes *times;
-    HdFrame *frame = hd_frame_store_frame(tracer->job->store, flight->place, &times);
+    HdFrame *frame =
+        hd_frame_store_frame(tracer->job->store, flight->place, tracer->number, &times);
     HdStatus status = tracer->refinement != NULL ? refine(tracer, flight, frame, times, error)
                                                  : collect(tracer, flight, frame, times, error);
     if (status == HD_OK)
@@ -133,7 +134,7 @@ static void give_oldest(Tracer *tracer) {
     double from = flight->begun > tracer->finished ? flight->begun : tracer->finished;
     tracer->finished = now;
     hd_turns_finished(tracer->job->turns, tracer->number, now - from, hd_monotonic_seconds());
-    hd_frame_store_give(tracer->job->store, flight->place, tracer->number);
+    hd_stages_give(tracer->job->stages, flight->place);
 }
 
 static void give_all_back(Tracer *tracer) {
@@ -142,7 +143,7 @@ static void give_all_back(Tracer *tracer) {
         Flight *flight = flight_of(tracer, tracer->ended);
         hd_frame_tables_free(&flight->tables);
         hd_turns_given_back(tracer->job->turns, tracer->number, hd_monotonic_seconds());
-        hd_frame_store_give_back(tracer->job->store, flight->place);
+        hd_stages_give_back(tracer->job->stages, flight->place);
     }
 }
 
@@ -150,7 +151,7 @@ static void give_all_back(Tracer *tracer) {
 static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *error) {
     if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->renderer))
         return false;
-    hd_frame_store_fail(tracer->job->store, place, error);
+    hd_stages_fail(tracer->job->stages, place, error);
     return true;
 }
 
@@ -159,7 +160,7 @@ static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *e
 static HdStatus finish_oldest(Tracer *tracer, HdError *error) {
     int place = flight_of(tracer, tracer->ended)->place;
     HdStatus status = HD_OK;
-    bool is_wanted = hd_frame_store_wait(tracer->job->store, place);
+    bool is_wanted = hd_stages_wait(tracer->job->stages, place);
     if (is_wanted)
         status = fill_oldest(tracer, error);
     if (is_wanted && status == HD_OK) {
@@ -177,11 +178,18 @@ static bool wants(void *context, int left) {
     return hd_turns_want(tracer->job->turns, tracer->number, left, hd_monotonic_seconds());
 }
 
-/* Negative: none now. */
+/* Negative: none now. A tracer alone begins frames before there is room for them. One of several
+   may be given an earlier frame than those it has begun, which others wait for: it begins what it
+   can finish. */
 static int take_frame(Tracer *tracer) {
+    const HdTaker taker = {
+        .wants = wants,
+        .context = tracer,
+        .ahead = tracer->job->turns->count == 1 ? HD_FRAMES_IN_FLIGHT : 0,
+    };
     if (!has_room(tracer))
         return -1;
-    return hd_frame_store_take(tracer->job->store, wants, tracer, in_flight(tracer) == 0);
+    return hd_stages_take(tracer->job->stages, &taker, in_flight(tracer) == 0);
 }
 
 static HdStatus begin_taken(Tracer *tracer, int place, HdError *error) {
@@ -190,7 +198,7 @@ static HdStatus begin_taken(Tracer *tracer, int place, HdError *error) {
         hd_turns_begun(tracer->job->turns, tracer->number, hd_monotonic_seconds());
     if (status == HD_OK || is_told(tracer, place, status, error))
         return HD_OK;
-    hd_frame_store_give_back(tracer->job->store, place);
+    hd_stages_give_back(tracer->job->stages, place);
     return status;
 }
 

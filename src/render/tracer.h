@@ -17,6 +17,7 @@ typedef struct HdTracerJob {
     HdFrameWish wish;
     double start; /* of the run, by hd_monotonic_seconds */
     HdFrameStore *store;
+    HdStages *stages; /* of the store */
     HdTurns *turns;
 } HdTracerJob;
 

@@ -73,14 +73,19 @@ static HdStatus start(HdFrameStore **store, Setup *setup, const char *first, con
     return hd_frame_store_start(store, &setup->plan, &error);
 }
 
+static int take(HdFrameStore *store) {
+    const HdTaker taker = {.ahead = 2};
+    return hd_stages_take(hd_frame_store_stages(store), &taker, true);
+}
+
 /* The frame has room. */
 static void give(HdFrameStore *store, const Setup *setup, int place) {
     HdFrameTimes *times;
-    HdFrame *frame = hd_frame_store_frame(store, place, &times);
+    HdFrame *frame = hd_frame_store_frame(store, place, place % 3, &times);
     for (int value = 0; value < WIDTH * HEIGHT * 3; value++)
         frame->rgb[value] = (float)place / FRAMES;
     times->trace = (HdSpan){hd_monotonic_seconds() - setup->plan.start, 0.0};
-    hd_frame_store_give(store, place, place % 3);
+    hd_stages_give(hd_frame_store_stages(store), place);
 }
 
 /* Stores frames until there are no more or the store wants no more. */
@@ -89,8 +94,8 @@ static HdStatus store_frames(Listener *listener, const char *second_output) {
     HdFrameStore *store;
     int place;
     assert_int_equal(start(&store, &setup, "run/%d.data", second_output, listener), HD_OK);
-    while ((place = hd_frame_store_take(store, NULL, NULL, true)) >= 0)
-        if (hd_frame_store_wait(store, place))
+    while ((place = take(store)) >= 0)
+        if (hd_stages_wait(hd_frame_store_stages(store), place))
             give(store, &setup, place);
     HdStatus status = hd_frame_store_end(store, HD_OK, &error);
     hd_resume_free(&setup.resume);
@@ -169,8 +174,8 @@ static void an_interruption_tells_how_far_it_came(void **state) {
     HdFrameStore *store;
     assert_int_equal(start(&store, &setup, "run/%d.data", NULL, &listener), HD_OK);
     for (int i = 0; i < 2; i++) {
-        int place = hd_frame_store_take(store, NULL, NULL, true);
-        assert_true(hd_frame_store_wait(store, place));
+        int place = take(store);
+        assert_true(hd_stages_wait(hd_frame_store_stages(store), place));
         give(store, &setup, place);
     }
     assert_int_equal(hd_frame_store_end(store, HD_INTERRUPTED, &error), HD_INTERRUPTED);
@@ -195,12 +200,12 @@ static void what_is_not_published_goes(void **state) {
     assert_int_equal(start(&store, &setup, "four/a_%d.data", "four/a_%d.png", &listener), HD_OK);
     assert_int_equal(count_entries("four"), 0);
     for (int i = 0; i < 2; i++)
-        assert_true(hd_frame_store_wait(store, hd_frame_store_take(store, NULL, NULL, true)));
+        assert_true(hd_stages_wait(hd_frame_store_stages(store), take(store)));
     give(store, &setup, 1);
     wait_for_entries("four", 2);
     assert_int_equal(count_entries("four"), 2);
     assert_int_not_equal(access("four/a_101.data", F_OK), 0);
-    hd_frame_store_give_back(store, 0);
+    hd_stages_give_back(hd_frame_store_stages(store), 0);
     assert_int_equal(hd_frame_store_end(store, HD_OK, &error), HD_OK);
     hd_resume_free(&setup.resume);
     assert_int_equal(listener.calls, 0);
@@ -227,8 +232,8 @@ static void the_first_failure_ends_it(void **state) {
     HdFrameStore *store;
     assert_int_equal(start(&store, &setup, "five/%d.data", "six/%d.data", &listener), HD_OK);
     assert_int_equal(rmdir("six"), 0);
-    int place = hd_frame_store_take(store, NULL, NULL, true);
-    assert_true(hd_frame_store_wait(store, place));
+    int place = take(store);
+    assert_true(hd_stages_wait(hd_frame_store_stages(store), place));
     give(store, &setup, place);
     assert_int_equal(hd_frame_store_end(store, HD_OK, &error), HD_FAILED);
     hd_resume_free(&setup.resume);
