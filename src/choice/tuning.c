@@ -127,35 +127,36 @@ static HdLaunch best_so_far(const Tuner *tuner) {
     return tuner->tuning->candidates[tuner->tuning->best].launch;
 }
 
-static HdStatus try_registers(Tuner *tuner, const HdLaunch *launch, HdError *error) {
-    static const int limits[] = {64, 96, 128, 168};
-    HdLaunch limited = *launch;
+/* The launch with each of the values for one of its members. */
+static HdStatus try_each(Tuner *tuner, HdLaunch *launch, int *member, const int *values, int count,
+                         HdError *error) {
     HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && i < 4; i++) {
-        limited.registers = limits[i];
-        status = try(tuner, &limited, error);
+    for (int i = 0; status == HD_OK && i < count; i++) {
+        *member = values[i];
+        status = try(tuner, launch, error);
     }
+    return status;
+}
+
+static HdStatus try_pipeline(Tuner *tuner, HdPipeline pipeline, HdError *error) {
+    static const int limits[] = {64, 96, 128, 168};
+    HdLaunch launch = hd_launch_of(tuner->options);
+    launch.pipeline = pipeline;
+    HdStatus status = try(tuner, &launch, error);
+    if (status == HD_OK && tuner->device->nvidia_arch > 0 && tuner->options->registers == 0)
+        status = try_each(tuner, &launch, &launch.registers, limits, 4, error);
     return status;
 }
 
 static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
     static const HdPipeline pipelines[] = {HD_PIPELINE_MEGA, HD_PIPELINE_WAVEFRONT};
     HdPipeline suits = hd_choose_pipeline(tuner->device, tuner->options, tuner->job->scene);
-    bool has_limits = tuner->device->nvidia_arch > 0 && tuner->options->registers == 0;
-    HdLaunch launch = hd_launch_of(tuner->options);
-    launch.pipeline = suits;
-    HdStatus status = try(tuner, &launch, error);
-    if (status == HD_OK && has_limits)
-        status = try_registers(tuner, &launch, error);
+    HdStatus status = try_pipeline(tuner, suits, error);
     for (int i = 0; status == HD_OK && tuner->options->pipeline == HD_PIPELINE_AUTO && i < 2; i++) {
         bool is_too_long = pipelines[i] == HD_PIPELINE_MEGA &&
                            hd_megakernel_is_too_long(tuner->device, tuner->options);
-        if (pipelines[i] == suits || is_too_long)
-            continue;
-        launch.pipeline = pipelines[i];
-        status = try(tuner, &launch, error);
-        if (status == HD_OK && has_limits)
-            status = try_registers(tuner, &launch, error);
+        if (pipelines[i] != suits && !is_too_long)
+            status = try_pipeline(tuner, pipelines[i], error);
     }
     return status;
 }
@@ -167,23 +168,16 @@ static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
     const int count = (int)(sizeof lanes / sizeof *lanes);
     HdLaunch launch = best_so_far(tuner);
-    HdStatus status = HD_OK;
-    for (int i = 1; status == HD_OK && tuner->options->lanes == 0 && i < count; i++) {
-        launch.lanes = lanes[i];
-        status = try(tuner, &launch, error);
-    }
-    return status;
+    return tuner->options->lanes == 0
+               ? try_each(tuner, &launch, &launch.lanes, lanes + 1, count - 1, error)
+               : HD_OK;
 }
 
 static HdStatus try_blocks(Tuner *tuner, HdError *error) {
     static const int blocks[] = {64, 128, 256};
     HdLaunch launch = best_so_far(tuner);
-    HdStatus status = HD_OK;
-    for (int i = 0; status == HD_OK && tuner->options->block == 0 && i < 3; i++) {
-        launch.block = blocks[i];
-        status = try(tuner, &launch, error);
-    }
-    return status;
+    return tuner->options->block == 0 ? try_each(tuner, &launch, &launch.block, blocks, 3, error)
+                                      : HD_OK;
 }
 
 /* A few groups for each compute unit, which then take one item after the other. */
