@@ -45,8 +45,7 @@ static HdStatus check_new(const HdDeviceTeam *team, const HdDeviceWish *wish, Hd
 }
 
 static HdStatus open_entry(HdDeviceTeam *team, const HdDeviceWish *wish, const char *entry,
-                           const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
-                           HdError *error) {
+                           HdDeviceReason *reason, HdError *error) {
     HdDeviceWish one = *wish;
     one.device = entry;
     HdStatus status = check_entry(wish, entry, error);
@@ -55,15 +54,14 @@ static HdStatus open_entry(HdDeviceTeam *team, const HdDeviceWish *wish, const c
                          (int)HD_MOST_TRACERS);
     if (status == HD_OK)
         status = hd_open_device(&team->renderers[team->count], &team->devices[team->count], &one,
-                                options, job, reason, error);
+                                reason, error);
     if (status != HD_OK)
         return status;
     team->count++;
     return check_new(team, wish, error);
 }
 
-static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish,
-                          const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
+static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdDeviceReason *reason,
                           HdError *error) {
     HdStatus status = HD_OK;
     char *copy = strdup(wish->device), *rest = copy;
@@ -74,7 +72,7 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish,
         rest = comma != NULL ? comma + 1 : NULL;
         if (comma != NULL)
             *comma = '\0';
-        status = open_entry(team, wish, entry, options, job, reason, error);
+        status = open_entry(team, wish, entry, reason, error);
     }
     free(copy);
     return status;
@@ -115,17 +113,16 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     return own;
 }
 
-static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device,
-                           const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
-                           HdError *error) {
-    const char *obstacle = hd_device_obstacle(device, options);
-    HdRenderOptions own = options_of(team, device, options);
+static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device, const HdDeviceWish *wish,
+                           HdDeviceReason *reason, HdError *error) {
+    const char *obstacle = hd_device_obstacle(device, wish->options);
+    HdRenderOptions own = options_of(team, device, wish->options);
     if (obstacle != NULL) {
         note_left_out(reason, device, obstacle);
         return HD_OK;
     }
     HdStatus status =
-        hd_launch_open(&team->renderers[team->count], device, &own, job->scene, error);
+        hd_launch_open(&team->renderers[team->count], device, &own, wish->job->scene, error);
     if (status == HD_INTERRUPTED)
         return status;
     if (status == HD_OK)
@@ -136,7 +133,6 @@ static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device,
 }
 
 static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend, const HdDeviceWish *wish,
-                            const HdRenderOptions *options, const HdJob *job,
                             HdDeviceReason *reason, HdError *error) {
     HdDevice *devices = calloc(HD_MAX_DEVICES, sizeof *devices);
     int count = 0;
@@ -150,18 +146,17 @@ static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend, const 
                  (int)sizeof reason->note / 2, error->message);
     for (int i = 0; i < count && status == HD_OK; i++)
         if (is_wanted(team, wish, &devices[i]))
-            status = add_device(team, &devices[i], options, job, reason, error);
+            status = add_device(team, &devices[i], wish, reason, error);
     free(devices);
     return status;
 }
 
-static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish,
-                         const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
+static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish, HdDeviceReason *reason,
                          HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < HD_BACKEND_COUNT && status == HD_OK; i++)
         if (wish->backend == NULL || strcmp(wish->backend, hd_backends[i]->name) == 0)
-            status = add_backend(team, hd_backends[i], wish, options, job, reason, error);
+            status = add_backend(team, hd_backends[i], wish, reason, error);
     snprintf(reason->why, sizeof reason->why, "one of all, by --device");
     if (status == HD_OK && team->count == 0)
         return hd_fail(error, HD_UNAVAILABLE, "no device can do this: %s",
@@ -169,20 +164,18 @@ static HdStatus open_all(HdDeviceTeam *team, const HdDeviceWish *wish,
     return status;
 }
 
-HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish,
-                         const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
+HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdDeviceReason *reason,
                          HdError *error) {
     HdStatus status;
     memset(team, 0, sizeof *team);
     reason->note[0] = reason->why[0] = '\0';
     if (!hd_wish_is_for_several(wish)) {
-        status = hd_open_device(&team->renderers[0], &team->devices[0], wish, options, job, reason,
-                                error);
+        status = hd_open_device(&team->renderers[0], &team->devices[0], wish, reason, error);
         team->count = status == HD_OK ? 1 : 0;
     } else if (strcmp(wish->device, "all") == 0) {
-        status = open_all(team, wish, options, job, reason, error);
+        status = open_all(team, wish, reason, error);
     } else {
-        status = open_list(team, wish, options, job, reason, error);
+        status = open_list(team, wish, reason, error);
     }
     if (status != HD_OK)
         hd_close_devices(team);

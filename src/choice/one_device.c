@@ -13,8 +13,10 @@
 enum { MAX_CANDIDATES = 32 };
 
 typedef struct Search {
-    const HdDeviceWish *wish;
-    const HdRenderOptions *options;
+    HdDeviceWish wish;
+    HdRenderer **renderer; /* what is opened */
+    HdDevice *device;
+    HdDeviceReason *reason;
     HdDevice candidates[MAX_CANDIDATES]; /* the best first */
     int count;
     char reasons[4096]; /* why backends and devices were passed over */
@@ -97,8 +99,8 @@ static void add_candidate(Search *search, const HdDevice *device) {
 }
 
 static void consider(Search *search, const HdDevice *device) {
-    const char *reason = hd_device_obstacle(device, search->options);
-    if (search->wish->kind == HD_ONLY_CPU && !device->is_cpu)
+    const char *reason = hd_device_obstacle(device, search->wish.options);
+    if (search->wish.kind == HD_ONLY_CPU && !device->is_cpu)
         reason = "it is not a CPU";
     if (reason != NULL)
         add_reason(search, device->name, reason);
@@ -115,17 +117,17 @@ static void search_backend(Search *search, const HdBackend *backend, HdError *er
         return;
     }
     for (int i = 0; i < count; i++) {
-        if (!is_in_question(&devices[i], search->wish))
+        if (!is_in_question(&devices[i], &search->wish))
             continue;
         any = true;
         consider(search, &devices[i]);
     }
-    if (!any && search->wish->device != NULL)
+    if (!any && search->wish.device != NULL)
         add_reason(search, backend->name, "no device of that number or name");
 }
 
 static void search_wanted(Search *search, HdError *error) {
-    const HdDeviceWish *wish = search->wish;
+    const HdDeviceWish *wish = &search->wish;
     if (wish->backend != NULL)
         search_backend(search, hd_backend_find(wish->backend), error);
     else if (wish->kind == HD_ONLY_CPU)
@@ -135,25 +137,26 @@ static void search_wanted(Search *search, HdError *error) {
             search_backend(search, hd_backends[i], error);
 }
 
-static const char *choice_reason(const Search *search, const HdDevice *chosen) {
-    const HdDeviceWish *wish = search->wish;
+static const char *choice_reason(const Search *search) {
+    const HdDeviceWish *wish = &search->wish;
     if (wish->device != NULL)
         return "named by --device";
     if (wish->backend != NULL)
         return "the best device of the backend named by --backend";
     if (wish->kind == HD_ONLY_CPU)
         return "the C backend, since only a CPU will do";
-    if (!chosen->is_cpu)
+    if (!search->device->is_cpu)
         return "the first GPU in the order of the backends";
     return "no GPU can do this";
 }
 
 /* `why` is "" where nothing better is known than the order of devices. */
-static void explain(const Search *search, const HdDevice *chosen, const char *why,
-                    HdDeviceReason *reason) {
+static void explain(const Search *search, const char *why) {
+    const HdDevice *chosen = search->device;
+    HdDeviceReason *reason = search->reason;
     bool has_gpu = !search->candidates[0].is_cpu;
     size_t length = strlen(reason->note);
-    if (search->wish->kind == HD_PREFER_GPU && search->wish->backend == NULL && chosen->is_cpu)
+    if (search->wish.kind == HD_PREFER_GPU && search->wish.backend == NULL && chosen->is_cpu)
         snprintf(reason->note + length, sizeof reason->note - length,
                  "%sno suitable GPU was found; tracing with %s on %s", length > 0 ? "; " : "",
                  chosen->backend->name, chosen->name);
@@ -161,12 +164,12 @@ static void explain(const Search *search, const HdDevice *chosen, const char *wh
         snprintf(reason->note + length, sizeof reason->note - length, "; tracing with %s on %s",
                  chosen->backend->name, chosen->name);
     snprintf(reason->why, sizeof reason->why, "%s%s%s",
-             why[0] != '\0' && has_gpu ? why : choice_reason(search, chosen),
+             why[0] != '\0' && has_gpu ? why : choice_reason(search),
              search->reasons[0] != '\0' ? "; passed over: " : "", search->reasons);
 }
 
 static HdStatus search_devices(Search *search, HdError *error) {
-    const char *device = search->wish->device;
+    const char *device = search->wish.device;
     search_wanted(search, error);
     if (search->count > 0)
         return HD_OK;
@@ -176,14 +179,18 @@ static HdStatus search_devices(Search *search, HdError *error) {
                    device != NULL ? "; see 'hedron devices'" : "");
 }
 
-static HdStatus open_best(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
-                          HdDeviceReason *reason, HdError *error) {
+static HdStatus open_found(const Search *search, HdError *error) {
+    return hd_launch_open(search->renderer, search->device, search->wish.options,
+                          search->wish.job->scene, error);
+}
+
+static HdStatus open_best(Search *search, HdError *error) {
     HdStatus status = search_devices(search, error);
     if (status != HD_OK)
         return status;
-    *device = search->candidates[0];
-    explain(search, device, "", reason);
-    return hd_launch_open(renderer, device, search->options, job->scene, error);
+    *search->device = search->candidates[0];
+    explain(search, "");
+    return open_found(search, error);
 }
 
 /* ---- without a name ---- */
@@ -192,78 +199,68 @@ static HdStatus open_best(Search *search, HdRenderer **renderer, HdDevice *devic
 static int count_compared(const Search *search) {
     int count = 0;
     while (count < search->count &&
-           (!search->candidates[count].is_cpu || search->wish->kind == HD_WANT_ANY))
+           (!search->candidates[count].is_cpu || search->wish.kind == HD_WANT_ANY))
         count++;
     return count;
 }
 
-static HdStatus open_fastest(const Search *search, HdRenderer **renderer, HdDevice *device,
-                             const HdJob *job, double frame_seconds, HdDeviceReason *reason,
-                             HdError *error) {
+static HdStatus open_fastest(const Search *search, double frame_seconds, HdError *error) {
     char why[1024], note[2048];
     HdAutoChoice choice = {
         .candidates = search->candidates,
         .count = search->count,
         .measured = count_compared(search),
-        .options = search->options,
-        .job = job,
+        .options = search->wish.options,
+        .job = search->wish.job,
         .frame_seconds = frame_seconds,
     };
-    HdStatus status = hd_auto_open(renderer, device, &choice, why, note, error);
+    HdStatus status = hd_auto_open(search->renderer, search->device, &choice, why, note, error);
     if (status != HD_OK)
         return status;
-    snprintf(reason->note, sizeof reason->note, "%s", note);
-    explain(search, device, why, reason);
+    snprintf(search->reason->note, sizeof search->reason->note, "%s", note);
+    explain(search, why);
     return HD_OK;
 }
 
-static HdStatus open_plain_c(const Search *search, HdRenderer **renderer, HdDevice *device,
-                             const HdJob *job, double seconds, HdDeviceReason *reason,
-                             HdError *error) {
+static HdStatus open_plain_c(const Search *search, double seconds, HdError *error) {
     int count;
-    HdStatus status = hd_backend_c.enumerate(device, 1, &count, error);
+    HdStatus status = hd_backend_c.enumerate(search->device, 1, &count, error);
     if (status != HD_OK)
         return status;
-    snprintf(reason->why, sizeof reason->why,
+    snprintf(search->reason->why, sizeof search->reason->why,
              "it needs about %.2g s, less than other devices take to start", seconds);
-    return hd_launch_open(renderer, device, search->options, job->scene, error);
+    return open_found(search, error);
 }
 
 /* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
-static HdStatus open_any(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
-                         HdDeviceReason *reason, HdError *error) {
+static HdStatus open_any(Search *search, HdError *error) {
+    const HdJob *job = search->wish.job;
     double frame_seconds;
     HdStatus status =
-        hd_trial_estimate(search->options, job, HD_AUTO_SMALL_SECONDS, &frame_seconds, error);
+        hd_trial_estimate(search->wish.options, job, HD_AUTO_SMALL_SECONDS, &frame_seconds, error);
     if (status != HD_OK)
         return status;
     double seconds = frame_seconds * job->frame_count;
     if (seconds <= HD_AUTO_SMALL_SECONDS)
-        return open_plain_c(search, renderer, device, job, seconds, reason, error);
+        return open_plain_c(search, seconds, error);
     status = search_devices(search, error);
-    if (status != HD_OK)
-        return status;
-    return open_fastest(search, renderer, device, job, frame_seconds, reason, error);
+    return status == HD_OK ? open_fastest(search, frame_seconds, error) : status;
 }
 
-static HdStatus open_gpu(Search *search, HdRenderer **renderer, HdDevice *device, const HdJob *job,
-                         HdDeviceReason *reason, HdError *error) {
+static HdStatus open_gpu(Search *search, HdError *error) {
     double frame_seconds = 0.0;
     HdStatus status = search_devices(search, error);
     if (status == HD_OK && count_compared(search) > 1)
-        status = hd_trial_estimate(search->options, job, 0.0, &frame_seconds, error);
-    if (status != HD_OK)
-        return status;
-    return open_fastest(search, renderer, device, job, frame_seconds, reason, error);
+        status =
+            hd_trial_estimate(search->wish.options, search->wish.job, 0.0, &frame_seconds, error);
+    return status == HD_OK ? open_fastest(search, frame_seconds, error) : status;
 }
 
-static HdStatus open_wanted(Search *search, HdRenderer **renderer, HdDevice *device,
-                            const HdJob *job, HdDeviceReason *reason, HdError *error) {
-    const HdDeviceWish *wish = search->wish;
+static HdStatus open_wanted(Search *search, HdError *error) {
+    const HdDeviceWish *wish = &search->wish;
     if (wish->backend != NULL || wish->device != NULL || wish->kind == HD_ONLY_CPU)
-        return open_best(search, renderer, device, job, reason, error);
-    return wish->kind == HD_PREFER_GPU ? open_gpu(search, renderer, device, job, reason, error)
-                                       : open_any(search, renderer, device, job, reason, error);
+        return open_best(search, error);
+    return wish->kind == HD_PREFER_GPU ? open_gpu(search, error) : open_any(search, error);
 }
 
 bool hd_wish_is_for_several(const HdDeviceWish *wish) {
@@ -272,22 +269,21 @@ bool hd_wish_is_for_several(const HdDeviceWish *wish) {
 }
 
 HdStatus hd_open_device(HdRenderer **renderer, HdDevice *device, const HdDeviceWish *wish,
-                        const HdRenderOptions *options, const HdJob *job, HdDeviceReason *reason,
-                        HdError *error) {
-    HdDeviceWish split = *wish;
+                        HdDeviceReason *reason, HdError *error) {
     *renderer = NULL;
     reason->note[0] = reason->why[0] = '\0';
     if (hd_wish_is_for_several(wish))
         return hd_fail(error, HD_BAD_INPUT, "--device is '%s', expected one device", wish->device);
-    HdStatus status = split_name(&split, error);
-    if (status != HD_OK)
-        return status;
     Search *search = calloc(1, sizeof *search);
     if (search == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of devices");
-    search->wish = &split;
-    search->options = options;
-    status = open_wanted(search, renderer, device, job, reason, error);
+    search->wish = *wish;
+    search->renderer = renderer;
+    search->device = device;
+    search->reason = reason;
+    HdStatus status = split_name(&search->wish, error);
+    if (status == HD_OK)
+        status = open_wanted(search, error);
     free(search);
     return status;
 }

@@ -105,24 +105,26 @@ static void note_device(const HdDevice *device, const char *why, const HdRenderO
 
 static HdStatus open_devices(Run *run, HdError *error) {
     const HdOptions *options = run->options;
-    HdDeviceReason reason;
-    HdDeviceWish wish = {
-        .backend = options->backend,
-        .device = options->device,
-        .kind = run->rendering->device_kind,
-    };
     HdScene plain = run->rendering->file->scene; /* what it owns stays with the other */
-    HdJob job = {
+    HdRenderOptions render = options->render;
+    const HdJob job = {
         .scene = &plain,
         .first_frame = run->resume.missing.frames[0],
         .frame_count = run->resume.missing.count,
     };
-    HdRenderOptions render = options->render;
+    const HdDeviceWish wish = {
+        .backend = options->backend,
+        .device = options->device,
+        .kind = run->rendering->device_kind,
+        .options = &render,
+        .job = &job,
+    };
+    HdDeviceReason reason;
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
     hd_scene_drop_survey(&plain);
     if (!options->verbose)
         hd_progress_prepare(&run->progress, "preparing the device");
-    HdStatus status = hd_open_devices(&run->team, &wish, &render, &job, &reason, error);
+    HdStatus status = hd_open_devices(&run->team, &wish, &reason, error);
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",

@@ -109,9 +109,13 @@ static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
     const HdOptions *options = run->options;
     HdRenderer *renderer;
     HdDeviceReason reason;
-    HdDeviceWish wish = {.backend = options->backend, .device = options->device};
-    HdStatus status =
-        hd_open_device(&renderer, &run->device, &wish, &run->render, job, &reason, error);
+    HdDeviceWish wish = {
+        .backend = options->backend,
+        .device = options->device,
+        .options = &run->render,
+        .job = job,
+    };
+    HdStatus status = hd_open_device(&renderer, &run->device, &wish, &reason, error);
     if (status != HD_OK)
         return status;
     hd_renderer_close(renderer);
