@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "choice/job_kind.h"
 #include "choice/launch.h"
 #include "device/loss.h"
 #include "system/cache_folder.h"

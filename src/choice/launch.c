@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "choice/job_kind.h"
+#include "choice/trial.h"
 #include "device/pipeline.h"
 #include "system/cache_folder.h"
 

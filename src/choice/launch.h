@@ -24,7 +24,7 @@ HdRenderOptions hd_launch_options(const HdRenderOptions *options, const HdLaunch
    chosen. */
 void hd_launch_describe(const HdLaunch *launch, char *text, int capacity);
 
-/* Stores the choice in the cache folder (cache_folder.h) for later jobs of this kind (job_kind.h)
+/* Stores the choice in the cache folder (cache_folder.h) for later jobs of this kind (trial.h)
    on such a device, with the same driver, that leave the same open. Errors as hd_cache_put. */
 HdStatus hd_launch_remember(const HdDevice *device, const HdRenderOptions *options,
                             const HdScene *scene, const HdLaunch *launch, HdError *error);

@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "choice/fastest_device.h"
 
-#include "choice/job_kind.h"
+#include "choice/trial.h"
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
 #include "test_folder.h"

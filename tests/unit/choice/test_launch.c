@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "choice/tuning.h"
 
-#include "choice/job_kind.h"
+#include "choice/trial.h"
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"

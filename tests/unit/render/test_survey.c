@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "expect.h"
-#include "render/error_budget.h"
+#include "render/survey.h"
 
 static double srgb(double v) {
     v = v < 0.0 ? 0.0 : v > 1.0 ? 1.0 : v;
