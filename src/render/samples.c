@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "base/trigonometry.h"
 
 enum { BITS = 24, TURN_OVER = (1 << (BITS - 1)) - 1 };
 
@@ -112,53 +111,4 @@ HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error) {
 void hd_sample_set_free(HdSampleSet *set) {
     free(set->places);
     memset(set, 0, sizeof *set);
-}
-
-static int compare(const void *a, const void *b) {
-    const double *first = a, *second = b;
-    return (*first > *second) - (*first < *second);
-}
-
-static double part(double a) {
-    return a > 0.0 ? a * a : 0.0;
-}
-
-/* The share of the unit square about 0 with a x + b y <= d, for a >= b >= 0, a > 0. */
-static double share_below(double a, double b, double d) {
-    double outer = 0.5 * (a + b), inner = 0.5 * (a - b);
-    if (b < 1e-9)
-        return d <= -outer ? 0.0 : d >= outer ? 1.0 : d / a + 0.5;
-    double area = part(d + outer) - part(d + inner) - part(d - inner) + part(d - outer);
-    return area / (2.0 * a * b);
-}
-
-static double worst_at(const HdSampleSet *set, double *along, double cosine, double sine) {
-    const double side = set->grid_side;
-    double a = cosine < 0.0 ? -cosine : cosine, b = sine < 0.0 ? -sine : sine, worst = 0.0;
-    for (int i = 0; i < set->count; i++) {
-        double x = ((set->places[i] & 0xffff) + 0.5) / side - 0.5;
-        double y = ((set->places[i] >> 16) + 0.5) / side - 0.5;
-        along[i] = cosine * x + sine * y;
-    }
-    qsort(along, (size_t)set->count, sizeof *along, compare);
-    for (int i = 0; i < set->count; i++) {
-        double exact = share_below(a > b ? a : b, a > b ? b : a, along[i]);
-        double below = exact - (double)i / set->count, above = (double)(i + 1) / set->count - exact;
-        worst = below > worst ? below : worst;
-        worst = above > worst ? above : worst;
-    }
-    return worst;
-}
-
-double hd_sample_set_error(const HdSampleSet *set, int angles) {
-    const double turn = 6.283185307179586;
-    double *along = calloc((size_t)set->count, sizeof *along), worst = 0.0;
-    for (int i = 0; along != NULL && i < angles; i++) {
-        double angle = turn * i / angles, sine, cosine;
-        hd_sine_cosine(angle, &sine, &cosine);
-        double error = worst_at(set, along, cosine, sine);
-        worst = error > worst ? error : worst;
-    }
-    free(along);
-    return 255.0 * worst;
 }

@@ -20,16 +20,10 @@ HdStatus hd_sample_set_grid(HdSampleSet *set, int side, HdError *error);
 
 /* side * side places, 1 to 64, on a grid of HD_DENSE_GRID: correlated multi-jittered samples
    (Kensler 2013), one in each cell of a grid of side x side and one in each of side * side columns
-   and rows. An edge between black and white is seen with an error of at most
-   HD_REFERENCE_SAMPLE_ERROR steps of 255 by 32 x 32 of them, and by a grid with up to 4. */
+   and rows. An edge between black and white is seen with an error of at most 2.2 steps of 255 by
+   32 x 32 of them, and by a grid with up to 4. */
 enum { HD_DENSE_GRID = 4096 };
-#define HD_REFERENCE_SAMPLE_ERROR 2.2
 HdStatus hd_sample_set_dense(HdSampleSet *set, int side, HdError *error);
-
-/* The greatest error that the set makes on an edge between black and white, wherever the edge and
-   however it is turned, in steps of 255 on the linear curve; found by trying `angles` directions of
-   the edge, a full turn, each at every place where the share changes. */
-double hd_sample_set_error(const HdSampleSet *set, int angles);
 
 void hd_sample_set_free(HdSampleSet *set);
 
