@@ -128,7 +128,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
     hd_progress_end(&run->progress);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",
-                       hd_resume_first_missing(&run->resume), run->resume.all->count);
+                       run->resume.first_missing, run->resume.all->count);
     if (status != HD_OK)
         return status;
     if (reason.note[0] != '\0' && !options->quiet)

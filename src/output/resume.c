@@ -47,6 +47,8 @@ static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdErr
             resume->finished_count++;
         else
             resume->missing.frames[resume->missing.count++] = number;
+        if (resume->missing.count == 0)
+            resume->first_missing = i + 1;
     }
     return HD_OK;
 }
@@ -83,13 +85,6 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
                 number, output->name);
     free(bytes);
     return status;
-}
-
-int hd_resume_first_missing(const HdResume *resume) {
-    int place = 0;
-    while (place < resume->all->count && resume->is_finished[place])
-        place++;
-    return place;
 }
 
 void hd_resume_free(HdResume *resume) {

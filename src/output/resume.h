@@ -16,6 +16,7 @@ typedef struct HdResume {
     HdFrameList missing; /* the frames that have to be rendered */
     bool *is_finished;   /* owned; by place in `all` */
     int finished_count;
+    int first_missing; /* place in `all`; so many frames before it are finished */
 } HdResume;
 
 /* Looks at the pictures of a settled plan. No frame counts as finished where the plan does not
@@ -27,9 +28,6 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
 /* Reads a finished frame back into `frame`, encoded (`rgba`), as films take it. HD_FAILED where its
    picture has changed since. */
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error);
-
-/* How many frames are finished before the first one that is missing. */
-int hd_resume_first_missing(const HdResume *resume);
 
 void hd_resume_free(HdResume *resume);
 

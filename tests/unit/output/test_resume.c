@@ -58,6 +58,9 @@ static void expect_finished(const HdOutputPlan *plan, int expected) {
     assert_int_equal(resume.finished_count, expected);
     assert_int_equal(resume.missing.count, FRAMES - expected);
     assert_ptr_equal(resume.all, &frames);
+    for (int i = 0; i < resume.first_missing; i++)
+        assert_true(resume.is_finished[i]);
+    assert_true(resume.first_missing == FRAMES || !resume.is_finished[resume.first_missing]);
     for (int i = 0, next = 0; i < FRAMES; i++)
         if (!resume.is_finished[i])
             assert_int_equal(resume.missing.frames[next++], numbers[i]);
