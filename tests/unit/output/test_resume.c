@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "image/mark.h"
+#include "image/picture.h"
 #include "output/resume.h"
 #include "system/atomic_file.h"
 #include "test_folder.h"
