@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "mirror_rooms.h"
 
-#include "../../tests/leak_hunt/hunt_random.h"
+#include "../../scenes/models/random.h"
 #include "shapes.h"
 
 const char *const hd_room_names[HD_ROOM_KINDS] = {"inside", "between"};

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../tests/leak_hunt/hunt_random.h"
+#include "../../scenes/models/random.h"
 #include "compiled.h"
 #include "methods.h"
 #include "product.h"

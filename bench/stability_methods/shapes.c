@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../tests/leak_hunt/hunt_random.h"
+#include "../../scenes/models/random.h"
 
 static const double pi = 3.14159265358979323846;
 

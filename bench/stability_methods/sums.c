@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../tests/leak_hunt/hunt_random.h"
+#include "../../scenes/models/random.h"
 #include "product.h"
 #include "studies.h"
 

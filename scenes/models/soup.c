@@ -4,21 +4,13 @@
 #include "model.h"
 
 #include <math.h>
-#include <stdint.h>
+
+#include "random.h"
 
 /* Of the circle about each triangle, times the cube root of their number. */
 static const double size = 0.7;
 
 static const double root_of_3 = 1.7320508075688772;
-
-/* SplitMix64: from -1 to 1. */
-static double next_random(uint64_t *state) {
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    z ^= z >> 31;
-    return (double)(z >> 11) * 0x1p-52 - 1;
-}
 
 /* A point in the ball of radius 1, not too close to its centre. */
 static void random_point(uint64_t *state, double point[3]) {
@@ -26,7 +18,7 @@ static void random_point(uint64_t *state, double point[3]) {
     do {
         square = 0;
         for (int axis = 0; axis < 3; axis++) {
-            point[axis] = next_random(state);
+            point[axis] = random_between(state, -1, 1);
             square += point[axis] * point[axis];
         }
     } while (square > 1 || square < 0.01);

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "mesh_builder.h"
+#include "../../scenes/models/mesh_builder.h"
 #include "scene/triangulate/scene.h"
 #include "scene_builder.h"
 

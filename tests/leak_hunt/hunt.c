@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../conformance/mesh_builder.h"
+#include "../../scenes/models/mesh_builder.h"
+#include "../../scenes/models/random.h"
 #include "../conformance/scene_builder.h"
-#include "hunt_random.h"
 #include "hunt_skins.h"
 #include "scene/platonic.h"
 

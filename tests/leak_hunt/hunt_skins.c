@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "hunt_random.h"
+#include "../../scenes/models/random.h"
 #include "scene/platonic.h"
 
 static void *allocate(size_t count, size_t size) {

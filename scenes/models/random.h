@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Random numbers that are the same on every system. */
-#ifndef HD_LEAK_HUNT_RANDOM_H
-#define HD_LEAK_HUNT_RANDOM_H
+#ifndef HD_MODELS_RANDOM_H
+#define HD_MODELS_RANDOM_H
 
 #include <stdint.h>
 

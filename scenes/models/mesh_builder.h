@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Short ways to make meshes. */
-#ifndef HD_CONFORMANCE_MESH_BUILDER_H
-#define HD_CONFORMANCE_MESH_BUILDER_H
+#ifndef HD_MODELS_MESH_BUILDER_H
+#define HD_MODELS_MESH_BUILDER_H
 
 #include "scene/scene.h"
 
