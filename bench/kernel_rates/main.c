@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Rates of the kernels' two hot loops on one thread, and the arithmetic peak beside them; or, with
-   --count, the instructions that the loops execute. bench/speed reads the output:
+   --count, the instructions that the loops execute. bench/study speed reads the output:
 
      build SET LANES
      rate NAME UNIT PER_CPU_SECOND           a line for each round

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Rates of the kernels' searches of meshes on one thread, and those of Embree where it is
-   installed. bench/triangles reads the output:
+   installed. bench/study triangles reads the output:
 
      build SET LANES
      object TRIANGLES

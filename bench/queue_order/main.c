@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What it gives to sort a wavefront's queue, on one thread. bench/pipelines reads the output:
+/* What it gives to sort a wavefront's queue, on one thread. bench/study pipelines reads the output:
 
      build SET LANES
      order SCENE BATCH ORDER FIRST_RAYS RAYS BUNDLES TOUCHED MET     BATCH in samples

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How often methods fail where methods fail, beside the kernels' own. bench/stability reads the
-   output, a line for each study, case, method and place:
+/* How often methods fail where methods fail, beside the kernels' own. bench/study stability reads
+   the output, a line for each study, case, method and place:
 
      STUDY CASE METHOD SCALE OFFSET KEY=NUMBER...
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/accuracy: its arithmetic on made-up numbers, and a tiny run.
+# bench/study accuracy: its arithmetic on made-up numbers, and a tiny run.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-bench=$project/bench/accuracy
+bench=("$project/bench/study" accuracy)
 
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r`, its rows by key and its points by name.
 expect_value() {
@@ -17,7 +17,7 @@ expect_value() {
 
 # ---- the front: nothing slower that is no better; times at equal error on straight lines of the logarithms
 cat >front.py <<'PYTHON'
-from harness.accuracy_front import cheapest, front, ratios, time_at
+from harness.accuracy.front import cheapest, front, ratios, time_at
 def made(*pairs):
     return [{"name": f"{ms}", "ms": ms, "rmse": error} for ms, error in pairs]
 some = made((100, 1), (1, 100), (2, 100), (50, 200), (10, 30), (10, 10))
@@ -33,7 +33,7 @@ expect_python "['1', '10', '100']
 
 # ---- what is recommended: the fastest of those as good as the grid; what hedron chooses by itself is none
 cat >recommend.py <<'PYTHON'
-from harness.accuracy_points import equal_error, recommend
+from harness.accuracy.points import equal_error, recommend
 def point(family, name, ms, error):
     return {"device": "c:0", "family": family, "name": name, "ms": ms, "rmse": error, "recommended": None}
 points = [point("grid", "grid 2", 4, 20), point("grid", "grid 4", 16, 10), point("deep", "deep 3", 5, 9.9),
@@ -46,7 +46,7 @@ expect_python "[('deep 3', 'usual'), ('adaptive 2', 'draft')]
 [(9.9, 0.1)] [] [(20, 0.75)]" "$(cat recommend.py)"
 
 # ---- settings: families that go on only where the one before was affordable are ordered by their work
-expect_python True 'from harness.accuracy_settings import FAMILIES, settings' \
+expect_python True 'from harness.accuracy.settings import FAMILIES, settings' \
     'both = [settings(quick) for quick in (False, True)]' \
     'print(all(list(each) == list(FAMILIES) and all([s.work for s in f] == sorted(s.work for s in f) for f in each.values()) for each in both))'
 
@@ -55,19 +55,19 @@ expect_python True 'from harness.accuracy_settings import FAMILIES, settings' \
 "$hedron" render --quiet --backend c --frames 0 --size 32x24 --samples 2 -o two.pfm >"$logs/stdout"
 cat >look.py <<'PYTHON'
 import struct
-from harness import accuracy_error
-from harness.program import Problem
+from harness.run import pfm
+from harness.run.program import Problem
 with open("bad.pfm", "wb") as file:
     file.write(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", 0, 1, float("inf"), -float("inf"), float("nan"), 2))
-print(accuracy_error.not_finite("one.pfm"), accuracy_error.not_finite("bad.pfm"))
+print(pfm.not_finite("one.pfm"), pfm.not_finite("bad.pfm"))
 class Program:
     path = PATH
-share = 1 - accuracy_error.figures(Program, "one.pfm", "two.pfm")["above_1"]
-print(abs(accuracy_error.share_within("one.pfm", "two.pfm", 1) - share) < 1e-12, 0.1 < share < 0.9,
-      accuracy_error.share_within("one.pfm", "one.pfm", 0))
-print(accuracy_error.compare(Program, "bad.pfm", "bad.pfm")["first"]["not_finite"])
+share = 1 - pfm.errors(Program, "one.pfm", "two.pfm")["above_1"]
+print(abs(pfm.share_within("one.pfm", "two.pfm", 1) - share) < 1e-12, 0.1 < share < 0.9,
+      pfm.share_within("one.pfm", "one.pfm", 0))
+print(pfm.compare(Program, "bad.pfm", "bad.pfm")["first"]["not_finite"])
 try:
-    accuracy_error.compare(Program, "one.pfm", "bad.pfm")
+    pfm.compare(Program, "one.pfm", "bad.pfm")
 except Problem as problem:
     print(problem.code)
 PYTHON
@@ -78,18 +78,17 @@ True True 1.0
 
 # ---- targets: the worst scene counts; nothing left out is met, and one that failed leaves no figure
 cat >targets.py <<'PYTHON'
-from pathlib import Path
-from harness.accuracy_scenes import SceneTargets
-from harness.speed_plan import Plan, finish_row
+from harness.accuracy.targets import SceneTargets
+from harness.measure.plan import Plan
 def told(truncation, arithmetic):
     plan = Plan({}, {})
-    targets = SceneTargets(plan, None, {"label": "c:0"}, [], [], True, Path("."))
+    targets = SceneTargets(plan, {"label": "c:0"}, [], [], True)
     targets.truncation = {name: found if isinstance(found, str) else {"measured": found[0], "bound": found[1]}
                           for name, found in truncation.items()}
     targets.arithmetic = {name: {"above_1": share} for name, share in arithmetic.items()}
     targets.add_truncation()
     targets.add_arithmetic()
-    rows = [finish_row(row) for row in plan.rows if not row["what"].startswith(" ")]
+    rows = [row for row in plan.finished() if not row["what"].startswith(" ")]
     return [(row["figure"], row["verdict"] or row["reason"]) for row in rows]
 print(told({"a": (0.5, 0.9), "b": (0, 0.1)}, {"a": 0.0005, "b": 0}))
 print(told({"a": (1.5, 0.9), "b": (0.01, 0.1)}, {"a": 0.002, "b": 0}))
@@ -102,20 +101,17 @@ expect_python "[(0.5, 'aim'), (1.8, 'aim'), (99.95, 'least')]
 [(None, 'no room'), (None, 'no room'), (None, 'nothing was measured')]" "$(cat targets.py)"
 
 # ---- who makes references: a GPU before a CPU, and nobody without double precision
-expect_python 'cuda:0 c:0 None' 'import importlib.machinery, importlib.util' \
-    "loader = importlib.machinery.SourceFileLoader('accuracy', '$bench')" \
-    'bench = importlib.util.module_from_spec(importlib.util.spec_from_loader("accuracy", loader)); loader.exec_module(bench)' \
-    'devices = [{"label": f"{b}:0", "backend": b, "index": 0, "strict": True, "is_cpu": b != "cuda"} for b in ("opencl", "c", "cuda")]' \
-    'known = lambda doubles: [{"devices": [{**d, "has_double": d["backend"] in doubles} for d in devices]}]' \
-    'names = [bench.choose_judge(devices, known(doubles)) for doubles in (("c", "cuda"), ("opencl", "c"), ())]' \
+expect_python 'cuda:0 c:0 None' 'from harness.run.devices import judge' \
+    'made = lambda doubles: [{"label": f"{b}:0", "backend": b, "strict": True, "is_cpu": b != "cuda", "has_double": b in doubles} for b in ("opencl", "c", "cuda")]' \
+    'names = [judge(made(doubles)) for doubles in (("c", "cuda"), ("opencl", "c"), ())]' \
     'print(*(name and name["label"] for name in names))'
 # What is stated of the reference's samples is what the program states of them.
-expect_python True 'from harness.accuracy_truth import SAMPLE_ERROR' \
+expect_python True 'from harness.accuracy.truth import SAMPLE_ERROR' \
     "print(f'#define HD_REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n' in open('$project/src/render/samples.h', encoding='utf-8').read())"
 
 # ---- a tiny run
 expect_exit 0 "$hedron" check "$project/bench/scenes/few.json"
-expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --size 16x12 \
+expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron "$hedron" --out out --device c --quick --size 16x12 \
     --parts settings,arithmetic,truncation,choices
 expect_stdout_contains 'What hedron chooses by itself:'
 expect_stdout_contains 'The same bytes from every device and pipeline'
@@ -152,17 +148,17 @@ if command -v gnuplot >"$logs/which"; then
 fi
 
 # ---- Ctrl-C leaves what was measured
-interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "${bench[@]}" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 
 # ---- wrong usage
-expect_exit 2 "$bench" --hedron "$hedron" --out out --parts wrong
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --parts wrong
 expect_stderr_contains 'a part that is none of settings'
-expect_exit 2 "$bench" --hedron "$hedron" --out out --size 0x4
-expect_exit 2 "$bench" --hedron "$hedron" --out out --repeats 0
-expect_exit 2 "$bench" --hedron "$hedron" --out out -- --depth=3
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --size 0x4
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --repeats 0
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out -- --depth=3
 expect_stderr_contains '--depth=3 cannot stand after --'
-expect_exit 2 "$bench" --hedron no/hedron --out out
-expect_exit 3 "$bench" --hedron "$hedron" --out out --device c:7
+expect_exit 2 "${bench[@]}" --hedron no/hedron --out out
+expect_exit 3 "${bench[@]}" --hedron "$hedron" --out out --device c:7
 finish

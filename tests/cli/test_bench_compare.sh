@@ -70,6 +70,21 @@ make few.json 1=100/100 2=100/120 3=100/80 4=100/110
 make later.json 1=110/110 2=100/120 3=100/80 4=100/110
 expect_exit 0 "$compare" few.json later.json
 
+# ---- each folder of the harness takes from those before it only, in the order of bench/README.md
+cat >order.py <<'PYTHON'
+import pathlib, re
+bench = pathlib.Path(BENCH)
+table = (bench / "README.md").read_text(encoding="utf-8").partition("| folder | what |")[2].partition("\n\n")[0]
+order = re.findall(r"`(\w+)`", "\n".join(line.split("|")[1] for line in table.splitlines()[2:]))
+files = sorted((bench / "harness").rglob("*.py"))
+print(sorted(order) == sorted({file.parent.name for file in files}))
+for file in files:
+    for folder in re.findall(r"^from harness\.(\w+)", file.read_text(encoding="utf-8"), re.M):
+        if order.index(folder) > order.index(file.parent.name):
+            print(f"{file} takes from {folder}")
+PYTHON
+expect_python True "$(sed "s|BENCH|'$project/bench'|" order.py)"
+
 # ---- what it refuses
 # expect_compare_refusal TEXT OPTIONS...
 expect_compare_refusal() {

@@ -18,7 +18,8 @@ expect_value() {
     found=$(python3 -c '
 import json, sys
 r = json.load(open(sys.argv[1], encoding="utf-8"))
-d = {device["backend"] + ":" + str(device["index"]): device for device in r["devices"]}
+jobs = {job["device"]: job for job in r["measurements"]}
+d = {device["backend"] + ":" + str(device["index"]): {**device, **jobs.get(device["label"], {})} for device in r["devices"]}
 print(json.dumps(eval(sys.argv[2])))' "$1" "$2" 2>&1) || true
     if [[ $found != "$3" ]]; then
         fail "$2 is $found, expected $3"
@@ -143,7 +144,7 @@ for line in '^opencl .* 7\.000 \[3\.500\.\.12\.50\] +8\.000 +125\.0 +0\.5250 +1\
 done
 
 # ---- the keys that bench/README.md tells of
-expect_value out/frames.json 'list(r)' '["hedron_bench", "bench", "complete", "date", "hedron", "machine", "scene", "frames", "repeats", "pictures", "devices"]'
+expect_value out/frames.json 'list(r)' '["hedron_bench", "bench", "complete", "date", "quick", "repeats", "hedron", "machine", "devices", "pictures", "failures", "scene", "rows", "measurements", "frames"]'
 expect_value out/frames.json '[r["hedron_bench"], r["complete"], r["hedron"]]' '[1, true, {"version": "9.8.7", "options": []}]'
 expect_value out/frames.json '[list(r["machine"]), len(r["machine"]["load_after"])]' \
     '[["cpu", "cores", "system", "load_before", "load_after"], 3]'
@@ -152,7 +153,7 @@ expect_value out/frames.json 'r["scene"]' \
 expect_value out/frames.json '[[run["repeat"], [frame["warm_up"] for frame in run["frames"]]] for run in d["c:0"]["runs"]]' \
     '[[0, [true, false, false]], [1, [true, false, false]]]'
 expect_value out/frames.json 'list(d["c:0"]["runs"][0]["frames"][0])' \
-    '["frame", "warm_up", "seconds", "rays", "shadow_tests", "picture"]'
+    '["frame", "width", "height", "samples", "depth", "seconds", "rays", "shadow_tests", "warm_up", "picture"]'
 expect_value out/frames.json '[d["cuda:None"]["reason"], d["opencl:1"]["reason"], d["c:0"]["reason"]]' \
     '["no driver here", "too old", null]'
 
@@ -239,7 +240,7 @@ expect_value 'new/##%d/frames.json' '[r["scene"]["name"], r["scene"]["width"], r
 expect_value 'new/##%d/frames.json' '[r["complete"], r["pictures"]["same"] is not False]' '[true, true]'
 expect_value 'new/##%d/frames.json' '[frame["frame"] for frame in d["c:0"]["runs"][1]["frames"]]' '[3, 5]'
 if (($(grep -c -E '^(c|opencl) +[0-9]+  .*\[.*\.\..*\]' "$logs/stdout") != \
-    $(python3 -c 'import json; print(sum(d["summary"] is not None for d in json.load(open("new/##%d/frames.json"))["devices"]))'))); then
+    $(python3 -c 'import json; print(sum(d["summary"] is not None for d in json.load(open("new/##%d/frames.json"))["measurements"]))'))); then
     fail "the table has not one line for each device"
     show_logs
 fi

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/pipelines: its arithmetic on made-up numbers, and a tiny run of the programs themselves.
+# bench/study pipelines: its arithmetic on made-up numbers, and a tiny run of the programs themselves.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-bench=$project/bench/pipelines
+bench=("$project/bench/study" pipelines)
 orders=$(dirname "$hedron")/bench/hedron_queue_order
 
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r`.
@@ -16,7 +16,7 @@ expect_value() {
 
 # ---- the orders: times for each ray of all levels, medians of the rounds, 40 of 8 bundles alive
 cat >orders.py <<'PYTHON'
-from harness import queue_order
+from harness.pipelines import order as queue_order
 found = queue_order.parse("""build avx512 16
 order a.json 256 product 0 0 0 0 0
 order a.json 256 appended 60 40 8 12 16
@@ -36,7 +36,8 @@ expect_python $'16 a 100 None 20.0\n[10.0, 40.0, 0.0, 10.0, 60.0] 5.0 1.5 2.0' "
 
 # ---- what the CUDA programs say becomes tables; sums in fixed point that differ are told
 cat >cuda.py <<'PYTHON'
-from harness import charts, cuda_studies
+from harness.chart import gnuplot
+from harness.pipelines import cuda as cuda_studies
 def sums(ulps):
     spread = {"max": 0.25, "rms": 0.125, "differing": 0.5}
     return {"ms": 2.0, "ns_each": 4.0, "runs_differ_by_255ths": spread, "runs_differ_by_ulps": {"max": ulps, "rms": 0},
@@ -52,7 +53,8 @@ print(cuda_studies.lookup_cells(lookups, "own"), cuda_studies.lookup_cells(looku
 result = {"image_sums": found, "texture_lookups": lookups, "hedron": {"version": "0"}, "scene": {"name": "a", "width": None},
           "machine": {"cpu": "a CPU", "cores": 1}}
 import pathlib
-drawn = charts.draw(result, pathlib.Path("."), cuda_studies.drawable(result))
+drawn = gnuplot.draw({"image_sums": cuda_studies.sum_chart(result), "texture_lookups": cuda_studies.lookup_chart(result)},
+                     pathlib.Path("."))
 print(all(line.startswith(("Chart: ", "There is no gnuplot")) for line in drawn) or drawn)
 PYTHON
 expect_python "True False
@@ -62,7 +64,7 @@ True" "$(cat cuda.py)"
 
 # ---- a tiny run
 tiny=(--size 32x24 --samples 1 --depth 2)
-expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --repeats 1 -- "${tiny[@]}"
+expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron "$hedron" --out out --device c --quick --repeats 1 -- "${tiny[@]}"
 expect_stdout_contains 'The same bytes from every device and pipeline'
 expect_value '[1, "pipelines", true, true, []]' \
     '[r["hedron_bench"], r["bench"], r["complete"], r["quick"], r["failures"]]'
@@ -110,10 +112,10 @@ PYTHON
 fi
 
 # ---- wrong usage
-expect_exit 2 "$bench" --hedron "$hedron" --out out --studies wrong
-expect_stderr_contains 'a study that is none of pipelines'
-expect_exit 2 "$bench" --hedron "$hedron" --out out -- --pipeline=mega
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --parts wrong
+expect_stderr_contains 'a part that is none of pipelines'
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out -- --pipeline=mega
 expect_stderr_contains '--pipeline=mega cannot stand after --'
-expect_exit 2 "$bench" --hedron no/hedron --out out
-expect_exit 3 "$bench" --hedron "$hedron" --out out --device c:7
+expect_exit 2 "${bench[@]}" --hedron no/hedron --out out
+expect_exit 3 "${bench[@]}" --hedron "$hedron" --out out --device c:7
 finish

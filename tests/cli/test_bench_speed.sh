@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/speed and bench/predict: their arithmetic on made-up numbers, and a tiny run of the program itself.
+# bench/study speed and predict: their arithmetic on made-up numbers, and a tiny run of the program itself.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-bench=$project/bench/speed
+bench=("$project/bench/study" speed)
 
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r` and its rows, by key and device.
 expect_value() {
@@ -15,7 +15,7 @@ expect_value() {
 }
 
 # ---- a row's verdict: 1 or more says that the target is met
-judge='from harness.speed_plan import Target, judge'
+judge='from harness.measure.rows import Target, judge'
 expect_python "(2.0, 0.8, 'least')" "$judge" 'print(judge(Target(12, 30), 24))'
 expect_python "(2.0, 0.5, 'least')" "$judge" 'print(judge(Target(20, 5, False), 10))'
 expect_python "(4.0, 1.0, 'aim')" "$judge" 'print(judge(Target(20, 5, False), 5))'
@@ -23,12 +23,13 @@ expect_python "(0.5, 0.25, 'missed')" "$judge" 'print(judge(Target(20, 40), 10))
 
 # ---- pictures: one that differs is told; threads and pipelines promise the same bytes, fast arithmetic none
 cat >pictures.py <<'PYTHON'
-from harness.speed_plan import Plan, compare_pictures
+from harness.measure.plan import Plan
 def told(*jobs):
     plan = Plan({"c:0": {"strict": True}, "opencl:0": {"strict": True}}, {})
     for device, options, picture in jobs:
-        plan.runs[plan.job(device, "headline", "0", tuple(options.split()))].append({"digests": {0: picture}})
-    found = compare_pictures(plan)
+        job = plan.job(device, "headline", "0", options.split())
+        job["runs"].append({"frames": [{"frame": 0, "picture": picture}]})
+    found = plan.compared()
     return found["same"], found["compared"]
 print(told(("c:0", "", "a"), ("opencl:0", "", "a")), told(("c:0", "", "a"), ("opencl:0", "", "b")),
       told(("c:0", "", "a"), ("c:0", "--samples 2", "b")), told(("c:0", "", "a"), ("c:0", "--math fast", "b")),
@@ -37,7 +38,7 @@ PYTHON
 expect_python '(True, 1) (False, 1) (None, 0) (None, 0) (False, 1)' "$(cat pictures.py)"
 
 # ---- which instructions are operations
-weigh='from harness.kernel_rates import add_up, weigh'
+weigh='from harness.measure.kernel_rates import add_up, weigh'
 while read -r expected name operands; do
     expect_python "$expected" "$weigh" "print(*weigh('$name', '$operands'), sep=',')"
 done <<'LINES'
@@ -62,18 +63,18 @@ expect_python "{'instructions': 5, 'operations': 112, 'slots': 5, 'divisions': 3
 # ---- the timeline: two frames, of which the second is traced while the first is stored
 frames='[{"frame": 0, "began": {"trace": 1, "store": 3}, "seconds": {"trace": 2, "store": 1}},
     {"frame": 1, "began": {"trace": 3, "store": 5, "copy": None}, "seconds": {"trace": 2, "store": 1, "copy": 0}}]'
-timeline="from harness import timeline; t = timeline.measure($frames)"
+timeline="from harness.speed import timeline; t = timeline.measure($frames)"
 expect_python "5 trace 1.25" "$timeline" 'print(t["seconds"], t["slowest"], t["ratio_to_slowest"])'
 expect_python "{'busy_seconds': 2.0, 'busy_share': 0.4, 'work_seconds': 2}" "$timeline" 'print(t["stages"]["store"])'
 # Of boxes that overlap each moment counts once.
-expect_python 3.0 'from harness import timeline' 'print(timeline.busy_seconds([(0, 2, 0), (1, 2, 1), (5, 6, 2)]))'
+expect_python 3.0 'from harness.speed import timeline' 'print(timeline.busy_seconds([(0, 2, 0), (1, 2, 1), (5, 6, 2)]))'
 
 # ---- scenes: lights in the same places every time, those that light nothing not counted
-lights='import json, pathlib; from harness import light_scenes, scene_facts; p = pathlib.Path("lights-200.json")'
+lights='import json, pathlib; from harness.measure import scenes; p = pathlib.Path("lights-200.json")'
 expect_python "{'solids': 3, 'planes': 31, 'lights': 200}" "$lights" \
-    "file = light_scenes.write(pathlib.Path('$project/scenes/default.json'), pathlib.Path('.'), 200)" \
-    'print(scene_facts.facts(file))'
-expect_python '[7.7942, 0.0, 3.2]' "$lights" 'print(light_scenes.lights(1)[0]["position"])'
+    "file = scenes.write_lights(pathlib.Path('.'), 200)" \
+    'print(scenes.facts(file))'
+expect_python '[7.7942, 0.0, 3.2]' "$lights" 'print(scenes.lights(1)[0]["position"])'
 expect_exit 0 "$hedron" check lights-200.json
 for scene in headline fullhd; do
     expect_exit 0 "$hedron" check "$project/bench/scenes/$scene.json"
@@ -87,7 +88,7 @@ expect_python True "$same" '[s["floor"].pop("texture") for s in (a, b)]; [s.pop(
 
 # ---- the model finds the coefficients that made the times, and scales all but the fixed part
 cat >model.py <<'PYTHON'
-from harness import gpu_model
+from harness.benches import predict as gpu_model
 points = []
 for i in range(16):
     point = {"scene": f"scene {i}", "rays": 10**6 * (1 + i * i % 7), "planes": 10 + 7 * i % 30, "lights": 4 + 97 * i % 300,
@@ -101,16 +102,16 @@ print(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), row["low"] < 
 PYTHON
 expect_python $'8 True True\n10.0 True' "$(cat model.py)"
 # A coefficient that would be negative is none.
-expect_python '[1.0, 0.0]' 'from harness.gpu_model import non_negative_fit' \
+expect_python '[1.0, 0.0]' 'from harness.benches.predict import non_negative_fit' \
     'print([round(c, 6) for c in non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])])'
 
 # ---- a tiny run
 tiny=(--size 32x24 --samples 1 --depth 2)
-expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --repeats 1 \
-    --rows headline,headline_film,searches,math,pipelines,stage -- "${tiny[@]}"
+expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron "$hedron" --out out --device c --quick --repeats 1 \
+    --parts headline,headline_film,searches,math,pipelines,stage -- "${tiny[@]}"
 expect_stdout_contains 'CHANGED by --size 32x24'
-expect_value '["hedron_bench", "bench", "complete", "date", "quick", "hedron", "machine", "few_cores", "repeats", "devices", "rows", "pictures", "kernel_rates", "counted", "film", "timeline", "runs", "failures", "scenes", "peaks"]' \
-    '[key for key in r if key != "scene"]'
+expect_value '["hedron_bench", "bench", "complete", "date", "quick", "repeats", "hedron", "machine", "devices", "pictures", "failures", "scene", "rows", "measurements", "kernel_rates", "counted", "film", "timeline", "scenes", "peaks", "few_cores"]' \
+    'list(r)'
 expect_value '[1, "speed", true, true]' '[r["hedron_bench"], r["bench"], r["complete"], r["quick"]]'
 expect_value '["key", "what", "device", "unit", "least", "aim", "more_is_better", "figure", "q1", "q3", "count", "ratio_to_least", "ratio_to_aim", "verdict", "note", "reason"]' \
     'list(r["rows"][0])'
@@ -122,26 +123,26 @@ if [[ -x $(dirname "$hedron")/bench/hedron_kernel_rates ]]; then
 fi
 if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     expect_value '["superfast", [4, 16]]' \
-        '[r["film"]["preset"], sorted({len(run["frames"]) for run in r["runs"] if run["output"] == "film.mp4"})]'
+        '[r["film"]["preset"], sorted({len(run["frames"]) for job in r["measurements"] for run in job["runs"] if job["output"] == "film.mp4"})]'
 fi
 if [[ ! -s out/speed.md ]]; then
     fail "there is no table for documents"
 fi
 
 # ---- Ctrl-C leaves what was measured
-interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "${bench[@]}" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value '[false, true]' '[r["complete"], all(row["reason"] for row in r["rows"] if row["key"] == "pairs")]'
 
 # ---- a file without a GPU predicts nothing; wrong usage
-expect_exit 3 "$project/bench/predict" out/speed.json
+expect_exit 3 "$project/bench/study" predict out/speed.json
 expect_stderr_contains 'no GPU whose lanes are known'
-expect_exit 2 "$project/bench/predict" lights-200.json
-expect_stderr_contains 'not what bench/speed writes'
-expect_exit 2 "$bench" --hedron "$hedron" --out out --rows wrong
-expect_stderr_contains 'a row that is none of headline_film'
-expect_exit 2 "$bench" --hedron "$hedron" --out out -- --stats=x
+expect_exit 2 "$project/bench/study" predict lights-200.json
+expect_stderr_contains 'not what bench/study speed writes'
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --parts wrong
+expect_stderr_contains 'a part that is none of headline_film'
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out -- --stats=x
 expect_stderr_contains '--stats=x cannot stand after --'
-expect_exit 2 "$bench" --hedron no/hedron --out out
-expect_exit 3 "$bench" --hedron "$hedron" --out out --device c:7
+expect_exit 2 "${bench[@]}" --hedron no/hedron --out out
+expect_exit 3 "${bench[@]}" --hedron "$hedron" --out out --device c:7
 finish

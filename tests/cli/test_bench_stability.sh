@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/stability: what ours may never do, which it does not, and what plain methods do, which shows that
+# bench/study stability: what ours may never do, which it does not, and what plain methods do, which shows that
 # the bench can see it; the pictures' arithmetic; a tiny run of all parts.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-bench=$project/bench/stability
+bench=("$project/bench/study" stability)
 tool=$(dirname "$hedron")/bench/hedron_stability_methods
 if [[ ! -x $tool ]]; then
     skip "there is no $tool"
@@ -16,7 +16,7 @@ fi
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r`; `wrong(study, case, method, key,
 # place)` is what was counted, over all places or those of which `place` is true.
 expect_value() {
-    expect_python "$1" 'import json' 'from harness import stability_methods as m' \
+    expect_python "$1" 'import json' 'from harness.stability import methods as m' \
         'r = json.load(open("out/stability.json", encoding="utf-8"))' \
         'def these(study, case, method, place=None): return m.select(r["counts"], study, case and [case], method, place)' \
         'def wrong(study, case, method, key, place=None): return sum(e[key] for e in these(study, case, method, place))' \
@@ -27,7 +27,7 @@ expect_value() {
 # ---- PFM: both byte orders, what is near on the curve, what is no number
 cat >pfm.py <<'PYTHON'
 import math, struct
-from harness import pfm
+from harness.run import pfm
 def write(name, numbers, order="<"):
     with open(name, "wb") as file:
         file.write(b"PF\n2 1\n%s1.0\n" % (b"-" if order == "<" else b""))
@@ -48,7 +48,7 @@ expect_python "True (2, 1)
 
 # ---- what ours may never do is a failure
 cat >never.py <<'PYTHON'
-from harness import stability_methods as m
+from harness.stability import methods as m
 def text(wrong, lost, blocked):
     return (f"crossings edges pluecker 1 0 tried=9 missed=5 twice=5 wrong=8 misplaced=0\n"
             f"crossings edges ours_solids 1 0 tried=9 missed={wrong} twice=0 wrong={wrong} misplaced=0\n"
@@ -69,8 +69,8 @@ shadows, edge_lights, ours, in double: 3 blocked of 9" "$(cat never.py)"
 
 # ---- odd scenes: what is to be rendered is, what is to be refused is, and nothing else ends otherwise
 cat >odd.py <<'PYTHON'
-from harness.stability_odd import failures, outcome
-from harness.stability_scenes import Odd
+from harness.stability.odd import failures, outcome
+from harness.stability.scenes import Odd
 refused = {"code": 2, "said": "hedron: x.json: 2 problems\n  a is 1\n  b is 2\n"}
 for wanted in (False, True):
     for runs in ([{"code": 0}] * 2, [refused] * 2, [{"code": 0}, {"code": 1, "message": "no room"}]):
@@ -90,7 +90,7 @@ failed: no room, False
 ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
 cat >named.py <<'PYTHON'
 import re
-from harness import stability_table as t
+from harness.stability import table as t
 there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())
 said = " ".join([each[-1] for each in (*t.PLACES.values(), *t.MORE.values())])
 named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_[\w*]+", said))
@@ -100,7 +100,7 @@ PYTHON
 expect_python 'True []' "$(cat named.py)"
 
 # ---- rays, paths, segments and sums
-expect_exit 0 "$bench" --hedron "$hedron" --out out --parts crossings,paths,shadows,sums --rays 200
+expect_exit 0 "${bench[@]}" --hedron "$hedron" --out out --parts crossings,paths,shadows,sums --rays 200
 expect_stdout_contains 'kept so by'
 expect_value '[1, "stability", true, false, [], null, null]' \
     '[r[key] for key in ("hedron_bench", "bench", "complete", "quick", "failures", "precision", "odd")]'
@@ -136,7 +136,7 @@ fi
 # ---- pictures
 mkdir scenes
 cp "$project"/scenes/{octahedron,tunnel}.json scenes
-expect_exit 0 "$bench" --hedron "$hedron" --out out --parts precision,odd --quick --scenes scenes -- --size 24x18 --depth 3
+expect_exit 0 "${bench[@]}" --hedron "$hedron" --out out --parts precision,odd --quick --scenes scenes -- --size 24x18 --depth 3
 expect_value '[["octahedron", "solids", 432], ["octahedron", "triangles", 432], ["tunnel", "solids", 432], ["tunnel", "triangles", 432]]' \
     '[[e["scene"], e["geometry"], e["pixels"]] for e in r["precision"] if e["what"].startswith("float")]'
 expect_value true 'all(e["near"] >= 0.99 * e["pixels"] and e["nan"] == 0 for e in r["precision"])'
@@ -153,21 +153,21 @@ expect_value true 'sum(e["clamps"] for e in r["odd"] if e["scene"] == "light_of_
 mkdir alone
 printf '#!/bin/sh\nexec "%s" "$@"\n' "$hedron" >alone/hedron
 chmod +x alone/hedron
-expect_exit 1 "$bench" --hedron alone/hedron --out out --parts sums
+expect_exit 1 "${bench[@]}" --hedron alone/hedron --out out --parts sums
 expect_stdout_contains 'alone/bench/hedron_stability_methods: ./dev build builds it'
 
 # ---- Ctrl-C leaves what was measured
-interrupt_at_work "$bench" --hedron "$hedron" --out out
+interrupt_at_work "${bench[@]}" --hedron "$hedron" --out out
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 
 # ---- wrong usage
 expect_exit 2 "$tool" wrong 1
 expect_exit 2 "$tool" sums 0
-expect_exit 2 "$bench" --hedron "$hedron" --out out --parts wrong
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --parts wrong
 expect_stderr_contains 'a part that is none of crossings'
-expect_exit 2 "$bench" --hedron "$hedron" --out out --rays 1.5
-expect_exit 2 "$bench" --hedron "$hedron" --out out -- --precision double
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --rays 1.5
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out -- --precision double
 expect_stderr_contains '--precision cannot stand after --'
-expect_exit 2 "$bench" --hedron no/hedron --out out
+expect_exit 2 "${bench[@]}" --hedron no/hedron --out out
 finish

@@ -294,8 +294,8 @@ expect_study_refusal 2 'elsewhere.json is no JSON' --report --out one --results 
 
 # ---- disturbed runs: tried again a few times, and the least disturbed one counts
 cat >noise.py <<'PYTHON'
-from harness.study_runner import Runner
-from harness import study_state
+from harness.measure.jobs import job, summarize
+from harness.measure.plan import Plan
 def study(noise, repeats=1, points=1):
     made, saved = [], []
     class Program:
@@ -305,13 +305,11 @@ def study(noise, repeats=1, points=1):
             seconds = {"prepare": 0, "trace": len(made), "copy": 0}
             return {"code": 0, "message": "", "wall": 1, "cpu": 1, "load": 0, "others": others, "noisy": others > 0.1,
                     "digests": {}, "frames": [{"frame": 0, "seconds": seconds, "renderer": "x"}]}
-    entries = [{"part": "lights", "series": "", "x": x, "device": "c:0", "scene": "s", "options": [], "frames": "0", "output": "",
-                "warm_up": False, "scale": 1, "cold": False, "reason": None, "runs": [], "rejected": []} for x in range(points)]
-    result = {"repeats": repeats, "measurements": entries, "devices": [{"label": "c:0", "strict": True}]}
-    runner = Runner(result, Program(), {"c:0": None}, {"s": None}, None, lambda: saved.append(1), lambda *news: None)
-    print(runner.measure_all(["lights"]), len(made), len(saved),
+    plan = Plan({"c:0": {"strict": True}}, {"s": None}, Program(), None, lambda *news: None, lambda: saved.append(1))
+    entries = plan.jobs = [job("c:0", "s", "0", part="lights", x=x) for x in range(points)]
+    print(plan.run_all(repeats), len(made), len(saved),
           [[[run["others"] for run in each["runs"]], [run["others"] for run in each["rejected"]]] for each in entries])
-    study_state.summarize(result)
+    summarize(entries)
     print([(each["summary"]["trace_ms"]["median"], each["summary"]["noisy"]) for each in entries])
 study([0], 2)
 study([0, 0.5, 0, 0], 2, 2)  # the second point of the first round, again after the round
@@ -331,7 +329,7 @@ True 6 6 [[[0.5, 0.5], [0.5]], [[0.5, 0.5], [0.5]]]
 [(3000.0, True), (4000.0, True)]' "$(cat noise.py)"
 
 # ---- the bound: shadow tests by operations, over the peak of all cores or of a GPU's lanes
-expect_python '[20.0, 4.0, None, None]' 'from harness import study_bounds as b' \
+expect_python '[20.0, 4.0, None, None]' 'from harness.measure import bounds as b' \
     'cpu, gpu = {"is_cpu": True, "name": "c"}, {"is_cpu": False, "name": "g", "driver": "sm_90", "compute_units": 2, "clock_mhz": 1000}' \
     'odd = {**gpu, "driver": "?"}' \
     'bounds = {"instructions_per_core_second": 1e9, "lanes": 4, "operations_per_test": 80, "operations_per_test_one_lane": 512}' \
@@ -343,20 +341,18 @@ expect_python '[20.0, 4.0, None, None]' 'from harness import study_bounds as b' 
 cat >accuracy.py <<'PYTHON'
 import json
 from pathlib import Path
-from types import SimpleNamespace
-from harness import accuracy_settings, study_accuracy
-from harness.program import Problem
-from harness.study_watch import WatchedProgram
-study_accuracy.ROUNDS = {True: 2}
-accuracy_settings.FAMILIES = {name: accuracy_settings.FAMILIES[name] for name in ("grid", "depth")}
-every = accuracy_settings.settings
-accuracy_settings.settings = lambda quick: {name: every(quick)[name][:2] for name in ("grid", "depth")}
-made, saves, memory = [], [], study_accuracy.empty_memory()
-class Program(WatchedProgram):
+from harness.accuracy import points, settings
+from harness.measure.plan import Plan
+from harness.run.program import Program
+settings.FAMILIES = {name: settings.FAMILIES[name] for name in ("grid", "depth")}
+every = settings.settings
+settings.settings = lambda quick: {name: every(quick)[name][:2] for name in ("grid", "depth")}
+made, saves, memory = [], [], points.empty_memory()
+class Watched(Program):
     def render(self, *arguments, **named):
         made.append(arguments[3])
         return super().render(*arguments, **named)
-program, out, folder = Program(Path(PATH), 1), Path(".").resolve(), Path("work").resolve()
+program, out, folder = Watched(Path(PATH)), Path(".").resolve(), Path("work").resolve()
 folder.mkdir()
 device = {"label": "c:0", "backend": "c", "index": 0, "strict": True, "is_cpu": True, "name": "x", "reason": None}
 class Stop(Exception):
@@ -366,8 +362,9 @@ def save(most=99):
     if len(saves) >= most:
         raise Stop
 def measure(most=99):
-    study_accuracy.measure_group(memory, (16, 12), {"c:0": device}, device, program, out, folder,
-                                 SimpleNamespace(options=[], quick=True, repeats=2), lambda: save(most), lambda *news: None)
+    plan = Plan({"c:0": device}, {points.SCENE: None}, program, folder, lambda *news: None)
+    points.Points(plan, {"c:0": device}, device, (16, 12), [], True, memory, out / "study_truth_16x12.pfm",
+                  lambda: save(most)).measure(2)
 try:
     measure(3)
 except Stop:
@@ -376,7 +373,7 @@ first, memory = len(made), saves[-1]
 measure()
 whole, done = len(made), json.loads(json.dumps(memory))
 measure()
-print(len(memory["points"]), len(made) == whole, memory == done, [len(runs) for runs in memory["runs"].values()], memory["failures"])
+print(len(memory["points"]), len(made) == whole, memory == done, [len(job["runs"]) for job in memory["jobs"].values()], memory["failures"])
 # The reference and its coarser one and estimates are not made again, nor what was saved.
 print(sum("--reference" in options for options in made[first:]), whole - first == 8 - 3, all(point["on_front"] is not None for point in memory["points"]))
 (out / "study_truth_16x12.pfm").write_bytes(b"damaged")

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bench/triangles: its arithmetic on made-up numbers, and a tiny run of the programs themselves.
+# bench/study triangles: its arithmetic on made-up numbers, and a tiny run of the programs themselves.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-bench=$project/bench/triangles
+bench=("$project/bench/study" triangles)
 build=$(dirname "$hedron")
 
 # expect_value EXPECTED EXPRESSION: what Python makes of the result `r` and its rows, by key and device.
@@ -17,8 +17,8 @@ expect_value() {
 
 # ---- rates: the ratio of the medians, against the best of the ways that count; rays that meet something else
 cat >rates.py <<'PYTHON'
-from harness import mesh_rates
-from harness.speed_plan import Plan, finish_row
+from harness.measure.plan import Plan
+from harness.triangles import rates as mesh_rates
 def text(share):
     rounds = zip((3e6, 5e6, 4e6), (9e6, 9e6, 9e6), (1e6, 8e6, 2e6))
     return f"build avx2 8\nobject 1056\nsame primary 1056 single 1\nsame primary 1056 packets_of_8 {share}\n" + "".join(
@@ -33,7 +33,7 @@ print(mesh_rates.failures({1000: good, 80000: "why not"}), len(mesh_rates.failur
 def finished(objects):
     plan = Plan({}, {})
     mesh_rates.Rows(plan, objects).compare("primary", 1000, mesh_rates.BUNDLED, mesh_rates.RATES[0][3])
-    row = finish_row(plan.rows[0])
+    row = plan.finished()[0]
     return row["what"], row["figure"], row["verdict"], row["reason"]
 for way in ("single", "packets_of_8"):
     print(finished({1000: good}))
@@ -51,7 +51,7 @@ packets_of_8 single None
 
 # ---- where brute force and the hierarchy cross: halfway of the logarithms here; and beyond what was measured
 cat >cross.py <<'PYTHON'
-from harness.triangle_sweep import caption, crossover
+from harness.triangles.sweep import caption, crossover
 flat = [(100, 1.0), (10000, 1.0), (1000000, 2.0)]
 bvh = [(972, 1.0), (10092, 1.0), (1000008, 2.5)]
 print(crossover([(100, 0.1), (10000, 10.0)], flat), crossover([(100, 2.0), (10000, 200.0)], flat),
@@ -66,15 +66,15 @@ On c:0 a frame of 1 M triangles takes 2.50 times as long as one of 1 k with the 
 
 # ---- leaks: none are the target, and any is a failure
 cat >leaks.py <<'PYTHON'
-from harness import leaks
-from harness.speed_plan import Plan, finish_row
+from harness.measure.plan import Plan
+from harness.triangles import leaks
 def total(holes, doubles):
     return leaks.parse(f"c float, a CPU\n  in all   9 rays, 9 leaks, 9 double hits\ntotal of 16 renderers:\n"
                        f"               2386960 rays, {holes} leaks, {doubles} double hits\n")
 hunts = {"c": total(0, 0), "opencl": total(2, 1), "cuda": "no driver"}
 plan = Plan({}, {})
 leaks.add_rows(plan, hunts)
-for row in map(finish_row, plan.rows):
+for row in plan.finished():
     print(row["what"], row["figure"], row["verdict"], row["reason"])
 print(leaks.failures(hunts), leaks.parse("c float, a CPU\n"))
 PYTHON
@@ -85,30 +85,30 @@ leaks and double hits None None no driver
 
 # ---- primary rays: the targets are those of an H200, and the first frame does not count
 cat >primary.py <<'PYTHON'
-from harness.primary_rays import PrimaryRays
-from harness.speed_plan import Plan, finish_row
+from harness.measure.plan import Plan
+from harness.triangles import primary
 def told(name, is_cpu):
     devices = {"x:0": {"name": name, "is_cpu": is_cpu}}
     plan = Plan(devices, {"near-1000": "a file"})
-    study = PrimaryRays(plan, devices, [])
-    for job, runs in plan.runs.items():
-        runs.append({"frames": [{"rays": {"primary": 32e9}, "seconds": {"trace": each}} for each in (1, 4)]})
-    study.add_rows()
-    return [(row["figure"], row["least"], row["verdict"], row["reason"]) for row in map(finish_row, plan.rows)], [
-        "--size" in job.options for job in plan.runs]
+    primary.add(plan, devices, [])
+    for job in plan.jobs:
+        job["runs"].append({"frames": [{"rays": {"primary": 32e9}, "seconds": {"trace": each}, "warm_up": each == 1}
+                                       for each in (1, 4)]})
+    return [(row["figure"], row["least"], row["verdict"], row["reason"]) for row in plan.finished()], [
+        "--size" in job["options"] for job in plan.jobs]
 print(told("NVIDIA H200", False), told("a CPU", True), sep="\n")
 PYTHON
 expect_python "([(8.0, 5, 'least', None)], [False])
 ([(8.0, None, None, None), (None, 5, None, 'no H200 here'), (None, 2, None, 'no H200 here')], [True])" "$(cat primary.py)"
 
 # ---- pictures of both ways must be the same
-expect_python False 'from harness.speed_plan import Plan, compare_pictures' 'plan = Plan({"c:0": {"strict": True}}, {})' \
-    'for way in ("bvh", "brute"): plan.runs[plan.job("c:0", "a", "0", ("--accel", way))].append({"digests": {0: way}})' \
-    'print(compare_pictures(plan)["same"])'
+expect_python False 'from harness.measure.plan import Plan' 'plan = Plan({"c:0": {"strict": True}}, {})' \
+    'for way in ("bvh", "brute"): plan.job("c:0", "a", "0", ("--accel", way))["runs"].append({"frames": [{"frame": 0, "picture": way}]})' \
+    'print(plan.compared()["same"])'
 
 # ---- a tiny run
 tiny=(--size 32x24 --samples 1)
-expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron "$hedron" --out out --device c --quick --repeats 1 --most 1000 \
+expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron "$hedron" --out out --device c --quick --repeats 1 --most 1000 \
     --parts rates,sweep,primary -- "${tiny[@]}"
 expect_stdout_contains 'CHANGED by --size 32x24'
 expect_stdout_contains 'The same bytes from every device and pipeline, in 16 frames made in two ways or more.'
@@ -133,23 +133,23 @@ fi
 mkdir alone
 printf '#!/bin/sh\nexec "%s" "$@"\n' "$hedron" >alone/hedron
 chmod +x alone/hedron
-expect_exit 0 "${no_nvidia[@]}" "$bench" --hedron alone/hedron --out out --device c --quick
+expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron alone/hedron --out out --device c --quick
 expect_stdout_contains 'alone/hedron_model: ./dev build builds it'
 expect_stdout_contains 'alone/tests/leak_hunt/hedron_leak_hunt: ./dev build builds it'
 expect_value true 'all(row["reason"] for row in r["rows"])'
 
 # ---- Ctrl-C leaves what was measured
-interrupt_at_work "$bench" --hedron "$hedron" --out out --device c
+interrupt_at_work "${bench[@]}" --hedron "$hedron" --out out --device c
 expect_stdout_contains Interrupted
 expect_value false 'r["complete"]'
 
 # ---- wrong usage
-expect_exit 2 "$bench" --hedron "$hedron" --out out --parts wrong
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --parts wrong
 expect_stderr_contains 'a part that is none of rates'
-expect_exit 2 "$bench" --hedron "$hedron" --out out --most 0
-expect_exit 2 "$bench" --hedron "$hedron" --out out --leak-rays 1.5
-expect_exit 2 "$bench" --hedron "$hedron" --out out -- --accel=brute
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --most 0
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out --leak-rays 1.5
+expect_exit 2 "${bench[@]}" --hedron "$hedron" --out out -- --accel=brute
 expect_stderr_contains '--accel=brute cannot stand after --'
-expect_exit 2 "$bench" --hedron no/hedron --out out
-expect_exit 3 "$bench" --hedron "$hedron" --out out --device c:7
+expect_exit 2 "${bench[@]}" --hedron no/hedron --out out
+expect_exit 3 "${bench[@]}" --hedron "$hedron" --out out --device c:7
 finish

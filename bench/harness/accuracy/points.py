@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""Time and error of every setting on every device; what was measured before is not measured again."""
+from pathlib import Path
+from statistics import median
+
+from harness.accuracy import front, settings
+from harness.accuracy.truth import Truth
+from harness.measure.jobs import job, run_of
+from harness.measure.numbers import spread
+from harness.run import pfm
+from harness.run.program import digest
+
+SCENE = "built-in"
+FRAMES = "0-3"  # the first gives the error and warms up; its neighbours give the time
+ENOUGH_SECONDS, ENOUGH_QUICKLY = 3.0, 0.4  # of a frame: what would take longer is left out
+ONCE_SECONDS = 0.4  # slower frames are timed in the first round only
+
+
+def empty_memory():
+    return {"size": None, "truth": None, "jobs": {}, "points": [], "equal_error": [], "not_tried": [], "not_finite": 0,
+            "failures": []}
+
+
+class Points:
+    """`memory` is filled, and `save` called, after every run. It may have what an interrupted call of the same left."""
+
+    def __init__(self, plan, runnable, judge, size, options, quick, memory, truth_file, save=lambda: None):
+        self.plan, self.runnable, self.quick, self.memory, self.size = plan, runnable, quick, memory, size
+        self.truth = Truth(plan.program, judge, size, options, plan.folder, quick, truth_file)
+        self.view = ("--size", f"{size[0]}x{size[1]}", *options)
+        self.save_memory = save
+        self.settings, self.left_out = {}, {}  # (device, setting): job, and why there is none
+
+    def job(self, label, setting):
+        output = str(self.plan.folder / f"{len(self.settings)}-####.pfm")
+        made = job(label, SCENE, FRAMES, (*setting.options, *self.view), output=output)
+        key = " ".join([label, *setting.options])
+        kept = self.memory["jobs"].get(key)
+        made = {**kept, "output": output} if kept and kept["runs"] else made
+        self.memory["jobs"][key] = self.settings[label, setting] = made
+        self.plan.jobs.append(made)
+        return made
+
+    # ---- the work
+
+    def seconds(self, made):
+        return median(self.plan.medians(made))
+
+    def first_round(self):
+        """Each setting of a family waits for the one before, which tells how long it would take."""
+        for label in self.runnable:
+            for family in settings.settings(self.quick).values():
+                before = None
+                for setting in family:
+                    if before and not self.is_affordable(label, setting, before):
+                        continue
+                    self.plan.news(f"{label}, {setting.name}")
+                    made = self.job(label, setting)
+                    if not run_of(made, 0):
+                        self.plan.measure(made, 0)
+                    if not made["reason"]:
+                        before = setting
+                        self.judge(made)
+
+    def is_affordable(self, label, setting, before):
+        seconds = self.seconds(self.settings[label, before]) * setting.work / before.work
+        if seconds > (ENOUGH_QUICKLY if self.quick else ENOUGH_SECONDS):
+            self.left_out[label, setting] = f"a frame would take some {seconds:.1f} s"
+            return False
+        return True
+
+    def judge(self, made):
+        """Error of the first frame, and NaNs and infinities of all."""
+        if "error" in made:
+            return
+        frames = made["runs"][0]["frames"]
+        files = [Path(made["output"].replace("####", f"{frame['frame']:04}")) for frame in frames]
+        made["error"] = pfm.errors(self.plan.program, files[0], self.truth.file)
+        made["not_finite"] = sum(map(pfm.not_finite, files))
+        for frame, file in zip(frames, files):
+            frame["picture"] = digest(file)
+        self.save()
+
+    def measure(self, repeats):
+        if not self.truth.is_made(self.memory["truth"]):
+            self.memory.update(empty_memory())  # errors against another picture are worth nothing
+            self.truth.make(self.plan.news)
+            self.memory["truth"] = self.truth.facts
+        self.first_round()
+        self.plan.save = self.save  # a first run is saved with its error
+        for repeat in range(repeats):
+            words = f"round {repeat + 1} of {repeats}"
+            if repeat > 0:
+                self.plan.turn(repeat, repeats, words, lambda made: self.plan.is_wanted(made, repeat)
+                               and self.seconds(made) <= ONCE_SECONDS)
+            self.plan.run_again(repeat, repeats, f"{words}, again what was disturbed")
+        self.save()
+
+    # ---- what came of it
+
+    def save(self):
+        points = self.points()
+        self.memory.update(
+            size=list(self.size), points=points, not_tried=self.absent(), not_finite=sum(
+                made.get("not_finite", 0) for made in self.settings.values()), failures=sorted(self.plan.all_failures()),
+            equal_error=[{"device": label, "rmse": error, "ratio": ratio} for label in self.runnable
+                         for error, ratio in equal_error(points, label)])
+        self.save_memory()
+
+    def point(self, label, setting, made):
+        times, frame = spread(self.plan.trace_ms(made)), made["runs"][0]["frames"][0]
+        return {"device": label, "family": setting.family, "name": setting.name, "options": list(setting.options),
+                "ms": times["median"], "trace_ms": times, "runs": len(made["runs"]), **made["error"], "rays": frame["rays"],
+                "missing": frame.get("missing"), "renderer": made["renderer"], "on_front": False, "recommended": None}
+
+    def points(self):
+        """All, with the front and what is recommended marked. An unfinished run gives what it has."""
+        found = []
+        for label in self.runnable:
+            points = [self.point(label, setting, made) for (which, setting), made in self.settings.items()
+                      if which == label and "error" in made]
+            for point in front.front(points):
+                point["on_front"] = True
+            recommend(points)
+            found += points
+        return found
+
+    def absent(self):
+        """What could not be tried, and why."""
+        refused = {key: made["reason"] for key, made in self.settings.items() if made["reason"]}
+        return [{"device": label, "family": setting.family, "name": setting.name, "reason": reason}
+                for (label, setting), reason in {**refused, **self.left_out}.items()]
+
+
+def recommend(points):
+    """Marks the fastest settings that are at least as good as some grids. What hedron chooses by itself is none."""
+    others = [point for point in points if point["family"] != settings.CHOSEN]
+    for number, word in settings.DRAFT_USUAL_FINE.items():
+        grid = next((each for each in points if each["name"] == f"grid {number}"), None)
+        best = grid and front.cheapest(others, grid["rmse"])
+        if best:
+            best["recommended"] = " and ".join(filter(None, (best["recommended"], word)))
+
+
+def recommended(points):
+    """[(word, point)], from the draft on."""
+    words = list(settings.DRAFT_USUAL_FINE.values())
+    return sorted(((point["recommended"], point) for point in points if point["recommended"]),
+                  key=lambda each: words.index(each[0].split()[0]))
+
+
+def equal_error(points, label, families=settings.BOUNDED_FAMILIES, baseline=settings.BASELINE):
+    """[(error, ratio)] of the time of some families by that of another; of adaptive sampling and bounded depth by that
+    of the grid in full depth, if not said."""
+    own = [each for each in points if each["device"] == label]
+    return front.ratios([each for each in own if each["family"] in families],
+                        [each for each in own if each["family"] == baseline])

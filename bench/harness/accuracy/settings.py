@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""The settings that bench/study accuracy tries, in families: each goes on where the one before was affordable."""
+from dataclasses import dataclass
+
+# So deep a grid without a cut-off can be afforded; deeper costs more still, so ratios to it are no
+# exaggeration.
+FULL_DEPTH = 40
+BOUNDED = ("--depth", "30", "--cutoff", "0.001")
+LESS_BOUNDED = ("--depth", "30", "--cutoff", "0.003")
+SIDE = 4  # of the grid where something else is tried
+SIDES, SIDES_QUICKLY = (1, 2, 3, 4, 6, 8), (1, 2, 4)
+DRAFT_USUAL_FINE = {2: "draft", 4: "usual", 8: "fine"}  # sides of the grids that they are as good as
+
+
+@dataclass(frozen=True)
+class Setting:
+    family: str
+    name: str
+    options: tuple
+    work: float  # in proportion within the family
+
+
+FAMILIES = {
+    "grid": "grid N x N, the scene's depth and cut-off",
+    "adaptive": "adaptive, up to N x N, the scene's depth and cut-off",
+    "full": f"grid N x N, depth {FULL_DEPTH}, no cut-off",
+    "deep": "adaptive, up to N x N, depth 30, cut-off 0.001",
+    "fine": "grid N x N, depth 30, cut-off 0.003",
+    "depth": f"grid {SIDE} x {SIDE}, depth D",
+    "cutoff": f"grid {SIDE} x {SIDE}, depth 30, cut-off W",
+    "bound": f"grid {SIDE} x {SIDE}, --max-error E",
+    "promise": "adaptive, up to 8 x 8, --max-error E",
+    "arithmetic": f"grid {SIDE} x {SIDE}, other arithmetic or geometry",
+}
+CHOSEN = "arithmetic"
+BASELINE, BOUNDED_FAMILIES = "full", ("adaptive", "deep", "promise")
+
+
+def side(setting):
+    """Of the grid of a setting that differs in nothing else, or None."""
+    return int(setting.options[1]) if setting.family == "grid" else None
+
+
+def by_side(family, sides, *others):
+    return [Setting(family, f"{family} {number}", ("--samples", str(number), *others), number * number)
+            for number in sides]
+
+
+def by_value(family, option, values, word, *others):
+    """A value more is some three times the work, at most."""
+    return [Setting(family, f"{word}{value}", (*others, option, str(value)), 3 ** place)
+            for place, value in enumerate(values)]
+
+
+def others():
+    pairs = (("double", ("--precision", "double")), ("fast", ("--math", "fast")),
+             ("triangles", ("--geometry", "triangles")), ("wavefront", ("--pipeline", "wavefront")),
+             ("mega", ("--pipeline", "mega")))
+    return [Setting("arithmetic", name, ("--samples", str(SIDE), *options), 1) for name, options in pairs]
+
+
+def settings(quick):
+    """{family: [Setting]}, each list by its work."""
+    sides = SIDES_QUICKLY if quick else SIDES
+    at_side = ("--samples", str(SIDE))
+    adaptive = ("--aa", "adaptive")
+    found = {
+        "grid": by_side("grid", sides),
+        "adaptive": by_side("adaptive", sides[1:], *adaptive),
+        "full": by_side("full", sides, "--depth", str(FULL_DEPTH), "--cutoff", "0"),
+        "deep": by_side("deep", sides[1:], *BOUNDED, *adaptive),
+        "fine": by_side("fine", sides[1:], *LESS_BOUNDED),
+        "depth": by_value("depth", "--depth", (4, 30) if quick else (2, 4, 8, 20, 30), "depth ", *at_side),
+        "cutoff": by_value("cutoff", "--cutoff", (0.03, 0.003) if quick else (0.1, 0.03, 0.01, 0.003, 0.001, 0.0003),
+                           "cut-off ", *at_side, "--depth", "30"),
+        "bound": by_value("bound", "--max-error", (64, 4) if quick else (64, 16, 4, 1, 0.25), "max-error ", *at_side),
+        "promise": by_value("promise", "--max-error", (64,) if quick else (64, 16, 4, 1), "promise ", "--samples", "8",
+                            *adaptive),
+        "arithmetic": others(),
+    }
+    return found

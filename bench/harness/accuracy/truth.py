@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""The reference that pictures are held to, and what is known of its own error."""
+from harness.run import pfm
+from harness.run.program import Problem, digest
+
+# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: src/render/samples.h.
+SAMPLE_ERROR, SAMPLE_SIDE = 2.2, 32
+SIDE_QUICKLY = 16
+# Steps of 255 that may be left out of it: the first one that is affordable, or the last.
+LIMITS = ("0.015625", "0.25", "2")
+SECONDS, SECONDS_QUICKLY = 150, 12
+PART = 16  # of the picture's rows, in its middle, tells how long the whole takes
+
+
+def run(program, device, scene, options, file):
+    """The statistics of frame 0, which becomes a PFM."""
+    done = program.render(device, scene, "0", options, file.parent, output=str(file))
+    if done["code"] != 0:
+        raise Problem(done["code"], done["message"])
+    return done["frames"][0]
+
+
+class Truth:
+    """`file` has the picture once `make` was called; `facts` is what is known of it."""
+
+    def __init__(self, program, device, size, options, folder, quick, file):
+        self.program, self.device, self.folder, self.file = program, device, folder, file
+        self.size, self.options, self.quick = size, tuple(options), quick
+        self.side = SIDE_QUICKLY if quick else SAMPLE_SIDE
+        self.facts = None
+
+    def is_made(self, facts):
+        """Whether the file is that of these facts."""
+        same = facts and self.file.is_file() and digest(self.file) == facts["sha256"]
+        self.facts = facts if same else None
+        return bool(same)
+
+    def render(self, side, limit, file, *more):
+        options = ("--reference", "--samples", str(side), "--max-error", limit,
+                   "--size", f"{self.size[0]}x{self.size[1]}", *more, *self.options)
+        return run(self.program, self.device, None, options, file)
+
+    def estimate(self, limit):
+        """Seconds of the whole; the middle rows take longer than the others."""
+        width, height = self.size
+        rows = max(1, height // PART)
+        crop = f"{width}x{rows}+0+{(height - rows) // 2}"
+        frame = self.render(self.side, limit, self.folder / "estimate.pfm", "--crop", crop)
+        return frame["seconds"]["trace"] * height / rows
+
+    def limit(self, news):
+        most = SECONDS_QUICKLY if self.quick else SECONDS
+        for limit in LIMITS[:-1]:
+            seconds = self.estimate(limit)
+            news(f"the reference with --max-error {limit} takes some {seconds:.0f} s")
+            if seconds <= most:
+                return limit
+        return LIMITS[-1]
+
+    def make(self, news):
+        limit = self.limit(news)
+        news(f"the reference, {self.side} x {self.side} samples, --max-error {limit}")
+        frame = self.render(self.side, limit, self.file)
+        coarse = self.folder / "coarse.pfm"
+        news("a second reference of a quarter of the samples")
+        self.render(self.side // 2, limit, coarse)
+        between = pfm.errors(self.program, coarse, self.file)
+        self.facts = {
+            "device": self.device["label"], "samples": self.side, "max_error": float(limit),
+            "seconds": frame["seconds"]["trace"], "depth": frame["depth"], "missing": frame["missing"],
+            "edge_error": SAMPLE_ERROR if self.side == SAMPLE_SIDE else None,
+            "to_quarter_of_samples": {key: between[key] for key in ("rmse", "largest")},
+            "not_finite": pfm.not_finite(self.file), "sha256": digest(self.file),
+        }

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: MIT
+"""Tells what became slower or faster between two results of bench/study, beyond the noise."""
+import math
+from pathlib import Path
+from statistics import median
+
+from harness.command.options import Command
+from harness.measure.numbers import number
+from harness.page import tables
+from harness.run.program import Problem
+from harness.store import study
+
+LEAST = 0.03  # less of a difference is none, however quiet the machine was
+ERRORS = 3.0  # standard errors of a difference that count as beyond the noise
+QUARTILES = 1.349  # standard deviations between the quartiles of a normal distribution
+MEDIAN = 1.2533  # standard error of a median by that of a mean
+SLOWER, FASTER, SAME = "slower", "faster", "within the noise"
+
+
+def deviation(entry):
+    """Relative standard deviation of the runs, from the quartiles."""
+    spread = entry["summary"]["trace_ms"]
+    return (spread["q3"] - spread["q1"]) / QUARTILES / spread["median"] if spread["median"] > 0 else 0
+
+
+def usual_deviation(entries):
+    """Few runs may lie together by chance, so none counts as quieter than half of all."""
+    return median(deviation(entry) for entry in entries)
+
+
+def measured(result):
+    """{what it is: entry}; the device's name belongs to it, for c:0 of another machine is another device."""
+    names = {device["label"]: device["name"] for device in result["devices"]}
+    return {(study.identity(entry), names[entry["device"]]): entry for entry in result["measurements"]
+            if entry["summary"]}
+
+
+def verdict(change, limit):
+    if abs(change) <= limit:
+        return SAME
+    return SLOWER if change > 0 else FASTER
+
+
+def compare(old, new):
+    """[{"entry", "old_ms", "new_ms", "change": share, "limit": share, "verdict", "disturbed"}], the most slowed first."""
+    ours, theirs = measured(old), measured(new)
+    common = [key for key in ours if key in theirs]
+    if not common:
+        raise Problem(2, "the two have no measurement in common: they are of other devices, or one is quick and the other "
+                         "is not")
+    usual = [usual_deviation(each[key] for key in common) for each in (ours, theirs)]
+    found = []
+    for key in common:
+        pair = ours[key], theirs[key]
+        times = [entry["summary"]["trace_ms"]["median"] for entry in pair]
+        if min(times) <= 0:
+            continue
+        errors = [MEDIAN * max(deviation(entry), least) / math.sqrt(entry["summary"]["runs"])
+                  for entry, least in zip(pair, usual)]
+        change, limit = math.log(times[1] / times[0]), max(math.log1p(LEAST), ERRORS * math.hypot(*errors))
+        found.append({"entry": pair[1], "old_ms": times[0], "new_ms": times[1], "change": math.expm1(change),
+                      "limit": math.expm1(limit), "verdict": verdict(change, limit),
+                      "disturbed": any(entry["summary"]["noisy"] for entry in pair)})
+    return sorted(found, key=lambda each: -each["change"])
+
+
+def row(each):
+    entry = each["entry"]
+    name = f"{entry['part']} {entry['series']} {entry['x']:g}".replace("  ", " ")
+    return [name, entry["device"], number(each["old_ms"]), number(each["new_ms"]),
+            f"{100 * each['change']:+.1f} %", f"{100 * each['limit']:.1f} %",
+            each["verdict"] + (", disturbed" if each["disturbed"] else "")]
+
+
+HEAD = ["measurement", "device", "old ms", "new ms", "change", "noise", "verdict"]
+
+
+def missing_words(old, new):
+    told = []
+    for words, one, other in (("only in the old one", old, new), ("only in the new one", new, old)):
+        count = len(measured(one).keys() - measured(other).keys())
+        if count:
+            told.append(f"{count} measurements are {words}.")
+    return told
+
+
+def text(old, new, found, everything):
+    beyond = [each for each in found if each["verdict"] != SAME]
+    shown = found if everything else beyond
+    words = [*(f"{name}: hedron {each['hedron']['version']} ({each['hedron']['sha256'][:12]}), {each['date']}, "
+               f"{each['machine']['name']}" for name, each in (("old", old), ("new", new))), ""]
+    if shown:
+        words += [*tables.lines([HEAD, *map(row, shown)]), ""]
+    counts = {name: sum(each["verdict"] == name for each in found) for name in (SLOWER, FASTER, SAME)}
+    words.append(f"{counts[SLOWER]} slower, {counts[FASTER]} faster, {counts[SAME]} within the noise.")
+    return "\n".join([*words, *missing_words(old, new)])
+
+
+class Compare(Command):
+    name = "compare"
+    about = "Tell what became slower or faster between two results of bench/study."
+    codes = "exit codes: 0 nothing is slower beyond the noise, 1 something is, 2 wrong usage or input"
+
+    @classmethod
+    def add_options(cls, parser):
+        parser.add_argument("old", type=Path, metavar="OLD.json", help="what bench/study wrote before")
+        parser.add_argument("new", type=Path, metavar="NEW.json", help="what it wrote after")
+        parser.add_argument("--all", action="store_true", help="list what is within the noise, too")
+
+    @classmethod
+    def run(cls, arguments):
+        old, new = study.read(arguments.old), study.read(arguments.new)
+        found = compare(old, new)
+        print(text(old, new, found, arguments.all))
+        return 1 if any(each["verdict"] == SLOWER for each in found) else 0
+
+
+BENCH = Compare

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: MIT
+"""Times the frames of a scene on every device of every backend."""
+import math
+from pathlib import Path
+from statistics import median
+
+from harness.chart import gnuplot
+from harness.chart.bars import Row, ms, rows
+from harness.chart.gnuplot import device_title
+from harness.chart.lines import Axis, Line, lines
+from harness.command.bench import Bench
+from harness.measure.jobs import counted, picture_groups
+from harness.measure.numbers import number, rays, spread, spread_text
+from harness.page import tables
+from harness.page.section import ratio, y_axis
+from harness.parts.animation import by_frame, most_varied
+from harness.run.program import Problem
+from harness.store.result import machine_words, scene_words
+
+HEAD = ["backend", "device", "trace ms [q1..q3]", "frame ms", "frames/s", "M rays/s", "M shadow tests/s", "ratio"]
+
+
+def rate(count, seconds):
+    """A second that the clock could not see makes no rate."""
+    return count / seconds if seconds > 0 else None
+
+
+def median_rate(frames, count):
+    rates = [rate(count(frame), frame["seconds"]["trace"]) for frame in frames]
+    return None if None in rates else median(rates)
+
+
+def summary(job):
+    """None where no frame counts. Rates are those of the median frame."""
+    frames = [frame for run in job["runs"] for frame in counted(run)]
+    if not frames:
+        return None
+    whole = median(sum(frame["seconds"].values()) for frame in frames)
+    return {"frames": len(frames), "trace_ms": spread([1e3 * frame["seconds"]["trace"] for frame in frames]),
+            "frame_ms": 1e3 * whole, "frames_per_second": rate(1, whole), "rays_per_second": median_rate(frames, rays),
+            "shadow_tests_per_second": median_rate(frames, lambda frame: frame["shadow_tests"])}
+
+
+def compare(devices, jobs, options):
+    """{"same": true, false, or null where nothing was compared; "devices": [label]; "sentence"}"""
+    known = {device["label"]: device for device in devices}
+    names = [job["device"] for job in jobs if known[job["device"]]["strict"] and job["runs"]]
+    if "--math fast" in " ".join(options) or "--math=fast" in options:
+        return {"same": None, "devices": [], "sentence": "The pictures were not compared: --math fast promises no equal bytes."}
+    for (_, _, frame), makers in sorted(picture_groups(jobs, known).items()):
+        if len(makers) > 1:
+            groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
+            return {"same": False, "devices": names,
+                    "sentence": f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."}
+    if len(names) < 2:
+        return {"same": None, "devices": names,
+                "sentence": "The pictures were not compared: fewer than two strict devices made any."}
+    return {"same": True, "devices": names, "sentence": f"The pictures of {', '.join(names)} are the same bytes."}
+
+
+class Frames(Bench):
+    name = "frames"
+    about = "Time the frames of a scene, or of the built-in one, on every device."
+    quick, repeats = None, (3,)
+    chart_files = ("frames", "frames_animation")
+
+    @classmethod
+    def add_options(cls, parser):
+        super().add_options(parser)
+        parser.add_argument("scene", nargs="?", type=Path, metavar="SCENE.json")
+        parser.add_argument("--frames", default="0-4", metavar="LIST",
+                            help="at least two, of which the first warms up and does not count (default: 0-4); "
+                                 "a still scene gets them by -- --set camera.frames=5")
+
+    def __init__(self, arguments, program, folder):
+        scene = arguments.scene
+        if scene is not None and not scene.is_file():
+            raise Problem(2, f"there is no scene file {scene}")
+        super().__init__(arguments, program, folder)
+        self.plan.scenes["scene"] = scene and scene.resolve()
+        self.plan.keeps_parts = True
+        self.plan.save = self.check  # what is known is written after every run, so that nothing of it can be lost
+        for label in self.runnable:
+            self.plan.job(label, "scene", arguments.frames, arguments.options)
+        self.result.update(frames=arguments.frames, scene={
+            "name": scene.stem if scene else self.scene, **dict.fromkeys(("width", "height", "samples", "depth")),
+            "rays_per_frame": None})
+
+    def check(self):
+        if any(len(run["frames"]) < 2 for job in self.plan.jobs for run in job["runs"]):
+            raise Problem(2, f"--frames is '{self.arguments.frames}', expected at least two frames, for the first warms up")
+        self.save()
+
+    def measure(self):
+        self.plan.run_all(self.arguments.repeats)
+
+    def fill(self):
+        counts, scene = {}, self.result["scene"]
+        for job in self.plan.jobs:
+            job["summary"] = summary(job)
+            for frame in (frame for run in job["runs"] for frame in counted(run)):
+                counts.setdefault(frame["frame"], rays(frame))
+                scene.update({key: frame[key] for key in ("width", "height", "samples", "depth")})
+        scene["rays_per_frame"] = sum(counts.values()) / len(counts) if counts else None
+        fastest = min((job["summary"]["trace_ms"]["median"] for job in self.measured()), default=0)
+        for job in self.measured():
+            job["summary"]["ratio_to_fastest"] = rate(job["summary"]["trace_ms"]["median"], fastest)
+        self.plan.compared = lambda: compare(self.result["devices"], self.plan.jobs, self.arguments.options)
+
+    def measured(self):
+        return [job for job in self.plan.jobs if job["summary"]]
+
+    def device(self, job):
+        return self.plan.devices[job["device"]]
+
+    # ---- what came of it
+
+    def cells(self, job):
+        each, device = job["summary"], self.device(job)
+        millions = [each[key] and each[key] / 1e6 for key in ("rays_per_second", "shadow_tests_per_second")]
+        return [device["backend"], f"{device['index']}  {device['name']}", spread_text(each["trace_ms"]),
+                number(each["frame_ms"]), number(each["frames_per_second"]), *map(number, millions),
+                number(each["ratio_to_fastest"], 3)]
+
+    def tell(self):
+        print(f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), "", sep="\n")
+        if self.measured():
+            print(*tables.lines([HEAD, *map(self.cells, self.measured())]), "", sep="\n")
+        for each in [*self.result["devices"], *self.plan.jobs]:
+            if each["reason"] is not None:
+                print(f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}")
+        if not self.result["complete"]:
+            print("Interrupted: only what was measured before counts.")
+        print(self.result["pictures"]["sentence"])
+        for line in gnuplot.draw(self.charts(), self.arguments.out):
+            print(line)
+        print(f"All times: {self.file}")
+
+    def charts(self):
+        if not self.measured():
+            return {}
+        return {"frames": self.bars(), "frames_animation": self.animation()}
+
+    def bars(self):
+        found = sorted(self.measured(), key=lambda job: job["summary"]["trace_ms"]["median"])
+        caption = f"{device_title(self.device(found[0]))} traces a frame in {ms(found[0]['summary']['trace_ms']['median'])}"
+        if len(found) > 1:
+            caption += f", and {found[-1]['device']}, the slowest, takes {ratio(found[-1]['summary']['ratio_to_fastest'])} as long"
+        return rows(self.result, "Time of a frame on each device",
+                    f"{caption}; bars are medians of {found[0]['summary']['frames']} frames, whiskers reach from the first to "
+                    "the third quartile.", "milliseconds for each frame",
+                    [Row(device_title(self.device(job)), job["summary"]["trace_ms"],
+                         f"{ms(job['summary']['trace_ms']['median'])}, whole {ms(job['summary']['frame_ms'])}", place,
+                         job["summary"]["frame_ms"]) for place, job in enumerate(self.measured())],
+                    "the whole frame, with copying and storing")
+
+    def animation(self):
+        drawn = [Line(device_title(self.device(job)), by_frame(job), place, mark=place, short=job["device"])
+                 for place, job in enumerate(self.measured())]
+        line, times = most_varied(drawn)
+        fastest = {min(drawn, key=lambda line: dict(line.points).get(frame, {"median": math.inf})["median"]).short
+                   for frame in {frame for line in drawn for frame, _ in line.points}}
+        words = f"The slowest frame takes {ratio(times)} as long as the fastest on {line.short}"
+        if len(drawn) > 1:
+            words += ", where that differs most, and " + (
+                f"{fastest.pop()} is the fastest device in every frame" if len(fastest) == 1
+                else "which device is the fastest depends on the frame")
+        kind = "the only run" if self.arguments.repeats == 1 else f"the median of {self.arguments.repeats} runs"
+        return lines(self.result, "Time of tracing along the animation",
+                     f"{words}; each point is {kind}, without the first frame, which warms up.", Axis("frame number"),
+                     y_axis(drawn), drawn)
+
+    def exit_code(self):
+        code = super().exit_code()
+        return 3 if code == 0 and not self.measured() else code
+
+
+BENCH = Frames

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: MIT
+"""Predicts the frame times of a GTX 1050 from those of a GPU that bench/study speed wrote.
+
+A frame is taken for the sum of a fixed time and of work in proportion to the device's lanes times clock:
+
+    t = fixed + (a rays x planes + b rays x lights + c shadow tests) / lane rate
+
+The coefficients, none of them negative, are fitted on every other scene by least squares of the relative
+error. The scenes in between tell the error. What the other GPU has less of per lane (caches) or more
+(integer lanes) is not in it."""
+import math
+from pathlib import Path
+from statistics import median
+
+from harness.command.options import Command
+from harness.measure.jobs import counted
+from harness.measure.numbers import number, rays
+from harness.page import tables
+from harness.run.program import Problem
+from harness.speed.rows import MODEL_OPTIONS
+from harness.store.result import read
+
+TERMS = ("fixed", "rays x planes", "rays x lights", "shadow tests")
+BYTES_A_PIXEL = 12 + 4  # written as floats, and read once more as a picture
+
+GTX_1050 = {"name": "GTX 1050", "lane_rate": 5 * 128 * 1.455e9, "bytes_a_second": 112e9,
+            "slowest": 1.354 / 1.455, "fastest": 1.5 / 1.455}
+
+# Student's t for 90 % of the values, two-sided, by degrees of freedom.
+STUDENT = {1: 6.31, 2: 2.92, 3: 2.35, 4: 2.13, 5: 2.02, 6: 1.94, 7: 1.89, 8: 1.86, 9: 1.83, 10: 1.81, 12: 1.78,
+           15: 1.75, 20: 1.72, 30: 1.70}
+
+
+def student(freedom):
+    return STUDENT[max(each for each in STUDENT if each <= max(freedom, 1))]
+
+
+def features(point):
+    rays = point["rays"]
+    return [1.0, rays * point["planes"], rays * point["lights"], point["shadow_tests"]]
+
+
+def non_negative_fit(rows, wanted, rounds=20000):
+    """Coefficients that make the sum of squares of rows x coefficients - wanted least, none below zero; by
+    coordinate descent on scaled columns."""
+    count = len(rows[0])
+    scale = [math.sqrt(sum(row[column] ** 2 for row in rows)) or 1.0 for column in range(count)]
+    scaled = [[row[column] / scale[column] for column in range(count)] for row in rows]
+    products = [[sum(row[i] * row[j] for row in scaled) for j in range(count)] for i in range(count)]
+    target = [sum(row[i] * value for row, value in zip(scaled, wanted)) for i in range(count)]
+    found = [0.0] * count
+    for _ in range(rounds):
+        for i in range(count):
+            if products[i][i] > 0:
+                rest = target[i] - sum(products[i][j] * found[j] for j in range(count) if j != i)
+                found[i] = max(0.0, rest / products[i][i])
+    return [value / each for value, each in zip(found, scale)]
+
+
+def fit(points):
+    """For seconds; each point counts by its relative error."""
+    rows = [[value / point["seconds"] for value in features(point)] for point in points]
+    return non_negative_fit(rows, [1.0] * len(points))
+
+
+def predict(coefficients, point, speed=1.0, bytes_a_second=None):
+    """Seconds on a device with `speed` times the lane rate."""
+    fixed, *work = [coefficient * value for coefficient, value in zip(coefficients, features(point))]
+    seconds = fixed + sum(work) / speed
+    return seconds if bytes_a_second is None else max(seconds, point["pixels"] * BYTES_A_PIXEL / bytes_a_second)
+
+
+def points_of(result, device):
+    """One for each scene that was run as it stands."""
+    points = []
+    for job in sorted(result["measurements"], key=lambda job: job["scene"]):
+        frames = [frame for run in job["runs"] for frame in counted(run)]
+        if (job["device"], job["options"]) != (device, MODEL_OPTIONS) or not job["output"].endswith(".data") or not frames:
+            continue
+        seconds = median(frame["seconds"]["trace"] for frame in frames)
+        if seconds > 0:
+            points.append({"scene": job["scene"], **result["scenes"][job["scene"]], "seconds": seconds,
+                           "rays": median(map(rays, frames)),
+                           "shadow_tests": median(frame["shadow_tests"] for frame in frames),
+                           "pixels": frames[0]["width"] * frames[0]["height"]})
+    return points
+
+
+def choose_device(result, wish):
+    peaks = {label: rate for label, rate in (result.get("peaks") or {}).items() if rate}
+    if wish is None and peaks:
+        wish = next(iter(peaks))
+    if wish not in peaks:
+        raise Problem(3, "the file has no GPU whose lanes are known" if wish is None else
+                      f"--device is '{wish}', expected one of {', '.join(peaks) or 'none'}")
+    return wish, peaks[wish]
+
+
+def evaluate(points):
+    """{"coefficients", "errors": of the scenes left out, as ln(measured / predicted), "spread"}"""
+    if len(points) < 2 * len(TERMS):
+        raise Problem(3, f"the file has {len(points)} scenes for the model, expected at least {2 * len(TERMS)}: "
+                         "bench/study speed makes them on a GPU")
+    ordered = sorted(points, key=lambda point: point["seconds"])
+    fitted, checked = ordered[0::2], ordered[1::2]
+    coefficients = fit(fitted)
+    errors = {point["scene"]: math.log(point["seconds"] / predict(coefficients, point)) for point in checked}
+    mean_square = sum(error ** 2 for error in errors.values()) / len(errors)
+    spread = student(len(errors)) * math.sqrt(mean_square * (1 + 1 / len(errors)))
+    return {"coefficients": coefficients, "errors": errors, "spread": spread}
+
+
+def table(points, model, lane_rate, target):
+    """[{"scene", "measured", "predicted", "error", "target", "low", "high"}], in seconds."""
+    speed = target["lane_rate"] / lane_rate
+    rows = []
+    for point in points:
+        def on_target(factor, point=point):
+            return predict(model["coefficients"], point, speed * factor, target["bytes_a_second"])
+        rows.append({"scene": point["scene"], "measured": point["seconds"],
+                     "predicted": predict(model["coefficients"], point), "error": model["errors"].get(point["scene"]),
+                     "target": on_target(1), "low": on_target(target["fastest"]) * math.exp(-model["spread"]),
+                     "high": on_target(target["slowest"]) * math.exp(model["spread"])})
+    return rows
+
+
+HEAD = ["scene", "use", "measured ms", "model ms", "error", f"{GTX_1050['name']} ms", "90 % of"]
+
+
+def cells(row):
+    ms = [number(1e3 * row[key], 3) for key in ("measured", "predicted", "target", "low", "high")]
+    error = "" if row["error"] is None else f"{100 * (math.exp(row['error']) - 1):+.0f} %"
+    return [row["scene"], "fitted" if row["error"] is None else "checked", *ms[:2], error, ms[2], f"{ms[3]}..{ms[4]}"]
+
+
+def words(result, device, points, model, rows):
+    name = next(each["name"] for each in result["devices"] if each["label"] == device)
+    errors = [abs(math.exp(error) - 1) for error in model["errors"].values()]
+    factors = [f"{coefficient:.3g} {term}" for coefficient, term in zip(model["coefficients"], TERMS)]
+    return "\n".join([
+        f"From {device}, {name}: seconds = {' + '.join(factors)}",
+        f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median {100 * median(errors):.0f} %, "
+        f"greatest {100 * max(errors):.0f} %", "", *tables.lines([HEAD, *[cells(row) for row in rows]])])
+
+
+class Predict(Command):
+    name = "predict"
+    about = "Predict the frame times of a GTX 1050 from those of another GPU."
+
+    @classmethod
+    def add_options(cls, parser):
+        parser.add_argument("file", type=Path, metavar="speed.json", help="what bench/study speed wrote on a machine with a GPU")
+        parser.add_argument("--device", metavar="BACKEND:NUMBER", help="the GPU to start from (default: the first)")
+
+    @classmethod
+    def run(cls, arguments):
+        result = read(arguments.file, "speed")
+        device, lane_rate = choose_device(result, arguments.device)
+        points = points_of(result, device)
+        model = evaluate(points)
+        print(words(result, device, points, model, table(points, model, lane_rate, GTX_1050)))
+        return 0
+
+
+BENCH = Predict

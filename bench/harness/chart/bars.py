@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Horizontal bars: of medians with quartiles, and of parts one behind the other."""
+from dataclasses import dataclass
+
+from harness.chart import gnuplot
+from harness.chart.gnuplot import data, numbers, plain, quoted
+from harness.chart.lines import Axis, axis_commands, caption_height, is_wide
+from harness.measure.numbers import number
+
+KEY = "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced"
+
+
+@dataclass(frozen=True)
+class Row:
+    name: str
+    spread: dict  # "median", "q1", "q3"
+    words: str  # at its end
+    colour: int = 0
+    bound: float = None  # a mark, such as what cannot be undercut
+    group: str = ""  # rows of a group stand together
+
+
+def shade(place):
+    return int(gnuplot.colour(place)[1:], 16)
+
+
+def name_ticks(names, places):
+    ticks = ", ".join(f"{quoted(plain(name, 62).replace('%', '%%'))} {place!r}" for name, place in zip(names, places))
+    return f"set ytics ({ticks}) noenhanced"
+
+
+def rows(about, title, caption, unit, drawn, bound_name=""):
+    """(height, commands): a bar for each row, with whiskers to the quartiles, and a mark at its bound."""
+    values = [row.spread[key] for row in drawn for key in ("median", "q1", "q3")]
+    values += [row.bound for row in drawn if row.bound]
+    wide = is_wide([value for value in values if value > 0])
+    start = min(value for value in values if value > 0) / 2 if wide else 0
+    end = max(values) * min((max(values) / start) ** 0.45, 60) if wide else max(max(values) * 1.5, 1e-9)
+    bounded = any(row.bound for row in drawn)
+    commands = gnuplot.style(about, title, caption, int(bounded))
+    places = row_places(drawn)
+    commands += axis_commands("x", Axis(unit, wide), (start or 0) * 1.4, end / 1.4) if wide else [
+        f"set xlabel {quoted(unit)}", f"set xrange [0:{end!r}]"]
+    commands += [f"set yrange [{places[-1] - 0.7!r}:0.7]", name_ticks((row.name for row in drawn), places),
+                 "set grid noytics", KEY if bounded else "unset key"]
+    commands += data("data", (numbers(place, max(row.spread["median"], start), max(row.spread["q1"], start),
+                                      row.spread["q3"], shade(row.colour)) for row, place in zip(drawn, places)))
+    commands += data("words", (f"{max(row.spread['q3'], row.spread['median'], start)!r} {place!r} "
+                               f'"{plain(row.words, 60)}"' for row, place in zip(drawn, places)))
+    commands += data("bounds", (numbers(row.bound, place) for row, place in zip(drawn, places) if row.bound))
+    commands.append("set style fill solid 0.85 noborder")
+    plots = [f"$data using (($2+{start!r})/2):1:({start!r}):2:($1-0.36):($1+0.36):5 with boxxyerror "
+             "linecolor rgb variable notitle",
+             "$data using 2:1:3:4 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#222222' notitle",
+             "$words using 1:2:3 with labels left offset 0.8, 0 noenhanced notitle"]
+    if bounded:
+        plots.append(f"$bounds using 1:2 with points pointtype 2 pointsize 1.6 linewidth 2.5 linecolor rgb '#000000' "
+                     f"title {quoted(bound_name)}")
+    commands.append("plot " + ", ".join(plots))
+    return 265 + 24 * bounded + caption_height(caption) + round(34 * (1 - places[-1])), commands
+
+
+def row_places(drawn):
+    """Downwards, with a gap between groups."""
+    places, place = [], 0.0
+    for before, row in zip([None, *drawn], drawn):
+        if before is not None:
+            place -= 1.5 if before.group != row.group else 1
+        places.append(place)
+    return places
+
+
+def boxes(about, title, caption, unit, drawn, parts=()):
+    """(height, commands): for each (name, words at its end, [(begin, end, shade)]) a row of boxes. `parts` are names of the
+    first colours, for the legend."""
+    places = [-float(place) for place in range(len(drawn))]
+    longest = max(end for _, _, row in drawn for _, end, _ in row)
+    commands = gnuplot.style(about, title, caption, int(bool(parts)))
+    commands += [f"set xlabel {quoted(unit)}", f"set xrange [0:{max(longest * 1.45, 1e-9)!r}]",
+                 f"set yrange [{-len(drawn) + 0.4}:0.6]", name_ticks((name for name, _, _ in drawn), places),
+                 "set grid noytics", KEY if parts else "unset key", "set style fill solid 0.85 noborder"]
+    commands += data("data", (numbers(place, *box) for place, (_, _, row) in zip(places, drawn) for box in row))
+    commands += data("ends", (f'{place!r} {row[-1][1]!r} "{plain(words, 70)}"' for place, (_, words, row)
+                              in zip(places, drawn)))
+    plots = ["$data using (($2+$3)/2):1:2:3:($1-0.35):($1+0.35):4 with boxxyerror linecolor rgb variable notitle",
+             "$ends using 2:1:3 with labels left offset 0.8, 0 noenhanced notitle"]
+    plots += [f"NaN with boxes linecolor rgb '{gnuplot.colour(place)}' title {quoted(name)}"
+              for place, name in enumerate(parts)]
+    commands.append("plot " + ", ".join(plots))
+    return 230 + 30 * len(drawn), commands
+
+
+def one_value(value):
+    return {"median": value, "q1": value, "q3": value}
+
+
+def ms(value):
+    return f"{number(value, 3)} ms" if value < 1000 else f"{number(value / 1000, 3)} s"
+
+
+def spread_words(spread):
+    unit, name = (1, "ms") if spread["median"] < 1000 else (1000, "s")
+    first, middle, third = (number(spread[key] / unit, 3) for key in ("q1", "median", "q3"))
+    return f"{middle} {name} [{first} .. {third}]"

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""A job: runs of hedron that differ in nothing but the time of day, as it is written. What follows from its runs, and
+whether jobs made the same pictures."""
+from statistics import mean
+
+from harness.measure.numbers import spread
+
+PICTURES = "#######.data"
+FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing")
+FREE = ("--threads", "--pipeline", "--accel", "--lanes", "--block", "--grid")  # they change no byte of a picture
+
+
+def job(device, scene, frames, options=(), *, output=PICTURES, warm_up=True, scale=1, cold=False, **more):
+    """`warm_up`: the first of several frames does not count; `scale`: times are multiplied by it; `cold`: hedron finds no
+    compiled kernels. `more` may have `slow` (once is enough) and `few_cores` (on no more cores than the target is for)."""
+    return {**more, "device": device, "scene": scene, "options": list(options), "frames": frames, "output": output,
+            "warm_up": warm_up, "scale": scale, "cold": cold, "renderer": None, "reason": None, "failed": False,
+            "summary": None, "runs": [], "rejected": []}
+
+
+def kept_run(entry, repeat, run):
+    """As it is written."""
+    several = len(run["frames"]) > 1 or run["code"] is None  # where it was interrupted there were to be more
+    frames = [{**{key: frame[key] for key in FRAME_KEYS if key in frame},
+               "warm_up": entry["warm_up"] and place == 0 and several,
+               "picture": run["digests"].get(frame["frame"])} for place, frame in enumerate(run["frames"])]
+    return {"repeat": repeat, **{key: run[key] for key in ("wall", "cpu", "load", "others", "noisy")}, "frames": frames}
+
+
+def run_of(entry, repeat):
+    return next((run for run in entry["runs"] if run["repeat"] == repeat), None)
+
+
+def counted(run):
+    return [frame for frame in run["frames"] if not frame["warm_up"]]
+
+
+def chosen_runs(entry):
+    """Those that nothing disturbed; all, where there are none."""
+    return [run for run in entry["runs"] if not run["noisy"]] or entry["runs"]
+
+
+def trace_seconds(frame):
+    return frame["seconds"]["trace"]
+
+
+def frame_seconds(frame):
+    """What the classic mode prints as the time of a frame."""
+    return sum(frame["seconds"][stage] for stage in ("prepare", "trace", "copy"))
+
+
+def run_ms(entry, run, seconds=trace_seconds):
+    """The mean of its frames."""
+    return 1e3 * entry["scale"] * mean(seconds(frame) for frame in counted(run))
+
+
+def summarize(entries):
+    """Fills in what follows from the runs."""
+    for entry in entries:
+        runs = chosen_runs(entry)
+        entry["summary"] = runs and {
+            "runs": len(runs), "noisy": any(run["noisy"] for run in runs), "rejected": len(entry["rejected"]),
+            "trace_ms": spread([run_ms(entry, run) for run in runs]),
+            "frame_ms": spread([run_ms(entry, run, frame_seconds) for run in runs])} or None
+
+
+def failures(entries):
+    """What ended a run that should not have."""
+    return {f"{entry['device']}, {entry.get('part', entry['scene'])}, {' '.join(entry['options'])}: {entry['reason']}"
+            for entry in entries if entry["failed"]}
+
+
+# ---- pictures
+
+def picture_groups(entries, devices):
+    """{what promises one picture: {digest: [job]}}: how rays are shared among threads, lanes and kernels
+    changes no byte, nor does how triangles are searched. `devices` by their labels."""
+    groups = {}
+    for entry in entries:
+        words = list(entry["options"])
+        options = " ".join(words)
+        if "--math fast" in options or "--math=fast" in options or not devices[entry["device"]]["strict"]:
+            continue
+        for free in FREE:
+            if free in words:
+                del words[words.index(free):words.index(free) + 2]
+        for frame in (frame for run in entry["runs"] for frame in run["frames"] if frame["picture"]):
+            makers = groups.setdefault((entry["scene"], tuple(words), frame["frame"]), {})
+            makers.setdefault(frame["picture"], []).append(f"{entry['device']} {options}".strip())
+    return groups
+
+
+def compare_pictures(entries, devices):
+    """{"same": true, false or null, "compared": how many frames, "sentence"}"""
+    groups = picture_groups(entries, devices)
+    several = [makers for makers in groups.values() if len({maker for who in makers.values() for maker in who}) > 1]
+    for (scene, _, number), makers in groups.items():
+        if len(makers) > 1:
+            who = " / ".join(", ".join(sorted(set(each))) for each in makers.values())
+            return {"same": False, "compared": len(several),
+                    "sentence": f"THE PICTURES DIFFER, so these times are no result: {scene}, frame {number}: {who}."}
+    if not several:
+        return {"same": None, "compared": 0, "sentence": "No pictures were compared: none was made in two ways."}
+    return {"same": True, "compared": len(several),
+            "sentence": f"The same bytes from every device and pipeline, in {len(several)} frames made in two ways or more."}

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""The rates of the kernels' hot loops, and the operations that their machine code executes."""
+import re
+import shutil
+import subprocess
+
+from harness.run import tool
+from harness.run.program import Problem
+
+INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\t(?:(?:notrack|bnd|rep|data16) )?(\S+)\s*([^#<]*)")
+# They bring numbers to where they are used, and compute nothing; but a masked one selects.
+MOVES = ("vmov", "vbroadcast", "vpbroadcast", "vextract", "vinsert", "vperm", "vshuf", "vpshuf", "vunpck",
+         "vpunpck", "vgather", "vpgather", "vpinsr", "vpextr", "vzero", "vcompress", "vpcompress")
+
+
+def lanes_of(name, operands):
+    """Numbers of 32 bits that the instruction works on."""
+    if re.search(r"(ss|sd|si)$", name):
+        return 1
+    for register, lanes in (("zmm", 16), ("ymm", 8), ("xmm", 4)):
+        if register in operands:
+            return lanes
+    return 0
+
+
+def is_zeroing(name, operands):
+    """A register combined with itself gives zero without being executed."""
+    return "xor" in name and len(set(re.findall(r"%[xyz]mm\d+", operands))) == 1
+
+
+def weigh(name, operands):
+    """(operations, issue slots) of an instruction. An operation is one lane of an addition, multiplication,
+    division, root, comparison, selection, conversion or bitwise function of a vector register; a fused
+    multiply-add is two. Loads, moves, masks in mask registers and what the integer unit does are none; the
+    mask registers' instructions take slots of the vector units all the same."""
+    if name.startswith("k"):
+        return 0, 1
+    if not name.startswith("v") or is_zeroing(name, operands):
+        return 0, 0
+    if name.startswith(MOVES) and "{%k" not in operands:
+        return 0, 0
+    each = 2 if name.startswith(("vfmadd", "vfmsub", "vfnmadd", "vfnmsub")) else 1
+    return each * lanes_of(name, operands), 1
+
+
+def disassemble(program, symbol):
+    """[(offset, name, operands)] of a function."""
+    listing = subprocess.run(["objdump", "-d", "--no-show-raw-insn", f"--disassemble={symbol}", program],
+                             capture_output=True, text=True, check=True).stdout
+    found = [INSTRUCTION.match(line) for line in listing.splitlines()]
+    places = [(int(match[1], 16), match[2], match[3]) for match in found if match]
+    if not places:
+        raise Problem(1, f"objdump finds no function {symbol} in {program}")
+    return [(address - places[0][0], name, operands) for address, name, operands in places]
+
+
+def add_up(code, times):
+    """What was executed, by the offsets' counts."""
+    total = {"instructions": 0, "operations": 0, "slots": 0, "divisions": 0}
+    for offset, name, operands in code:
+        count = times.get(offset, 0)
+        operations, slots = weigh(name, operands)
+        total["instructions"] += count
+        total["operations"] += count * operations
+        total["slots"] += count * slots
+        total["divisions"] += count if name.startswith(("vdiv", "vsqrt")) else 0
+    return total
+
+
+def counted(program, words, times):
+    """A counted work: for each unit of it, what was executed."""
+    _, name, instruction_set, lanes, symbol, amount = words
+    total = add_up(disassemble(program, symbol), times.get(name, {}))
+    return {"instruction_set": instruction_set, "lanes": int(lanes), "amount": float(amount),
+            **{f"{key}_each": value / float(amount) for key, value in total.items()}}
+
+
+def parse(program, text):
+    """{"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: {...}}, "uncounted": [...]}"""
+    lines = [line.split() for line in text.splitlines()]
+    result = {"instruction_set": None, "lanes": None, "rates": {}, "counted": {}, "uncounted": []}
+    times = {}
+    for words in lines:
+        if words[0] == "build":
+            result["instruction_set"], result["lanes"] = words[1], int(words[2])
+        elif words[0] == "rate":
+            result["rates"].setdefault(words[1], []).append(float(words[3]))
+        elif words[0] == "step":
+            times.setdefault(words[1], {})[int(words[2])] = int(words[3])
+        elif words[0] == "uncounted":
+            result["uncounted"].append(words[1])
+    for words in lines:
+        if words[0] == "counted":
+            result["counted"][words[1]] = counted(program, words, times)
+    return result
+
+
+def run(program, scenes, seconds, rounds, counts=False, limit=None):
+    """Raises Problem with the reason where it cannot be, or takes more than `limit` seconds: counting goes instruction
+    by instruction, which a busy machine makes slow."""
+    rates_program = program.beside("bench/hedron_kernel_rates")
+    if counts and shutil.which("objdump") is None:
+        raise Problem(3, "there is no objdump to tell instructions apart; its package is binutils")
+    done = tool.run(rates_program, "--seconds", seconds, "--rounds", rounds, *(["--count"] if counts else []), *scenes,
+                    limit=limit)
+    return parse(rates_program, done.stdout)

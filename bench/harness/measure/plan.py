@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Jobs, done in turns, and again what was disturbed; and what rows ask of them."""
+import tempfile
+from pathlib import Path
+from statistics import median
+
+from harness.measure import jobs
+from harness.measure.jobs import run_of
+from harness.measure.rows import Missing, Rows, known
+from harness.run.program import Interrupted, Problem
+
+AGAIN = 2  # times that a disturbed run is measured again, at most
+MOST_REJECTED = 0.5  # of all runs that were planned: then the machine is simply busy
+CACHES = ("HEDRON_CACHE", "POCL_CACHE_DIR", "CUDA_CACHE_PATH")
+
+
+class Plan(Rows):
+    """`scenes` maps names to files (None: the built-in scene), `devices` labels to entries. `save` is called after every
+    run, `news` with what is done. A job whose whole run takes more than `slow_seconds` is done in `slow_rounds` rounds only."""
+
+    def __init__(self, devices, scenes, program=None, folder=None, news=None, save=lambda: None):
+        super().__init__()
+        self.devices, self.scenes, self.program, self.folder, self.news, self.save = (
+            devices, scenes, program, folder, news, save)
+        self.jobs, self.failures = [], set()
+        self.cores = None  # those of jobs on few cores; None: of all
+        self.keeps_parts = False  # of a run that was interrupted
+        self.slow_seconds, self.slow_rounds = float("inf"), 1
+
+    def job(self, device, scene, frames, options=(), **named):
+        """The same one where it was asked for before."""
+        wanted = jobs.job(device, scene, frames, options, **named)
+        alike = [each for each in self.jobs if {**each, "runs": [], "rejected": [], "renderer": None, "reason": None,
+                                                "failed": False} == wanted]
+        if not alike:
+            self.jobs.append(wanted)
+        return alike[0] if alike else wanted
+
+    # ---- what rows ask for
+
+    @staticmethod
+    def done(job):
+        """Its runs."""
+        return known(job["reason"] or job["runs"] or "it was not run")
+
+    def each_frame(self, job, value):
+        return [value(frame) for run in self.done(job) for frame in jobs.counted(run)]
+
+    def trace_ms(self, job):
+        return self.each_frame(job, lambda frame: 1e3 * job["scale"] * frame["seconds"]["trace"])
+
+    def medians(self, job):
+        """The median time of tracing of each round."""
+        return [median(map(jobs.trace_seconds, jobs.counted(run))) for run in self.done(job)]
+
+    def ratios(self, job, base):
+        """Of the times of two jobs, round by round, so that a slow minute meets both."""
+        return [one / other for one, other in zip(self.medians(job), self.medians(base)) if other > 0]
+
+    def seconds_a_frame(self, short, long):
+        """Steady state, from two lengths of a run: neither its start nor its end is in it."""
+        pairs = zip(self.done(short), self.done(long))
+        seconds = [(two["wall"] - one["wall"]) / (len(two["frames"]) - len(one["frames"])) for one, two in pairs]
+        if seconds and min(seconds) <= 0:
+            raise Missing("the frames are too fast to be told from the noise of two runs")
+        return seconds
+
+    def compared(self):
+        return jobs.compare_pictures(self.jobs, self.devices)
+
+    def all_failures(self):
+        return self.failures | jobs.failures(self.jobs)
+
+    # ---- one run
+
+    def render(self, job):
+        variables, empty = None, None
+        if job["cold"]:
+            empty = tempfile.TemporaryDirectory(dir=self.folder)
+            variables = {name: str(Path(empty.name, name)) for name in CACHES}
+        try:
+            return self.program.render(self.devices[job["device"]], self.scenes[job["scene"]], job["frames"], job["options"],
+                                       self.folder, output=job["output"], variables=variables,
+                                       cores=self.cores if job.get("few_cores") else None)
+        finally:
+            if empty:
+                empty.cleanup()
+
+    def measure(self, job, repeat):
+        """Of several tries the least disturbed one counts."""
+        try:
+            run = self.render(job)
+        except Interrupted as interrupted:
+            if self.keeps_parts and interrupted.run["frames"]:
+                self.keep(job, jobs.kept_run(job, repeat, interrupted.run))
+            raise
+        if run["code"] == 2:
+            raise Problem(2, f"{job['device']}, {job['scene']} {' '.join(job['options'])}: {run['message']}")
+        if run["code"] != 0:
+            job["reason"], job["failed"] = run["message"], run["code"] != 3
+        elif not run["frames"]:
+            job["reason"], job["failed"] = "it wrote no statistics", True
+        else:
+            job["renderer"] = run["frames"][0]["renderer"]
+            self.keep(job, jobs.kept_run(job, repeat, run))
+        self.save()
+
+    @staticmethod
+    def keep(job, run):
+        before = run_of(job, run["repeat"])
+        if before is None:
+            job["runs"].append(run)
+            return
+        better, worse = sorted((before, run), key=lambda each: (each["noisy"], each["others"] or 0))
+        job["runs"][job["runs"].index(before)] = better
+        job["rejected"].append({"repeat": worse["repeat"], "others": worse["others"], "load": worse["load"],
+                                "trace_ms": jobs.run_ms(job, worse)})
+
+    # ---- turns
+
+    def is_wanted(self, job, repeat):
+        rounds = 1 if job.get("slow") else None
+        if job["runs"] and job["runs"][0]["wall"] > self.slow_seconds:
+            rounds = self.slow_rounds
+        return not (job["reason"] or run_of(job, repeat) or (rounds and repeat >= rounds))
+
+    def is_disturbed(self, job, repeat, number):
+        """Its run of that round, after so many tries."""
+        run = run_of(job, repeat)
+        tries = sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"]))
+        return run is not None and run["noisy"] and tries == number
+
+    def turn(self, repeat, repeats, words, wanted):
+        for place, job in enumerate(self.jobs):
+            if wanted(job):
+                self.news(f"{words}, run {place + 1} of {len(self.jobs)}: {job['device']}, "
+                          f"{job.get('part') or ' '.join([job['scene'], *job['options']])}", self.seconds_left(repeat, repeats))
+                self.measure(job, repeat)
+
+    def run_again(self, repeat, repeats, words):
+        most = MOST_REJECTED * len(self.jobs) * repeats
+        for number in range(1, AGAIN + 1):
+            self.turn(repeat, repeats, words, lambda job: sum(len(each["rejected"]) for each in self.jobs) < most
+                      and self.is_disturbed(job, repeat, number))
+
+    def run_all(self, repeats, is_good=lambda: True):
+        """Every job once a round, so that a slow minute of the machine meets all of them; what was disturbed again at the
+        round's end. Ends where the rounds so far are not good, and tells whether all are."""
+        for repeat in range(repeats):
+            words = f"round {repeat + 1} of {repeats}"
+            self.turn(repeat, repeats, words, lambda job: self.is_wanted(job, repeat))
+            self.run_again(repeat, repeats, f"{words}, again what was disturbed")
+            if not is_good():
+                return False
+        return True
+
+    def seconds_left(self, now, repeats):
+        """By what runs took so far; None: nothing is known yet."""
+        walls = {id(job): min(run["wall"] for run in job["runs"]) for job in self.jobs if job["runs"]}
+        if not walls:
+            return None
+        usual = median(walls.values())
+        return sum(walls.get(id(job), usual) for job in self.jobs for repeat in range(now, repeats)
+                   if self.is_wanted(job, repeat))

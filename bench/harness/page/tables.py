@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""A result as tables: for the terminal, and for documents."""
+from harness.measure.numbers import number, spread_text
+from harness.store.result import machine_words
+
+FEW_ROWS = 5
+HEAD = ["what", "device", "least", "aim", "figure [q1..q3]", "unit", "to least", "to aim", "met"]
+
+
+def lines(rows):
+    """The first two columns to the left, the others to the right."""
+    widths = [max(len(cells[column]) for cells in rows) for column in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(width) if column < 2 else cell.rjust(width)
+                      for column, (cell, width) in enumerate(zip(cells, widths))).rstrip() for cells in rows]
+
+
+def markdown_lines(rows):
+    table = ["| " + " | ".join(cell.strip().replace("|", "\\|") for cell in cells) + " |" for cells in rows]
+    return [table[0], "|" + "---|" * len(rows[0]), *table[1:]]
+
+
+# ---- rows with targets
+
+def target_words(row):
+    if row["least"] is None:
+        return "", ""
+    return tuple(number(row[key], 3).rstrip("0").rstrip(".") if row[key] < 1 else f"{row[key]:g}"
+                 for key in ("least", "aim"))
+
+
+def cells(row):
+    start = [row["what"], row["device"] or "-", *target_words(row)]
+    if row["figure"] is None:
+        return [*start, "-", row["unit"], "", "", ""]
+    ratios = [number(row[key], 3) if row[key] is not None else "" for key in ("ratio_to_least", "ratio_to_aim")]
+    return [*start, spread_text({**row, "median": row["figure"]}), row["unit"], *ratios, row["verdict"] or ""]
+
+
+def remarks(rows):
+    """What the table alone does not tell, each once, with the rows that it is about; many rows by their
+    keys."""
+    said = {}
+    for row in rows:
+        if row["reason"]:
+            alike = [each["what"] for each in rows if each["reason"] == row["reason"]]
+            name = row["what"].strip() if len(alike) <= FEW_ROWS else row["key"]
+            said.setdefault(row["reason"], {})[name] = True
+        if row["note"]:
+            said.setdefault(row["note"], {})[row["key"]] = True
+    return [f"{', '.join(who)}: {words}" for words, who in said.items()]
+
+
+# ---- the whole
+
+def head_lines(result):
+    load = result["machine"]
+    few = f"targets for two cores on {result['few_cores']}; " if "few_cores" in result else ""
+    found = [f"hedron {result['hedron']['version']}, {machine_words(result)}; {few}"
+             f"load {load['load_before'][0]} before, {(load['load_after'] or ['?'])[0]} after"]
+    found += [f"{device['label']}: {device['name'] or '-'}{', cannot run: ' + device['reason'] if device['reason'] else ''}"
+              for device in result["devices"]]
+    if result["quick"]:
+        found.append("QUICK: few frames and repeats; where a time is scaled, its row says so.")
+    if result["hedron"]["options"]:
+        found.append(f"CHANGED by {' '.join(result['hedron']['options'])}: no figure answers to its target.")
+    return found
+
+
+def tail_lines(result):
+    unfinished = [] if result["complete"] else ["Interrupted: only what was measured before counts."]
+    return [*remarks(result.get("rows", [])), *unfinished, result["pictures"]["sentence"]]
+
+
+def all_tables(result, tables):
+    """[(title, rows, lines below)]"""
+    rows = [("", [HEAD, *map(cells, result["rows"])], tail_lines(result))] if result.get("rows") else [
+        ("", [], tail_lines(result))]
+    return [*rows, *tables]
+
+
+def text(result, tables):
+    """`tables` are [(title, rows, lines below)]."""
+    parts = head_lines(result)
+    for title, rows, below in all_tables(result, tables):
+        parts += ["", *([f"{title}:"] if title else []), *(lines(rows) + [""] if rows else []), *below]
+    return "\n".join(parts)
+
+
+def markdown(result, tables):
+    parts = [f"- {words}" for words in head_lines(result)] + [""]
+    for title, rows, below in all_tables(result, tables):
+        parts += [*([f"## {title}", ""] if title else []), *(markdown_lines(rows) + [""] if rows else []),
+                  *[f"- {words}" for words in below], ""]
+    return "\n".join(parts)

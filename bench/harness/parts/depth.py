@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""The time of a frame against its depth."""
+from harness.chart.lines import Axis
+from harness.page.part import Part
+from harness.page.section import growth_words, sweep
+
+DEPTHS = {True: (0, 2, 6, 14, 30), False: (0, 1, 2, 4, 6, 10, 14, 20, 30)}
+
+
+def add(points):
+    points.sweep("--depth", DEPTHS[points.quick])
+
+
+def fill(sources, section):
+    sweep(sources, section, "Time against depth", Axis("mirrorings and passings of a ray, at most"),
+          lambda drawn: growth_words(drawn, "in depth"))
+
+
+PART = Part(7, "Depth", "--depth, with the scene's own cut-off.", add, fill=fill)

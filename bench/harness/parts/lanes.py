@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""Rays that a CPU traces together."""
+from harness.chart.lines import Axis
+from harness.page.part import Part
+from harness.page.section import best_words, sweep
+
+LANES = (1, 4, 8, 16)
+
+
+def add(points):
+    points.sweep("--lanes", LANES, lambda device: device["is_cpu"], none="No CPU was measured.")
+
+
+def sets_words(sources):
+    found = {}
+    for entry in sources.measured("lanes"):
+        for name in ("avx512", "avx2", "generic"):
+            if entry["renderer"] and f" {name}" in entry["renderer"]:
+                found.setdefault(name, set()).add(int(entry["x"]))
+    told = [f"{', '.join(map(str, sorted(each)))} by {name}" for name, each in found.items()]
+    words = ("Which instruction set runs is no choice of the user's: hedron takes the best build that the CPU has for so "
+             "many lanes")
+    return f"{words} (here {'; '.join(told)})." if told else f"{words}."
+
+
+def fill(sources, section):
+    sweep(sources, section, "Time against rays traced together", Axis("lanes", True),
+          lambda drawn: f"The fastest: {best_words(drawn, lambda x: f'{x:g} lanes')}.", bounded=True)
+    section.notes.append(sets_words(sources))
+
+
+PART = Part(8, "Lanes and instruction sets", "--lanes of the CPUs.", add, fill=fill)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""What it gives to sort a wavefront's queue: hedron_queue_order's figures, and their table and chart."""
+import itertools
+from statistics import median
+
+from harness.chart.bars import boxes, shade
+from harness.measure.numbers import number
+from harness.run import tool
+
+ORDERS = {"product": "product: item by item", "uncompacted": "with dead rays", "appended": "as they come",
+          "segments": "passing, then mirrored", "touched": "sorted by object touched",
+          "touched_face": "sorted by face touched", "met": "sorted by face to be met"}
+PARTS = ("first", "trace", "key", "sort")
+
+
+def run(program, *words):
+    """Raises Problem with the reason where it cannot be."""
+    return tool.run(program.beside("bench/hedron_queue_order"), *words).stdout
+
+
+def measure(program, scenes, rounds, samples):
+    return parse(run(program, "--rounds", rounds, "--samples", samples, *scenes))
+
+
+def parse(text):
+    """{"instruction_set", "lanes", "orders": [...]}: nanoseconds are the processor's, for each ray of all levels."""
+    result, counts, times = {}, {}, {}
+    for words in (line.split() for line in text.splitlines()):
+        key = tuple(words[1:4])
+        if words[0] == "build":
+            result = {"instruction_set": words[1], "lanes": int(words[2])}
+        elif words[0] == "order":
+            counts[key] = [int(word) for word in words[4:]]
+        elif words[0] == "time":
+            times.setdefault(key, []).append([float(word) for word in words[4:]])
+    result["orders"] = [entry(key, counts, rounds) for key, rounds in times.items()]
+    return result
+
+
+def entry(key, counts, rounds):
+    scene, batch, order = key
+    first, below, bundles, touched, met = counts[key]
+    # No order changes how many rays there are; `product` does not count them.
+    all_rays = sum(counts[(scene, batch, "appended")][:2])
+    each = [[1e9 * value / all_rays for value in times] for times in rounds]
+    return {"scene": scene.removesuffix(".json"), "batch": int(batch), "order": order, "rays": all_rays,
+            "ns_a_ray": {**{part: median(times[place] for times in each) for place, part in enumerate(PARTS)},
+                         "all": median(sum(times) for times in each)},
+            "lanes_alive": below / bundles if bundles else None,
+            "touched_a_bundle": touched / bundles if bundles else None,
+            "met_a_bundle": met / bundles if bundles else None}
+
+
+HEAD = ["scene", "order", "batch", "ns a ray", "levels below 0", "key", "sort", "lanes alive", "touched", "met"]
+
+
+def cells(each):
+    times = each["ns_a_ray"]
+    return [each["scene"], ORDERS[each["order"]], str(each["batch"]),
+            *(number(times[key], 3) if times[key] else "-" for key in ("all", "trace", "key", "sort")),
+            *(number(each[key], 3) for key in ("lanes_alive", "touched_a_bundle", "met_a_bundle"))]
+
+
+def chart(result):
+    """(height, commands): the first scene."""
+    found = result["queue_order"]
+    scene = found["orders"][0]["scene"]
+    shown = [each for each in found["orders"] if each["scene"] == scene]
+    batch = max(each["batch"] for each in shown)
+    times = {each["order"]: each["ns_a_ray"] for each in shown if each["batch"] == batch}
+    below = {order: number(each["trace"], 3) for order, each in times.items()}
+    cost = number(times["touched"]["key"] + times["touched"]["sort"], 3)
+    caption = (f"One thread, {found['lanes']} lanes ({found['instruction_set']}), {scene}. With {batch} samples at once, "
+               f"sorting by the object touched takes the levels below from {below['appended']} ns a ray to "
+               f"{below['touched']} and costs {cost}; two segments take {below['segments']} and cost nothing. Medians of "
+               "the processor's time; the product's own loop is timed as a whole.")
+    return boxes(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray",
+                 [(f"{each['batch']} samples, {ORDERS[each['order']]}", f"{number(each['ns_a_ray']['all'], 3)} ns",
+                   stacked(each["ns_a_ray"])) for each in shown], ("level 0", "levels below", "finding keys", "sorting"))
+
+
+def stacked(times):
+    """[(begin, end, shade)]"""
+    ends = list(itertools.accumulate(times[part] for part in PARTS))
+    return [(begin, end, shade(place)) for place, (begin, end) in enumerate(zip([0, *ends], ends))]

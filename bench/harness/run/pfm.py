@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Pictures in the PFM format, read and compared without any library, and `hedron compare`."""
+import array
+import json
+import math
+import subprocess
+import sys
+
+from harness.run.program import Problem, message_in
+
+STEP = 1.0  # of 255
+ROUNDING = 1e-9  # of the curve
+
+
+def read(file):
+    """(width, height, array of all channels in the file's order)"""
+    with open(file, "rb") as stream:
+        head = [stream.readline() for _ in range(3)]
+        width, height = map(int, head[1].split())
+        numbers = array.array("f")
+        numbers.frombytes(stream.read())
+    if head[0].strip() != b"PF" or len(numbers) != 3 * width * height:
+        raise Problem(1, f"{file} is no whole PFM file")
+    if (float(head[2]) < 0) != (sys.byteorder == "little"):
+        numbers.byteswap()
+    return width, height, numbers
+
+
+def odd_numbers(picture):
+    """Pixels that have a NaN or an infinity."""
+    numbers = picture[2]
+    if all(map(math.isfinite, numbers)):
+        return 0
+    return sum(not all(map(math.isfinite, numbers[i:i + 3])) for i in range(0, len(numbers), 3))
+
+
+def not_finite(file):
+    """How many numbers of a file are NaN or infinite."""
+    numbers = read(file)[2]
+    return 0 if math.isfinite(sum(numbers)) else sum(not math.isfinite(value) for value in numbers)
+
+
+def displayed(value):
+    """In steps of 255, on the sRGB curve."""
+    value = min(max(value, 0.0), 1.0)
+    return 255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055)
+
+
+def is_near(a, b, steps=STEP):
+    return a == b or abs(displayed(a) - displayed(b)) <= steps + ROUNDING
+
+
+def near_pixels(one, *others, steps=STEP):
+    """How many pixels are within so many steps of 255 of those of one of the others, in every channel, on the
+    sRGB curve."""
+    if any(other[:2] != one[:2] for other in others):
+        raise Problem(1, "pictures of different sizes cannot be compared")
+    a = one[2]
+    return sum(any(all(is_near(a[k], other[2][k], steps) for k in range(i, i + 3)) for other in others)
+               for i in range(0, len(a), 3))
+
+
+def share_within(first, second, steps):
+    """Of the pixels of two files, with no channel off by more than so many steps of 255."""
+    one, other = read(first), read(second)
+    return near_pixels(one, other, steps=steps) / (one[0] * one[1])
+
+
+def compare(program, first, second):
+    """What `hedron compare --json` prints. The first is held to the second."""
+    done = subprocess.run([program.path, "compare", "--json", first, second], capture_output=True, text=True)
+    if done.returncode not in (0, 1) or not done.stdout:  # 1: there are NaNs
+        raise Problem(1, f"hedron compare: {message_in(done.stderr)}")
+    return json.loads(done.stdout)
+
+
+def errors(program, picture, truth):
+    """{"rmse", "largest", "p999", "above_1"} in steps of 255 on the display's curve."""
+    found = compare(program, picture, truth)
+    return {**{key: found["display"][key] for key in ("rmse", "largest", "p999")}, "above_1": found["above_1"]}

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""Runs hedron. Its statistics are the source of times: no start of a program, no compiling of kernels
+is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors meanwhile."""
+import hashlib
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from harness.run import machine
+
+ROOT = Path(__file__).resolve().parents[3]
+NEVER = 1.0  # a limit that no run is beyond
+LEAST_SECONDS = 0.04  # of a disturbance; the system counts in hundredths
+
+
+class Problem(Exception):
+    """Ends the bench with an exit code and a sentence."""
+
+    def __init__(self, code, sentence):
+        super().__init__(sentence)
+        self.code = code
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a run; `run` has the frames that were done."""
+
+    def __init__(self, run):
+        super().__init__()
+        self.run = run
+
+
+class Program:
+    """A run is disturbed where others took more than `limit`, a share of all usable processors' time."""
+
+    def __init__(self, path, limit=NEVER):
+        self.path, self.limit = path.resolve(), limit
+        if not self.path.is_file():
+            raise Problem(2, f"there is no program {path}: build it with ./dev build, or name it with --hedron")
+        self.version = self._ask("--version").removeprefix("hedron ").strip()
+
+    def _ask(self, *words):
+        try:
+            answer = subprocess.run([self.path, *words], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        except OSError as error:
+            raise Problem(2, f"cannot run {self.path}: {error.strerror}") from error
+        if answer.returncode != 0:
+            raise Problem(2, f"{self.path} {' '.join(words)} fails: {message_in(answer.stderr)}")
+        return answer.stdout
+
+    def backends(self):
+        """The list of `hedron devices --json`."""
+        try:
+            return json.loads(self._ask("devices", "--json"))["backends"]
+        except (ValueError, KeyError, TypeError) as error:
+            raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
+
+    def beside(self, name):
+        """A program that the build put next to hedron, or below."""
+        return self.path.parent / name
+
+    def render(self, device, scene, frames, options, folder, output="#######.data", cores=None, path=None,
+               look=None, variables=None):
+        """One run, in a new folder within the temporary one, so that no name in the path counts as a
+        pattern; on `cores` alone, with `path` for PATH and these variables of the environment, where given. Returns {"code",
+        "message", "said", "frames", "digests", "wall", "cpu", "load", "others", "noisy"}: the exit code (None where a run
+        was interrupted), the first line of what hedron said, all of it, the lines of the statistics, for each frame the
+        digest of its picture if that is a file of its own, the seconds from the start to the end of the program, and those
+        that processors worked for it and its children; the load; the share of all usable processors' time that others took,
+        None where the system does not tell; whether that is too much. `look` is called with the folder before that goes,
+        and what it gives is there as `seen`.
+        """
+        place = Path(folder, "run")
+        place.mkdir()
+        command = [self.path, "render", "--quiet", *options, "--backend", device["backend"],
+                   "--device", str(device["index"]), "--frames", frames, "--stats", "stats.jsonl",
+                   "-o", output, *([] if scene is None else [scene])]
+        environment = {**os.environ, **(variables or {}), **({} if path is None else {"PATH": path})}
+        try:
+            clock = Clock()
+            # A session of its own: Ctrl-C then reaches hedron once, from here.
+            child = subprocess.Popen(command, cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                     stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
+                                     env=environment, preexec_fn=cores and (lambda: os.sched_setaffinity(0, cores)))
+            try:
+                message = child.communicate()[1]
+            except KeyboardInterrupt:
+                stop(child)
+                raise Interrupted({**collect(place, None, ""), **clock.times(self.limit)}) from None
+            return {**collect(place, child.returncode, message), **clock.times(self.limit), "seen": look and look(place)}
+        finally:
+            shutil.rmtree(place)
+
+
+class Clock:
+    """What a run takes, from when this is made."""
+
+    def __init__(self):
+        self.start, self.worked, self.own, self.busy = time.monotonic(), children_seconds(), own_seconds(), machine.busy_seconds()
+
+    def times(self, limit):
+        wall, cpu, busy = time.monotonic() - self.start, children_seconds() - self.worked, machine.busy_seconds()
+        found = {"wall": wall, "cpu": cpu, "load": machine.load()[0], "others": None, "noisy": False}
+        if self.busy is not None and busy is not None:
+            seconds = max(0.0, busy - self.busy - cpu - (own_seconds() - self.own))
+            whole = wall * machine.cores()
+            found["others"] = round(min(1.0, seconds / whole), 4) if whole > 0 else None
+            found["noisy"] = seconds > LEAST_SECONDS and seconds > limit * whole and limit < NEVER
+        return found
+
+
+def own_seconds():
+    """Processor time of this process."""
+    used = os.times()
+    return used.user + used.system
+
+
+def stop(child):
+    """Hedron ends after the frame that it is at; a device that hangs is not waited for."""
+    child.send_signal(signal.SIGINT)
+    try:
+        child.communicate(timeout=30)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.communicate()
+
+
+def children_seconds():
+    """Processor time of all children that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def collect(place, code, message):
+    frames = []
+    stats = place / "stats.jsonl"
+    if stats.exists():
+        for line in stats.read_text(encoding="utf-8").splitlines(keepends=True):
+            if line.endswith("\n"):  # else it was cut off
+                frames.append(json.loads(line))
+    pictures = {frame["frame"]: place / f"{frame['frame']:07}.data" for frame in frames}
+    digests = {number: digest(file) for number, file in pictures.items() if file.exists()}
+    return {"code": code, "message": message_in(message), "said": message, "frames": frames, "digests": digests}
+
+
+def digest(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def message_in(text):
+    lines = [line for line in text.splitlines() if line.strip()]
+    return lines[0].removeprefix("hedron: ") if lines else "it says nothing"

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Which stage of a run was busy when, from the statistics' `seconds` and `began`."""
+from harness.chart.bars import boxes, shade
+from harness.measure.rows import Missing
+
+
+def intervals(frames):
+    """{stage: [(begin, end, frame)]}; stages that took no time at all are left out."""
+    stages = {}
+    for frame in frames:
+        for stage, begin in frame.get("began", {}).items():
+            length = frame["seconds"].get(stage, 0)
+            if length > 0:
+                stages.setdefault(stage, []).append((begin, begin + length, frame["frame"]))
+    return {stage: sorted(boxes) for stage, boxes in stages.items()}
+
+
+def busy_seconds(boxes):
+    """How long at least one of them was at work."""
+    busy, until = 0.0, float("-inf")
+    for begin, end, _ in sorted(boxes):
+        busy += max(0.0, end - max(begin, until))
+        until = max(until, end)
+    return busy
+
+
+def measure(frames):
+    """{"seconds", "stages": {stage: {"busy_seconds", "busy_share", "work_seconds"}}, "slowest",
+    "ratio_to_slowest"}: the run goes from the first begin of a stage to the last end."""
+    stages = intervals(frames)
+    if not stages:
+        raise Missing("the statistics of this hedron do not tell when stages began")
+    begin = min(boxes[0][0] for boxes in stages.values())
+    length = max(end for boxes in stages.values() for _, end, _ in boxes) - begin
+    busy = {stage: busy_seconds(boxes) for stage, boxes in stages.items()}
+    slowest = max(busy, key=busy.get)
+    return {
+        "seconds": length,
+        "stages": {stage: {"busy_seconds": busy[stage], "busy_share": busy[stage] / length,
+                           "work_seconds": sum(end - start for start, end, _ in boxes)}
+                   for stage, boxes in stages.items()},
+        "slowest": slowest,
+        "ratio_to_slowest": length / busy[slowest],
+        "boxes": {stage: [list(box) for box in boxes] for stage, boxes in stages.items()},
+    }
+
+
+def table(timeline):
+    """(title, rows, lines below)"""
+    rows = [["stage", "busy", "ms"]]
+    for stage, each in sorted(timeline["stages"].items(), key=lambda entry: -entry[1]["busy_share"]):
+        rows.append([stage, f"{100 * each['busy_share']:.1f} %", f"{1e3 * each['busy_seconds']:.1f}"])
+    return ("Stages of a run", rows, [f"The run took {1e3 * timeline['seconds']:.0f} ms, {timeline['ratio_to_slowest']:.2f} "
+                                      f"times its slowest stage, {timeline['slowest']}."])
+
+
+def light(colour):
+    return sum((((colour >> shift & 255) + 255) // 2) << shift for shift in (0, 8, 16))
+
+
+def chart(result):
+    """(height, commands): a row for each stage, a box for each frame."""
+    timeline = result["timeline"]
+    first = min(box[0] for stage in timeline["boxes"].values() for box in stage)
+    caption = (f"{timeline['slowest']} sets the pace: the run takes {timeline['ratio_to_slowest']:.2f} times as long as "
+               "it is busy. Boxes are frames, of alternating shade.")
+    drawn = [(stage, f"{100 * timeline['stages'][stage]['busy_share']:.0f} % busy",
+              [(1e3 * (begin - first), 1e3 * (end - first), light(shade(place)) if frame % 2 else shade(place))
+               for begin, end, frame in frames]) for place, (stage, frames) in enumerate(timeline["boxes"].items())]
+    return boxes(result, "Stages of a run", caption, "milliseconds since the first stage began", drawn)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""Runs hedron_stability_methods and adds up what it counts."""
+from harness.run import tool
+
+# Rays, paths or segments of each case, method and place; pixels.
+COUNTS = {"crossings": 20000, "paths": 5000, "shadows": 20000, "sums": 2000}
+STUDIES = tuple(COUNTS)
+OURS = ("ours_solids", "ours_triangles", "ours")
+CHECK = "ours_double"  # the same in double: tells whether what is compared with is right
+
+NAMES = {
+    "moeller_trumbore_1e-6": "Moeller-Trumbore, epsilon 1e-6",
+    "moeller_trumbore_0": "Moeller-Trumbore, epsilon 0",
+    "baldwin_weber": "Baldwin-Weber",
+    "pluecker": "Pluecker",
+    "watertight": "watertight, no tie rule",
+    "watertight_tie": "watertight, tie rule",
+    "watertight_contracted": "watertight, contracted",
+    "watertight_tie_contracted": "tie rule, contracted",
+    "epsilon_1e-3": "epsilon 1e-3",
+    "epsilon_1e-4": "epsilon 1e-4",
+    "epsilon_4e-6": "epsilon 4e-6",
+    "relative_epsilon": "relative epsilon 1e-5",
+    "waechter_binder": "Waechter-Binder offset",
+    "own_triangle": "own triangle skipped",
+    "own_face": "own face skipped",
+    "normalised": "unit direction, t < distance",
+    "normalised_epsilon_1e-4": "unit direction, epsilon 1e-4",
+    "unnormalised": "whole segment, t < 1",
+    "unnormalised_epsilon_1e-4": "whole segment, epsilon 1e-4 of it",
+    "float": "sums of floats",
+    "ours_solids": "ours, half-spaces",
+    "ours_triangles": "ours, triangles",
+    "ours": "ours",
+    CHECK: "ours, in double",
+}
+
+# What counts as wrong, and of how many.
+WRONG = {
+    "crossings": [("wrong", "tried")],
+    "misplaced": [("misplaced", "tried")],
+    "paths": [("strayed", "tried")],
+    "lost": [("lost", "tried")],
+    "far": [("strayed_far", "tried_far")],
+    "shadows": [("blocked", "tried"), ("opened", "tried_shut"), ("nan", "tried")],
+    "sums": [("differing", "tried")],
+}
+
+
+def parse(text):
+    """[{"study", "case", "method", "scale", "offset", and what was counted}]"""
+    found = []
+    for line in text.splitlines():
+        study, case, method, scale, offset, *counts = line.split()
+        each = {"study": study, "case": case, "method": method, "scale": float(scale), "offset": float(offset)}
+        for word in counts:
+            key, _, number = word.partition("=")
+            each[key] = float(number) if study == "sums" and key in ("ulps", "error") else int(number)
+        if study == "paths":
+            each["strayed"] = each["tried"] - each["followed"]
+            each["lost"] = each["tried"] - each["completed"]
+            each["strayed_far"] = each["tried_far"] - each["followed_far"]
+        found.append(each)
+    return found
+
+
+def run(program, study, count):
+    """Raises Problem with the reason where it cannot be."""
+    return parse(tool.run(program.beside("bench/hedron_stability_methods"), study, count).stdout)
+
+
+def is_at_origin(each):
+    return each["offset"] == 0
+
+
+def is_unit_scale(each):
+    return each["scale"] == 1
+
+
+def is_in_target(each):
+    """Where the target of the paths holds."""
+    return 1e-4 <= each["scale"] <= 1e4 and each["offset"] <= 1e4
+
+
+def select(counts, study, cases=None, method=None, place=None):
+    return [each for each in counts if each["study"] == study and (cases is None or each["case"] in cases)
+            and (method is None or each["method"] == method) and (place is None or place(each))]
+
+
+def tally(counts, what):
+    """(wrong, of how many), all together; what is wrong in several ways counts once for each."""
+    pairs = WRONG[what]
+    wrong = sum(each[key] for each in counts for key, _ in pairs)
+    tried = sum(each[base] for each in counts for base in dict.fromkeys(base for _, base in pairs))
+    return wrong, tried
+
+
+def share(counts, what):
+    wrong, tried = tally(counts, what)
+    return wrong / tried if tried else None
+
+
+def worst(counts, what):
+    """(share, the place) where most is wrong; None where nothing was tried."""
+    shares = [(share([each], what), each) for each in counts if tally([each], what)[1]]
+    return max(shares, key=lambda pair: pair[0], default=None)
+
+
+def methods(counts, study):
+    """In the order that they are printed in, ours last, without the check."""
+    found = dict.fromkeys(each["method"] for each in counts if each["study"] == study)
+    return [each for each in found if each not in (*OURS, CHECK)] + [each for each in found if each in OURS]
+
+
+# What ours must not do once, whatever the case.
+NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan"),
+         "sums": ("differing",)}
+# Nor in double, where a light that is put on a face is on one side of it by rounding.
+DOUBLE_MAY = ("face_lights",)
+
+
+def failures(counts):
+    """What ours does wrong that it never may, a sentence for each case and method."""
+    found = []
+    for study, keys in NEVER.items():
+        for method in (*OURS, CHECK):
+            for case in dict.fromkeys(each["case"] for each in select(counts, study, method=method)):
+                if method == CHECK and case in DOUBLE_MAY:
+                    continue
+                these = select(counts, study, [case], method)
+                said = [f"{sum(each[key] for each in these)} {key}" for key in keys
+                        if any(each[key] for each in these)]
+                if said:
+                    found.append(f"{study}, {case}, {NAMES[method]}: {', '.join(said)} of "
+                                 f"{sum(each['tried'] for each in these)}")
+    return found

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""The table of failure modes: what each method does at each place, what ours does, and what keeps it so."""
+from harness.stability import methods, pictures
+
+HEAD = ["place", "method", "fails", "worst", "where", "ours", "kept so by"]
+
+HERE = "cli_bench_stability"
+MESHES = "unit_test_kernels_*, leak_hunt_c, leak_hunt_opencl, leak_hunt_cuda"
+SOLIDS = "conformance_c (edges-and-corners; faces crossed in pairs)"
+# study, case: what happens there, and the tests that keep ours so
+PLACES = {
+    ("crossings", "edges"): ("rays at edges miss or count twice", f"{MESHES}, {SOLIDS}"),
+    ("crossings", "corners"): ("rays at corners miss or count twice", f"{MESHES}, {SOLIDS}"),
+    ("crossings", "interior"): ("rays at the middle of triangles miss or count twice", f"{HERE}, leak_hunt_c"),
+    ("crossings", "grazing"): ("grazing rays miss or count twice", HERE),
+    ("crossings", "axis_parallel"): ("axis-parallel rays miss or count twice", f"unit_test_kernels_*, {HERE}"),
+    ("crossings", "slivers"): ("rays at slivers miss or count twice", HERE),
+    ("crossings", "zero_area"): ("triangles without an area", f"unit_test_mesh, {HERE}"),
+    ("crossings", "duplicates"): ("coplanar duplicates are not met as one", HERE),
+    ("paths", "inside"): ("mirror paths in a solid leave the double path within 30 bounces", HERE),
+    ("paths", "between"): ("mirror paths between solids leave the double path within 30 bounces", HERE),
+    ("shadows", "edge_lights"): ("lights on edges are blocked, or shine through", f"conformance_c (own edge lights), {HERE}"),
+    ("shadows", "edge_lights_from_within"): ("lights on edges, seen from inside, are blocked", HERE),
+    ("shadows", "face_lights"): ("lights on faces are blocked, or shine through", HERE),
+    ("shadows", "light_at_the_point"): ("a light at the lit point gives no number", HERE),
+    ("sums", "pixel"): ("a sum depends on the order of its parts", "cli_same_bytes, conformance_c"),
+}
+# Further ways to fail of the same places.
+MORE = {
+    "misplaced": ("crossings", ("edges", "corners", "interior"), "hits are off by more than 1/1000 of the size",
+                  f"conformance_c (far-from-origin), {HERE}"),
+    "lost": ("paths", ("inside", "between"), "mirror paths get out of a closed room", f"conformance_c (mirror box), {HERE}"),
+    "far": ("paths", ("inside", "between"), "mirror paths leave the double path within 300 bounces",
+            "none: not promised"),
+}
+
+
+def percent(share):
+    if share is None:
+        return "-"
+    if share == 0:
+        return "0"
+    return f"{100 * share:.3g} %" if share >= 1e-4 else f"{100 * share:.1e} %"
+
+
+def where(each):
+    return f"scale {each['scale']:g}, offset {each['offset']:g}"
+
+
+def ours_words(counts, study, cases, what):
+    said = []
+    for method in methods.OURS:
+        these = methods.select(counts, study, cases, method)
+        if these:
+            wrong, tried = methods.tally(these, what)
+            name = methods.NAMES[method].removeprefix("ours, ").replace("ours", "").strip()
+            said.append(f"{name + ' ' if name else ''}{wrong} of {tried}" + (f" ({percent(wrong / tried)})" if wrong else ""))
+    return "; ".join(said) or "-"
+
+
+def method_rows(counts, study, cases, what, words, test):
+    rows = []
+    for method in [*methods.methods(counts, study), methods.CHECK]:
+        these = methods.select(counts, study, cases, method)
+        found = methods.worst(these, what)
+        if method in methods.OURS or found is None:
+            continue
+        share, each = found
+        place = where(each) if study != "sums" else f"by up to {each['ulps']:g} units in the last place"
+        rows.append([words, methods.NAMES[method], percent(methods.share(these, what)), percent(share),
+                     place if share else "", ours_words(counts, study, cases, what), test])
+    return rows
+
+
+def picture_rows(entries):
+    rows = []
+    for what, method in ((pictures.FLOAT, "float"), (pictures.FAST, "fast arithmetic")):
+        these = [each for each in entries if each["what"] == what]
+        found = min(these, key=lambda each: pictures.share([each]), default=None)
+        if found is None:
+            continue
+        off, worst = 1 - pictures.share(these), 1 - pictures.share([found])
+        ours = f"float by default, --precision double; {sum(each['nan'] for each in these)} NaN"
+        if what == pictures.FAST:
+            ours = "strict by default: the same bytes on every device"
+        rows.append([f"pixels off by more than 1 of 255, {what}, shipped scenes", method, percent(off), percent(worst),
+                     f"{found['scene']}, {found['geometry']}" if worst else "", ours,
+                     "conformance_c, conformance_notices_fast_math" if what == pictures.FAST else HERE])
+    return rows
+
+
+def scene_rows(entries):
+    rows = []
+    for each in entries:
+        if not each["like"]:
+            rows.append(scene_row(each["scene"], [each]))
+    moved = [each for each in entries if each["like"]]
+    for geometry in dict.fromkeys(each["geometry"] for each in moved):
+        rendered = [each for each in moved if each["geometry"] == geometry and each["outcome"] == "rendered"]
+        if rendered:
+            rows.append(scene_row("the default scene at every scale and offset", rendered))
+        refused = [each for each in moved if each["geometry"] == geometry and each["outcome"] != "rendered"]
+        if refused:
+            rows.append(scene_row("the same beyond 1e12", refused))
+    return rows
+
+
+def scene_row(name, entries):
+    worst = min(entries, key=lambda each: pictures.share([each]) or 0)
+    share, least = pictures.share(entries), pictures.share([worst])
+    pixels = [1 - share, 1 - least] if share is not None else [None, None]
+    said = "; ".join(dict.fromkeys(each["outcome"] for each in entries if each["outcome"] == "rendered")) or worst["outcome"]
+    if worst["beside_near"] is not None:
+        said += f"; off both pictures with it a hair to either side: {percent(1 - worst['beside_near'] / worst['pixels'])}"
+    return [f"{name.replace('_', ' ')}, {worst['geometry']}", "float against double", *map(percent, pixels),
+            worst["scene"] if pixels[1] and len(entries) > 1 else "",
+            f"{said}; {sum(each['nan'] for each in entries)} NaN, {sum(each['clamps'] for each in entries)} clamps", HERE]
+
+
+def rows(result):
+    counts, found = result["counts"] or [], []
+    for (study, case), (words, test) in PLACES.items():
+        found += method_rows(counts, study, [case], study, words, test)
+    for what, (study, cases, words, test) in MORE.items():
+        found += method_rows(counts, study, cases, what, words, test)
+    found += picture_rows(result["precision"] or [])
+    found += scene_rows(result["odd"] or [])
+    return [dict(zip(("place", "method", "rate", "worst", "where", "ours", "test"), row)) for row in found]

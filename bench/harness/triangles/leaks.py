@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""The leak hunt: rays aimed at edges and corners of closed meshes, on every backend."""
+import re
+
+from harness.measure.numbers import count_words
+from harness.measure.rows import NONE, known
+from harness.run import tool
+from harness.run.program import Problem
+
+TOTAL = re.compile(r"total of (\d+) renderers:\s+(\d+) rays, (\d+) leaks, (\d+) double hits")
+SOME_LEAK, NOTHING_OPENS = 1, 77
+
+
+def parse(text):
+    """{"renderers", "rays", "leaks", "double_hits"}, or None where the hunt did not come to its end."""
+    found = TOTAL.search(text)
+    return found and dict(zip(("renderers", "rays", "leaks", "double_hits"), map(int, found.groups())))
+
+
+def run(program, backend, rays):
+    """Raises Problem with the reason where it cannot be."""
+    done = tool.run(program.beside("tests/leak_hunt/hedron_leak_hunt"), rays, "--backend", backend,
+                    accepted=(0, SOME_LEAK, NOTHING_OPENS))
+    if done.returncode == NOTHING_OPENS:
+        raise Problem(3, f"no device of {backend} opens")
+    total = parse(done.stdout)
+    if total is None:
+        raise Problem(1, f"the leak hunt on {backend} tells no total: {done.stderr.strip() or 'it says nothing'}")
+    return total
+
+
+def count(total):
+    return total["leaks"] + total["double_hits"]
+
+
+def failures(hunts):
+    return [f"{backend}: {total['leaks']} leaks and {total['double_hits']} double hits"
+            for backend, total in hunts.items() if not isinstance(total, str) and count(total) > 0]
+
+
+def add_rows(plan, hunts):
+    """`hunts` has for each backend what `run` gave, or the reason why there is nothing."""
+    for backend, total in hunts.items():
+        aimed = "" if isinstance(total, str) else (
+            f" of {count_words(float(format(total['rays'], '.3g')))} rays aimed at edges and corners, "
+            f"{total['renderers']} renderers")
+        plan.row("leaks", f"leaks and double hits{aimed}", "rays", lambda total=total: [count(known(total))], device=backend,
+                 target=NONE)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""Rates of the kernels' searches of meshes beside those of Embree, and the time of building."""
+from statistics import median
+
+from harness.measure.numbers import count_words
+from harness.measure.rows import Target, known
+from harness.run import tool
+
+COUNTS = (1000, 80000, 1000000)
+KINDS = ("primary", "mirrored", "diffuse", "shadow")
+NO_RIVAL = "Embree is not installed (libembree-dev), so hedron stands alone"
+BUNDLED = ("packets", "streams")
+ANY = ("single", *BUNDLED)
+# What is compared: rays, triangles, with which of Embree's ways, target.
+RATES = [
+    *((kind, count, BUNDLED, Target(0.8, 1.3)) for kind in ("primary", "mirrored") for count in COUNTS),
+    *(("diffuse", count, ANY, Target(0.5, 1.0)) for count in COUNTS[1:]),
+    ("shadow", COUNTS[0], ANY, Target(1.0, 1.5)),
+]
+BUILD_COUNT, BUILD_TARGET = COUNTS[-1], Target(2, 1, False)
+SAME_FROM = 0.99  # a fast wrong search is no result
+
+
+def parse(text):
+    """{"instruction_set", "lanes", "triangles", "rates": {kind: {who: [...]}}, "same": {kind: {way: share}},
+    "built": {who: [...]}} of one object; rates a CPU-second, one for each round."""
+    found = {"instruction_set": None, "lanes": None, "triangles": None, "rates": {}, "same": {}, "built": {}}
+    for line in text.splitlines():
+        what, *rest = line.split()
+        if what == "build":
+            found["instruction_set"], found["lanes"] = rest[0], int(rest[1])
+        elif what == "object":
+            found["triangles"] = int(rest[0])
+        elif what == "rate":
+            kind, _, who, value = rest
+            found["rates"].setdefault(kind, {}).setdefault(who, []).append(float(value))
+        elif what == "same":
+            kind, _, way, share = rest
+            found["same"].setdefault(kind, {})[way] = float(share)
+        elif what == "built":
+            found["built"].setdefault(rest[1], []).append(float(rest[2]))
+    return found
+
+
+def run(program, count, seconds, rounds, threads):
+    """Raises Problem with the reason where it cannot be."""
+    return parse(tool.run(program.beside("bench/hedron_mesh_rates"), "--seconds", seconds, "--rounds", rounds, "--threads",
+                          threads, count).stdout)
+
+
+def best_way(rates, allowed):
+    """The fastest of those of Embree's ways by its median; None where there is no Embree."""
+    ways = [who for who in rates if who.startswith(allowed)]
+    return max(ways, key=lambda way: median(rates[way]), default=None)
+
+
+def against(ours, theirs):
+    """Ours, each by the median of theirs: the median of these is the ratio of the medians."""
+    return [each / median(theirs) for each in ours]
+
+
+def least_same(measured):
+    """(share, kind, way) of the rays that met the same, where that is least; None without Embree."""
+    return min(((share, kind, way) for kind, ways in measured["same"].items() for way, share in ways.items()),
+               default=None)
+
+
+def failures(objects):
+    """What makes the rates no result."""
+    found = []
+    for count, measured in objects.items():
+        least = None if isinstance(measured, str) else least_same(measured)
+        if least and least[0] <= SAME_FROM:
+            found.append(f"THE SEARCHES DIFFER, so their rates are no result: only {100 * least[0]:.2f} % of the "
+                         f"{least[1]} rays meet the same at {count_words(count)} as Embree's {least[2]}")
+    return found
+
+
+class Rows:
+    """`objects` has for each count what `run` gave, or the reason why there is nothing."""
+
+    def __init__(self, plan, objects):
+        self.plan, self.objects = plan, objects
+
+    def rates(self, kind, count):
+        return known(self.objects.get(count))["rates"][kind]
+
+    def row(self, what, unit, figure, **named):
+        self.plan.row("rates", what, unit, figure, **named)
+
+    def compare(self, kind, count, allowed, target):
+        measured = self.objects.get(count)
+        way = best_way(measured["rates"][kind], allowed) if isinstance(measured, dict) else None
+        named = f"Embree's {way.replace('_', ' ')}" if way else "Embree"
+
+        def figure():
+            rates = self.rates(kind, count)
+            return against(rates["hedron"], known(way and rates[way], NO_RIVAL))
+        self.row(f"{kind} rays, {count_words(count)} triangles, against {named}", "times", figure, target=target)
+
+    def build(self):
+        what = f"building, {count_words(BUILD_COUNT)} triangles"
+
+        def built():
+            return known(self.objects.get(BUILD_COUNT))["built"]
+        self.row(f"time of {what}, against Embree's medium build", "times",
+                 lambda: against(built()["hedron"], known(built().get("embree"), NO_RIVAL)), target=BUILD_TARGET,
+                 note="rates on one thread and the build on all, by the processor's time; quartiles of ratios are "
+                      "of hedron's rounds")
+        self.row(f"  {what}", "CPU s", lambda: built()["hedron"])
+
+    def add(self):
+        for comparison in RATES:
+            self.compare(*comparison)
+        self.build()
+        for kind in KINDS:
+            for count in COUNTS:
+                self.row(f"  {kind} rays a CPU-second, {count_words(count)} triangles", "M/s", lambda kind=kind, count=count: [
+                    1e-6 * value for value in self.rates(kind, count)["hedron"]])
+        for count in COUNTS:
+            self.row(f"  rays that meet the same as Embree's, least, {count_words(count)} triangles", "%", lambda count=count: [
+                100 * known(least_same(known(self.objects.get(count))), NO_RIVAL)[0]])
