@@ -15,7 +15,7 @@ PLACES = {
     ("crossings", "grazing"): ("grazing rays miss or count twice", HERE),
     ("crossings", "axis_parallel"): ("axis-parallel rays miss or count twice", f"unit_test_kernels_*, {HERE}"),
     ("crossings", "slivers"): ("rays at slivers miss or count twice", HERE),
-    ("crossings", "zero_area"): ("triangles without an area", f"unit_test_mesh, {HERE}"),
+    ("crossings", "zero_area"): ("triangles without an area", f"unit_test_mesh_mesh, {HERE}"),
     ("crossings", "duplicates"): ("coplanar duplicates are not met as one", HERE),
     ("paths", "inside"): ("mirror paths in a solid leave the double path within 30 bounces", HERE),
     ("paths", "between"): ("mirror paths between solids leave the double path within 30 bounces", HERE),
