@@ -81,15 +81,22 @@ FAKE
 chmod +x fake/hedron
 export FAKE_LOG=$work/fake.log FAKE_HOLD=$work/hold
 
-# fake_study CODE MODE OPTIONS...: no run is rejected, and no other machine's results are there.
+# A gnuplot that draws nothing, for pages whose charts nobody looks at.
+mkdir plain
+printf '#!/bin/sh\nexec cat >plain/script\n' >plain/gnuplot
+chmod +x plain/gnuplot
+tools=$PWD/plain:$PATH
+
+# fake_study CODE MODE OPTIONS...: no run is rejected, and no other machine's results are there; charts where `tools` is PATH.
 fake_study() {
     local expected=$1 mode=$2
     shift 2
-    FAKE_MODE=$mode expect_exit "$expected" timeout 300 "$bench" --hedron fake/hedron --others 100 --results none "$@"
+    FAKE_MODE=$mode expect_exit "$expected" timeout 300 env PATH="$tools" "$bench" --hedron fake/hedron --others 100 \
+        --results none "$@"
 }
 
 # ---- figures: the first frame warms up, CPUs' smaller pictures count so many times, the machine's name
-fake_study 0 '' --quick --out one --machine 'Made & up' --parts lights,lanes,threads,blocks,official
+tools=$PATH fake_study 0 '' --quick --out one --machine 'Made & up' --parts lights,lanes,threads,blocks,official
 expect_value one/study.json '[r["hedron_bench"], r["bench"], r["complete"], r["quick"], r["repeats"], r["machine"]["name"], r["failures"], r["interference_limit"]]' \
     '[1, "study", true, true, 2, "Made & up", [], 1.0]'
 # Frames 1 and 2 of the CPUs: 11 and 12, and 16 times that; of the GPU 2 and 3.
@@ -198,8 +205,8 @@ for name in ("whole", "killed"):
     json.dump(r, open(f"{name}/study.json", "w", encoding="utf-8"))
 PYTHON
 expect_python '' "$(cat even.py)"
-fake_study 0 '' --report --out whole
-fake_study 0 '' --report --out killed
+tools=$PATH fake_study 0 '' --report --out whole
+tools=$PATH fake_study 0 '' --report --out killed
 for file in report.html study.csv study.json; do
     expect_same whole/$file killed/$file
 done

@@ -2,13 +2,13 @@
 """Every part on every device, and one page of them; what was interrupted goes on where it stopped."""
 import csv
 import hashlib
+import importlib
 import io
 import sys
 from pathlib import Path
 
 from harness.chart import gnuplot
 from harness.command.bench import OWN, Bench
-from harness.command.names import names
 from harness.measure import jobs
 from harness.measure.points import DEFAULT, OFFICIAL, Points
 from harness.page import html, part as page_part
@@ -21,6 +21,8 @@ from harness.store import study
 PARTS = page_part.load()
 TIMED = [name for name, part in PARTS.items() if part.add]
 LIMIT = 10  # per cent of all processors' time: a run of which others took more is measured again, if not said
+# What the first word may name; frames and compare are programs of their own.
+NAMES = sorted(file.stem for file in Path(__file__).parent.glob("[a-z]*.py") if not (ROOT / "bench" / file.stem).is_file())
 SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # a whole run of so long is done so often
 
 
@@ -37,10 +39,16 @@ percent.__name__ = "number from 0 to 100"
 class Study(Bench):
     name = "study"
     about = (f"Measure everything on every device, and make one page of it. What was interrupted goes on where it stopped. "
-             f"bench/study NAME measures something else, with options of its own: {', '.join(names())}.")
+             f"bench/study NAME measures something else, with options of its own: {', '.join(NAMES)}.")
     own_options = (*OWN, "--size", "--samples", "--depth", "--lanes", "--threads", "--pipeline", "--block", "--grid", "--accel",
                    "--precision", "--math")
     parts = tuple(PARTS)
+
+    @classmethod
+    def main(cls, words):
+        if words and words[0] in NAMES:
+            return importlib.import_module(f"harness.benches.{words[0]}").BENCH.main(words[1:])
+        return super().main(words)
 
     @classmethod
     def add_options(cls, parser):

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from harness.chart import gnuplot
-from harness.chart.gnuplot import data, numbers, plain, quoted
-from harness.chart.lines import Axis, axis_commands, caption_height, is_wide
+from harness.chart.gnuplot import data, is_wide, numbers, plain, quoted
+from harness.chart.lines import Axis, axis_commands, caption_height
 from harness.measure.numbers import number
 
 KEY = "set key at graph 0.5, graph 1.02 center bottom horizontal Left reverse noenhanced"

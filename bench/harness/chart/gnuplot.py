@@ -50,8 +50,9 @@ def colour(place):
     return COLOURS[place % len(COLOURS)]
 
 
-def logarithmic(values):
-    return min(values) > 0 and max(values) / min(values) >= LOGARITHMIC_FROM
+def is_wide(values):
+    """Whether an axis should be logarithmic."""
+    return bool(values) and min(values) > 0 and max(values) / min(values) >= LOGARITHMIC_FROM
 
 
 def style(result, title, caption, legend_lines=0):

@@ -60,10 +60,6 @@ def caption_height(caption):
     return 23 * len(textwrap.wrap(caption, gnuplot.CAPTION_LENGTH))
 
 
-def is_wide(values):
-    return bool(values) and gnuplot.logarithmic(values)
-
-
 def lines(about, title, caption, x_axis, y_axis, drawn, bounds=(), bound_name=""):
     """(height, commands). `bounds` are lists of (x, y) that cannot be undercut."""
     drawn = [line for line in drawn if line.points]

@@ -2,7 +2,8 @@
 """A section of bench/study's page, and what the sentences of all have in common."""
 from dataclasses import dataclass, field, replace
 
-from harness.chart.lines import Axis, axis_number, is_wide, lines
+from harness.chart.gnuplot import is_wide
+from harness.chart.lines import Axis, axis_number, lines
 from harness.measure.numbers import number, spread_text
 from harness.measure.points import WHOLE_FRAME
 
