@@ -41,23 +41,6 @@ def summary(job):
             "shadow_tests_per_second": median_rate(frames, lambda frame: frame["shadow_tests"])}
 
 
-def compare(devices, jobs, options):
-    """{"same": true, false, or null where nothing was compared; "devices": [label]; "sentence"}"""
-    known = {device["label"]: device for device in devices}
-    names = [job["device"] for job in jobs if known[job["device"]]["strict"] and job["runs"]]
-    if "--math fast" in " ".join(options) or "--math=fast" in options:
-        return {"same": None, "devices": [], "sentence": "The pictures were not compared: --math fast promises no equal bytes."}
-    for (_, _, frame), makers in sorted(picture_groups(jobs, known).items()):
-        if len(makers) > 1:
-            groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
-            return {"same": False, "devices": names,
-                    "sentence": f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."}
-    if len(names) < 2:
-        return {"same": None, "devices": names,
-                "sentence": "The pictures were not compared: fewer than two strict devices made any."}
-    return {"same": True, "devices": names, "sentence": f"The pictures of {', '.join(names)} are the same bytes."}
-
-
 class Frames(Bench):
     name = "frames"
     about = "Time the frames of a scene, or of the built-in one, on every device."
@@ -105,7 +88,21 @@ class Frames(Bench):
         fastest = min((job["summary"]["trace_ms"]["median"] for job in self.measured()), default=0)
         for job in self.measured():
             job["summary"]["ratio_to_fastest"] = rate(job["summary"]["trace_ms"]["median"], fastest)
-        self.plan.compared = lambda: compare(self.result["devices"], self.plan.jobs, self.arguments.options)
+
+    def compared(self):
+        jobs, options = self.plan.jobs, self.arguments.options
+        names = [job["device"] for job in jobs if self.device(job)["strict"] and job["runs"]]
+        found = {"same": None, "devices": names}
+        if "--math fast" in " ".join(options) or "--math=fast" in options:
+            return {**found, "devices": [], "sentence": "The pictures were not compared: --math fast promises no equal bytes."}
+        for (_, _, frame), makers in sorted(picture_groups(jobs, self.plan.devices).items()):
+            if len(makers) > 1:
+                groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
+                return {**found, "same": False,
+                        "sentence": f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."}
+        if len(names) < 2:
+            return {**found, "sentence": "The pictures were not compared: fewer than two strict devices made any."}
+        return {**found, "same": True, "sentence": f"The pictures of {', '.join(names)} are the same bytes."}
 
     def measured(self):
         return [job for job in self.plan.jobs if job["summary"]]

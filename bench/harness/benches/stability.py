@@ -73,8 +73,9 @@ class Stability(Bench):
         rows.add(self.plan, result)
         result["table"] = table.rows(result)
         self.plan.failures |= {*methods.failures(result["counts"] or []), *odd.failures(result["odd"] or [])}
-        self.plan.compared = lambda: {"same": None, "sentence": "A share that is 0 was not seen to fail; how many were tried "
-                                                                "stands beside ours."}
+
+    def compared(self):
+        return {"same": None, "sentence": "A share that is 0 was not seen to fail; how many were tried stands beside ours."}
 
     def tables(self):
         return [("How methods fail", [table.HEAD, *(list(row.values()) for row in self.result["table"])], [])]

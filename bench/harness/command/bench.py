@@ -92,6 +92,10 @@ class Bench(Command):
     def fill(self):
         """Fills in the result's own keys, and adds rows to the plan."""
 
+    def compared(self):
+        """Whether all made the same pictures."""
+        return self.plan.compared()
+
     def tables(self):
         """[(title, rows, lines below)] beside the rows with targets."""
         return []
@@ -126,7 +130,7 @@ class Bench(Command):
         self.news.end()
         self.fill()
         self.result["rows"] = self.plan.finished(judged=not self.arguments.options)
-        self.result["pictures"] = self.plan.compared()
+        self.result["pictures"] = self.compared()
         self.result["failures"] = sorted(self.plan.all_failures())
         self.result["machine"]["load_after"] = machine.load()
         self.save()

@@ -25,14 +25,14 @@ class Points:
         self.found.append(job(device, scene, frames or ("0-2" if self.quick else "0-3"), (*options, *self.extra),
                               part=self.part, series=series, x=x, **named))
 
-    def every(self, wanted=lambda device: True):
-        return [(label, device) for label, device in self.devices.items() if wanted(device)]
+    def each(self, views=None):
+        """(label, device, options of its view, what times are multiplied by)"""
+        return [(label, device, *(views or VIEWS)[device["is_cpu"]]) for label, device in self.devices.items()]
 
     def sweep(self, option, values, wanted=lambda device: True, views=None, series="", none=None):
         """Of one option, on the devices that are wanted; `none` says that there is no such device."""
-        if not self.every(wanted):
+        if not any(map(wanted, self.devices.values())):
             self.left_out[self.part] = none
-        for label, device in self.every(wanted):
-            view, scale = (views or VIEWS)[device["is_cpu"]]
-            for value in values:
+        for label, device, view, scale in self.each(views):
+            for value in values if wanted(device) else ():
                 self.add(series, value, label, DEFAULT, (*view, option, str(value)), scale=scale)

@@ -3,7 +3,7 @@
 from harness.chart.lines import Axis, lines
 from harness.measure.jobs import chosen_runs, counted
 from harness.measure.numbers import spread
-from harness.measure.points import DEFAULT, VIEWS, WHOLE_FRAME
+from harness.measure.points import DEFAULT, WHOLE_FRAME
 from harness.page.part import Part
 from harness.page.section import ratio, table_of, y_axis
 
@@ -11,8 +11,7 @@ BETWEEN = {True: 24, False: 8}  # frames between those that are timed, quickly a
 
 
 def add(points):
-    for label, device in points.every():
-        view, scale = VIEWS[device["is_cpu"]]
+    for label, _, view, scale in points.each():
         points.add("", 0, label, DEFAULT, view, frames=",".join(map(str, range(0, 240, BETWEEN[points.quick]))), scale=scale)
 
 

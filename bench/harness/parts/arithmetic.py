@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Strict and fast arithmetic, float and double."""
 from harness.chart.bars import Row, rows, spread_words
-from harness.measure.points import DEFAULT, VIEWS, WHOLE_FRAME
+from harness.measure.points import DEFAULT, WHOLE_FRAME
 from harness.page.part import Part
 from harness.page.section import TOO_LITTLE, few, middle, ratio, sentence, table_of
 
@@ -9,8 +9,7 @@ ARITHMETIC = [(precision, math) for precision in ("float", "double") for math in
 
 
 def add(points):
-    for label, device in points.every():
-        view, scale = VIEWS[device["is_cpu"]]
+    for label, device, view, scale in points.each():
         for place, (precision, math) in enumerate(ARITHMETIC):
             if precision == "float" or device["has_double"]:
                 points.add("", place, label, DEFAULT, (*view, "--precision", precision, "--math", math), scale=scale)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The default scene under many point lights."""
 from harness.chart.lines import Axis
-from harness.measure.points import VIEWS
 from harness.measure.scenes import write_lights
 from harness.page.part import Part
 from harness.page.section import sweep
@@ -14,8 +13,7 @@ def scenes(_program, folder, quick, _news):
 
 
 def add(points):
-    for label, device in points.every():
-        view, scale = VIEWS[device["is_cpu"]]
+    for label, _, view, scale in points.each():
         for count in LIGHTS[points.quick]:
             points.add("", count, label, f"lights-{count}", view, scale=scale)
 

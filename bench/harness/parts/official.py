@@ -12,7 +12,7 @@ REPORT_COLOUR = 6
 
 
 def add(points):
-    for label, device in points.every():
+    for label, device in points.devices.items():
         if not device["is_cpu"]:
             points.add("", 0, label, OFFICIAL, (), frames=FRAMES)
         elif points.quick:

@@ -13,7 +13,7 @@ ONE_LANE, ONE_THREAD, ALL = "one thread, one ray at a time", "one thread", "all 
 def add(points):
     """A quick one counts as many times as it has less samples."""
     options, scale = (("--samples", "2"), 4) if points.quick else (("--samples", "4"), 1)
-    for label, device in points.every():
+    for label, device in points.devices.items():
         ways = {ALL: ()}
         if device["backend"] == "c":
             ways = {ONE_LANE: ("--threads", "1", "--lanes", "1"), ONE_THREAD: ("--threads", "1"), **ways}

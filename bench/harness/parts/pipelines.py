@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The megakernel and the wavefront."""
 from harness.chart.bars import Row, rows, spread_words
-from harness.measure.points import DEFAULT, OFFICIAL, VIEWS
+from harness.measure.points import DEFAULT, OFFICIAL
 from harness.page.part import Part
 from harness.page.section import TOO_LITTLE, middle, ratio, table_of
 
@@ -9,8 +9,8 @@ PIPELINES = ("mega", "wavefront", "wavefront-uncompacted")
 
 
 def add(points):
-    for label, device in points.every():
-        for scene, (view, scale) in {DEFAULT: VIEWS[device["is_cpu"]], OFFICIAL: (("--samples", "2"), 1)}.items():
+    for label, _, *own in points.each():
+        for scene, (view, scale) in {DEFAULT: own, OFFICIAL: (("--samples", "2"), 1)}.items():
             for place, name in enumerate(PIPELINES):
                 points.add(scene, place, label, scene, (*view, "--pipeline", name), scale=scale)
 

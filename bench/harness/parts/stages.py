@@ -15,7 +15,7 @@ STAGES = ("program and device start", "kernels built", "scene and kernels to the
 
 
 def add(points):
-    for label, device in points.every():
+    for label, device in points.devices.items():
         for cold, series in ((True, COLD), (False, WARM))[device["backend"] == "c":]:  # C is compiled ahead
             points.add(series, 0, label, DEFAULT, ("--size", "640x360"), frames="0", output="#######.png",
                        warm_up=False, cold=cold)

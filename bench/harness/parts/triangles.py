@@ -26,8 +26,7 @@ def scenes(program, folder, quick, news):
 
 
 def add(points):
-    for label, device in points.every():
-        view, scale = VIEWS[device["is_cpu"]]
+    for label, device, view, scale in points.each(VIEWS):
         for way in ("bvh", "brute"):
             for count in TRIANGLES[points.quick]:
                 if way == "bvh" or count <= BRUTE_MOST[device["is_cpu"]][points.quick]:
