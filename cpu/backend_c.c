@@ -42,7 +42,6 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
         return HD_OK;
     HdDevice *device = &devices[0];
     memset(device, 0, sizeof *device);
-    device->backend = &hd_backend_c;
     hd_cpu_name(device->name, (int)sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
              hd_cpu_best_instruction_set(), hd_processor_count());
@@ -252,6 +251,8 @@ static void c_describe(const void *renderer, char *text, int capacity) {
 
 const HdBackend hd_backend_c = {
     .name = "c",
+    .needs_no_driver = true,
+    .uses_host_threads = true,
     .enumerate = c_enumerate,
     .open = c_open,
     .upload = c_upload,

@@ -81,21 +81,20 @@ static HdStatus open_list(HdDeviceTeam *team, const HdDeviceWish *wish, HdDevice
 /* ---- all ---- */
 
 /* OpenCL has the GPUs that CUDA has. */
-static bool is_there_by_cuda(const HdDeviceTeam *team, const HdDevice *device) {
+static bool is_there_already(const HdDeviceTeam *team, const HdDevice *device) {
     for (int i = 0; i < team->count; i++)
-        if (device->backend == &hd_backend_opencl && device->nvidia_arch > 0 &&
-            team->devices[i].backend == &hd_backend_cuda &&
+        if (device->nvidia_arch > 0 && team->devices[i].backend != device->backend &&
             strcmp(team->devices[i].name, device->name) == 0)
             return true;
     return false;
 }
 
 static bool is_wanted(const HdDeviceTeam *team, const HdDeviceWish *wish, const HdDevice *device) {
-    if (team->count == HD_MOST_TRACERS || is_there_by_cuda(team, device))
+    if (team->count == HD_MOST_TRACERS || is_there_already(team, device))
         return false;
     if (!device->is_cpu)
         return wish->kind != HD_ONLY_CPU;
-    return device->backend == &hd_backend_c || wish->backend != NULL;
+    return device->backend->needs_no_driver || wish->backend != NULL;
 }
 
 static void note_left_out(HdDeviceReason *reason, const HdDevice *device, const char *obstacle) {
@@ -108,7 +107,7 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
                                   const HdRenderOptions *options) {
     HdRenderOptions own = *options;
     int left = hd_processor_count() - gpu_count(team);
-    if (device->backend == &hd_backend_c && own.threads == 0 && gpu_count(team) > 0)
+    if (device->backend->uses_host_threads && own.threads == 0 && gpu_count(team) > 0)
         own.threads = left > 1 ? left : 1;
     return own;
 }
@@ -140,7 +139,7 @@ static HdStatus add_backend(HdDeviceTeam *team, const HdBackend *backend, const 
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of devices");
     HdStatus status = HD_OK;
     /* Nobody need have every backend. */
-    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
+    if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK &&
         wish->backend != NULL)
         snprintf(reason->note, sizeof reason->note, "%s: %.*s", backend->name,
                  (int)sizeof reason->note / 2, error->message);

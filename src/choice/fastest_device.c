@@ -160,7 +160,7 @@ static HdStatus measure_all(Choosing *choosing, HdError *error) {
 
 static int find_plain_c(const Choosing *choosing) {
     for (int i = 0; i < choosing->compared; i++)
-        if (choosing->choice->candidates[i].backend == &hd_backend_c)
+        if (choosing->choice->candidates[i].backend->needs_no_driver)
             return i;
     return -1;
 }

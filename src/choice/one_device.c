@@ -70,7 +70,7 @@ static bool is_named(const HdDevice *device, const char *wish) {
 static bool is_in_question(const HdDevice *device, const HdDeviceWish *wish) {
     if (!is_named(device, wish->device))
         return false;
-    return !device->is_cpu || device->backend == &hd_backend_c || wish->backend != NULL ||
+    return !device->is_cpu || device->backend->needs_no_driver || wish->backend != NULL ||
            wish->device != NULL || wish->kind == HD_PREFER_GPU;
 }
 
@@ -112,7 +112,7 @@ static void search_backend(Search *search, const HdBackend *backend, HdError *er
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
     bool any = false;
-    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, error) != HD_OK) {
+    if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK) {
         add_reason(search, backend->name, error->message);
         return;
     }
@@ -131,7 +131,7 @@ static void search_wanted(Search *search, HdError *error) {
     if (wish->backend != NULL)
         search_backend(search, hd_backend_find(wish->backend), error);
     else if (wish->kind == HD_ONLY_CPU)
-        search_backend(search, &hd_backend_c, error);
+        search_backend(search, hd_backend_always_there(), error);
     else
         for (int i = 0; i < HD_BACKEND_COUNT; i++)
             search_backend(search, hd_backends[i], error);
@@ -224,7 +224,8 @@ static HdStatus open_fastest(const Search *search, double frame_seconds, HdError
 
 static HdStatus open_plain_c(const Search *search, double seconds, HdError *error) {
     int count;
-    HdStatus status = hd_backend_c.enumerate(search->device, 1, &count, error);
+    HdStatus status =
+        hd_backend_enumerate(hd_backend_always_there(), search->device, 1, &count, error);
     if (status != HD_OK)
         return status;
     snprintf(search->reason->why, sizeof search->reason->why,

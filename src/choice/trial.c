@@ -148,7 +148,7 @@ HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, dou
     HdJob plain_job = *job;
     plain.floor.texture = (HdTexture){0};
     plain_job.scene = &plain;
-    HdStatus status = hd_backend_c.enumerate(&device, 1, &count, error);
+    HdStatus status = hd_backend_enumerate(hd_backend_always_there(), &device, 1, &count, error);
     if (status == HD_OK)
         status = hd_trial_open(&renderer, &device, options, &plain_job, error);
     if (status != HD_OK)

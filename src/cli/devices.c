@@ -57,7 +57,7 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++) {
         const HdBackend *backend = hd_backends[i];
         int count = 0;
-        bool found = backend->enumerate(devices, HD_MAX_DEVICES, &count, error) == HD_OK;
+        bool found = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) == HD_OK;
         const char *obstacle = found ? NULL : error->message;
         if (!options->json)
             print_backend(backend, devices, count, obstacle);

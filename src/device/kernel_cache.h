@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "device/backend.h"
 #include "device/kernel_source.h"
 
 enum { HD_KERNEL_KEY_LENGTH = 4096 };

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "device/renderer.h"
+#include "device/options.h"
 
 /* NUL-terminated, all #includes resolved, with #line directives. */
 extern const unsigned char hd_opencl_source[];

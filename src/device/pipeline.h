@@ -3,7 +3,7 @@
 #ifndef HD_DEVICE_PIPELINE_H
 #define HD_DEVICE_PIPELINE_H
 
-#include "device/renderer.h"
+#include "device/backend.h"
 #include "scene/scene.h"
 
 /* What `options` come to on that device: never HD_PIPELINE_AUTO. Where they leave the choice, a CPU

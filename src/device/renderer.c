@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The registry of backends, and the checks that every backend relies on. */
+/* The checks that every backend relies on. */
 #include "device/renderer.h"
 
 #include <limits.h>
@@ -26,38 +26,6 @@ struct HdRenderer {
         bool wants_radiance;
     } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
-
-#define IS(number) || lanes == (number)
-
-HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error) {
-    int lanes = options->lanes;
-    if (!(lanes == 0 HD_LANE_COUNTS(IS)))
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the number of lanes must be " HD_LANE_COUNTS_IN_WORDS ", not %d", lanes);
-    if (options->threads < 0 || options->threads > HD_MAX_THREADS)
-        return hd_fail(error, HD_BAD_INPUT, "the number of threads must be 0 to %d, not %d",
-                       (int)HD_MAX_THREADS, options->threads);
-    int block = options->block;
-    if (block < 0 || block > HD_MAX_BLOCK || block % HD_BLOCK_STEP != 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the threads of a block must be 0 or a multiple of %d up to %d, not %d",
-                       (int)HD_BLOCK_STEP, (int)HD_MAX_BLOCK, block);
-    if (options->grid < 0 || options->grid > HD_MAX_GRID)
-        return hd_fail(error, HD_BAD_INPUT, "the blocks of a grid must be 0 to %d, not %d",
-                       (int)HD_MAX_GRID, options->grid);
-    int registers = options->registers;
-    if (registers != 0 && (registers < HD_MIN_REGISTERS || registers > HD_MAX_REGISTERS))
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the registers of a thread must be 0 or %d to %d, not %d",
-                       (int)HD_MIN_REGISTERS, (int)HD_MAX_REGISTERS, registers);
-    if ((int)options->pipeline < 0 || options->pipeline >= HD_PIPELINE_COUNT)
-        return hd_fail(error, HD_BAD_INPUT, "unknown pipeline %d", (int)options->pipeline);
-    if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)
-        return hd_fail(error, HD_BAD_INPUT, "unknown precision %d", (int)options->precision);
-    if (options->math != HD_MATH_STRICT && options->math != HD_MATH_FAST)
-        return hd_fail(error, HD_BAD_INPUT, "unknown arithmetic %d", (int)options->math);
-    return HD_OK;
-}
 
 const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
     if (device->unusable[0] != '\0')
@@ -308,13 +276,6 @@ void hd_renderer_drop(HdRenderer *renderer) {
     if (renderer->in_flight > 0)
         renderer->backend->drop(renderer->state);
     renderer->in_flight = 0;
-}
-
-HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           HdFrame *frame, HdError *error) {
-    static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = backend->submit(renderer, tables, &radiance, error);
-    return status == HD_OK ? backend->collect(renderer, frame, error) : status;
 }
 
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,

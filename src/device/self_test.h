@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 
+#include "device/backend.h"
 #include "device/kernel_source.h"
 
 /* Renders the frames with strict arithmetic by a backend's open renderer, whose last scene was

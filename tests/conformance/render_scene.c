@@ -24,7 +24,7 @@ int choose(const char *name, const char *const *names, int count) {
 int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]) {
     HdError error;
     int count = 0;
-    if (backend->enumerate(devices, HD_MAX_DEVICES, &count, &error) == HD_OK)
+    if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, &error) == HD_OK)
         return count;
     printf("skip            %s: %s\n", backend->name, error.message);
     return 0;

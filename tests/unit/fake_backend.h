@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "device/kernel_cache.h"
+#include "device/renderer.h"
 #include "expect.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
@@ -43,7 +44,7 @@ typedef struct FakeRenderer {
 } FakeRenderer;
 
 static HdStatus fake_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
-    return hd_backend_c.enumerate(devices, capacity, count, error);
+    return hd_backend_enumerate(&hd_backend_c, devices, capacity, count, error);
 }
 
 static HdStatus fake_event(FakePoint point, int index, HdError *error) {

@@ -7,7 +7,7 @@
 #include "device/cuda/compile.h"
 #include "device/cuda/flight.h"
 #include "device/cuda/memory.h"
-#include "device/cuda/nvrtc_check.h"
+#include "device/cuda/nvrtc.h"
 #include "device/device_launch.h"
 #include "device/kernel_cache.h"
 #include "device/pipeline.h"
@@ -127,7 +127,6 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
 static void describe_device(HdDevice *device, const HdCudaDriver *driver, int index) {
     HdError error;
     memset(device, 0, sizeof *device);
-    device->backend = &hd_backend_cuda;
     device->index = index;
     device->has_double = true;
     device->has_wide_atomics = true;

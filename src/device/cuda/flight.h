@@ -4,9 +4,9 @@
 #ifndef HD_DEVICE_CUDA_FLIGHT_H
 #define HD_DEVICE_CUDA_FLIGHT_H
 
+#include "device/backend.h"
 #include "device/cuda/memory.h"
 #include "device/launch_size.h"
-#include "device/renderer.h"
 
 typedef struct HdCudaFlight {
     HdCudaMemory pixels, sums; /* radiance, and HD_SUM_WORKERS sums of the counts */

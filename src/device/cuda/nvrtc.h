@@ -20,4 +20,12 @@ HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_
                        const char *path, HdError *error);
 void hd_nvrtc_close(HdNvrtc *nvrtc);
 
+/* Fails as hd_nvrtc_open does where nothing compiles for sm_`arch`. A library that did once is
+   remembered in the cache folder (cache_folder.h); as long as the same file lies there and
+   HEDRON_NVRTC names what it named, it is not loaded. */
+HdStatus hd_nvrtc_check(const char *device, int arch, int driver_major, HdError *error);
+
+/* Remembers that the library compiles for sm_`arch`. What cannot be remembered is not. */
+void hd_nvrtc_remember(const char *library, int arch, int driver_major);
+
 #endif

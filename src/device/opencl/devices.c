@@ -127,7 +127,6 @@ static bool has_timeout(cl_device_id id) {
 
 static void describe_device(HdDevice *device, Entry entry, int index) {
     memset(device, 0, sizeof *device);
-    device->backend = &hd_backend_opencl;
     device->index = index;
     char platform[80], version[80], driver[48];
     query_platform_name(entry.platform, platform, sizeof platform);

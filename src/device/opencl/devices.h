@@ -3,8 +3,8 @@
 #ifndef HD_DEVICE_OPENCL_DEVICES_H
 #define HD_DEVICE_OPENCL_DEVICES_H
 
+#include "device/backend.h"
 #include "device/opencl/error.h"
-#include "device/renderer.h"
 
 typedef struct HdOpenclDevice {
     cl_device_id id;

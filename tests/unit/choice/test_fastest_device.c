@@ -29,7 +29,7 @@ static int begin(void **state) {
         return 1;
     job = (HdJob){.scene = &scene, .frame_count = 100};
     candidates[FAKE] = fake_device();
-    hd_backend_c.enumerate(&candidates[C], 1, &count, &error);
+    hd_backend_enumerate(&hd_backend_c, &candidates[C], 1, &count, &error);
     choice = (HdAutoChoice){.candidates = candidates,
                             .count = 2,
                             .measured = 2,

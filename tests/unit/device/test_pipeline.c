@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "device/pipeline.h"
+#include "device/renderer.h"
 
 static void auto_is_mega(void **state) {
     (void)state;

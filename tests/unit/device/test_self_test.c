@@ -11,7 +11,7 @@ static HdError error;
 static HdDevice c_device(void) {
     HdDevice device;
     int count;
-    assert_int_equal(hd_backend_c.enumerate(&device, 1, &count, &error), HD_OK);
+    assert_int_equal(hd_backend_enumerate(&hd_backend_c, &device, 1, &count, &error), HD_OK);
     return device;
 }
 

@@ -156,7 +156,7 @@ static void opencl_tells_what_is_too_large(void **state) {
     HdScene scene = scene_with_meshes();
     int count = 0, found = -1;
     setenv("POCL_MEMORY_LIMIT", "1", 1);
-    hd_backend_opencl.enumerate(devices, HD_MAX_DEVICES, &count, &error);
+    hd_backend_enumerate(&hd_backend_opencl, devices, HD_MAX_DEVICES, &count, &error);
     for (int i = 0; i < count; i++)
         if (strstr(devices[i].driver, "PoCL") != NULL ||
             strstr(devices[i].driver, "Portable Computing") != NULL)

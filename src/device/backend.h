@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* Devices that render, behind one table of functions for each backend. */
+#ifndef HD_DEVICE_BACKEND_H
+#define HD_DEVICE_BACKEND_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "device/options.h"
+#include "image/frame.h"
+#include "tables/tables.h"
+
+/* Frames that were submitted and not collected yet. */
+enum { HD_FRAMES_IN_FLIGHT = 2 };
+
+/* Devices that may share a sequence. */
+enum { HD_MOST_TRACERS = 64 };
+
+typedef struct HdBackend HdBackend;
+typedef struct HdKernelCache HdKernelCache;
+
+typedef struct HdDevice {
+    const HdBackend *backend;
+    int index; /* within the backend */
+    char name[256];
+    char driver[256];  /* platform, driver and versions, for people */
+    bool is_cpu;       /* takes several lanes */
+    int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
+    int clock_mhz;
+    int nvidia_arch; /* where kernels can be built with a limit of registers, which is on NVIDIA
+                        devices: 61 stands for sm_61; else 0 */
+    bool has_double;
+    bool
+        has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
+    bool has_timeout;     /* its driver may end long kernels, as where it draws a display */
+    char unusable[512];   /* why nothing can run there, say no compiler for it; empty: it can */
+    char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
+} HdDevice;
+
+/* A backend. Arguments are checked before a function is called (renderer.c); "must" marks what the
+   callers rely on. Renderers are opaque to everybody else. Messages do not name the backend: who
+   calls it adds its name. */
+struct HdBackend {
+    const char *name;       /* as on the command line */
+    bool needs_no_driver;   /* it is there on every machine, and starts at once */
+    bool uses_host_threads; /* works with the program's own threads (HdRenderOptions) */
+
+    /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
+       filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
+       which library or driver is missing. */
+    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
+
+    /* Opens one device that can do what the options ask (hd_device_obstacle); their pipeline is not
+       HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE where the device or its driver cannot be used
+       after all. */
+    HdStatus (*open)(const HdDevice *device, const HdRenderOptions *options, void **renderer,
+                     HdError *error);
+
+    /* Copies the tables to the device and builds the kernels for them. The tables need not outlive
+       the call. A later upload replaces an earlier one. */
+    HdStatus (*upload)(void *renderer, const HdSceneTables *tables, HdError *error);
+
+    /* Begins a frame of the uploaded scene; fewer than HD_FRAMES_IN_FLIGHT are under way. The
+       tables live until the frame is collected or dropped. A device that works by itself should be
+       given all there is to do, and not be waited for. On failure, also HD_INTERRUPTED as below,
+       the tables are no longer used, and the earlier frames are still under way. */
+    HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
+                       HdError *error);
+
+    /* Waits for the oldest frame under way, which is so no longer in any case: fills every pixel as
+       wished for at its submission, is_encoded, the counts and trace_seconds of `frame`.
+       HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth nothing. */
+    HdStatus (*collect)(void *renderer, HdFrame *frame, HdError *error);
+
+    /* The seconds of the longest launch of the frame collected last; negative: not known. NULL
+       instead of a function where the device drives no display. */
+    double (*longest_launch)(const void *renderer);
+
+    /* Waits until the device is done with all frames under way, and forgets them. */
+    void (*drop)(void *renderer);
+
+    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
+       where they are compiled ahead. */
+    HdKernelCache *(*kernels)(void *renderer);
+
+    /* What the last upload compiled computes wrongly: the next uploads must compile with little
+       optimisation (HdKernelShape). False where they do so already. NULL instead of a function as
+       above. */
+    bool (*be_cautious)(void *renderer);
+
+    /* The lanes of the kernels' bundles. NULL instead of a function: one. */
+    int (*lanes)(const void *renderer);
+
+    /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
+    void (*describe)(const void *renderer, char *text, int capacity);
+
+    /* No frame is under way. */
+    void (*close)(void *renderer);
+};
+
+enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
+
+/* All backends, the best first: cuda, opencl, c. The last one is always there. */
+extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
+extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
+
+/* NULL where no backend has that name. */
+const HdBackend *hd_backend_find(const char *name);
+
+/* The one that needs no driver. */
+const HdBackend *hd_backend_always_there(void);
+
+/* The backend's devices, with the backend filled in. */
+HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
+                              HdError *error);
+
+/* Submits a frame to a backend's own renderer and collects its radiance. The arguments were
+   checked, and no other frame is under way. */
+HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           HdFrame *frame, HdError *error);
+
+#endif
