@@ -113,17 +113,18 @@ static Usage kernel_usage(const char *log, const char *kernel) {
 }
 
 static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCode *code) {
-    const char *const kernels[] = {hd_kernel_tracing(&options->shape), "hedron_sum_counts",
-                                   "hedron_encode", hd_kernel_storing(&options->shape)};
     printf("NVRTC %d.%d, sm_%d, %s, %d planes, depth %d: %zu bytes of machine code\n", nvrtc->major,
            nvrtc->minor, options->arch,
            options->shape.precision == HD_PRECISION_DOUBLE ? "double" : "float",
            options->shape.needs.plane_bound, options->shape.needs.depth_bound, code->size);
     bool complete = true;
-    for (int i = 0; i < 4 && kernels[i] != NULL; i++) {
-        Usage usage = kernel_usage(code->log, kernels[i]);
+    for (int i = 0; i < HD_KERNEL_COUNT; i++) {
+        const char *kernel = hd_kernel_name(&options->shape, (HdKernel)i);
+        if (kernel == NULL)
+            continue;
+        Usage usage = kernel_usage(code->log, kernel);
         printf("%s: %d registers, %d bytes of stack, spills of %d bytes stored and %d loaded\n",
-               kernels[i], usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);
+               kernel, usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);
         complete = complete && usage.registers >= 0 && usage.stack >= 0;
     }
     if (!complete)
@@ -160,7 +161,11 @@ int main(int argc, char **argv) {
         return SKIPPED;
     }
     HdCudaCode code;
-    bool ok = hd_cuda_compile(&code, &nvrtc, options.arch, &options.shape, true, &error) == HD_OK;
+    char flags[1024];
+    hd_cuda_options(flags, sizeof flags, options.arch, &options.shape);
+    size_t length = strlen(flags); /* the log is to tell each kernel's registers and spills */
+    snprintf(flags + length, sizeof flags - length, " --ptxas-options=-v");
+    bool ok = hd_cuda_compile(&code, &nvrtc, options.arch, flags, &error) == HD_OK;
     if (!ok) {
         fprintf(stderr, "%s\n", error.message);
     } else {

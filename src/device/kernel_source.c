@@ -43,14 +43,20 @@ int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     return share < limit ? share : limit;
 }
 
-const char *hd_kernel_tracing(const HdKernelShape *shape) {
-    if (!shape->wavefront)
-        return "hedron_render";
-    return shape->group_size > 0 ? "hedron_trace_take" : "hedron_render_by_waves";
-}
-
-const char *hd_kernel_storing(const HdKernelShape *shape) {
-    return shape->wavefront && shape->group_size > 0 ? "hedron_store_batch" : NULL;
+const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
+    bool has_groups = shape->group_size > 0;
+    switch (kernel) {
+    case HD_KERNEL_TRACE:
+        if (!shape->wavefront)
+            return "hedron_render";
+        return has_groups ? "hedron_trace_take" : "hedron_render_by_waves";
+    case HD_KERNEL_STORE:
+        return shape->wavefront && has_groups ? "hedron_store_batch" : NULL;
+    case HD_KERNEL_SUM:
+        return "hedron_sum_counts";
+    default:
+        return has_groups ? "hedron_encode" : NULL;
+    }
 }
 
 int hd_kernel_bound(int count) {

@@ -49,10 +49,16 @@ enum { HD_KERNEL_DEFINE_COUNT = 13, HD_KERNEL_DEFINE_LENGTH = 40 };
 void hd_kernel_defines(const HdKernelShape *shape,
                        char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
 
-/* The kernel that traces rays, and the one that stores the pixels of a batch; NULL: there is none.
- */
-const char *hd_kernel_tracing(const HdKernelShape *shape);
-const char *hd_kernel_storing(const HdKernelShape *shape);
+typedef enum HdKernel {
+    HD_KERNEL_TRACE,  /* traces rays */
+    HD_KERNEL_STORE,  /* stores the pixels of a wavefront's batch, where threads work in groups */
+    HD_KERNEL_SUM,    /* adds counts up */
+    HD_KERNEL_ENCODE, /* makes 8 bits of pixels, where threads work in groups */
+    HD_KERNEL_COUNT
+} HdKernel;
+
+/* What the kernel is called in the text; NULL: the shape has none. */
+const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel);
 
 /* A bound that scenes of similar size share, so that one build serves them all: the least power of
    two that is at least 8 and `count`. */

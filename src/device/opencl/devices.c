@@ -198,7 +198,7 @@ HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdErro
     return status;
 }
 
-HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
+HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
     int count;
     HdStatus status = list_devices(entries, HD_MAX_DEVICES, &count, error);
@@ -207,16 +207,12 @@ HdStatus hd_opencl_find(HdOpenclDevice *device, int index, HdError *error) {
     if (index < 0 || index >= count)
         return hd_fail(error, HD_UNAVAILABLE, "there is no device %d, only 0 to %d", index,
                        count - 1);
-    cl_device_id id = entries[index].device;
-    *device = (HdOpenclDevice){
-        .id = id,
-        .is_cpu = query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU,
-        .nvidia_arch = find_nvidia_arch(id),
-        .compute_units = (int)query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS),
-        .native_width = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
-                         (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
+    cl_device_id id = *device = entries[index].device;
+    *facts = (HdGpuFacts){
         .memory = query_ulong(id, CL_DEVICE_GLOBAL_MEM_SIZE),
-        .max_allocation = query_ulong(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+        .at_once = query_ulong(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+        .native_lanes = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
+                         (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
     };
     return HD_OK;
 }

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/gpu/flight.h"
+
+#include <string.h>
+
+#include "kernels/host/shared.h"
+#include "system/machine.h"
+
+_Static_assert(sizeof(HdRayCounts) == sizeof(RayCounts), "the counts are copied as they are");
+
+static const size_t SUM_BYTES = sizeof(HdRayCounts) * HD_SUM_WORKERS;
+
+static void close_flight(HdGpuFlight *flight, const HdGpu *gpu) {
+    enum { MARKS = 5 };
+    HdGpuMark *const marks[MARKS] = {&flight->first, &flight->later, &flight->summed,
+                                     &flight->encoded, &flight->copied};
+    hd_gpu_release(gpu, &flight->pixels);
+    hd_gpu_release(gpu, &flight->sums);
+    hd_gpu_release(gpu, &flight->image);
+    hd_gpu_release(gpu, &flight->tables);
+    hd_gpu_release(gpu, &flight->copy);
+    for (int i = 0; i < MARKS; i++)
+        gpu->driver->forget(gpu->handle, marks[i]);
+}
+
+void hd_gpu_flights_close(HdGpuFlights *flights, const HdGpu *gpu) {
+    for (int i = 0; i < HD_FRAMES_IN_FLIGHT; i++)
+        close_flight(&flights->flights[i], gpu);
+}
+
+static size_t pixel_count(const HdGpuFlight *flight) {
+    return (size_t)flight->width * (size_t)flight->height;
+}
+
+/* Of what is copied. */
+static size_t picture_bytes(const HdGpuFlight *flight) {
+    return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->floats * sizeof(float));
+}
+
+static size_t bytes_of_tables(const HdFrameTables *tables) {
+    size_t bytes = 0;
+    for (int i = 0; i < tables->table_count; i++)
+        bytes += tables->table[i].bytes;
+    return bytes;
+}
+
+static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, const HdFrameTables *tables,
+                        HdError *error) {
+    size_t pixels = pixel_count(flight), bytes = sizeof(float) * (size_t)flight->floats * pixels;
+    const struct {
+        HdGpuMemory *memory;
+        HdGpuPlace place;
+        size_t bytes;
+        const char *what;
+    } list[] = {
+        {&flight->pixels, HD_GPU_DEVICE, bytes, "pixels"},
+        {&flight->sums, HD_GPU_DEVICE, SUM_BYTES, "sums of the counts"},
+        {&flight->tables, HD_GPU_HOST, bytes_of_tables(tables), "tables of the frame"},
+        {&flight->copy, HD_GPU_HOST, SUM_BYTES + picture_bytes(flight),
+         "pixels on their way to the host"},
+        {&flight->image, HD_GPU_DEVICE, 4 * pixels, "encoded pixels"},
+    };
+    int count = flight->encodes ? 5 : 4;
+    HdStatus status = HD_OK;
+    for (int i = 0; status == HD_OK && i < count; i++)
+        status =
+            hd_gpu_reserve(gpu, list[i].memory, list[i].place, list[i].bytes, list[i].what, error);
+    return status;
+}
+
+HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFrameTables *tables,
+                             bool encodes, HdGpuFlight **out, HdError *error) {
+    HdGpuFlight *flight =
+        &flights->flights[(flights->oldest + flights->count) % HD_FRAMES_IN_FLIGHT];
+    flight->encodes = encodes;
+    flight->width = tables->width;
+    flight->height = tables->height;
+    flight->samples = tables->samples;
+    flight->floats = tables->floats;
+    flight->submitted = hd_monotonic_seconds();
+    flight->launches = 0;
+    flight->untimed = NULL;
+    flight->longest_launch = -1.0;
+    *out = flight;
+    return reserve(flight, gpu, tables, error);
+}
+
+HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
+                              double work, HdError *error) {
+    flight->untimed = flight->launches++ == 0 ? &flight->first : &flight->later;
+    flight->work = work;
+    return gpu->driver->launch(gpu->handle, launch, flight->untimed, error);
+}
+
+HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
+                                   HdError *error) {
+    double seconds;
+    HdStatus status =
+        gpu->driver->seconds(gpu->handle, flight->untimed, flight->untimed, &seconds, error);
+    flight->untimed = NULL;
+    if (status != HD_OK || seconds < 0.0)
+        return status;
+    hd_launch_size_note(&flights->size, flight->work, seconds);
+    if (seconds > flight->longest_launch)
+        flight->longest_launch = seconds;
+    return HD_OK;
+}
+
+HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
+                            HdError *error) {
+    char *to = flight->copy.data;
+    const HdGpuCopy copies[] = {
+        {&flight->sums, to, SUM_BYTES},
+        {flight->encodes ? &flight->image : &flight->pixels, to + SUM_BYTES, picture_bytes(flight)},
+    };
+    const HdGpuMark *ready = flight->encodes ? &flight->encoded : &flight->summed;
+    HdStatus status = gpu->driver->copy_back(gpu->handle, ready, copies, 2, &flight->copied, error);
+    if (status == HD_OK)
+        flights->count++;
+    return status;
+}
+
+/* Where the device does not tell, what the host sees: frames are traced one after the other. */
+static double host_seconds(const HdGpuFlights *flights, const HdGpuFlight *flight) {
+    double from = flight->submitted > flights->collected ? flight->submitted : flights->collected;
+    return hd_monotonic_seconds() - from;
+}
+
+static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu, HdFrame *frame,
+                     HdError *error) {
+    double seconds;
+    HdStatus status = gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error);
+    if (status == HD_OK)
+        status =
+            gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error);
+    if (status == HD_OK && flight->untimed != NULL)
+        status = hd_gpu_flight_time_launch(flights, flight, gpu, error);
+    if (status != HD_OK)
+        return status;
+    flights->longest_launch = flight->longest_launch;
+    frame->trace_seconds = seconds < 0.0 ? host_seconds(flights, flight) : seconds;
+    frame->is_encoded = flight->encodes;
+    memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
+           (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));
+    hd_frame_set_counts(frame, flight->samples, flight->copy.data, HD_SUM_WORKERS);
+    return HD_OK;
+}
+
+HdStatus hd_gpu_flight_collect(HdGpuFlights *flights, const HdGpu *gpu, HdFrame *frame,
+                               HdError *error) {
+    HdStatus status = fill(flights, &flights->flights[flights->oldest], gpu, frame, error);
+    flights->collected = hd_monotonic_seconds();
+    flights->oldest = (flights->oldest + 1) % HD_FRAMES_IN_FLIGHT;
+    flights->count--;
+    return status;
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/gpu/memory.h"
+
+#include <stdio.h>
+
+#include "tables/room.h"
+
+enum { LEAST_TABLE_BYTES = 16 };
+
+HdStatus hd_gpu_refuse(const HdGpu *gpu, HdGpuPlace place, size_t bytes, const char *what,
+                       const HdGpuRefusal *refusal, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE], is_free[HD_BYTE_TEXT_SIZE] = "too little", all[HD_BYTE_TEXT_SIZE];
+    hd_byte_text((double)bytes, need);
+    hd_byte_text((double)gpu->facts.memory, all);
+    if (refusal->tells_free)
+        hd_byte_text(refusal->free, is_free);
+    if (place == HD_GPU_HOST && !gpu->driver->counts_host_memory)
+        return hd_fail(error, HD_FAILED,
+                       "the system has no room for the %s, %s that stay in memory (%s: %s)", what,
+                       need, refusal->function, refusal->reason);
+    return hd_fail(error, HD_FAILED, "the %s need %s; %s has %s free of its %s (%s: %s); %s", what,
+                   need, gpu->name, is_free, all, refusal->function, refusal->reason,
+                   hd_room_advice);
+}
+
+static HdStatus check_size(const HdGpu *gpu, size_t bytes, const char *what, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE], at_once[HD_BYTE_TEXT_SIZE], all[HD_BYTE_TEXT_SIZE];
+    if (gpu->facts.at_once == 0 || bytes <= gpu->facts.at_once)
+        return HD_OK;
+    hd_byte_text((double)bytes, need);
+    hd_byte_text((double)gpu->facts.at_once, at_once);
+    hd_byte_text((double)gpu->facts.memory, all);
+    return hd_fail(error, HD_UNAVAILABLE, "the %s need %s in one buffer; %s allows %s of its %s",
+                   what, need, gpu->name, at_once, all);
+}
+
+HdStatus hd_gpu_try(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
+                    HdGpuRefusal *refusal, HdError *error) {
+    if (memory->handle != NULL && memory->bytes >= bytes)
+        return HD_OK;
+    hd_gpu_release(gpu, memory);
+    return gpu->driver->allocate(gpu->handle, memory, place, bytes, refusal, error);
+}
+
+HdStatus hd_gpu_reserve(const HdGpu *gpu, HdGpuMemory *memory, HdGpuPlace place, size_t bytes,
+                        const char *what, HdError *error) {
+    HdGpuRefusal refusal = {0};
+    HdStatus status = check_size(gpu, bytes, what, error);
+    if (status == HD_OK)
+        status = hd_gpu_try(gpu, memory, place, bytes, &refusal, error);
+    return refusal.lacks_memory ? hd_gpu_refuse(gpu, place, bytes, what, &refusal, error) : status;
+}
+
+HdStatus hd_gpu_write_table(const HdGpu *gpu, HdGpuMemory *memory, const void *data, size_t bytes,
+                            const char *what, HdError *error) {
+    HdGpuRefusal refusal = {0};
+    size_t room = bytes < LEAST_TABLE_BYTES ? LEAST_TABLE_BYTES : bytes;
+    HdStatus status = hd_gpu_reserve(gpu, memory, HD_GPU_DEVICE, room, what, error);
+    if (status == HD_OK && bytes > 0)
+        status = gpu->driver->write(gpu->handle, memory, data, bytes, &refusal, error);
+    return refusal.lacks_memory ? hd_gpu_refuse(gpu, HD_GPU_DEVICE, room, what, &refusal, error)
+                                : status;
+}
+
+void hd_gpu_release(const HdGpu *gpu, HdGpuMemory *memory) {
+    if (memory->handle != NULL)
+        gpu->driver->release(gpu->handle, memory);
+    *memory = (HdGpuMemory){0};
+}

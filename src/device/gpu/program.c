@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/gpu/program.h"
+
+#include <stdlib.h>
+
+#include "system/machine.h"
+
+enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH };
+
+/* A kernel that needs many registers may allow smaller groups only. */
+static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
+    size_t most = 0;
+    HdStatus status = gpu->driver->most_threads(gpu->handle, &most, error);
+    if (status != HD_OK || program->shape.group_size == 0)
+        return status;
+    program->group_size = program->shape.group_size;
+    if (program->block > 0 && (size_t)program->block > most)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "%s runs the kernel in %s of at most %zu threads, not %d", gpu->name,
+                       gpu->driver->groups, most, program->block);
+    while (program->group_size > 1 && (size_t)program->group_size > most)
+        program->group_size /= 2;
+    return HD_OK;
+}
+
+/* True where the kernels were in the cache and the driver took them. */
+static bool load_cached(HdGpuProgram *program, const HdGpu *gpu, const char *options,
+                        HdError *error) {
+    const HdGpuDriver *driver = gpu->driver;
+    HdKernelCache *cache = &program->cache;
+    char version[VERSION_LENGTH];
+    unsigned char *binary;
+    size_t size;
+    driver->write_version(gpu->handle, version, sizeof version);
+    if (!hd_kernel_cache_find(cache, &program->shape, driver->source, *driver->source_size, options,
+                              version, &binary, &size))
+        return false;
+    bool is_loaded = driver->load(gpu->handle, &program->shape, options, binary, size, cache->maker,
+                                  error) == HD_OK;
+    free(binary);
+    if (!is_loaded) {
+        hd_kernel_cache_refuse(cache, error->message);
+        driver->unload(gpu->handle);
+    }
+    return is_loaded;
+}
+
+static HdStatus compile(HdGpuProgram *program, const HdGpu *gpu, const char *options,
+                        HdError *error) {
+    char maker[32] = "";
+    double start = hd_monotonic_seconds();
+    HdStatus status =
+        gpu->driver->compile(gpu->handle, &program->shape, options, maker, sizeof maker, error);
+    if (status == HD_OK)
+        hd_kernel_cache_compiled(&program->cache, &program->shape, gpu->driver->binary, gpu->handle,
+                                 maker, hd_monotonic_seconds() - start);
+    return status;
+}
+
+HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNeeds *needs,
+                      HdError *error) {
+    char options[OPTIONS_LENGTH];
+    HdKernelShape *shape = &program->shape;
+    if (program->is_built && hd_kernel_needs_equal(&shape->needs, needs))
+        return HD_OK;
+    program->is_built = false;
+    gpu->driver->unload(gpu->handle);
+    hd_kernel_shape_set_needs(shape, needs);
+    gpu->driver->write_options(gpu->handle, shape, options, sizeof options);
+    HdStatus status =
+        load_cached(program, gpu, options, error) ? HD_OK : compile(program, gpu, options, error);
+    if (status == HD_OK)
+        status = limit_group_size(program, gpu, error);
+    if (status != HD_OK)
+        gpu->driver->unload(gpu->handle);
+    program->is_built = status == HD_OK;
+    return status;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* A GPU's kernels: from the cache, or compiled for a scene. */
+#ifndef HD_DEVICE_GPU_PROGRAM_H
+#define HD_DEVICE_GPU_PROGRAM_H
+
+#include "device/gpu/memory.h"
+#include "device/kernel_cache.h"
+
+typedef struct HdGpuProgram {
+    HdKernelShape shape;
+    HdKernelCache cache;
+    bool is_built;  /* for that shape */
+    int block;      /* threads of a group, as asked for; 0: as many as the kernels allow */
+    int group_size; /* of a launch: 1 where threads do not work in groups */
+} HdGpuProgram;
+
+/* Has kernels that do what a scene needs. They are read by the cache later, so that `gpu` must stay
+   where it is. */
+HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNeeds *needs,
+                      HdError *error);
+
+#endif

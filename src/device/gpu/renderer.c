@@ -1,0 +1,585 @@
+/* SPDX-License-Identifier: MIT */
+#include "device/gpu/renderer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/gpu/flight.h"
+#include "device/gpu/program.h"
+#include "device/gpu/wave_queue.h"
+#include "device/pipeline.h"
+#include "kernels/host/shared.h"
+#include "system/interrupt.h"
+#include "tables/room.h"
+
+/* Of the wavefront on CPUs: work items that strive to be even, each with a queue of its own. */
+enum { WORKERS_PER_UNIT = 8, CPU_QUEUE_BYTES = 512 << 10 };
+
+typedef struct Renderer {
+    HdGpu gpu;
+    HdDevice device;
+    HdPipeline pipeline;
+    bool has_groups; /* of threads that work together, as GPUs have them */
+    int grid;        /* groups, as asked for; 0: what suits the device */
+    int launch_work; /* of a launch; 0: by measurement */
+    int depth;       /* of the scene */
+    HdGpuProgram program;
+    HdGpuMemory scene[HD_SCENE_TABLE_COUNT];
+    HdGpuMemory frame[HD_FRAME_TABLE_COUNT];
+    HdGpuMemory counts;
+    HdGpuMemory thresholds; /* of `curve`, if there are any */
+    HdCurve curve;
+    HdGpuWaveQueue queue;
+    HdGpuFlights flights;
+} Renderer;
+
+static HdStatus enter(const Renderer *renderer, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    return gpu->driver->enter != NULL ? gpu->driver->enter(gpu->handle, error) : HD_OK;
+}
+
+static void leave(const Renderer *renderer) {
+    const HdGpu *gpu = &renderer->gpu;
+    if (gpu->driver->leave != NULL)
+        gpu->driver->leave(gpu->handle);
+}
+
+/* ---- open and close ---- */
+
+/* As many lanes as a register has, within what the kernels are written for. */
+static int natural_lanes(int native_width) {
+    if (native_width >= 16)
+        return 16;
+    return native_width >= 8 ? 8 : 4;
+}
+
+static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
+    const HdGpu *gpu = &renderer->gpu;
+    HdKernelShape *shape = &renderer->program.shape;
+    bool has_groups = renderer->has_groups;
+    int lanes = has_groups ? 1 : natural_lanes(gpu->facts.native_lanes[options->precision]);
+    int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
+    *shape = (HdKernelShape){
+        .lanes = options->lanes > 0 ? options->lanes : lanes,
+        .pixels_per_item = has_groups ? 1 : HD_BLOCK_PIXELS,
+        .group_size = has_groups ? group_size : 0,
+        .wavefront = hd_pipeline_is_wavefront(options->pipeline),
+        .precision = options->precision,
+        .math = options->math,
+    };
+    if (renderer->device.nvidia_arch > 0)
+        shape->register_limit =
+            hd_register_limit(shape, renderer->device.nvidia_arch, options->registers);
+    renderer->program.block = options->block;
+    renderer->program.group_size = has_groups ? group_size : 1;
+}
+
+static void choose_launches(Renderer *renderer, const HdRenderOptions *options) {
+    size_t budget =
+        renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
+    renderer->pipeline = options->pipeline;
+    renderer->grid = options->grid;
+    renderer->launch_work = options->test.launch_work;
+    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes : budget;
+}
+
+HdStatus hd_gpu_open(const HdGpuDriver *driver, const HdDevice *device,
+                     const HdRenderOptions *options, void **state, HdError *error) {
+    Renderer *renderer = calloc(1, sizeof *renderer);
+    if (!renderer)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+    HdGpu *gpu = &renderer->gpu;
+    renderer->device = *device;
+    *gpu = (HdGpu){.driver = driver, .name = renderer->device.name};
+    HdStatus status = driver->open(&gpu->handle, device, &gpu->facts, error);
+    if (status != HD_OK) {
+        free(renderer);
+        return status;
+    }
+    hd_kernel_cache_begin(&renderer->program.cache, device);
+    renderer->has_groups = !device->is_cpu || options->test.groups;
+    choose_shape(renderer, options);
+    choose_launches(renderer, options);
+    *state = renderer;
+    return HD_OK;
+}
+
+static void release_all(Renderer *renderer) {
+    const HdGpu *gpu = &renderer->gpu;
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        hd_gpu_release(gpu, &renderer->scene[i]);
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        hd_gpu_release(gpu, &renderer->frame[i]);
+    hd_gpu_release(gpu, &renderer->counts);
+    hd_gpu_release(gpu, &renderer->thresholds);
+    hd_gpu_wave_queue_release(&renderer->queue, gpu);
+    hd_gpu_flights_close(&renderer->flights, gpu);
+    gpu->driver->unload(gpu->handle);
+}
+
+void hd_gpu_close(void *state) {
+    Renderer *renderer = state;
+    HdError ignored;
+    if (enter(renderer, &ignored) == HD_OK) {
+        release_all(renderer);
+        leave(renderer);
+    }
+    renderer->gpu.driver->close(renderer->gpu.handle);
+    free(renderer);
+}
+
+/* ---- upload ---- */
+
+static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
+    HdStatus status = HD_OK;
+    for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
+        const HdTable *table = &tables->table[i];
+        char what[64];
+        snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
+        status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
+                                    what, error);
+    }
+    return status;
+}
+
+static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    const HdKernelNeeds needs = hd_kernel_needs(tables);
+    const HdRoom room = {.name = gpu->name,
+                         .advice = hd_room_advice,
+                         .memory = (double)gpu->facts.memory,
+                         .at_once = (double)gpu->facts.at_once};
+    HdError later;
+    HdStatus status = hd_check_room(tables, &room, error);
+    if (status == HD_OK)
+        status = hd_gpu_build(&renderer->program, gpu, &needs, error);
+    if (status == HD_OK)
+        status = write_scene(renderer, tables, error);
+    /* After a failure too: copies that are under way read the tables, which are the caller's. */
+    HdStatus finished = gpu->driver->finish(gpu->handle, status == HD_OK ? error : &later);
+    return status == HD_OK ? finished : status;
+}
+
+HdStatus hd_gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
+    Renderer *renderer = state;
+    const double longest =
+        renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    renderer->depth = tables->depth;
+    renderer->flights.size = renderer->launch_work > 0
+                                 ? hd_launch_size_fixed(renderer->launch_work)
+                                 : hd_launch_size_start(renderer->device.compute_units, longest);
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = upload(renderer, tables, error);
+    leave(renderer);
+    return status;
+}
+
+/* ---- arguments of kernels ---- */
+
+_Static_assert(HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 <= HD_GPU_MOST_ARGUMENTS,
+               "a launch has room for the tables and for what follows them");
+
+static void add(HdGpuLaunch *launch, const void *value, size_t bytes) {
+    launch->arguments[launch->argument_count++] = (HdGpuArgument){value, bytes};
+}
+
+static void add_memory(HdGpuLaunch *launch, const HdGpuMemory *memory) {
+    add(launch, &memory->handle, sizeof memory->handle);
+}
+
+#define MEMBER_INPUT(type, name)  const HdGpuMemory *name;
+#define MEMBER_BUFFER(type, name) const HdGpuMemory *name;
+#define MEMBER_NUMBER(type, name) type name;
+#define MEMBER(kind, type, name)  MEMBER_##kind(type, name)
+#define ADD_INPUT(name)           add_memory(launch, from->name);
+#define ADD_BUFFER(name)          add_memory(launch, from->name);
+#define ADD_NUMBER(name)          add(launch, &from->name, sizeof from->name);
+#define ADD(kind, type, name)     ADD_##kind(name)
+
+/* A struct with a member for each entry of a list of arguments, and a function that adds them all
+   in the kernel's order; it must live until the launch. */
+#define ARGUMENTS(Struct, function, LIST)                                                          \
+    typedef struct Struct {                                                                        \
+        LIST(MEMBER, MEMBER)                                                                       \
+    } Struct;                                                                                      \
+    static void function(HdGpuLaunch *launch, const Struct *from) {                                \
+        LIST(ADD, ADD)                                                                             \
+    }
+
+#define QUEUE_LIST(X, LAST) HD_QUEUE_ARGUMENTS(X)
+
+ARGUMENTS(Render, add_render, HD_RENDER_ARGUMENTS)
+ARGUMENTS(Queue, add_queue, QUEUE_LIST)
+ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
+ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
+ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
+ARGUMENTS(SumCounts, add_sum_counts, HD_SUM_COUNTS_ARGUMENTS)
+ARGUMENTS(Encode, add_encode, HD_ENCODE_ARGUMENTS)
+
+/* ---- launches ---- */
+
+static HdGpuLaunch launch_of(const Renderer *renderer, HdKernel kernel) {
+    return (HdGpuLaunch){.kernel = kernel, .group_size = renderer->program.group_size};
+}
+
+static HdGpuLaunch tracing_of(const Renderer *renderer) {
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_TRACE);
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        add_memory(&launch, &renderer->scene[i]);
+    for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
+        add_memory(&launch, &renderer->frame[i]);
+    return launch;
+}
+
+/* As many groups as the items need, but no more than the grid may have. */
+static int group_count(const Renderer *renderer, int items, int items_per_group) {
+    int groups = (items + items_per_group - 1) / items_per_group;
+    bool is_limited = renderer->has_groups && renderer->grid > 0;
+    return is_limited && groups > renderer->grid ? renderer->grid : groups;
+}
+
+static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch, HdGpuMark *mark,
+                             HdError *error) {
+    return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
+}
+
+/* Launches are queued one by one, so that a signal ends the frame between two of them, and so that
+   each tells how large the next one may be. */
+static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
+    if (status == HD_OK)
+        status = hd_gpu_flight_time_launch(&renderer->flights, flight, gpu, error);
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    return status;
+}
+
+/* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
+   their number up to the group's size and 64, so that all of them have as many. */
+static int sample_parts(int samples, int group_size) {
+    enum { MOST_PARTS = 64 };
+    int parts = group_size < MOST_PARTS ? group_size : MOST_PARTS;
+    while (samples % parts != 0)
+        parts--;
+    return parts;
+}
+
+/* CPUs drive no display: there a frame is one launch. */
+static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
+    int left = items, samples = flight->samples, group_size = renderer->program.group_size;
+    int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
+    int per_group = group_size / parts;
+    Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
+    HdGpuLaunch launch = tracing_of(renderer);
+    add_render(&launch, &own);
+    HdStatus status = HD_OK;
+    for (; status == HD_OK && left > 0; left -= own.item_count) {
+        status = left < items ? wait_between(renderer, flight, error) : HD_OK;
+        own.first_item = items - left;
+        own.item_count = left;
+        if (renderer->has_groups)
+            own.item_count =
+                hd_launch_size_items(&renderer->flights.size, left, samples, per_group);
+        launch.groups = group_count(renderer, own.item_count, per_group);
+        if (status == HD_OK)
+            status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch,
+                                          (double)own.item_count * samples, error);
+    }
+    return status;
+}
+
+/* Of the wavefront, with a queue each. */
+static int worker_count(const Renderer *renderer, int items) {
+    int workers = renderer->has_groups ? 1 : renderer->device.compute_units * WORKERS_PER_UNIT;
+    return workers < items ? workers : items;
+}
+
+static Queue queue_of(const Renderer *renderer) {
+    const HdGpuWaveQueue *queue = &renderer->queue;
+    return (Queue){
+        .ray_reals = &queue->reals,
+        .ray_ints = &queue->ints,
+        .sums = &queue->sums,
+        .queue_stride = queue->plan.queue_stride,
+        .sum_stride = queue->plan.sum_stride,
+        .compact = renderer->pipeline == HD_PIPELINE_WAVEFRONT,
+    };
+}
+
+/* The wavefront of CPUs. */
+static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
+    const Queue queue = queue_of(renderer);
+    const RenderByWaves own = {
+        .item_count = items, .pixels = &flight->pixels, .counts = &renderer->counts};
+    HdGpuLaunch launch = tracing_of(renderer);
+    add_queue(&launch, &queue);
+    add_render_by_waves(&launch, &own);
+    launch.groups = worker_count(renderer, items);
+    return hd_gpu_flight_launch(flight, &renderer->gpu, &launch, 0.0, error);
+}
+
+typedef struct WaveLaunches {
+    Renderer *renderer;
+    HdGpuFlight *flight;
+    int groups; /* at most */
+} WaveLaunches;
+
+static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
+    const WaveLaunches *launches = context;
+    Renderer *renderer = launches->renderer;
+    HdGpuFlight *flight = launches->flight;
+    int group_size = renderer->program.group_size;
+    const Queue queue = queue_of(renderer);
+    const TraceTake own = {
+        .first_item = step->first_item,
+        .level = step->level,
+        .first = step->first,
+        .count = step->count,
+        .to = step->to,
+        .taken_before = step->taken_before,
+        .is_first_launch = step->is_first,
+        .taken = &renderer->queue.taken,
+        .counts = &renderer->counts,
+    };
+    HdGpuLaunch launch = tracing_of(renderer);
+    add_queue(&launch, &queue);
+    add_trace_take(&launch, &own);
+    launch.groups = (step->count + group_size - 1) / group_size;
+    if (step->is_first || launch.groups > launches->groups)
+        launch.groups = launches->groups;
+    HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
+    if (status == HD_OK)
+        status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
+    if (status == HD_OK)
+        status = hd_gpu_flight_time_launch(&renderer->flights, flight, &renderer->gpu, error);
+    return status;
+}
+
+static HdStatus store_batch(void *context, int first_item, int item_count, HdError *error) {
+    const WaveLaunches *launches = context;
+    const Renderer *renderer = launches->renderer;
+    const StoreBatch own = {
+        .header = &renderer->scene[HD_TABLE_header],
+        .view = &renderer->frame[HD_TABLE_view],
+        .sums = &renderer->queue.sums,
+        .sum_stride = renderer->queue.plan.sum_stride,
+        .first_item = first_item,
+        .item_count = item_count,
+        .pixels = &launches->flight->pixels,
+    };
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_STORE);
+    add_store_batch(&launch, &own);
+    launch.groups = group_count(renderer, item_count, launch.group_size);
+    return queue_launch(renderer, &launch, NULL, error);
+}
+
+/* The wavefront of devices with groups of threads. */
+static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int groups,
+                             HdError *error) {
+    WaveLaunches launches = {renderer, flight, groups};
+    HdWaveDevice device = {.context = &launches,
+                           .trace = trace_step,
+                           .store = store_batch,
+                           .size = &renderer->flights.size};
+    HdWaveFrame frame = {
+        .items = items,
+        .samples_per_item = flight->samples,
+        .depth = renderer->depth,
+        .grain = renderer->program.group_size,
+    };
+    HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
+    return status == HD_OK ? hd_wave_run(&renderer->queue.plan, &frame, &device, error) : status;
+}
+
+static HdStatus launch_sum(Renderer *renderer, HdGpuFlight *flight, int count_slots,
+                           HdError *error) {
+    const SumCounts own = {.counts = &renderer->counts,
+                           .count = count_slots,
+                           .sums = &flight->sums,
+                           .workers = HD_SUM_WORKERS};
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_SUM);
+    add_sum_counts(&launch, &own);
+    launch.groups = (own.workers + launch.group_size - 1) / launch.group_size;
+    return queue_launch(renderer, &launch, &flight->summed, error);
+}
+
+static HdStatus trace(Renderer *renderer, HdGpuFlight *flight, int items, int count_slots,
+                      HdError *error) {
+    HdStatus status;
+    hd_launch_size_begin_frame(&renderer->flights.size);
+    if (!renderer->program.shape.wavefront)
+        status = launch_mega(renderer, flight, items, error);
+    else if (renderer->has_groups)
+        status = launch_waves(renderer, flight, items, count_slots, error);
+    else
+        status = launch_workers(renderer, flight, items, error);
+    return status == HD_OK ? launch_sum(renderer, flight, count_slots, error) : status;
+}
+
+/* ---- 8 bits ---- */
+
+static HdStatus write_thresholds(Renderer *renderer, HdCurve curve, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    int32_t thresholds[256];
+    if (renderer->thresholds.handle != NULL && renderer->curve == curve)
+        return HD_OK;
+    hd_curve_thresholds8(curve, thresholds);
+    HdStatus status = hd_gpu_write_table(gpu, &renderer->thresholds, thresholds, sizeof thresholds,
+                                         "thresholds of the curve", error);
+    if (status == HD_OK)
+        status = gpu->driver->finish(gpu->handle, error);
+    if (status != HD_OK)
+        hd_gpu_release(gpu, &renderer->thresholds);
+    renderer->curve = curve;
+    return status;
+}
+
+static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, HdError *error) {
+    const Encode own = {.pixels = &flight->pixels,
+                        .count = flight->width * flight->height,
+                        .thresholds = &renderer->thresholds,
+                        .image = &flight->image};
+    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
+    HdStatus status = write_thresholds(renderer, curve, error);
+    if (status != HD_OK)
+        return status;
+    add_encode(&launch, &own);
+    launch.groups = group_count(renderer, own.count, launch.group_size);
+    return queue_launch(renderer, &launch, &flight->encoded, error);
+}
+
+/* ---- frames ---- */
+
+static HdStatus reserve_queue(Renderer *renderer, int items, int samples, HdError *error) {
+    const HdKernelShape *shape = &renderer->program.shape;
+    int per_item = shape->pixels_per_item * samples;
+    bool has_groups = renderer->has_groups;
+    HdWaveNeeds needs = {
+        .bytes = renderer->queue.bytes,
+        .precision = shape->precision,
+        .depth = renderer->depth,
+        .grain = has_groups ? renderer->program.group_size : shape->lanes,
+        .samples_at_once = has_groups ? per_item : HD_WAVE_BUNDLE,
+        .samples = has_groups ? hd_wave_samples(items, per_item) : per_item,
+    };
+    return hd_gpu_wave_queue_reserve(&renderer->queue, &renderer->gpu, &needs,
+                                     worker_count(renderer, items), error);
+}
+
+static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
+                            HdError *error) {
+    HdStatus status = HD_OK;
+    char *from = flight->tables.data;
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++) {
+        const HdTable *table = &tables->table[i];
+        if (table->bytes > 0)
+            memcpy(from, table->data, table->bytes);
+        status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[i], from, table->bytes,
+                                    "tables of the frame", error);
+        from += table->bytes;
+    }
+    return status;
+}
+
+/* Queues all that the frame needs, up to its copies. Parts of it are counted one by one. */
+static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
+                             HdCurve curve, HdError *error) {
+    const HdGpuProgram *program = &renderer->program;
+    int items = hd_kernel_item_count(tables->width, tables->height, program->shape.pixels_per_item);
+    int count_slots = items;
+    HdStatus status = HD_OK;
+    if (program->shape.wavefront)
+        status = reserve_queue(renderer, items, tables->samples, error);
+    if (program->shape.wavefront && renderer->has_groups)
+        count_slots = hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->grid);
+    if (status == HD_OK)
+        status = write_frame(renderer, flight, tables, error);
+    if (status == HD_OK)
+        status = hd_gpu_reserve(&renderer->gpu, &renderer->counts, HD_GPU_DEVICE,
+                                sizeof(HdRayCounts) * (size_t)count_slots,
+                                "counts of the work items", error);
+    if (status == HD_OK)
+        status = trace(renderer, flight, items, count_slots, error);
+    if (status == HD_OK && flight->encodes)
+        status = encode(renderer, flight, curve, error);
+    return status;
+}
+
+/* CPUs have no bus to cross, and the host's conversion is as fast. */
+HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+                       HdError *error) {
+    Renderer *renderer = state;
+    const HdGpu *gpu = &renderer->gpu;
+    HdGpuFlight *flight;
+    bool encodes = renderer->has_groups && !wish->radiance;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_gpu_flight_begin(&renderer->flights, gpu, tables, encodes, &flight, error);
+    if (status == HD_OK)
+        status = launch_frame(renderer, flight, tables, wish->curve, error);
+    if (status == HD_OK)
+        status = hd_gpu_flight_send(&renderer->flights, flight, gpu, error);
+    if (status != HD_OK) /* the next frame takes the flight's memory */
+        gpu->driver->drain(gpu->handle);
+    leave(renderer);
+    return status;
+}
+
+HdStatus hd_gpu_collect(void *state, HdFrame *frame, HdError *error) {
+    Renderer *renderer = state;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error);
+    leave(renderer);
+    return status;
+}
+
+/* What the launches on a CPU take does no harm. */
+double hd_gpu_longest_launch(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->has_groups ? renderer->flights.longest_launch : -1.0;
+}
+
+void hd_gpu_drop(void *state) {
+    Renderer *renderer = state;
+    HdError ignored;
+    if (enter(renderer, &ignored) != HD_OK)
+        return;
+    renderer->gpu.driver->drain(renderer->gpu.handle);
+    renderer->flights.count = 0;
+    leave(renderer);
+}
+
+/* ---- what was chosen ---- */
+
+HdKernelCache *hd_gpu_kernels(void *state) {
+    Renderer *renderer = state;
+    return &renderer->program.cache;
+}
+
+bool hd_gpu_be_cautious(void *state) {
+    Renderer *renderer = state;
+    return hd_kernel_shape_be_cautious(&renderer->program.shape);
+}
+
+int hd_gpu_lanes(const void *state) {
+    const Renderer *renderer = state;
+    return renderer->program.shape.lanes;
+}
+
+void hd_gpu_describe(const void *state, char *text, int capacity) {
+    const Renderer *renderer = state;
+    const HdGpu *gpu = &renderer->gpu;
+    const HdGpuProgram *program = &renderer->program;
+    int length = gpu->driver->describe(gpu->handle, &program->shape, program->group_size,
+                                       hd_pipeline_name(renderer->pipeline), program->cache.maker,
+                                       text, capacity);
+    if (renderer->queue.is_cut && length > 0 && length < capacity)
+        hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
+}
