@@ -1,86 +1,97 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
-   device, up to what its kernels render: a device of sm_61 whose memory is the host's, with streams
-   (streams.c), and much that does nothing (others.c). FAKE_CUDA_REFUSES is the number of modules
-   that it does not load at first; FAKE_CUDA_MEMORY is how many
-   bytes of memory it tells of. */
+   device: it runs what the fake NVRTC builds (nvrtc.c) on one processor. Its device is of sm_61. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "device/cuda/api.h"
+#include "fake.h"
 
-/* A handle must point somewhere. */
-static char anything;
-
-#define DECLARE(member, symbol, parameters) HdCuResult symbol parameters;
-HD_CUDA_FUNCTIONS(DECLARE)
+HdCuResult cuInit(unsigned int flags) {
+    FAKE_CALL_ANYWHERE(cuInit);
+    return flags == 0 ? HD_CU_SUCCESS : FAKE_INVALID_VALUE;
+}
 
 HdCuResult cuDriverGetVersion(int *version) {
+    FAKE_CALL_ANYWHERE(cuDriverGetVersion);
     *version = 12080;
     return HD_CU_SUCCESS;
 }
 
+static const struct {
+    HdCuResult code;
+    const char *name, *text;
+} errors[] = {
+    {HD_CU_SUCCESS, "CUDA_SUCCESS", "no error"},
+    {FAKE_INVALID_VALUE, "CUDA_ERROR_INVALID_VALUE", "invalid argument"},
+    {HD_CU_ERROR_OUT_OF_MEMORY, "CUDA_ERROR_OUT_OF_MEMORY", "out of memory"},
+    {FAKE_INVALID_IMAGE, "CUDA_ERROR_INVALID_IMAGE", "device kernel image is invalid"},
+    {FAKE_INVALID_CONTEXT, "CUDA_ERROR_INVALID_CONTEXT", "invalid device context"},
+    {FAKE_INVALID_HANDLE, "CUDA_ERROR_INVALID_HANDLE", "invalid resource handle"},
+    {FAKE_NOT_FOUND, "CUDA_ERROR_NOT_FOUND", "named symbol not found"},
+    {FAKE_NOT_READY, "CUDA_ERROR_NOT_READY", "device not ready"},
+    {HD_CU_ERROR_ILLEGAL_ADDRESS, "CUDA_ERROR_ILLEGAL_ADDRESS",
+     "an illegal memory access was encountered"},
+    {HD_CU_ERROR_CONTEXT_IS_DESTROYED, "CUDA_ERROR_CONTEXT_IS_DESTROYED", "context is destroyed"},
+    {HD_CU_ERROR_LAUNCH_FAILED, "CUDA_ERROR_LAUNCH_FAILED", "unspecified launch failure"},
+};
+
+static int find_error(HdCuResult code) {
+    int count = sizeof errors / sizeof *errors;
+    for (int i = 0; i < count; i++)
+        if (errors[i].code == code)
+            return i;
+    return -1;
+}
+
 HdCuResult cuGetErrorName(HdCuResult code, const char **text) {
-    *text = code == HD_CU_SUCCESS ? "CUDA_SUCCESS" : "CUDA_ERROR_FAKE";
+    int found = find_error(code);
+    *text = found >= 0 ? errors[found].name : "CUDA_ERROR_FAKE";
     return HD_CU_SUCCESS;
 }
 
 HdCuResult cuGetErrorString(HdCuResult code, const char **text) {
-    return cuGetErrorName(code, text);
+    int found = find_error(code);
+    *text = found >= 0 ? errors[found].text : "told to fail";
+    return HD_CU_SUCCESS;
 }
 
 HdCuResult cuDeviceGetCount(int *count) {
+    FAKE_CALL_ANYWHERE(cuDeviceGetCount);
     *count = 1;
     return HD_CU_SUCCESS;
 }
 
 HdCuResult cuDeviceGet(HdCuDevice *device, int index) {
+    FAKE_CALL_ANYWHERE(cuDeviceGet);
     *device = index;
-    return HD_CU_SUCCESS;
+    return index == 0 ? HD_CU_SUCCESS : fake_misuse(FAKE_INVALID_VALUE, "there is 1 device");
 }
 
 HdCuResult cuDeviceGetName(char *name, int capacity, HdCuDevice device) {
+    FAKE_CALL_ANYWHERE(cuDeviceGetName);
     snprintf(name, (size_t)capacity, "Fake device %d", device);
     return HD_CU_SUCCESS;
 }
 
 HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice device) {
     (void)device;
-    *value = 1000;
-    if (attribute == HD_CU_DEVICE_MULTIPROCESSOR_COUNT)
-        *value = 200;
-    if (attribute == HD_CU_DEVICE_CAPABILITY_MAJOR)
-        *value = 6;
-    if (attribute == HD_CU_DEVICE_CAPABILITY_MINOR)
+    FAKE_CALL_ANYWHERE(cuDeviceGetAttribute);
+    switch (attribute) {
+    case HD_CU_DEVICE_CLOCK_KHZ:
+        *value = 1000;
+        return HD_CU_SUCCESS;
+    case HD_CU_DEVICE_MULTIPROCESSOR_COUNT:
+        *value = (int)fake_number("FAKE_CUDA_UNITS", 200);
+        return HD_CU_SUCCESS;
+    case HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT:
         *value = 1;
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuDevicePrimaryCtxRetain(HdCuContext *context, HdCuDevice device) {
-    (void)device;
-    *context = (HdCuContext)(void *)&anything;
-    return HD_CU_SUCCESS;
-}
-
-/* Machine code is an ELF file. */
-HdCuResult cuModuleLoadData(HdCuModule *module, const void *image) {
-    static int count;
-    const char *refused = getenv("FAKE_CUDA_REFUSES");
-    if (memcmp(image, "\177ELF", 4) != 0 || (refused != NULL && count++ < atoi(refused)))
-        return HD_CU_ERROR_OUT_OF_MEMORY;
-    *module = (HdCuModule)(void *)&anything;
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction function) {
-    (void)function;
-    *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? 1024 : 64;
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuMemGetInfo_v2(size_t *available, size_t *total) {
-    const char *memory = getenv("FAKE_CUDA_MEMORY");
-    *available = *total = memory != NULL ? (size_t)atoll(memory) : 0;
-    return HD_CU_SUCCESS;
+        return HD_CU_SUCCESS;
+    case HD_CU_DEVICE_CAPABILITY_MAJOR:
+        *value = 6;
+        return HD_CU_SUCCESS;
+    case HD_CU_DEVICE_CAPABILITY_MINOR:
+        *value = 1;
+        return HD_CU_SUCCESS;
+    default:
+        return fake_misuse(FAKE_INVALID_VALUE, "attribute %u of a device", attribute);
+    }
 }

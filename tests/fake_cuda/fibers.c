@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/* The threads of a block as fibers: each runs until it waits for others. Blocks run one after the
+   other. */
+#define _GNU_SOURCE /* MAP_ANONYMOUS */
+#include <stdint.h>
+#include <string.h>
+#include <sys/mman.h>
+
+#include "fake.h"
+
+/* Stacks do not all begin in the same lines of the cache. */
+enum {
+    MAX_FIBERS = 1024,
+    STACK = (128 << 10) + 1088,
+    CANARY = 64,
+    UNTOUCHED = 0x5a,
+    POISON = 0xcd
+};
+
+typedef struct Fiber {
+    void *stack;
+    FakeScope waits_for;
+    bool is_over;
+} Fiber;
+
+static Fiber fibers[MAX_FIBERS];
+static unsigned char *stacks;
+static void *scheduler; /* its stack */
+static Fiber *current;
+static const FakeGrid *grid; /* that runs */
+static const char *failure;
+
+/* ---- from one stack to another ---- */
+
+#ifdef __x86_64__
+
+/* Keeps what a function must keep, on the stack that is left, and where that ends. */
+void fake_switch(void **from, void *to);
+__asm__(".text\n"
+        ".globl fake_switch\n"
+        ".hidden fake_switch\n"
+        ".type fake_switch, @function\n"
+        "fake_switch:\n"
+        "    pushq %rbp\n"
+        "    pushq %rbx\n"
+        "    pushq %r12\n"
+        "    pushq %r13\n"
+        "    pushq %r14\n"
+        "    pushq %r15\n"
+        "    movq %rsp, (%rdi)\n"
+        "    movq %rsi, %rsp\n"
+        "    popq %r15\n"
+        "    popq %r14\n"
+        "    popq %r13\n"
+        "    popq %r12\n"
+        "    popq %rbx\n"
+        "    popq %rbp\n"
+        "    ret\n"
+        ".size fake_switch, . - fake_switch\n");
+
+/* A stack on which fake_switch returns to `begin`, as if called. */
+static void *prepare(unsigned char *stack, void (*begin)(void)) {
+    enum { KEPT = 6 };
+    uintptr_t top = ((uintptr_t)stack + STACK) & ~(uintptr_t)63;
+    void **words = (void **)top - 2; /* NOLINT(performance-no-int-to-ptr) */
+    memcpy(words, &begin, sizeof begin);
+    words -= KEPT;
+    memset(words, 0, KEPT * sizeof *words);
+    return words;
+}
+
+#else
+#error "how stacks are switched is written for x86-64 only"
+#endif
+
+static void leave(void) {
+    fake_switch(&current->stack, scheduler);
+}
+
+/* ---- a thread ---- */
+
+static void begin_thread(void) {
+    grid->kernel->call(grid->arguments);
+    current->is_over = true;
+    leave();
+}
+
+static void wait(FakeScope scope) {
+    current->waits_for = scope;
+    leave();
+}
+
+static void wait_some(unsigned int mask) {
+    unsigned int whole = 0xffffffff;
+    unsigned int left =
+        grid->thread->threads.x - grid->thread->thread.x / FAKE_WARP_THREADS * FAKE_WARP_THREADS;
+    if (left < FAKE_WARP_THREADS)
+        whole = (1u << left) - 1;
+    if ((mask & whole) != whole)
+        failure = "__syncwarp of some threads but not all";
+    wait(FAKE_WARP);
+}
+
+/* ---- a block ---- */
+
+static void start_threads(unsigned int count) {
+    memset(grid->shared->begin + FAKE_SHARED_GUARD, POISON,
+           (size_t)(grid->shared->end - grid->shared->begin) - FAKE_SHARED_GUARD);
+    for (unsigned int i = 0; i < count; i++)
+        fibers[i] = (Fiber){.stack = prepare(stacks + (size_t)i * STACK, begin_thread)};
+}
+
+/* Returns whether any thread could run. */
+static bool run_ready(unsigned int count) {
+    bool any = false;
+    for (unsigned int i = 0; i < count; i++) {
+        if (fibers[i].is_over || fibers[i].waits_for != FAKE_NOTHING)
+            continue;
+        grid->thread->thread = (FakeIndex){i, 0, 0};
+        current = &fibers[i];
+        fake_switch(&scheduler, current->stack);
+        any = true;
+    }
+    return any;
+}
+
+/* Lets the threads [from, to) go on if all of them wait for the scope. Those that ended never will:
+   nothing waits for them. */
+static bool release(unsigned int from, unsigned int to, FakeScope scope) {
+    for (unsigned int i = from; i < to; i++)
+        if (fibers[i].is_over || fibers[i].waits_for != scope)
+            return false;
+    for (unsigned int i = from; i < to; i++)
+        fibers[i].waits_for = FAKE_NOTHING;
+    return true;
+}
+
+static bool release_some(unsigned int count) {
+    bool any = release(0, count, FAKE_BLOCK);
+    for (unsigned int from = 0; from < count; from += FAKE_WARP_THREADS) {
+        unsigned int to = from + FAKE_WARP_THREADS;
+        any = release(from, to < count ? to : count, FAKE_WARP) || any;
+    }
+    return any;
+}
+
+static void check_end(unsigned int count) {
+    for (unsigned int i = 0; i < count; i++) {
+        if (!fibers[i].is_over)
+            failure = "threads of a block wait for some that never come";
+        for (int k = 0; k < CANARY; k++)
+            if (stacks[(size_t)i * STACK + (size_t)k] != UNTOUCHED)
+                failure = "a thread needs more than its stack";
+    }
+}
+
+static void run_block(unsigned int count) {
+    start_threads(count);
+    do {
+        while (run_ready(count))
+            ;
+    } while (failure == NULL && release_some(count));
+    if (failure == NULL)
+        check_end(count);
+}
+
+static bool make_stacks(void) {
+    if (stacks != NULL)
+        return true;
+    void *memory = mmap(NULL, (size_t)MAX_FIBERS * STACK, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED)
+        return false;
+    stacks = memory;
+    for (int i = 0; i < MAX_FIBERS; i++)
+        memset(stacks + (size_t)i * STACK, UNTOUCHED, CANARY);
+    return true;
+}
+
+const char *fake_run_grid(const FakeGrid *launched) {
+    grid = launched;
+    grid->thread->wait = wait;
+    grid->thread->wait_some = wait_some;
+    failure = make_stacks() ? NULL : "there is no memory for stacks";
+    for (unsigned int i = 0; failure == NULL && i < grid->thread->blocks.x; i++) {
+        grid->thread->block = (FakeIndex){i, 0, 0};
+        run_block(grid->thread->threads.x);
+    }
+    return failure;
+}

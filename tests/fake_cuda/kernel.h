@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* What the fake driver (C) and the kernels that its NVRTC builds (C++) tell each other. A kernel
+   NAME is the object fake_kernel_NAME of its module, beside fake_thread and fake_shared. */
+#ifndef HD_FAKE_CUDA_KERNEL_H
+#define HD_FAKE_CUDA_KERNEL_H
+
+enum { FAKE_WARP_THREADS = 32, FAKE_ARGUMENT_BYTES = 8, FAKE_SHARED_GUARD = 64 };
+
+typedef struct FakeIndex {
+    unsigned int x, y, z;
+} FakeIndex;
+
+typedef enum FakeScope { FAKE_NOTHING, FAKE_WARP, FAKE_BLOCK } FakeScope;
+
+/* The thread that runs, set by the driver. */
+typedef struct FakeThread {
+    FakeIndex thread, block, threads, blocks;
+    void (*wait)(FakeScope scope);        /* until all threads of the warp or block do so */
+    void (*wait_some)(unsigned int mask); /* of a warp */
+} FakeThread;
+
+typedef struct FakeParameter {
+    unsigned int bytes; /* FAKE_ARGUMENT_BYTES at most */
+    int is_pointer, is_written;
+} FakeParameter;
+
+typedef struct FakeKernel {
+    void (*call)(void *const *arguments); /* one thread, to its end */
+    int count;
+    const FakeParameter *parameters;
+} FakeKernel;
+
+/* Memory that threads of a block share, with FAKE_SHARED_GUARD bytes at its begin that are no
+   kernel's. */
+typedef struct FakeShared {
+    unsigned char *begin, *end;
+} FakeShared;
+
+#endif

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT */
+/* Stands in for NVRTC 12: has the system's compiler build the text, with device.h before it, as a
+   shared object that the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. */
+#define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "device/cuda/api.h"
+
+enum {
+    OUT_OF_MEMORY = 1,
+    INVALID_INPUT = 3,
+    INVALID_PROGRAM = 4,
+    INVALID_OPTION = 5,
+    COMPILATION = 6,
+    MAX_WORDS = 128,
+    MAX_FOLDER = 4000,
+    MAX_PATH = 4096
+};
+
+static const int archs[] = {50, 52, 60, 61, 70, 75, 80, 90};
+enum { ARCH_COUNT = sizeof archs / sizeof *archs };
+
+typedef struct Text {
+    char *data;
+    size_t size;
+} Text;
+
+struct _nvrtcProgram {
+    char *source;
+    Text log, image;
+};
+
+/* The command line of a compiler. */
+typedef struct Words {
+    const char *word[MAX_WORDS];
+    int count;
+} Words;
+
+extern char **environ;
+
+const char *nvrtcGetErrorString(HdNvrtcResult code) {
+    static const char *const names[] = {
+        "NVRTC_SUCCESS",
+        "NVRTC_ERROR_OUT_OF_MEMORY",
+        "NVRTC_ERROR_PROGRAM_CREATION_FAILURE",
+        "NVRTC_ERROR_INVALID_INPUT",
+        "NVRTC_ERROR_INVALID_PROGRAM",
+        "NVRTC_ERROR_INVALID_OPTION",
+        "NVRTC_ERROR_COMPILATION",
+    };
+    return code < sizeof names / sizeof *names ? names[code] : "NVRTC_ERROR unknown";
+}
+
+HdNvrtcResult nvrtcVersion(int *major, int *minor) {
+    *major = 12;
+    *minor = 8;
+    return 0;
+}
+
+HdNvrtcResult nvrtcGetNumSupportedArchs(int *count) {
+    *count = ARCH_COUNT;
+    return 0;
+}
+
+HdNvrtcResult nvrtcGetSupportedArchs(int *list) {
+    memcpy(list, archs, sizeof archs);
+    return 0;
+}
+
+HdNvrtcResult nvrtcCreateProgram(HdNvrtcProgram *program, const char *source, const char *name,
+                                 int header_count, const char *const *headers,
+                                 const char *const *header_names) {
+    (void)name, (void)headers, (void)header_names;
+    if (source == NULL || header_count != 0)
+        return INVALID_INPUT;
+    HdNvrtcProgram made = calloc(1, sizeof *made);
+    char *copy = strdup(source);
+    if (made == NULL || copy == NULL) {
+        free(made);
+        free(copy);
+        return OUT_OF_MEMORY;
+    }
+    made->source = copy;
+    *program = made;
+    return 0;
+}
+
+HdNvrtcResult nvrtcDestroyProgram(HdNvrtcProgram *program) {
+    if (*program == NULL)
+        return INVALID_PROGRAM;
+    free((*program)->source);
+    free((*program)->log.data);
+    free((*program)->image.data);
+    free(*program);
+    *program = NULL;
+    return 0;
+}
+
+/* ---- options ---- */
+
+static void add(Words *words, const char *word) {
+    if (words->count < MAX_WORDS - 1)
+        words->word[words->count++] = word;
+}
+
+/* What options of NVRTC, or how they begin, mean to a C++ compiler; NULL: nothing, "": the same. */
+static const struct {
+    const char *option, *meaning;
+} options_known[] = {
+    {"-D", ""},
+    {"--fmad=false", "-ffp-contract=off"},
+    {"--use_fast_math", "-ffp-contract=fast"},
+    {"--gpu-architecture=sm_61", NULL},
+    {"--maxrregcount=", NULL},
+    {"--prec-div=true", NULL},
+    {"--prec-sqrt=true", NULL},
+    {"--ftz=false", NULL},
+    {"--ptxas-options=", NULL},
+};
+
+static bool add_option(Words *words, const char *option) {
+    for (size_t i = 0; i < sizeof options_known / sizeof *options_known; i++) {
+        const char *known = options_known[i].option, *meaning = options_known[i].meaning;
+        if (strncmp(option, known, strlen(known)) != 0)
+            continue;
+        if (meaning != NULL)
+            add(words, meaning[0] != '\0' ? meaning : option);
+        return true;
+    }
+    return false;
+}
+
+/* ---- files ---- */
+
+static bool read_file(const char *folder, const char *name, Text *text) {
+    char path[MAX_PATH];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "rb");
+    if (file == NULL)
+        return false;
+    fseek(file, 0, SEEK_END);
+    long size = ftell(file);
+    rewind(file);
+    free(text->data);
+    *text = (Text){.data = calloc((size_t)size + 1, 1), .size = (size_t)size};
+    bool good = text->data != NULL && fread(text->data, 1, text->size, file) == text->size;
+    fclose(file);
+    return good;
+}
+
+static FILE *open_to_write(const char *folder, const char *name) {
+    char path[MAX_PATH];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return fopen(path, "w");
+}
+
+static void remove_folder(const char *folder) {
+    static const char *const names[] = {"kernels.cu", "kernels.cpp", "kernels.so", "log"};
+    char path[MAX_PATH];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
+/* ---- to compile ---- */
+
+/* Runs the compiler in the folder; what it says goes to `log`. */
+static bool run(const char *folder, Words *words) {
+    posix_spawn_file_actions_t actions;
+    pid_t child;
+    int status = -1;
+    words->word[words->count] = NULL;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "log", O_WRONLY | O_CREAT | O_APPEND,
+                                     0600);
+    if (posix_spawnp(&child, words->word[0], &actions, NULL, (char *const *)words->word, environ) ==
+        0)
+        waitpid(child, &status, 0);
+    posix_spawn_file_actions_destroy(&actions);
+    return status == 0;
+}
+
+static bool expand(const char *folder, const char *source, Words words) {
+    FILE *file = open_to_write(folder, "kernels.cu");
+    if (file == NULL)
+        return false;
+    fputs(source, file);
+    fclose(file);
+    add(&words, "-E");
+    add(&words, "-D__CUDACC_RTC__");
+    add(&words, "kernels.cu");
+    add(&words, "-o");
+    add(&words, "kernels.cpp");
+    return run(folder, &words);
+}
+
+/* Writes a FAKE_KERNEL for every __global__ void NAME( of the expanded text behind it. */
+static bool describe_kernels(const char *folder) {
+    static const char mark[] = "__global__ void ";
+    Text text = {0};
+    bool good = read_file(folder, "kernels.cpp", &text);
+    FILE *file = good ? open_to_write(folder, "kernels.cpp") : NULL;
+    if (file != NULL) {
+        fprintf(file, "%s\n", text.data);
+        for (const char *at = text.data; (at = strstr(at, mark)) != NULL;) {
+            at += strlen(mark);
+            fprintf(file, "FAKE_KERNEL(%.*s)\n", (int)strcspn(at, " ("), at);
+        }
+        fclose(file);
+    }
+    free(text.data);
+    return file != NULL;
+}
+
+static bool build(const char *folder, Words words) {
+    static const char *const more[] = {
+        "-std=c++17", "-O2",        "-fPIC",    "-shared",        "-fno-math-errno", "-w", "-s",
+        "-o",         "kernels.so", "-include", FAKE_CUDA_DEVICE, "kernels.cpp",     "-lm"};
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
+        add(&words, more[i]);
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("fma"))
+        add(&words, "-mfma");
+#endif
+    if (getenv("FAKE_NVRTC_WRONG") != NULL)
+        add(&words, "-DFAKE_WRONG");
+    return run(folder, &words);
+}
+
+HdNvrtcResult nvrtcCompileProgram(HdNvrtcProgram program, int option_count,
+                                  const char *const *options) {
+    const char *where = getenv("TMPDIR");
+    char folder[MAX_FOLDER];
+    Words words = {.word = {FAKE_NVRTC_COMPILER, "-x", "c++"}, .count = 3};
+    for (int i = 0; i < option_count; i++)
+        if (!add_option(&words, options[i]))
+            return INVALID_OPTION;
+    snprintf(folder, sizeof folder, "%s/fake_nvrtc_XXXXXX", where != NULL ? where : "/tmp");
+    if (mkdtemp(folder) == NULL)
+        return OUT_OF_MEMORY;
+    bool good = expand(folder, program->source, words) && describe_kernels(folder) &&
+                build(folder, words) && read_file(folder, "kernels.so", &program->image);
+    read_file(folder, "log", &program->log);
+    remove_folder(folder);
+    return good ? 0 : COMPILATION;
+}
+
+/* ---- results ---- */
+
+HdNvrtcResult nvrtcGetProgramLogSize(HdNvrtcProgram program, size_t *size) {
+    *size = program->log.size + 1;
+    return 0;
+}
+
+HdNvrtcResult nvrtcGetProgramLog(HdNvrtcProgram program, char *log) {
+    memcpy(log, program->log.data != NULL ? program->log.data : "", program->log.size + 1);
+    return 0;
+}
+
+HdNvrtcResult nvrtcGetCUBINSize(HdNvrtcProgram program, size_t *size) {
+    *size = program->image.size;
+    return program->image.size > 0 ? 0 : INVALID_PROGRAM;
+}
+
+HdNvrtcResult nvrtcGetCUBIN(HdNvrtcProgram program, char *cubin) {
+    memcpy(cubin, program->image.data, program->image.size);
+    return 0;
+}
