@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include "fake.h"
@@ -132,28 +133,36 @@ HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction 
 
 /* ---- launches ---- */
 
-/* False where nothing can be read: a pointer may be anything. */
-static bool read_safely(void *to, const void *from, size_t bytes) {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
+/* Joins pieces of memory. False where one is not there, as a pipe's end notices. */
+static bool read_safely(void *to, const struct iovec *from, int count) {
+    static int ends[2] = {-1, -1};
+    ssize_t bytes = 0;
+    for (int i = 0; i < count; i++)
+        bytes += (ssize_t)from[i].iov_len;
+    if (ends[0] < 0 && pipe2(ends, O_CLOEXEC) != 0)
         return false;
-    bool good =
-        write(ends[1], from, bytes) == (ssize_t)bytes && read(ends[0], to, bytes) == (ssize_t)bytes;
-    close(ends[0]);
-    close(ends[1]);
-    return good;
+    ssize_t written = writev(ends[1], from, count);
+    if (written > 0 && read(ends[0], to, (size_t)written) != written)
+        return false;
+    return written == bytes;
 }
 
-/* Nobody tells how long the array is: what follows it is no argument. */
+/* Nobody tells how long the array is, but what follows it is no argument. */
 static HdCuResult read_arguments(HdCuFunction function, void **from, uint64_t *arguments) {
     const FakeKernel *kernel = function->kernel;
+    void *place[MAX_PARAMETERS];
+    unsigned char bytes[MAX_PARAMETERS * FAKE_ARGUMENT_BYTES], *at = bytes;
+    struct iovec pieces[MAX_PARAMETERS];
+    const struct iovec array = {from, (size_t)kernel->count * sizeof *from};
+    bool good = read_safely(place, &array, 1);
+    for (int i = 0; good && i < kernel->count; i++)
+        pieces[i] = (struct iovec){place[i], kernel->parameters[i].bytes};
+    if (!good || !read_safely(bytes, pieces, kernel->count))
+        return fake_misuse(FAKE_INVALID_VALUE, "%s has %d parameters, which are not all given",
+                           function->name, kernel->count);
     for (int i = 0; i < kernel->count; i++) {
-        const void *argument = NULL;
-        arguments[i] = 0;
-        if (!read_safely(&argument, from + i, sizeof argument) || argument == NULL ||
-            !read_safely(&arguments[i], argument, kernel->parameters[i].bytes))
-            return fake_misuse(FAKE_INVALID_VALUE, "%s has %d parameters, but no argument %d",
-                               function->name, kernel->count, i + 1);
+        memcpy(&arguments[i], at, kernel->parameters[i].bytes);
+        at += kernel->parameters[i].bytes;
     }
     return HD_CU_SUCCESS;
 }

@@ -24,10 +24,7 @@ static Memory *all;
 /* ---- guards ---- */
 
 static bool is_untouched(const unsigned char *guard) {
-    for (int i = 0; i < GUARD; i++)
-        if (guard[i] != UNTOUCHED)
-            return false;
-    return true;
+    return guard[0] == UNTOUCHED && memcmp(guard, guard + 1, GUARD - 1) == 0;
 }
 
 static bool holds(const Memory *memory) {
