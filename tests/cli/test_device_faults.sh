@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Devices, drivers and their compilers that fail or hang in the midst of a run (docs/faults.md): what is
 # said, the exit code, and that nothing half-done stays. The drivers are an OpenCL library with a layer
-# that makes its calls fail, and the CUDA driver without a device.
+# that makes its calls fail, and the CUDA driver of the tests.
 # shellcheck disable=SC2317 # wait_for calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
@@ -156,9 +156,9 @@ else
 fi
 
 # ---- CUDA
-nvrtc=$project/build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
+nvrtc=$build/tests/fake_cuda/libnvrtc.so.12
 if [[ ! -e $nvrtc ]]; then
-    echo "not tested: CUDA that fails, for there is no NVRTC 12 in build/nvrtc12"
+    echo "not tested: CUDA that fails, for no compiler of C++ is here that could build the kernels"
     expect_files .
     finish
 fi

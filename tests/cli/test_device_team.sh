@@ -103,13 +103,13 @@ expect_frames together
 expect_refusal 3 "${no_compiler[@]}" "${frames[@]}" --device cuda:0,c:0 -o together/%d.png
 expect_refusal 3 "${no_compiler[@]}" "${frames[@]}" --backend cuda --device all -o together/%d.png
 
-nvrtc=$project/build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
+nvrtc=$build/tests/fake_cuda/libnvrtc.so.12
 if [[ -e $nvrtc ]]; then
     export HEDRON_NVRTC=$nvrtc
     dropped='hedron: cuda:0 (Fake device 0) failed, so other devices trace its frames from here on: cuda: '
-    # Its kernels compute wrongly, as its self-test finds.
+    # Kernels that compute wrongly, as the self-test finds.
     for devices in cuda:0,c:0 all; do
-        expect_exit 0 "${frames[@]}" --device $devices -o together/%d.png --quiet --stats stats.jsonl
+        expect_exit 0 env FAKE_NVRTC_WRONG=1 "${frames[@]}" --device $devices -o together/%d.png --quiet --stats stats.jsonl
         expect_sentence
         expect_stderr_contains "${dropped}Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly"
         expect_frames together

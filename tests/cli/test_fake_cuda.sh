@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The CUDA backend as far as it goes without a device, with a driver that renders nothing: that wrong
-# kernels are an error, and which kernels are kept.
+# The CUDA backend's dealings with its driver, which runs kernels without a device: that wrong ones are
+# an error, which are kept, how launches are cut, and what happens where a call fails.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 build=${2:?the build folder is the second argument}
-nvrtc=$cli_folder/../../build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
+nvrtc=$build/tests/fake_cuda/libnvrtc.so.12
 if [[ ! -e $nvrtc ]]; then
-    skip "there is no NVRTC 12 in build/nvrtc12"
+    skip "no compiler of C++ is here that could build the kernels"
 fi
 export LD_LIBRARY_PATH=$build/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 export HEDRON_CACHE=$work/cache
@@ -30,8 +30,9 @@ expect_exit 0 "$hedron" devices
 expect_stdout_contains 'Fake device 0'
 expect_stdout_contains 'sm_61, driver for CUDA 12.8'
 
-# ---- a device that renders nothing is an error, not a black picture
-expect_refusal 3 "${render[@]}" --backend cuda --quiet
+# ---- kernels that round wrongly are an error, not a picture that is nearly right
+wrong=(env FAKE_NVRTC_WRONG=1)
+expect_refusal 3 "${wrong[@]}" "${render[@]}" --backend cuda --quiet
 expect_stderr_contains 'cuda: Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly'
 expect_files .
 if compgen -G "$work/cache/cuda-*" >"$logs/which"; then
@@ -40,7 +41,7 @@ fi
 
 # ---- where any device will do, the next one is taken, and a sentence tells it
 "$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.data >"$logs/stdout"
-expect_exit 0 "$hedron" --gpu "${small[@]}" --frames 0 <<<"$("$hedron" --default)"
+expect_exit 0 "${wrong[@]}" "$hedron" --gpu "${small[@]}" --frames 0 <<<"$("$hedron" --default)"
 expect_sentence
 expect_stderr_contains 'computes wrongly'
 expect_stderr_contains 'tracing with c on'
@@ -75,7 +76,6 @@ expect_stderr_contains ' threads, wavefront,'
 
 # ---- another NVRTC by name, an entry that is damaged, a driver that refuses it
 cp "$nvrtc" "$work/libnvrtc.so.12"
-cp "$(dirname "$nvrtc")"/libnvrtc-builtins.so.12.* "$work"
 expect_exit 0 env HEDRON_NVRTC="$work/libnvrtc.so.12" "${fast[@]}"
 expect_build 'compiled in .*; cached'
 rm "$work"/libnvrtc*
@@ -112,7 +112,8 @@ expect_silent_stderr
 rm -r waves
 
 # ---- launches: as long as the frame where that is short; cut where it is long; the bytes are the same
-large=("$hedron" render --size 512x512 --samples 16 --depth 2 --frames 0-3 --backend cuda --math fast --quiet)
+large=("$hedron" render --size 128x128 --samples 16 --depth 2 --frames 0-3 --backend cuda --math fast --quiet)
+few_units=(env FAKE_CUDA_UNITS=12)
 if command -v jq >"$logs/which"; then
     # expect_launches FILTER: what holds of each frame's line but the first, which nothing is known before.
     expect_launches() {
@@ -120,14 +121,14 @@ if command -v jq >"$logs/which"; then
             fail "not all frames have $1: $(jq -c '[.longest_launch_ms, .seconds.trace]' stats.jsonl | tr '\n' ' ')"
         fi
     }
-    expect_exit 0 "${large[@]}" -o whole/%d.data
-    FAKE_CUDA_PIXEL_NS=20 expect_exit 0 "${large[@]}" --frames 0-9 -o short/%d.data --stats stats.jsonl
+    expect_exit 0 "${few_units[@]}" "${large[@]}" -o whole/%d.data
+    expect_exit 0 "${few_units[@]}" FAKE_CUDA_THREAD_NS=20 "${large[@]}" --frames 0-9 -o short/%d.data --stats stats.jsonl
     sed -i '1,6d' stats.jsonl
     expect_launches '.longest_launch_ms > 5 and (.longest_launch_ms - 1000 * .seconds.trace | fabs) < 0.001'
-    FAKE_CUDA_PIXEL_NS=10000 expect_exit 0 "${large[@]}" -o cut/%d.data --stats stats.jsonl
+    expect_exit 0 "${few_units[@]}" FAKE_CUDA_THREAD_NS=10000 "${large[@]}" -o cut/%d.data --stats stats.jsonl
     expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .seconds.trace > 2'
     # The first launch, of which nothing is known, is not the last one of its frame.
-    FAKE_CUDA_PIXEL_NS=50000 expect_exit 0 "${large[@]}" --frames 0 -o first/%d.data --stats stats.jsonl
+    expect_exit 0 "${few_units[@]}" FAKE_CUDA_THREAD_NS=50000 "${large[@]}" --frames 0 -o first/%d.data --stats stats.jsonl
     if ! jq -e -s '.[0].longest_launch_ms > 60' stats.jsonl >"$logs/jq"; then
         fail "the longest launch of the first frame takes $(jq -c .longest_launch_ms stats.jsonl | head -n 1) ms, expected more than 60"
     fi
@@ -145,7 +146,7 @@ expect_exit 0 env FAKE_CUDA_FAILS=cuMemAlloc FAKE_CUDA_FAILS_AT=50 "${passes[@]}
 rm -r passes
 
 # ---- a device that refuses memory: the wavefront gets along with less, and says so
-waves=("$hedron" render --size 512x512 --samples 4 --frames 0-1 --backend cuda --math fast --pipeline wavefront -o waves/%d.data)
+waves=("$hedron" render --size 512x512 --samples 4 --frames 0 --backend cuda --math fast --pipeline wavefront -o waves/%d.data)
 expect_exit 0 env FAKE_CUDA_MEMORY=9000000000 "${waves[@]}" --verbose
 if grep -q 'the queue cut' "$logs/stderr"; then
     fail 'the queue was cut, though nothing was refused'
@@ -158,7 +159,7 @@ rm -r waves
 
 # ---- a device that is lost
 expect_refusal 3 env FAKE_CUDA_FAILS=cuEventSynchronize FAKE_CUDA_ERROR=719 "${frames[@]}" -o failed/%d.data
-expect_stderr_contains 'cuEventSynchronize failed with CUDA_ERROR_FAKE (719: CUDA_ERROR_FAKE): the device is lost to this program'
+expect_stderr_contains 'cuEventSynchronize failed with CUDA_ERROR_LAUNCH_FAILED (719: unspecified launch failure): the device is lost to this program'
 rm -rf failed
 
 # ---- whatever fails, nothing is left behind
@@ -196,7 +197,9 @@ expect_stderr_contains 'the rays of the queue need 1.0'
 expect_stderr_contains 'Fake device 0 has 9.00 GB free of its 9.00 GB (cuMemAlloc: CUDA_ERROR'
 
 # ---- among several devices the fastest on the scene; that is remembered, for scenes of its kind
-long=("$hedron" render --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)
+echo '{"hedron": 1, "camera": {"eye": [3, -4, 2]}, "lights": [{"position": [3, -4, 8]}]}' >"$work/empty.json"
+export FAKE_CUDA_THREAD_NS=0 # each launch takes a millisecond
+long=("$hedron" render "$work/empty.json" --size 1920x1080 --samples 9 --threads 1 --frames 0 --math fast --verbose -o picture.data)
 fastest='device +cuda 0, .*: the fastest of 2 on this kind of scene'
 for when in '' ', measured earlier'; do
     expect_exit 0 "${long[@]}"
@@ -227,7 +230,7 @@ for registers in 64 96 128 168; do
 done
 expect_exit 0 "${fast[@]}" --pipeline mega
 expect_stderr_contains "launch    mega: the best for this kind of scene, by 'hedron tune'"
-expect_refusal 3 "${tune[@]}"
+expect_refusal 3 "${wrong[@]}" "${tune[@]}"
 expect_stderr_contains 'computes wrongly'
 
 # ---- a library that is gone is missed, though kernels are kept
