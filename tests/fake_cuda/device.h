@@ -58,7 +58,7 @@ static inline double __fma_rn(double a, double b, double c) {
     return __builtin_fma(a, b, c);
 }
 #endif
-static inline float sqrtf(float a) {
+static inline float sqrt(float a) {
     return __builtin_sqrtf(a);
 }
 static inline double sqrt(double a) {
