@@ -38,11 +38,18 @@ static void test_names_have_numbers(void **state) {
     assert_string_equal(table.names[1], "ab");
 }
 
-/* The next name from `*number` on with the slot; `width` is its size. */
+/* The next name with the slot: a number from `*number` on and a character, `width` together. */
 static void next_colliding(int *number, int width, uint64_t slot, char name[16]) {
-    do
-        snprintf(name, 16, "%0*d", width, (*number)++);
-    while (hd_hash_bytes(HD_HASH_START, name, strlen(name)) % (4 * HD_MAX_MESH_MATERIALS) != slot);
+    for (;;) {
+        int size = snprintf(name, 16, "%0*d", width - 1, (*number)++);
+        uint64_t begun = hd_hash_bytes(HD_HASH_START, name, (size_t)size);
+        for (char last = '!'; last <= '~'; last++)
+            if (hd_hash_bytes(begun, &last, 1) % (4 * HD_MAX_MESH_MATERIALS) == slot) {
+                name[size] = last;
+                name[size + 1] = '\0';
+                return;
+            }
+    }
 }
 
 static void test_names_that_collide(void **state) {
