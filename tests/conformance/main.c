@@ -3,7 +3,8 @@
    that opens, in float and double, and demands one hash for each frame and precision, the committed
    one. The options --backend, --lanes, --precision and --threads leave out the others; with
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
-   other launches (variants.h). Each renderer also has frames under way together (flights.h).
+   other launches (variants.h). Each renderer also has frames under way together (flights.h). With
+   --few each renders only what the least of the variants do, and no truths are checked.
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -30,7 +31,7 @@ static const char usage[] =
     "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
     "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
-    "                          [--one-build] [--pictures FOLDER]\n";
+    "                          [--one-build] [--few] [--pictures FOLDER]\n";
 static const char *const precision_names[2] = {"float", "double"};
 static const char *const math_names[2] = {"strict", "fast"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
@@ -48,7 +49,7 @@ typedef struct Options {
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
     int threads;              /* an index into thread_names; or ALL */
-    bool one_build, write_golden;
+    bool one_build, few, write_golden;
     int math;
 } Options;
 
@@ -219,7 +220,7 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .pipeline = HD_PIPELINE_MEGA,
         };
         bool one_build = options->one_build || (device->is_cpu && lane_counts[i] != OWN_BUILDS);
-        check_renderer(device, &wanted, false, one_build, options, golden, tally);
+        check_renderer(device, &wanted, options->few, one_build, options, golden, tally);
     }
 }
 
@@ -232,7 +233,8 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
         HdRenderOptions wanted = variant->options;
         wanted.precision = precision;
         wanted.math = (HdMath)options->math;
-        check_renderer(device, &wanted, !variant->all_frames, true, options, golden, tally);
+        bool only_few = options->few || !variant->all_frames;
+        check_renderer(device, &wanted, only_few, true, options, golden, tally);
     }
 }
 
@@ -279,6 +281,10 @@ static bool parse_options(Options *options, int count, char **arguments) {
         }
         if (strcmp(arguments[i], "--one-build") == 0) {
             options->one_build = true;
+            continue;
+        }
+        if (strcmp(arguments[i], "--few") == 0) {
+            options->few = true;
             continue;
         }
         const char *value = i + 1 < count ? arguments[i + 1] : NULL;
