@@ -34,8 +34,7 @@ static int greater(int a, int b) {
     return a > b ? a : b;
 }
 
-/* What the scenes of the suite need, taken together. */
-static void need_most(HdSceneTables *tables) {
+void need_most(HdSceneTables *tables) {
     enum { PLANES = 32, DEPTH = 32, NODE_STACK = 32 };
     tables->plane_count = greater(tables->plane_count, PLANES);
     tables->depth = greater(tables->depth, DEPTH);

@@ -64,15 +64,6 @@ static void print_catch(const char *name, const Catch *caught) {
     fflush(stdout);
 }
 
-/* What all scenes need of the kernels, so that devices that compile them do so once. */
-static void need_most(HdSceneTables *tables) {
-    enum { PLANES = 32, NODE_STACK = 32 };
-    if (tables->plane_count < PLANES)
-        tables->plane_count = PLANES;
-    if (tables->node_stack < NODE_STACK)
-        tables->node_stack = NODE_STACK;
-}
-
 static void upload(HdRenderer *renderer, const Hunt *hunt, HdPrecision precision) {
     HdError error;
     HdSceneTables tables;
