@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: MIT
-# The builds of the plain C kernels, as listed in cpu/kernel.h: instruction set, lanes, precision,
-# arithmetic. Bundles that do not fill a register are there to compare bytes, not for speed: strict kernels
-# stand in for their fast ones, those wider than a register are built at -O1, which keeps gcc's compile
-# time bounded, and no sanitizer looks at them. With sanitizers, which look at memory and not at rounding,
-# strict kernels stand in everywhere, and there are fewer of them.
+# The builds of the plain C kernels, the one list of them: instruction set, lanes, precision, kind. The first
+# that a processor can run is the one that its renderers take where nobody asks for lanes. Kinds:
+#   full     lanes that fill a register, and single lanes: strict and fast arithmetic
+#   compare  fewer lanes than that, there to compare bytes: the strict kernel stands in for the fast one
+#   wide     more lanes than that, to compare as well: at -O1 and without a pass that vectors of many
+#            registers make slow, which bounds gcc's compile time
+# Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
-set(builds generic:1 generic:4 generic:8 generic:16)
 if(processor MATCHES "^(x86_64|amd64)$")
-    list(APPEND builds avx2:1 avx2:4 avx2:8 avx512:8 avx512:16)
+    set(HEDRON_KERNELS avx512:16:float:full avx512:8:double:full avx512:8:float:compare avx512:16:double:wide
+        avx2:8:float:full avx2:4:double:full avx2:4:float:compare avx2:8:double:wide
+        avx2:1:float:full avx2:1:double:full generic:1:float:compare generic:1:double:compare)
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
-    if(HEDRON_SANITIZE)
-        list(REMOVE_ITEM builds generic:4 generic:8 generic:16)
-        target_compile_definitions(hedron_core PRIVATE HD_CPU_FEW)
-    endif()
+else()
+    set(HEDRON_KERNELS generic:4:float:full generic:4:double:compare generic:8:float:wide generic:8:double:wide
+        generic:16:float:wide generic:16:double:wide generic:1:float:full generic:1:double:full)
 endif()
 
 # gcc takes vectors that are filled lane by lane for uninitialised.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     set(no_false_alarms -Wno-maybe-uninitialized)
+    set(no_slow_pass -fno-tree-fre)
 endif()
 set(HEDRON_KERNEL_WARNINGS ${HEDRON_WARNINGS} -Wno-unused-parameter -Wno-psabi ${no_false_alarms})
 
@@ -27,43 +30,46 @@ set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
     -mprefer-vector-width=512)
 set(flags_strict -ffp-contract=off)
 set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
-set(wider_than_a_register generic:8:float generic:16:float generic:8:double generic:16:double
-    avx2:8:double avx512:16:double)
+set(level_full -O3)
+set(level_compare -O3)
+set(level_wide -O1 ${no_slow_pass})
+if(HEDRON_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+    set(level_full -O1)
+    set(level_compare -O1)
+endif()
 
-set(to_compare ${wider_than_a_register} generic:4:double avx2:4:float avx512:8:float)
-
-foreach(build IN LISTS builds)
-    string(REPLACE ":" ";" parts ${build})
-    list(GET parts 0 set)
-    list(GET parts 1 lanes)
-    foreach(precision float double)
-        set(level -O3)
-        set(arithmetics strict fast)
-        set(sanitizers "")
-        if("${build}:${precision}" IN_LIST wider_than_a_register OR HEDRON_SANITIZE OR
-           CMAKE_BUILD_TYPE STREQUAL "Debug")
-            set(level -O1)
-        endif()
-        if("${build}:${precision}" IN_LIST to_compare)
-            set(arithmetics strict)
-            set(sanitizers -fno-sanitize=all)
-        elseif(HEDRON_SANITIZE)
-            set(arithmetics strict)
-        endif()
-        foreach(math IN LISTS arithmetics)
-            set(name ${set}_${lanes}_${precision}_${math})
+# Rows of HD_CPU_BUILDS in cpu/kernel.h.
+set(rows "")
+foreach(kernel IN LISTS HEDRON_KERNELS)
+    string(REPLACE ":" ";" parts ${kernel})
+    list(POP_FRONT parts set lanes precision kind)
+    # Sanitizers look at memory and not at rounding, and at one build of each kind of bundle.
+    set(arithmetics strict)
+    set(sanitizers "")
+    if(NOT kind STREQUAL full)
+        set(sanitizers -fno-sanitize=all)
+    elseif(NOT HEDRON_SANITIZE)
+        list(APPEND arithmetics fast)
+    endif()
+    foreach(math strict fast)
+        set(name ${set}_${lanes}_${precision}_${math})
+        if(math IN_LIST arithmetics)
+            set(symbol hd_kernel_${name})
             add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
             target_compile_definitions(hedron_kernel_${name} PRIVATE
-                HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes}
-                HD_DOUBLE=$<STREQUAL:${precision},double>)
-            if("${arithmetics}" STREQUAL strict)
-                target_compile_definitions(hedron_kernel_${name} PRIVATE
-                    HD_KERNEL_STANDS_FOR=hd_kernel_${set}_${lanes}_${precision}_fast)
-            endif()
+                HD_KERNEL_NAME=${symbol} HD_LANES=${lanes} HD_DOUBLE=$<STREQUAL:${precision},double>)
             target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
-                ${level} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}}
+                ${level_${kind}} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}}
                 ${sanitizers})
             target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
-        endforeach()
+        endif()
+        string(TOUPPER "${precision}, ${math}" constants)
+        string(APPEND rows " \\\n    X(${set}, ${lanes}, ${constants}, ${symbol})")
     endforeach()
 endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/cpu_builds.h CONTENT
+"/* SPDX-License-Identifier: MIT */
+/* X(instruction set, lanes, precision, arithmetic, kernel), the best first; of cmake/cpu_kernels.cmake. */
+#define HD_CPU_BUILDS(X)@rows@
+" @ONLY)
+target_include_directories(hedron_core PRIVATE ${PROJECT_BINARY_DIR}/generated)

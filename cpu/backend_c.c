@@ -46,6 +46,7 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
              hd_cpu_best_instruction_set(), hd_processor_count());
     device->is_cpu = true;
+    device->most_lanes = hd_cpu_most_lanes();
     device->has_double = true;
     return HD_OK;
 }

@@ -6,20 +6,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DECLARE_BUILD(set, lanes)                                                                  \
-    HdCpuKernel hd_kernel_##set##_##lanes##_float_strict;                                          \
-    HdCpuKernel hd_kernel_##set##_##lanes##_float_fast;                                            \
-    HdCpuKernel hd_kernel_##set##_##lanes##_double_strict;                                         \
-    HdCpuKernel hd_kernel_##set##_##lanes##_double_fast;
+#include "cpu_builds.h"
+
+#define DECLARE_BUILD(set, lanes, precision, math, kernel) HdCpuKernel kernel;
 HD_CPU_BUILDS(DECLARE_BUILD)
 
-#define LIST_BUILD(set, lanes)                                                                     \
-    {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_STRICT, hd_kernel_##set##_##lanes##_float_strict},   \
-        {#set, lanes, HD_PRECISION_FLOAT, HD_MATH_FAST, hd_kernel_##set##_##lanes##_float_fast},   \
-        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_STRICT,                                         \
-         hd_kernel_##set##_##lanes##_double_strict},                                               \
-        {#set, lanes, HD_PRECISION_DOUBLE, HD_MATH_FAST, hd_kernel_##set##_##lanes##_double_fast},
+#define LIST_BUILD(set, lanes, precision, math, kernel)                                            \
+    {#set, lanes, HD_PRECISION_##precision, HD_MATH_##math, kernel},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
+enum { BUILD_COUNT = sizeof builds / sizeof builds[0] };
 
 static bool is_supported(const char *set) {
 #ifdef HD_CPU_X86
@@ -39,22 +34,20 @@ const char *hd_cpu_best_instruction_set(void) {
             return builds[i].instruction_set;
 }
 
-static int native_lanes(HdPrecision precision) {
-    const char *set = hd_cpu_best_instruction_set();
-    int floats = strcmp(set, "avx512") == 0 ? 16 : strcmp(set, "avx2") == 0 ? 8 : 4;
-    if (precision == HD_PRECISION_FLOAT)
-        return floats;
-    return floats == 16 ? 8 : 4;
+const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math) {
+    for (const HdCpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
+        if ((lanes == 0 || build->lanes == lanes) && build->precision == precision &&
+            build->math == math && is_supported(build->instruction_set))
+            return build;
+    return NULL;
 }
 
-const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math) {
-    if (lanes == 0)
-        lanes = native_lanes(precision);
-    const HdCpuBuild *build = builds;
-    while (build->lanes != lanes || build->precision != precision || build->math != math ||
-           !is_supported(build->instruction_set))
-        build++;
-    return build;
+int hd_cpu_most_lanes(void) {
+    int most = 1;
+    for (const HdCpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
+        if (build->lanes > most && is_supported(build->instruction_set))
+            most = build->lanes;
+    return most;
 }
 
 void hd_cpu_name(char *name, int capacity) {

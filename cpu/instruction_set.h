@@ -14,9 +14,11 @@ typedef struct HdCpuBuild {
     HdCpuKernel *kernel;
 } HdCpuBuild;
 
-/* The best build with `lanes` lanes, one of 1, 4, 8 and 16; 0: as many as one register of the best
-   instruction set holds. There is always one. */
+/* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: it can run none
+   of those with more lanes than hd_cpu_most_lanes. */
 const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math);
+
+int hd_cpu_most_lanes(void);
 
 const char *hd_cpu_best_instruction_set(void);
 

@@ -34,13 +34,3 @@ void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const 
     counts[item] =
         (HdRayCounts){counted.mirrored, counted.transmitted, counted.shadow_tests, counted.clamps};
 }
-
-/* Where these kernels stand in for those of another arithmetic. */
-#ifdef HD_KERNEL_STANDS_FOR
-HdCpuKernel HD_KERNEL_STANDS_FOR;
-
-void HD_KERNEL_STANDS_FOR(const HdTable *scene, const HdTable *frame, int item,
-                          const HdCpuQueue *queue, float *pixels, HdRayCounts *counts) {
-    HD_KERNEL_NAME(scene, frame, item, queue, pixels, counts);
-}
-#endif

@@ -37,6 +37,8 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
+    if (device->most_lanes > 0 && options->lanes > device->most_lanes)
+        return "the processor has no registers for so many lanes";
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
