@@ -72,4 +72,4 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/cpu_builds.h CONTENT
 /* X(instruction set, lanes, precision, arithmetic, kernel), the best first; of cmake/cpu_kernels.cmake. */
 #define HD_CPU_BUILDS(X)@rows@
 " @ONLY)
-target_include_directories(hedron_core PRIVATE ${PROJECT_BINARY_DIR}/generated)
+target_include_directories(hedron_core PRIVATE ${PROJECT_BINARY_DIR})

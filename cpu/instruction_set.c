@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cpu_builds.h"
+#include "generated/cpu_builds.h"
 
 #define DECLARE_BUILD(set, lanes, precision, math, kernel) HdCpuKernel kernel;
 HD_CPU_BUILDS(DECLARE_BUILD)
