@@ -46,8 +46,8 @@ foreach(kernel IN LISTS HEDRON_KERNELS)
     # Sanitizers look at memory and not at rounding, and at one build of each kind of bundle.
     set(arithmetics strict)
     set(sanitizers "")
-    if(NOT kind STREQUAL full)
-        set(sanitizers -fno-sanitize=all)
+    if(NOT kind STREQUAL full OR (HEDRON_SANITIZE MATCHES thread AND precision STREQUAL double))
+        set(sanitizers -fno-sanitize=all) # threads share the same with either precision
     elseif(NOT HEDRON_SANITIZE)
         list(APPEND arithmetics fast)
     endif()

@@ -62,7 +62,9 @@ static HdStatus measure(Tuner *tuner, const HdLaunch *launch, HdTrialTime *time,
 static HdStatus try(Tuner *tuner, const HdLaunch *launch, HdError *error) {
     HdTuning *tuning = tuner->tuning;
     HdTrialTime time = {0};
-    if (tuning->count == HD_TUNING_CANDIDATES)
+    const HdRenderOptions options = hd_launch_options(tuner->options, launch);
+    if (tuning->count == HD_TUNING_CANDIDATES ||
+        (tuning->count > 0 && hd_device_obstacle(tuner->device, &options) != NULL))
         return HD_OK;
     HdStatus status = measure(tuner, launch, &time, error);
     bool is_first = tuning->count == 0;

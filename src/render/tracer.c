@@ -125,7 +125,9 @@ static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
                                                  : collect(tracer, flight, frame, times, error);
     if (status == HD_OK)
         times->longest_launch = hd_renderer_take_longest_launch(tracer->renderer);
-    return status == HD_OK && hd_interrupt_signal() != 0 ? HD_INTERRUPTED : status;
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted between two frames");
+    return status;
 }
 
 static void give_oldest(Tracer *tracer) {
@@ -226,10 +228,10 @@ HdStatus hd_trace_frames(const HdTracerJob *job, HdRenderer *renderer, int numbe
                          bool *is_fault_of_device, HdError *error) {
     Tracer tracer = {.job = job, .renderer = renderer, .number = number};
     HdStatus status = HD_OK;
-    *is_fault_of_device = true;
     if (hd_scene_is_surveyed(job->scene))
         status = hd_refinement_create(&tracer.refinement, job->scene, renderer, job->precision,
                                       job->wish.curve, error);
+    *is_fault_of_device = status != HD_INTERRUPTED;
     if (status != HD_OK)
         return status;
     status = trace(&tracer, error);

@@ -50,6 +50,19 @@ finish() {
     exit 0
 }
 
+# The numbers of lanes that plain C takes on this processor.
+lanes_there() {
+    local lanes
+    for lanes in 1 4 8 16; do
+        if "$hedron" render --quiet --backend c --lanes "$lanes" --frames 0 --size 16x16 --samples 1 \
+            -o "$work/lanes.data" >"$work/lanes.txt" 2>&1; then
+            echo "$lanes"
+        elif ! grep -q 'the processor has no registers for so many lanes' "$work/lanes.txt"; then
+            cat "$work/lanes.txt" >&2
+        fi
+    done
+}
+
 skip() {
     echo "skipped: $*"
     finished=1

@@ -105,9 +105,9 @@ expect_python 'cuda:0 c:0 None' 'from harness.run.devices import judge' \
     'made = lambda doubles: [{"label": f"{b}:0", "backend": b, "strict": True, "is_cpu": b != "cuda", "has_double": b in doubles} for b in ("opencl", "c", "cuda")]' \
     'names = [judge(made(doubles)) for doubles in (("c", "cuda"), ("opencl", "c"), ())]' \
     'print(*(name and name["label"] for name in names))'
-# What is stated of the reference's samples is what the program states of them.
+# What is stated of the reference's samples is what their test measures.
 expect_python True 'from harness.accuracy.truth import SAMPLE_ERROR' \
-    "print(f'#define HD_REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n' in open('$project/src/render/samples.h', encoding='utf-8').read())"
+    "print(f'#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n' in open('$project/tests/unit/render/test_samples.c', encoding='utf-8').read())"
 
 # ---- a tiny run
 expect_exit 0 "$hedron" check "$project/bench/scenes/few.json"

@@ -3,7 +3,7 @@
 from harness.run import pfm
 from harness.run.program import Problem, digest
 
-# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: src/render/samples.h.
+# Of 32 x 32 dense samples on an edge between black and white, in steps of 255: tests/unit/render/test_samples.c.
 SAMPLE_ERROR, SAMPLE_SIDE = 2.2, 32
 SIDE_QUICKLY = 16
 # Steps of 255 that may be left out of it: the first one that is affordable, or the last.
