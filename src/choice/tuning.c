@@ -62,9 +62,7 @@ static HdStatus measure(Tuner *tuner, const HdLaunch *launch, HdTrialTime *time,
 static HdStatus try(Tuner *tuner, const HdLaunch *launch, HdError *error) {
     HdTuning *tuning = tuner->tuning;
     HdTrialTime time = {0};
-    const HdRenderOptions options = hd_launch_options(tuner->options, launch);
-    if (tuning->count == HD_TUNING_CANDIDATES ||
-        (tuning->count > 0 && hd_device_obstacle(tuner->device, &options) != NULL))
+    if (tuning->count == HD_TUNING_CANDIDATES)
         return HD_OK;
     HdStatus status = measure(tuner, launch, &time, error);
     bool is_first = tuning->count == 0;
@@ -165,10 +163,12 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 
 #define LISTED(number) number,
 
-/* All bundles but single rays. */
+/* All bundles that the device takes but single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
-    const int count = (int)(sizeof lanes / sizeof *lanes);
+    int count = (int)(sizeof lanes / sizeof *lanes), most = tuner->device->most_lanes;
+    while (most > 0 && lanes[count - 1] > most)
+        count--;
     HdLaunch launch = best_so_far(tuner);
     return tuner->options->lanes == 0
                ? try_each(tuner, &launch, &launch.lanes, lanes + 1, count - 1, error)
