@@ -38,7 +38,7 @@ if(HEDRON_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(level_compare -O1)
 endif()
 
-# Rows of HD_CPU_BUILDS in cpu/kernel.h.
+# Rows of HD_CPU_BUILDS, for cpu/instruction_set.c.
 set(rows "")
 foreach(kernel IN LISTS HEDRON_KERNELS)
     string(REPLACE ":" ";" parts ${kernel})
