@@ -81,8 +81,8 @@ cat >targets.py <<'PYTHON'
 from harness.accuracy.targets import SceneTargets
 from harness.measure.plan import Plan
 def told(truncation, arithmetic):
-    plan = Plan({}, {})
-    targets = SceneTargets(plan, {"label": "c:0"}, [], [], True)
+    plan = Plan({}, {}, quick=True)
+    targets = SceneTargets(plan, {"label": "c:0"}, [])
     targets.truncation = {name: found if isinstance(found, str) else {"measured": found[0], "bound": found[1]}
                           for name, found in truncation.items()}
     targets.arithmetic = {name: {"above_1": share} for name, share in arithmetic.items()}

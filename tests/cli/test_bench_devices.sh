@@ -10,7 +10,7 @@ bench=("$project/bench/study" devices)
 
 # ---- the arithmetic: one device ends frames at 1, 2, 3 s, the other at 5 and 9 s: 1 and a quarter frames a second
 frames='def frame(index, end): return {"backend": "c", "index": index, "began": {"trace": end - 0.5}, "seconds": {"trace": 0.5}}'
-expect_python "1.25 0.0 [1] [1, 2] [1, 2, 3] [1, 2, 4, 8]" "$frames" 'from harness.benches.devices import counts, steady_rate' \
+expect_python "1.25 0.0 [1] [1, 2] [1, 2, 3] [1, 2, 4, 8]" "$frames" 'from harness.measurements.devices import counts, steady_rate' \
     'two = [frame(0, 1), frame(1, 5), frame(0, 2), frame(0, 3), frame(1, 9)]' \
     'print(steady_rate(two), steady_rate(two[:4]), *map(counts, (1, 2, 3, 8)))'
 

@@ -88,7 +88,7 @@ expect_python True "$same" '[s["floor"].pop("texture") for s in (a, b)]; [s.pop(
 
 # ---- the model finds the coefficients that made the times, and scales all but the fixed part
 cat >model.py <<'PYTHON'
-from harness.benches import predict as gpu_model
+from harness.measurements import predict as gpu_model
 points = []
 for i in range(16):
     point = {"scene": f"scene {i}", "rays": 10**6 * (1 + i * i % 7), "planes": 10 + 7 * i % 30, "lights": 4 + 97 * i % 300,
@@ -102,7 +102,7 @@ print(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), row["low"] < 
 PYTHON
 expect_python $'8 True True\n10.0 True' "$(cat model.py)"
 # A coefficient that would be negative is none.
-expect_python '[1.0, 0.0]' 'from harness.benches.predict import non_negative_fit' \
+expect_python '[1.0, 0.0]' 'from harness.measurements.predict import non_negative_fit' \
     'print([round(c, 6) for c in non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])])'
 
 # ---- a tiny run

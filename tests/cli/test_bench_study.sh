@@ -336,7 +336,7 @@ True 6 6 [[[0.5, 0.5], [0.5]], [[0.5, 0.5], [0.5]]]
 [(3000.0, True), (4000.0, True)]' "$(cat noise.py)"
 
 # ---- the bound: shadow tests by operations, over the peak of all cores or of a GPU's lanes
-expect_python '[20.0, 4.0, None, None]' 'from harness.measure import bounds as b' \
+expect_python '[20.0, 4.0, None, None]' 'from harness.measurements import bounds as b' \
     'cpu, gpu = {"is_cpu": True, "name": "c"}, {"is_cpu": False, "name": "g", "driver": "sm_90", "compute_units": 2, "clock_mhz": 1000}' \
     'odd = {**gpu, "driver": "?"}' \
     'bounds = {"instructions_per_core_second": 1e9, "lanes": 4, "operations_per_test": 80, "operations_per_test_one_lane": 512}' \
@@ -369,9 +369,8 @@ def save(most=99):
     if len(saves) >= most:
         raise Stop
 def measure(most=99):
-    plan = Plan({"c:0": device}, {points.SCENE: None}, program, folder, lambda *news: None)
-    points.Points(plan, {"c:0": device}, device, (16, 12), [], True, memory, out / "study_truth_16x12.pfm",
-                  lambda: save(most)).measure(2)
+    plan = Plan({"c:0": device}, {points.SCENE: None}, program, folder, lambda *news: None, quick=True)
+    points.Points(plan, device, (16, 12), memory, out / "study_truth_16x12.pfm", lambda: save(most)).measure(2)
 try:
     measure(3)
 except Stop:

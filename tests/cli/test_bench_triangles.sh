@@ -32,7 +32,7 @@ print(mesh_rates.best_way(rates, mesh_rates.BUNDLED), mesh_rates.best_way(rates,
 print(mesh_rates.failures({1000: good, 80000: "why not"}), len(mesh_rates.failures({1000: mesh_rates.parse(text(0.99))})))
 def finished(objects):
     plan = Plan({}, {})
-    mesh_rates.Rows(plan, objects).compare("primary", 1000, mesh_rates.BUNDLED, mesh_rates.RATES[0][3])
+    mesh_rates.add_comparison(plan, objects, "primary", 1000, mesh_rates.BUNDLED, mesh_rates.RATES[0][3])
     row = plan.finished()[0]
     return row["what"], row["figure"], row["verdict"], row["reason"]
 for way in ("single", "packets_of_8"):
@@ -76,7 +76,7 @@ plan = Plan({}, {})
 leaks.add_rows(plan, hunts)
 for row in plan.finished():
     print(row["what"], row["figure"], row["verdict"], row["reason"])
-print(leaks.failures(hunts), leaks.parse("c float, a CPU\n"))
+print(sorted(plan.failures), leaks.parse("c float, a CPU\n"))
 PYTHON
 expect_python "leaks and double hits of 2.39 M rays aimed at edges and corners, 16 renderers 0.0 aim None
 leaks and double hits of 2.39 M rays aimed at edges and corners, 16 renderers 3.0 missed None
@@ -90,7 +90,7 @@ from harness.triangles import primary
 def told(name, is_cpu):
     devices = {"x:0": {"name": name, "is_cpu": is_cpu}}
     plan = Plan(devices, {"near-1000": "a file"})
-    primary.add(plan, devices, [])
+    primary.add(plan)
     for job in plan.jobs:
         job["runs"].append({"frames": [{"rays": {"primary": 32e9}, "seconds": {"trace": each}, "warm_up": each == 1}
                                        for each in (1, 4)]})

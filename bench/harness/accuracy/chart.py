@@ -5,8 +5,7 @@ import math
 from harness.accuracy import front
 from harness.accuracy.points import recommended
 from harness.accuracy.settings import FAMILIES
-from harness.chart import gnuplot
-from harness.chart.gnuplot import data, numbers, quoted
+from harness.chart.gnuplot import TICKS, Chart, colour, device_title, plain, quoted
 from harness.chart.names import Names
 from harness.measure.numbers import number
 
@@ -15,18 +14,8 @@ MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
 LEAST = 1e-4  # of 255: what is less is drawn there
 
 
-def chart_name(label, error):
-    return f"accuracy_{label.replace(':', '')}_{error}"
-
-
-def drawn(points, error):
-    return [{**point, error: max(point[error], LEAST)} for point in points]
-
-
-def caption(result, points, error):
-    words = [f"{word}: {' '.join(point['options'])} ({number(point['ms'], 3)} ms)"
-             for word, point in recommended(points)]
-    truth = result["truth"]
+def caption(truth, points, error):
+    words = [f"{word}: {' '.join(point['options'])} ({number(point['ms'], 3)} ms)" for word, point in recommended(points)]
     made = (f"The reference has {truth['samples']} x {truth['samples']} samples and misses at most "
             f"{number(truth['missing']['largest'], 2)} of 255; one of a quarter of its samples is off by "
             f"{number(truth['to_quarter_of_samples'][error], 2)}.")
@@ -39,63 +28,52 @@ def labels(points, error, ranges):
     named = [point for point in points if point["recommended"]]
     named += [point for point in front.front(points, error) if point not in named]
     names = Names(ranges, [(point["ms"], point[error]) for point in points])
-    lines = []
     for place, point in enumerate(named):
         word = f" ({point['recommended']})" if point["recommended"] else ""
-        name = gnuplot.plain(point["name"] + word, 40)
+        name = plain(point["name"] + word, 40)
         where = names.place((point["ms"], point[error]), name, bool(word))
         if where:
             to, right, up = where
-            lines.append(f"set label {place + 10} {quoted(name)} at {point['ms']!r}, {point[error]!r} {to} "
-                         f"offset character {right}, {up} noenhanced font ',11'")
-    return lines
+            yield (f"set label {place + 10} {quoted(name)} at {point['ms']!r}, {point[error]!r} {to} "
+                   f"offset character {right}, {up} noenhanced font ',11'")
 
 
 def ticks(values):
     """1, 2 and 5 times the powers of ten."""
     first, last = math.floor(math.log10(min(values))) - 1, math.ceil(math.log10(max(values))) + 1
-    return "(" + ", ".join(f"'{digit * 10.0 ** power:g}' {digit * 10.0 ** power!r}"
-                           for power in range(first, last) for digit in (1, 2, 5)) + ")"
+    return {f"{digit * 10.0 ** power:g}": digit * 10.0 ** power for power in range(first, last) for digit in TICKS}
 
 
 def chart(result, label, error):
-    """(height, commands)"""
-    def place_lines(these):
-        return (numbers(each["ms"], each[error]) for each in these)
-    points = drawn([each for each in result["points"] if each["device"] == label], error)
+    points = [{**point, error: max(point[error], LEAST)} for point in result["points"] if point["device"] == label]
     families = [name for name in FAMILIES if any(each["family"] == name for each in points)]
     device = next(each for each in result["devices"] if each["label"] == label)
     rows = (len(families) + 3) // 2
-    commands = gnuplot.style(result, f"{ERRORS[error].capitalize()} against time, {gnuplot.device_title(device)}",
-                            caption(result, points, error), rows)
+    made = Chart(result, f"{ERRORS[error].capitalize()} against time, {device_title(device)}",
+                 caption(result["truth"], points, error), rows)
     times, errors = [point["ms"] for point in points], [point[error] for point in points]
-    x_range, y_range = (min(times) / 1.5, max(times) * 2.5), (min(errors) / 1.6, max(errors) * 1.6)
-    commands += [
-        "set logscale xy", f"set xtics {ticks(times)}", f"set ytics {ticks(errors)}",
-        f"set xrange [{x_range[0]!r}:{x_range[1]!r}]",
-        f"set yrange [{y_range[0]!r}:{y_range[1]!r}]",
-        "set xlabel 'milliseconds for each frame (logarithmic)'",
-        f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
-        f"set key at graph 0.5, graph 1.03 center bottom vertical maxrows {rows} Left reverse noenhanced",
-        *labels(points, error, (x_range, y_range)),
-        *data("front", place_lines(front.front(points, error))),
-    ]
-    plots = ["$front using 1:2 with lines linewidth 2.5 linecolor rgb '#999999' title 'the best front'"]
+    ranges = (min(times) / 1.5, max(times) * 2.5), (min(errors) / 1.6, max(errors) * 1.6)
+    made.add("set logscale xy", *(f"set {name}range [{low!r}:{high!r}]" for name, (low, high) in zip("xy", ranges)),
+             "set xlabel 'milliseconds for each frame (logarithmic)'", f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
+             *labels(points, error, ranges))
+    made.ticks("x", ticks(times))
+    made.ticks("y", ticks(errors))
+    made.legend(rows)
+
+    def draw(name, these, look, title):
+        made.data(name, ((each["ms"], each[error]) for each in these))
+        made.plot(f"${name} using 1:2 with {look} title {quoted(title)}")
+    draw("front", front.front(points, error), "lines linewidth 2.5 linecolor rgb '#999999'", "the best front")
     for place, family in enumerate(families):
-        commands += data(f"f{place}", place_lines(each for each in points if each["family"] == family))
-        plots.append(f"$f{place} using 1:2 with points pointtype {MARKS[place % len(MARKS)]} pointsize 1.3 "
-                     f"linewidth 1.5 linecolor rgb '{gnuplot.colour(place)}' "
-                     f"title {quoted(FAMILIES[family])}")
+        draw(f"f{place}", (each for each in points if each["family"] == family), f"points pointtype {MARKS[place % len(MARKS)]} "
+             f"pointsize 1.3 linewidth 1.5 linecolor rgb '{colour(place)}'", FAMILIES[family])
     best = [each for each in points if each["recommended"]]
     if best:
-        commands += data("best", place_lines(best))
-        plots.append("$best using 1:2 with points pointtype 6 pointsize 3 linewidth 2 linecolor rgb '#000000' "
-                     "title 'recommended'")
-    commands.append("plot " + ", ".join(plots))
-    return 640 + 20 * rows, commands
+        draw("best", best, "points pointtype 6 pointsize 3 linewidth 2 linecolor rgb '#000000'", "recommended")
+    return made.finished(640 + 20 * rows)
 
 
 def charts(result):
-    """{name: (height, commands)}"""
+    """{name: chart}"""
     labels = dict.fromkeys(point["device"] for point in result["points"] or [])
-    return {chart_name(label, error): chart(result, label, error) for label in labels for error in ERRORS}
+    return {f"accuracy_{label.replace(':', '')}_{error}": chart(result, label, error) for label in labels for error in ERRORS}

@@ -1,95 +1,81 @@
 # SPDX-License-Identifier: MIT
 """What hedron chooses by itself, against what it could have chosen: time, and error of the arithmetic."""
 from dataclasses import dataclass
-from statistics import median
 
 from harness.accuracy.points import FRAMES, ONCE_SECONDS
-from harness.accuracy.truth import run
-from harness.measure.jobs import job
-from harness.measure.numbers import spread
+from harness.accuracy.truth import render
+from harness.measure.numbers import number, spread, spread_text
 from harness.run import pfm
 from harness.run.program import Problem
+
+GRID = ("--samples", "4")
+AUTOMATIC = "automatic"
+HEAD = ["choice", "way", "device", "scene", "ms [q1..q3]", "to automatic", "RMSE", "largest"]
 
 
 @dataclass(frozen=True)
 class Choice:
     name: str
-    scene: str
-    view: tuple
-    ways: tuple  # (name, options); the first one is what comes by itself
+    option: str
+    ways: dict  # by their names; what comes by itself is another, the first
+    scene: str = "built-in"
+    view: tuple = GRID
     part: int = 1  # of the sides of the frame
 
 
-GRID = ("--samples", "4")
 CHOICES = (
-    Choice("search of triangles, many", "knot", ("--samples", "1"), (
-        ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute"))), part=4),
-    Choice("search of triangles, few", "few", (*GRID, "--geometry", "triangles"), (
-        ("automatic", ()), ("hierarchy", ("--accel", "bvh")), ("brute force", ("--accel", "brute")))),
-    Choice("geometry", "built-in", GRID, (
-        ("automatic", ()), ("solids", ("--geometry", "solids")), ("triangles", ("--geometry", "triangles")))),
-    Choice("precision", "built-in", GRID, (
-        ("automatic", ()), ("float", ("--precision", "float")), ("double", ("--precision", "double")))),
-    Choice("pipeline", "built-in", GRID, (
-        ("automatic", ()), ("mega", ("--pipeline", "mega")), ("wavefront", ("--pipeline", "wavefront")))),
-    Choice("arithmetic", "built-in", GRID, (
-        ("automatic", ()), ("strict", ("--math", "strict")), ("fast", ("--math", "fast")))),
+    Choice("search of triangles, many", "--accel", {"hierarchy": "bvh", "brute force": "brute"}, "knot", ("--samples", "1"), part=4),
+    Choice("search of triangles, few", "--accel", {"hierarchy": "bvh", "brute force": "brute"}, "few",
+           (*GRID, "--geometry", "triangles")),
+    Choice("geometry", "--geometry", {"solids": "solids", "triangles": "triangles"}),
+    Choice("precision", "--precision", {"float": "float", "double": "double"}),
+    Choice("pipeline", "--pipeline", {"mega": "mega", "wavefront": "wavefront"}),
+    Choice("arithmetic", "--math", {"strict": "strict", "fast": "fast"}),
 )
 
 
 class Choices:
-    def __init__(self, plan, runnable, judge, size, options):
-        self.plan, self.runnable, self.judge, self.size, self.options = plan, runnable, judge, size, tuple(options)
+    def __init__(self, plan, judge, size):
+        self.plan, self.judge, self.size = plan, judge, size
         self.jobs = {}  # (device, choice, way): job
         self.not_finite = self.frames = 0
-
-    def view(self, choice):
-        return "--size", "x".join(str(max(1, length // choice.part)) for length in self.size)
-
-    def reference(self, choice):
-        """Double with the same samples, and no triangles in place of solids."""
-        file = self.plan.folder / "double.pfm"
-        view = [word for word in choice.view if word not in ("--geometry", "triangles")]
-        run(self.plan.program, self.judge, self.plan.scenes[choice.scene],
-            (*view, *self.view(choice), "--precision", "double", *self.options), file)
-        return file
+        plan.once_seconds = ONCE_SECONDS
 
     def measure(self, repeats):
         for choice in CHOICES:
             self.plan.news(f"choices: {choice.name}")
             try:
-                self.measure_choice(choice, self.reference(choice), repeats)
+                self.measure_choice(choice, repeats)
             except Problem as problem:
                 self.plan.failures.add(str(problem))
 
-    def measure_choice(self, choice, reference, repeats):
+    def measure_choice(self, choice, repeats):
+        size = "--size", "x".join(str(max(1, length // choice.part)) for length in self.size)
+        # Double with the same samples, and no triangles in place of solids.
+        reference, view = self.plan.folder / "double.pfm", [word for word in choice.view if word not in ("--geometry", "triangles")]
+        render(self.plan, self.judge, self.plan.scenes[choice.scene], (*view, *size, "--precision", "double"), reference)
+        ways = {AUTOMATIC: (), **{name: (choice.option, value) for name, value in choice.ways.items()}}
         for repeat in range(repeats):  # in turns
-            for label in self.runnable:
-                for name, options in choice.ways:
-                    made = self.job(label, choice, name, options)
-                    if not made["reason"] and not self.is_enough(made):
+            for label in self.plan.runnable:
+                for name, options in ways.items():
+                    made = self.job(label, choice, name, (*options, *choice.view, *size))
+                    if self.plan.is_wanted(made, repeat):
                         self.plan.measure(made, repeat)
-                    if not made["reason"]:
+                    if not made["reason"] and "error" not in made:
                         self.judge_picture(made, reference)
-
-    def is_enough(self, made):
-        return made["runs"] and median(self.plan.medians(made)) > ONCE_SECONDS
 
     def job(self, label, choice, name, options):
         key = label, choice.name, name
         if key not in self.jobs:
-            file = self.plan.folder / f"choice-{len(self.jobs)}-####.pfm"
-            self.jobs[key] = job(label, choice.scene, FRAMES, (*options, *choice.view, *self.view(choice), *self.options),
-                                 output=str(file))
-            self.plan.jobs.append(self.jobs[key])
+            self.jobs[key] = self.plan.job(label, choice.scene, FRAMES, options,
+                                           output=str(self.plan.folder / f"choice-{len(self.jobs)}-####.pfm"))
         return self.jobs[key]
 
     def judge_picture(self, made, reference):
-        if "error" not in made:
-            file = made["output"].replace("####", "0000")
-            made["error"] = pfm.errors(self.plan.program, file, reference)
-            self.not_finite += pfm.not_finite(file)
-            self.frames += 1
+        file = made["output"].replace("####", "0000")
+        made["error"] = pfm.errors(self.plan.program, file, reference)
+        self.not_finite += pfm.not_finite(file)
+        self.frames += 1
 
     def table(self):
         """Entries of the report: time, ratio to what comes by itself, and error."""
@@ -104,3 +90,10 @@ class Choices:
                              **{key: made["error"][key] for key in ("rmse", "largest")})
             found.append(entry)
         return found
+
+
+def cells(entry):
+    start = [entry["choice"], entry["way"], entry["device"], entry["scene"]]
+    if entry["trace_ms"] is None:
+        return [*start, entry["reason"] or "-", "", "", ""]
+    return [*start, spread_text(entry["trace_ms"]), *(number(entry[key], 3) for key in ("ratio", "rmse", "largest"))]

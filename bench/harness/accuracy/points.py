@@ -5,7 +5,7 @@ from statistics import median
 
 from harness.accuracy import front, settings
 from harness.accuracy.truth import Truth
-from harness.measure.jobs import job, run_of
+from harness.measure.jobs import run_of
 from harness.measure.numbers import spread
 from harness.run import pfm
 from harness.run.program import digest
@@ -24,32 +24,28 @@ def empty_memory():
 class Points:
     """`memory` is filled, and `save` called, after every run. It may have what an interrupted call of the same left."""
 
-    def __init__(self, plan, runnable, judge, size, options, quick, memory, truth_file, save=lambda: None):
-        self.plan, self.runnable, self.quick, self.memory, self.size = plan, runnable, quick, memory, size
-        self.truth = Truth(plan.program, judge, size, options, plan.folder, quick, truth_file)
-        self.view = ("--size", f"{size[0]}x{size[1]}", *options)
-        self.save_memory = save
+    def __init__(self, plan, judge, size, memory, truth_file, save=lambda: None):
+        self.plan, self.memory, self.size, self.save_memory = plan, memory, size, save
+        self.truth = Truth(plan, judge, size, truth_file)
         self.settings, self.left_out = {}, {}  # (device, setting): job, and why there is none
+        plan.once_seconds = ONCE_SECONDS
 
     def job(self, label, setting):
         output = str(self.plan.folder / f"{len(self.settings)}-####.pfm")
-        made = job(label, SCENE, FRAMES, (*setting.options, *self.view), output=output)
+        made = self.plan.job(label, SCENE, FRAMES, (*setting.options, "--size", f"{self.size[0]}x{self.size[1]}"), output=output)
         key = " ".join([label, *setting.options])
         kept = self.memory["jobs"].get(key)
-        made = {**kept, "output": output} if kept and kept["runs"] else made
+        if kept and kept["runs"]:
+            made.update(kept, output=output)
         self.memory["jobs"][key] = self.settings[label, setting] = made
-        self.plan.jobs.append(made)
         return made
 
     # ---- the work
 
-    def seconds(self, made):
-        return median(self.plan.medians(made))
-
     def first_round(self):
         """Each setting of a family waits for the one before, which tells how long it would take."""
-        for label in self.runnable:
-            for family in settings.settings(self.quick).values():
+        for label in self.plan.runnable:
+            for family in settings.settings(self.plan.quick).values():
                 before = None
                 for setting in family:
                     if before and not self.is_affordable(label, setting, before):
@@ -63,8 +59,8 @@ class Points:
                         self.judge(made)
 
     def is_affordable(self, label, setting, before):
-        seconds = self.seconds(self.settings[label, before]) * setting.work / before.work
-        if seconds > (ENOUGH_QUICKLY if self.quick else ENOUGH_SECONDS):
+        seconds = median(self.plan.medians(self.settings[label, before])) * setting.work / before.work
+        if seconds > (ENOUGH_QUICKLY if self.plan.quick else ENOUGH_SECONDS):
             self.left_out[label, setting] = f"a frame would take some {seconds:.1f} s"
             return False
         return True
@@ -84,16 +80,11 @@ class Points:
     def measure(self, repeats):
         if not self.truth.is_made(self.memory["truth"]):
             self.memory.update(empty_memory())  # errors against another picture are worth nothing
-            self.truth.make(self.plan.news)
+            self.truth.make()
             self.memory["truth"] = self.truth.facts
         self.first_round()
         self.plan.save = self.save  # a first run is saved with its error
-        for repeat in range(repeats):
-            words = f"round {repeat + 1} of {repeats}"
-            if repeat > 0:
-                self.plan.turn(repeat, repeats, words, lambda made: self.plan.is_wanted(made, repeat)
-                               and self.seconds(made) <= ONCE_SECONDS)
-            self.plan.run_again(repeat, repeats, f"{words}, again what was disturbed")
+        self.plan.run_all(repeats)
         self.save()
 
     # ---- what came of it
@@ -103,7 +94,7 @@ class Points:
         self.memory.update(
             size=list(self.size), points=points, not_tried=self.absent(), not_finite=sum(
                 made.get("not_finite", 0) for made in self.settings.values()), failures=sorted(self.plan.all_failures()),
-            equal_error=[{"device": label, "rmse": error, "ratio": ratio} for label in self.runnable
+            equal_error=[{"device": label, "rmse": error, "ratio": ratio} for label in self.plan.runnable
                          for error, ratio in equal_error(points, label)])
         self.save_memory()
 
@@ -116,7 +107,7 @@ class Points:
     def points(self):
         """All, with the front and what is recommended marked. An unfinished run gives what it has."""
         found = []
-        for label in self.runnable:
+        for label in self.plan.runnable:
             points = [self.point(label, setting, made) for (which, setting), made in self.settings.items()
                       if which == label and "error" in made]
             for point in front.front(points):

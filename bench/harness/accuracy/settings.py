@@ -33,12 +33,9 @@ FAMILIES = {
     "arithmetic": f"grid {SIDE} x {SIDE}, other arithmetic or geometry",
 }
 CHOSEN = "arithmetic"
+OTHERS = {"double": ("--precision", "double"), "fast": ("--math", "fast"), "triangles": ("--geometry", "triangles"),
+          "wavefront": ("--pipeline", "wavefront"), "mega": ("--pipeline", "mega")}
 BASELINE, BOUNDED_FAMILIES = "full", ("adaptive", "deep", "promise")
-
-
-def side(setting):
-    """Of the grid of a setting that differs in nothing else, or None."""
-    return int(setting.options[1]) if setting.family == "grid" else None
 
 
 def by_side(family, sides, *others):
@@ -52,19 +49,12 @@ def by_value(family, option, values, word, *others):
             for place, value in enumerate(values)]
 
 
-def others():
-    pairs = (("double", ("--precision", "double")), ("fast", ("--math", "fast")),
-             ("triangles", ("--geometry", "triangles")), ("wavefront", ("--pipeline", "wavefront")),
-             ("mega", ("--pipeline", "mega")))
-    return [Setting("arithmetic", name, ("--samples", str(SIDE), *options), 1) for name, options in pairs]
-
-
 def settings(quick):
     """{family: [Setting]}, each list by its work."""
     sides = SIDES_QUICKLY if quick else SIDES
     at_side = ("--samples", str(SIDE))
     adaptive = ("--aa", "adaptive")
-    found = {
+    return {
         "grid": by_side("grid", sides),
         "adaptive": by_side("adaptive", sides[1:], *adaptive),
         "full": by_side("full", sides, "--depth", str(FULL_DEPTH), "--cutoff", "0"),
@@ -76,6 +66,5 @@ def settings(quick):
         "bound": by_value("bound", "--max-error", (64, 4) if quick else (64, 16, 4, 1, 0.25), "max-error ", *at_side),
         "promise": by_value("promise", "--max-error", (64,) if quick else (64, 16, 4, 1), "promise ", "--samples", "8",
                             *adaptive),
-        "arithmetic": others(),
+        CHOSEN: [Setting(CHOSEN, name, (*at_side, *options), 1) for name, options in OTHERS.items()],
     }
-    return found

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Targets that are held on every scene that ships, and on the built-in scene at its own size."""
-from harness.accuracy.truth import run
+from harness.accuracy.truth import render
 from harness.measure.rows import Missing, Target, known
 from harness.run import pfm
-from harness.run.program import Problem
 
 ARITHMETIC = Target(99.9, 99.99)
 TRUNCATION = Target(1, 1, False)
@@ -18,49 +17,47 @@ VIEWS = {True: (("--size", "64x48", "--samples", "1"), ("--size", "32x24", "--sa
          False: (("--size", "160x90", "--samples", "2"), ("--size", "64x48", "--samples", "1"))}
 
 
+def there(found):
+    """Without what could not be measured."""
+    return {name: each for name, each in found.items() if not isinstance(each, str)}
+
+
 class SceneTargets:
     """`scenes` are the files; all is done on one device, for the bytes are the same everywhere."""
 
-    def __init__(self, plan, device, scenes, options, quick):
-        self.plan, self.device, self.scenes, self.options = plan, device, scenes, tuple(options)
-        self.arithmetic_view, self.truncation_view = VIEWS[quick]
+    def __init__(self, plan, device, scenes):
+        self.plan, self.device, self.scenes = plan, device, scenes
+        self.arithmetic_view, self.truncation_view = VIEWS[plan.quick]
         self.arithmetic, self.truncation, self.adaptive = {}, {}, {}
         self.not_finite = self.frames = 0
 
     def render(self, scene, name, *options):
         """(statistics, file)"""
         file = self.plan.folder / f"{name}.pfm"
-        frame = run(self.plan.program, self.device, scene, (*options, *self.options), file)
+        frame = render(self.plan, self.device, scene, options, file)
         self.not_finite += pfm.not_finite(file)
         self.frames += 1
         return frame, file
 
-    def tried(self, measure):
-        try:
-            return measure()
-        except Problem as problem:
-            if problem.code != 3:
-                self.plan.failures.add(str(problem))
-            return str(problem)
+    def measure_scenes(self, what, found, measure):
+        for scene in self.scenes:
+            self.plan.news(f"{what}: {scene.stem}")
+            found[scene.stem] = self.plan.tried(measure, scene)
 
     # ---- float and double
 
-    def both_precisions(self, scene):
-        _, single = self.render(scene, "float", *self.arithmetic_view, "--precision", "float")
-        _, double = self.render(scene, "double", *self.arithmetic_view, "--precision", "double")
-        return pfm.errors(self.plan.program, single, double)
-
     def measure_arithmetic(self):
-        for scene in self.scenes:
-            self.plan.news(f"float against double: {scene.stem}")
-            self.arithmetic[scene.stem] = self.tried(lambda scene=scene: self.both_precisions(scene))
+        def both(scene):
+            single, double = [self.render(scene, precision, *self.arithmetic_view, "--precision", precision)[1]
+                              for precision in ("float", "double")]
+            return pfm.errors(self.plan.program, single, double)
+        self.measure_scenes("float against double", self.arithmetic, both)
 
     def add_arithmetic(self):
-        view = " ".join(self.arithmetic_view)
         shares = {name: found if isinstance(found, str) else 100 * (1 - found["above_1"])
                   for name, found in self.arithmetic.items()}
         self.worst("arithmetic", "float against double, pixels within 1 of 255, worst scene", "%", shares, ARITHMETIC,
-                   min, f"same samples, {view}")
+                   min, f"same samples, {' '.join(self.arithmetic_view)}")
         self.each("arithmetic", "%", shares)
 
     # ---- what is left out
@@ -72,28 +69,24 @@ class SceneTargets:
         view = (*view, "--precision", "double")
         frame, cut = self.render(scene, "cut", *view, "--max-error", LIMIT)
         nearly, truth = self.render(scene, "whole", *view, *nearer)
-        found = pfm.errors(self.plan.program, cut, truth)
-        return {"size": view[1], "measured": found["largest"], "bound": frame["missing"]["largest"],
-                "mean_bound": frame["missing"]["mean"],
+        return {"size": view[1], "measured": pfm.errors(self.plan.program, cut, truth)["largest"],
+                "bound": frame["missing"]["largest"], "mean_bound": frame["missing"]["mean"],
                 "truth_bound": nearly["missing"]["largest"] if "missing" in nearly else None}
 
     def measure_truncation(self):
-        for scene in self.scenes:
-            self.plan.news(f"--max-error {LIMIT}: {scene.stem}")
-            self.truncation[scene.stem] = self.tried(lambda scene=scene: self.truncated(scene))
+        self.measure_scenes(f"--max-error {LIMIT}", self.truncation, self.truncated)
 
     def add_truncation(self):
-        whole = {name: found for name, found in self.truncation.items() if not isinstance(found, str)}
-        told = {name: found for name, found in self.truncation.items() if isinstance(found, str)}
-        measured = {**{name: found["measured"] for name, found in whole.items()}, **told}
-        bounds = {name: found["bound"] / found["measured"] for name, found in whole.items()
-                  if found["bound"] > 0 and found["measured"] > 0}
+        measured = {name: found if isinstance(found, str) else found["measured"] for name, found in self.truncation.items()}
+        bounds = {name: found if isinstance(found, str) else found["bound"] / found["measured"]
+                  for name, found in self.truncation.items()
+                  if isinstance(found, str) or found["bound"] > 0 and found["measured"] > 0}
         self.worst("truncation", f"--max-error {LIMIT}: largest error by what is left out, worst scene", "of 255",
                    measured, TRUNCATION, max,
                    f"against --max-error {NEARER}, both double, same samples; {BRANCHING}, {FEW_PIXELS[1]}, against "
                    f"{' '.join(LESS_NEAR)}")
         self.each("truncation", "of 255", measured)
-        self.worst("bound", "the bound by the measured error, worst scene", "times", {**bounds, **told}, BOUND, max,
+        self.worst("bound", "the bound by the measured error, worst scene", "times", bounds, BOUND, max,
                    "of the largest of each frame; asked for by the aim only; scenes from which nothing was left out "
                    "have none")
         self.each("bound", "times", bounds)
@@ -101,9 +94,7 @@ class SceneTargets:
     # ---- adaptive sampling
 
     def both_samplings(self):
-        options = ("--samples", "4", "--aa")
-        grid, plain = self.render(None, "grid", *options, "grid")
-        frame, adaptive = self.render(None, "adaptive", *options, "adaptive")
+        (grid, plain), (frame, adaptive) = [self.render(None, way, "--samples", "4", "--aa", way) for way in ("grid", "adaptive")]
         return {"width": frame["width"], "height": frame["height"],
                 "samples": frame["rays"]["primary"] / grid["rays"]["primary"],
                 "rays": sum(frame["rays"].values()) / sum(grid["rays"].values()),
@@ -113,30 +104,27 @@ class SceneTargets:
 
     def measure_adaptive(self):
         self.plan.news("adaptive against grid 4 x 4, the scene's own size")
-        self.adaptive = self.tried(self.both_samplings)
+        self.adaptive = self.plan.tried(self.both_samplings)
 
     def add_adaptive(self):
-        def figure(key):
-            return [known(self.adaptive or None)[key]]
         measured = self.adaptive and not isinstance(self.adaptive, str)
         size = f"{self.adaptive['width']} x {self.adaptive['height']}" if measured else None
         for key, what, unit, target in (("samples", "samples", "times", SAMPLES), ("rays", "rays", "times", RAYS),
                                         ("time", "time, one frame", "times", None),
                                         ("within_2", "pixels within 2 of 255", "%", WITHIN)):
             self.plan.row("adaptive", f"adaptive against grid 4 x 4, built-in scene: {what}", unit,
-                          lambda key=key: figure(key), device=self.device["label"], target=target, note=size)
+                          lambda key=key: [known(self.adaptive or None)[key]], device=self.device["label"], target=target, note=size)
 
     # ---- rows
 
     def worst(self, key, what, unit, values, target, choose, note):
         def figure():
-            known = [value for value in values.values() if not isinstance(value, str)]
-            if len(known) < len(values):
-                raise Missing(next(value for value in values.values() if isinstance(value, str)))
-            return [choose(known)] if known else []
+            for value in values.values():
+                if isinstance(value, str):
+                    raise Missing(value)
+            return [choose(values.values())] if values else []
         self.plan.row(key, what, unit, figure, device=self.device["label"], target=target, note=note)
 
     def each(self, key, unit, values):
-        for name, value in values.items():
-            if not isinstance(value, str):
-                self.plan.row(key, f"  {name}", unit, lambda value=value: [value], device=self.device["label"])
+        for name, value in there(values).items():
+            self.plan.row(key, f"  {name}", unit, lambda value=value: [value], device=self.device["label"])

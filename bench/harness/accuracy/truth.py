@@ -12,9 +12,9 @@ SECONDS, SECONDS_QUICKLY = 150, 12
 PART = 16  # of the picture's rows, in its middle, tells how long the whole takes
 
 
-def run(program, device, scene, options, file):
+def render(plan, device, scene, options, file):
     """The statistics of frame 0, which becomes a PFM."""
-    done = program.render(device, scene, "0", options, file.parent, output=str(file))
+    done = plan.program.render(device, scene, "0", (*options, *plan.options), file.parent, output=str(file))
     if done["code"] != 0:
         raise Problem(done["code"], done["message"])
     return done["frames"][0]
@@ -23,10 +23,9 @@ def run(program, device, scene, options, file):
 class Truth:
     """`file` has the picture once `make` was called; `facts` is what is known of it."""
 
-    def __init__(self, program, device, size, options, folder, quick, file):
-        self.program, self.device, self.folder, self.file = program, device, folder, file
-        self.size, self.options, self.quick = size, tuple(options), quick
-        self.side = SIDE_QUICKLY if quick else SAMPLE_SIDE
+    def __init__(self, plan, device, size, file):
+        self.plan, self.device, self.size, self.file = plan, device, size, file
+        self.side = SIDE_QUICKLY if plan.quick else SAMPLE_SIDE
         self.facts = None
 
     def is_made(self, facts):
@@ -36,35 +35,29 @@ class Truth:
         return bool(same)
 
     def render(self, side, limit, file, *more):
-        options = ("--reference", "--samples", str(side), "--max-error", limit,
-                   "--size", f"{self.size[0]}x{self.size[1]}", *more, *self.options)
-        return run(self.program, self.device, None, options, file)
+        return render(self.plan, self.device, None, ("--reference", "--samples", str(side), "--max-error", limit,
+                                                     "--size", f"{self.size[0]}x{self.size[1]}", *more), file)
 
-    def estimate(self, limit):
-        """Seconds of the whole; the middle rows take longer than the others."""
+    def limit(self):
+        """By the middle rows, which take longer than the others."""
         width, height = self.size
         rows = max(1, height // PART)
-        crop = f"{width}x{rows}+0+{(height - rows) // 2}"
-        frame = self.render(self.side, limit, self.folder / "estimate.pfm", "--crop", crop)
-        return frame["seconds"]["trace"] * height / rows
-
-    def limit(self, news):
-        most = SECONDS_QUICKLY if self.quick else SECONDS
         for limit in LIMITS[:-1]:
-            seconds = self.estimate(limit)
-            news(f"the reference with --max-error {limit} takes some {seconds:.0f} s")
-            if seconds <= most:
+            frame = self.render(self.side, limit, self.plan.folder / "estimate.pfm", "--crop",
+                                f"{width}x{rows}+0+{(height - rows) // 2}")
+            seconds = frame["seconds"]["trace"] * height / rows
+            self.plan.news(f"the reference with --max-error {limit} takes some {seconds:.0f} s")
+            if seconds <= (SECONDS_QUICKLY if self.plan.quick else SECONDS):
                 return limit
         return LIMITS[-1]
 
-    def make(self, news):
-        limit = self.limit(news)
-        news(f"the reference, {self.side} x {self.side} samples, --max-error {limit}")
+    def make(self):
+        limit, coarse = self.limit(), self.plan.folder / "coarse.pfm"
+        self.plan.news(f"the reference, {self.side} x {self.side} samples, --max-error {limit}")
         frame = self.render(self.side, limit, self.file)
-        coarse = self.folder / "coarse.pfm"
-        news("a second reference of a quarter of the samples")
+        self.plan.news("a second reference of a quarter of the samples")
         self.render(self.side // 2, limit, coarse)
-        between = pfm.errors(self.program, coarse, self.file)
+        between = pfm.errors(self.plan.program, coarse, self.file)
         self.facts = {
             "device": self.device["label"], "samples": self.side, "max_error": float(limit),
             "seconds": frame["seconds"]["trace"], "depth": frame["depth"], "missing": frame["missing"],

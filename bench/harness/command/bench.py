@@ -7,11 +7,11 @@ import time
 from pathlib import Path
 
 from harness.chart import gnuplot
-from harness.command.options import Command, add_common
+from harness.command.options import Command, part_names, whole_number
 from harness.measure.plan import Plan
 from harness.page import tables
 from harness.run import devices, machine
-from harness.run.program import NEVER, Problem, Program
+from harness.run.program import NEVER, ROOT, Problem, Program
 from harness.store import result as results
 
 OWN = ("--backend", "--device", "--frames", "--stats", "--output", "-o")
@@ -20,19 +20,16 @@ NEWS_SECONDS = 10  # between lines about progress where there is no terminal
 
 class News:
     """What is being done: one line that changes on a terminal, or a line every few seconds."""
-
-    def __init__(self):
-        self.told = None
+    told = None
 
     def __call__(self, words, seconds_left=None):
-        left = ""
         if seconds_left is not None:
-            left = f"; about {int(seconds_left // 60)}:{int(seconds_left % 60):02} left of the timing"
+            words += f"; about {int(seconds_left // 60)}:{int(seconds_left % 60):02} left of the timing"
         if os.isatty(2):
-            print(f"\r\033[K{words}{left}", end="", file=sys.stderr, flush=True)
+            print(f"\r\033[K{words}", end="", file=sys.stderr, flush=True)
         elif self.told is None or time.monotonic() - self.told >= NEWS_SECONDS:
             self.told = time.monotonic()
-            print(f"{words}{left}", file=sys.stderr, flush=True)
+            print(words, file=sys.stderr, flush=True)
 
     @staticmethod
     def end():
@@ -41,29 +38,40 @@ class News:
 
 
 class Bench(Command):
-    """A measurement. A class of it says what there is to choose, `measure` measures, `fill` puts what came of it into the
-    result, `tables` and `charts` show it."""
+    """A measurement. A class of it says what there is to choose; `prepare` puts jobs and rows into the plan, `measure`
+    measures, `fill` puts what came of it into the result, `tables` and `charts` show it."""
     codes = """exit codes: 0 done, 1 pictures differ or a run failed, 2 wrong usage or input,
 3 no device can be timed, 130 interrupted (what was measured is kept)"""
     own_options = OWN
-    quick = "few frames and repeats, smaller pictures; rough"
+    quick = "few frames and repeats, smaller pictures; rough"  # None: it has no such option
     repeats = (5, 2)  # rounds, slowly and quickly; None: no devices are timed
     parts = ()
     scene = "built-in scene"
     chart_files = ()  # patterns of those of an earlier run
     keys = {}  # of the result, beside those that all have
 
-    @classmethod
-    def add_options(cls, parser):
-        add_common(parser, cls.quick, cls.repeats, cls.parts)
+    def add_options(self, parser):
+        if self.quick:
+            parser.add_argument("--quick", action="store_true", help=self.quick)
+        parser.add_argument("--hedron", type=Path, default=ROOT / "build/release/hedron", metavar="PROGRAM",
+                            help="the program to measure, beside which are those of the build (default: build/release/hedron)")
+        parser.add_argument("--out", type=Path, default=ROOT / "bench/out", metavar="FOLDER",
+                            help="where the results go (default: bench/out)")
+        if self.repeats:
+            default = f"default: {self.repeats[0]}" + (f", with --quick {self.repeats[1]}" if self.quick else "")
+            parser.add_argument("--repeats", type=whole_number, metavar="N", help=f"rounds of all runs, in turns ({default})")
+            parser.add_argument("--device", action="append", default=[], metavar="BACKEND[:NUMBER]",
+                                help="only this backend or device of 'hedron devices'; may be repeated")
+        if self.parts:
+            parser.add_argument("--parts", type=part_names(self.parts), default=list(self.parts), metavar="NAME,...",
+                                help=f"only these; of {', '.join(self.parts)}")
+        parser.set_defaults(**({} if self.quick else {"quick": False}), **({} if self.repeats else {"repeats": None, "device": []}))
 
-    @classmethod
-    def complete(cls, arguments):
-        if cls.repeats:
-            arguments.repeats = arguments.repeats or cls.repeats[arguments.quick]
+    def complete(self, arguments):
+        if self.repeats:
+            arguments.repeats = arguments.repeats or self.repeats[arguments.quick]
 
-    @classmethod
-    def run(cls, arguments):
+    def run(self, arguments):
         program = Program(arguments.hedron, getattr(arguments, "others", 100 * NEVER) / 100)
         try:
             arguments.out.mkdir(parents=True, exist_ok=True)
@@ -71,23 +79,29 @@ class Bench(Command):
             raise Problem(1, f"cannot make the folder {arguments.out}: {error.strerror}") from error
         arguments.out = arguments.out.resolve()
         with tempfile.TemporaryDirectory(prefix="hedron-bench-") as folder:
-            return cls(arguments, program, Path(folder)).work()
+            self.begin(arguments, program, Path(folder))
+            self.prepare()
+            return self.work()
 
-    def __init__(self, arguments, program, folder):
+    def begin(self, arguments, program, folder):
         self.arguments, self.program, self.folder, self.news = arguments, program, folder, News()
         self.file = arguments.out / f"{self.name}.json"
         entries = devices.chosen(program.backends(), arguments.device) if self.repeats else []
-        self.runnable = devices.runnable(entries)
-        self.plan = Plan({entry["label"]: entry for entry in entries}, {}, program, folder, self.news)
+        self.plan = Plan({entry["label"]: entry for entry in entries}, {}, program, folder, self.news,
+                         quick=arguments.quick, options=arguments.options)
+        self.runnable = self.plan.runnable
         self.result = results.begin(self.name, program, arguments, entries, scene={"name": self.scene}, rows=[],
-                                    measurements=self.plan.jobs, **{key: None for key in self.keys})
+                                    measurements=self.plan.jobs, **dict.fromkeys(self.keys))
         gnuplot.remove_old(arguments.out, self.chart_files)
 
     # ---- what a measurement says of itself
 
+    def prepare(self):
+        """Puts jobs into the plan, and rows."""
+
     def measure(self):
         """False: it could not be."""
-        raise NotImplementedError
+        self.plan.run_all(self.arguments.repeats)
 
     def fill(self):
         """Fills in the result's own keys, and adds rows to the plan."""
@@ -101,7 +115,7 @@ class Bench(Command):
         return []
 
     def charts(self):
-        """{name: (height, commands)}"""
+        """{name: chart}"""
         return {}
 
     # ---- what they share
@@ -110,14 +124,14 @@ class Bench(Command):
         return not set(parts).isdisjoint(self.arguments.parts)
 
     def tried(self, what, measure, *arguments, **named):
-        """What it gives, or the reason why there is nothing; that counts as a failure, but where something is missing."""
+        """What it gives, or the reason why there is nothing."""
         self.news(what)
-        try:
-            return measure(*arguments, **named)
-        except Problem as problem:
-            if problem.code != 3:
-                self.plan.failures.add(str(problem))
-            return str(problem)
+        return self.plan.tried(measure, *arguments, **named)
+
+    def demand_device(self, before=""):
+        if not self.runnable:
+            reasons = "; ".join(f"{device['label']}: {device['reason']}" for device in self.result["devices"])
+            raise Problem(3, f"{before}{reasons}")
 
     def save(self):
         results.write(self.file, self.result)
@@ -128,11 +142,14 @@ class Bench(Command):
         except KeyboardInterrupt:
             pass  # complete stays false
         self.news.end()
+        self.result["machine"]["load_after"] = machine.load()
+        return self.finish()
+
+    def finish(self):
         self.fill()
         self.result["rows"] = self.plan.finished(judged=not self.arguments.options)
         self.result["pictures"] = self.compared()
         self.result["failures"] = sorted(self.plan.all_failures())
-        self.result["machine"]["load_after"] = machine.load()
         self.save()
         self.tell()
         return self.exit_code()
@@ -140,12 +157,9 @@ class Bench(Command):
     def tell(self):
         document = self.file.with_suffix(".md")
         results.write_text(document, tables.markdown(self.result, self.tables()))
-        print(tables.text(self.result, self.tables()))
-        for line in gnuplot.draw(self.charts(), self.arguments.out):
-            print(line)
-        for failure in self.result["failures"]:
-            print(f"FAILED: {failure}")
-        print(f"All of it: {self.file}; the tables for documents: {document}")
+        failures = [f"FAILED: {failure}" for failure in self.result["failures"]]
+        print(tables.text(self.result, self.tables()), *gnuplot.draw(self.charts(), self.arguments.out), *failures,
+              f"All of it: {self.file}; the tables for documents: {document}", sep="\n")
 
     def exit_code(self):
         if not self.result["complete"]:

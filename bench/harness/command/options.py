@@ -38,79 +38,51 @@ class Command:
     codes = "exit codes: 0 done, 2 wrong usage or input"
     own_options = None  # of hedron render, which it sets itself; None: it renders nothing
 
-    @classmethod
-    def title(cls):
-        return f"bench/{cls.name}" if (ROOT / "bench" / cls.name).is_file() else f"bench/study {cls.name}"
+    def title(self):
+        return f"bench/{self.name}" if (ROOT / "bench" / self.name).is_file() else f"bench/study {self.name}"
 
-    @classmethod
-    def add_options(cls, parser):
+    def add_options(self, parser):
         """What it takes."""
 
-    @classmethod
-    def complete(cls, arguments):
-        """Fills in what follows from the options."""
+    def complete(self, arguments):
+        """Fills in what follows from the options; a ValueError is wrong usage."""
 
-    @classmethod
-    def parse(cls, words):
+    def run(self, arguments):
+        """The exit code."""
+        raise NotImplementedError
+
+    def parse(self, words):
         options, usage = [], None
-        if cls.own_options is not None:
+        if self.own_options is not None:
             usage = "%(prog)s [OPTION]... [-- HEDRON_OPTION...]"
             if "--" in words:
                 split = words.index("--")
                 words, options = words[:split], words[split + 1:]
-        parser = argparse.ArgumentParser(prog=cls.title(), usage=usage, description=cls.about, epilog=cls.codes,
+        parser = argparse.ArgumentParser(prog=self.title(), usage=usage, description=self.about, epilog=self.codes,
                                          allow_abbrev=False)
-        cls.add_options(parser)
+        self.add_options(parser)
         arguments = parser.parse_args(words)
         for option in options:
-            if option.split("=")[0] in cls.own_options or option.startswith("-o"):
-                parser.error(f"{option} cannot stand after --, for {cls.title()} sets it itself")
+            if option.split("=")[0] in self.own_options or option.startswith("-o"):
+                parser.error(f"{option} cannot stand after --, for {self.title()} sets it itself")
         arguments.options = options
         try:
-            cls.complete(arguments)
+            self.complete(arguments)
         except ValueError as error:
             parser.error(str(error))
         return arguments
 
-    @classmethod
-    def run(cls, arguments):
-        """The exit code."""
-        raise NotImplementedError
-
-    @classmethod
-    def main(cls, words):
-        arguments = cls.parse(words)
+    def main(self, words):
+        arguments = self.parse(words)
         for number in (signal.SIGTERM, signal.SIGHUP):  # like Ctrl-C: no hedron is left running
             signal.signal(number, signal.default_int_handler)
         try:
-            return cls.run(arguments)
+            return self.run(arguments)
         except Problem as problem:
-            print(f"{cls.title()}: {problem}", file=sys.stderr)
+            print(f"{self.title()}: {problem}", file=sys.stderr)
             return problem.code
         except KeyboardInterrupt:
             return 130
         except BrokenPipeError:  # nobody reads the tables; the files are written
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 1
-
-
-def add_common(parser, quick, repeats, parts):
-    """The options that all measurements share. `repeats` are rounds, slowly and quickly."""
-    if quick:
-        parser.add_argument("--quick", action="store_true", help=quick)
-    else:
-        parser.set_defaults(quick=False)
-    parser.add_argument("--hedron", type=Path, default=ROOT / "build/release/hedron", metavar="PROGRAM",
-                        help="the program to measure, beside which are those of the build (default: build/release/hedron)")
-    parser.add_argument("--out", type=Path, default=ROOT / "bench/out", metavar="FOLDER",
-                        help="where the results go (default: bench/out)")
-    if repeats:
-        default = f"default: {repeats[0]}" + (f", with --quick {repeats[1]}" if quick else "")
-        parser.add_argument("--repeats", type=whole_number, metavar="N", help=f"rounds of all runs, in turns ({default})")
-        parser.add_argument("--device", action="append", default=[], metavar="BACKEND[:NUMBER]",
-                            help="only this backend or device of 'hedron devices'; may be repeated")
-    else:
-        parser.set_defaults(repeats=None, device=[])
-    if parts:
-        parser.add_argument("--parts", type=part_names(parts), default=list(parts), metavar="NAME,...",
-                            help=f"only these; of {', '.join(parts)}")

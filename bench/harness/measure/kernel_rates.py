@@ -4,8 +4,7 @@ import re
 import shutil
 import subprocess
 
-from harness.run import tool
-from harness.run.program import Problem
+from harness.run.program import Problem, run_tool
 
 INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\t(?:(?:notrack|bnd|rep|data16) )?(\S+)\s*([^#<]*)")
 # They bring numbers to where they are used, and compute nothing; but a masked one selects.
@@ -56,42 +55,33 @@ def disassemble(program, symbol):
 
 def add_up(code, times):
     """What was executed, by the offsets' counts."""
-    total = {"instructions": 0, "operations": 0, "slots": 0, "divisions": 0}
+    total = dict.fromkeys(("instructions", "operations", "slots", "divisions"), 0)
     for offset, name, operands in code:
-        count = times.get(offset, 0)
-        operations, slots = weigh(name, operands)
-        total["instructions"] += count
-        total["operations"] += count * operations
-        total["slots"] += count * slots
-        total["divisions"] += count if name.startswith(("vdiv", "vsqrt")) else 0
+        for key, each in zip(total, (1, *weigh(name, operands), name.startswith(("vdiv", "vsqrt")))):
+            total[key] += times.get(offset, 0) * each
     return total
 
 
-def counted(program, words, times):
-    """A counted work: for each unit of it, what was executed."""
-    _, name, instruction_set, lanes, symbol, amount = words
-    total = add_up(disassemble(program, symbol), times.get(name, {}))
-    return {"instruction_set": instruction_set, "lanes": int(lanes), "amount": float(amount),
-            **{f"{key}_each": value / float(amount) for key, value in total.items()}}
-
-
 def parse(program, text):
-    """{"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: {...}}, "uncounted": [...]}"""
-    lines = [line.split() for line in text.splitlines()]
+    """{"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: what was executed for each unit of it},
+    "uncounted": [...]}"""
     result = {"instruction_set": None, "lanes": None, "rates": {}, "counted": {}, "uncounted": []}
-    times = {}
-    for words in lines:
-        if words[0] == "build":
-            result["instruction_set"], result["lanes"] = words[1], int(words[2])
-        elif words[0] == "rate":
-            result["rates"].setdefault(words[1], []).append(float(words[3]))
-        elif words[0] == "step":
-            times.setdefault(words[1], {})[int(words[2])] = int(words[3])
-        elif words[0] == "uncounted":
-            result["uncounted"].append(words[1])
-    for words in lines:
-        if words[0] == "counted":
-            result["counted"][words[1]] = counted(program, words, times)
+    times, works = {}, []
+    for what, name, *rest in map(str.split, text.splitlines()):
+        if what == "build":
+            result["instruction_set"], result["lanes"] = name, int(rest[0])
+        elif what == "rate":
+            result["rates"].setdefault(name, []).append(float(rest[1]))
+        elif what == "step":
+            times.setdefault(name, {})[int(rest[0])] = int(rest[1])
+        elif what == "uncounted":
+            result["uncounted"].append(name)
+        elif what == "counted":
+            works.append((name, rest))
+    for name, (instruction_set, lanes, symbol, amount) in works:
+        total = add_up(disassemble(program, symbol), times.get(name, {}))
+        result["counted"][name] = {"instruction_set": instruction_set, "lanes": int(lanes), "amount": float(amount),
+                                   **{f"{key}_each": value / float(amount) for key, value in total.items()}}
     return result
 
 
@@ -101,6 +91,11 @@ def run(program, scenes, seconds, rounds, counts=False, limit=None):
     rates_program = program.beside("bench/hedron_kernel_rates")
     if counts and shutil.which("objdump") is None:
         raise Problem(3, "there is no objdump to tell instructions apart; its package is binutils")
-    done = tool.run(rates_program, "--seconds", seconds, "--rounds", rounds, *(["--count"] if counts else []), *scenes,
+    done = run_tool(rates_program, "--seconds", seconds, "--rounds", rounds, *(["--count"] if counts else []), *scenes,
                     limit=limit)
     return parse(rates_program, done.stdout)
+
+
+def peaks(found):
+    """Vector instructions a second that the machine was seen to do in independent chains, of either kind."""
+    return [max(both) for both in zip(found["rates"]["peak:fma"], found["rates"]["peak:mul_add"])]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Jobs, done in turns, and again what was disturbed; and what rows ask of them."""
+"""What is measured: jobs of hedron, done in turns, and again what was disturbed; and what rows ask of them."""
 import tempfile
 from pathlib import Path
 from statistics import median
@@ -13,28 +13,58 @@ AGAIN = 2  # times that a disturbed run is measured again, at most
 MOST_REJECTED = 0.5  # of all runs that were planned: then the machine is simply busy
 CACHES = ("HEDRON_CACHE", "POCL_CACHE_DIR", "CUDA_CACHE_PATH")
 
+DEFAULT, OFFICIAL = "default", "official"
+# For CPUs or not: a GPU's frame of the CPUs' size is too short to be timed; times are multiplied by what CPUs do less.
+VIEWS = {True: (("--size", "320x180", "--samples", "2"), 16), False: (("--size", "1280x720", "--samples", "2"), 1)}
+
 
 class Plan(Rows):
-    """`scenes` maps names to files (None: the built-in scene), `devices` labels to entries. `save` is called after every
-    run, `news` with what is done. A job whose whole run takes more than `slow_seconds` is done in `slow_rounds` rounds only."""
+    """`devices` are entries by their labels, `runnable` those of them that can run. `scenes` maps names to files (None: the
+    built-in scene), or to the reason why one could not be made. `save` is called after every run, `news` with what is done.
+    Every job has the `options` behind its own. One whose whole run takes more than `slow_seconds` is done in `slow_rounds`
+    rounds only, one whose frames take more than `once_seconds` in one."""
 
-    def __init__(self, devices, scenes, program=None, folder=None, news=None, save=lambda: None):
+    def __init__(self, devices, scenes, program=None, folder=None, news=None, save=lambda: None, *, quick=False, options=()):
         super().__init__()
         self.devices, self.scenes, self.program, self.folder, self.news, self.save = (
             devices, scenes, program, folder, news, save)
+        self.quick, self.options = quick, tuple(options)
+        self.runnable = {label: device for label, device in devices.items() if device.get("reason") is None}
         self.jobs, self.failures = [], set()
+        self.part, self.left_out = None, {}  # the part that adds its points now; by part: why there is nothing, or not all
         self.cores = None  # those of jobs on few cores; None: of all
         self.keeps_parts = False  # of a run that was interrupted
-        self.slow_seconds, self.slow_rounds = float("inf"), 1
+        self.slow_seconds, self.slow_rounds, self.once_seconds = float("inf"), 1, float("inf")
+
+    # ---- what is measured
 
     def job(self, device, scene, frames, options=(), **named):
         """The same one where it was asked for before."""
-        wanted = jobs.job(device, scene, frames, options, **named)
+        wanted = jobs.job(device, scene, frames, (*options, *self.options), **named)
         alike = [each for each in self.jobs if {**each, "runs": [], "rejected": [], "renderer": None, "reason": None,
                                                 "failed": False} == wanted]
         if not alike:
             self.jobs.append(wanted)
         return alike[0] if alike else wanted
+
+    def point(self, series, x, device, scene, options, *, frames=None, **named):
+        """A point of a chart of the part: one job on one device."""
+        if isinstance(self.scenes[scene], str):
+            self.left_out[self.part] = self.scenes[scene]
+            return
+        self.job(device, scene, frames or ("0-2" if self.quick else "0-3"), options, part=self.part, series=series, x=x, **named)
+
+    def each(self, views=None):
+        """(label, device, options of its view, what times are multiplied by)"""
+        return [(label, device, *(views or VIEWS)[device["is_cpu"]]) for label, device in self.runnable.items()]
+
+    def sweep(self, option, values, wanted=lambda device: True, views=None, series="", none=None):
+        """Points of one option, on the devices that are wanted; `none` says that there is no such device."""
+        if not any(map(wanted, self.runnable.values())):
+            self.left_out[self.part] = none
+        for label, device, view, scale in self.each(views):
+            for value in values if wanted(device) else ():
+                self.point(series, value, label, DEFAULT, (*view, option, str(value)), scale=scale)
 
     # ---- what rows ask for
 
@@ -71,20 +101,23 @@ class Plan(Rows):
     def all_failures(self):
         return self.failures | jobs.failures(self.jobs)
 
+    def tried(self, measure, *arguments, **named):
+        """What it gives, or the reason why there is nothing; that counts as a failure, but where something is missing."""
+        try:
+            return measure(*arguments, **named)
+        except Problem as problem:
+            if problem.code != 3:
+                self.failures.add(str(problem))
+            return str(problem)
+
     # ---- one run
 
     def render(self, job):
-        variables, empty = None, None
-        if job["cold"]:
-            empty = tempfile.TemporaryDirectory(dir=self.folder)
-            variables = {name: str(Path(empty.name, name)) for name in CACHES}
-        try:
+        with tempfile.TemporaryDirectory(dir=self.folder) as empty:
+            variables = {name: str(Path(empty, name)) for name in CACHES} if job["cold"] else None
             return self.program.render(self.devices[job["device"]], self.scenes[job["scene"]], job["frames"], job["options"],
                                        self.folder, output=job["output"], variables=variables,
                                        cores=self.cores if job.get("few_cores") else None)
-        finally:
-            if empty:
-                empty.cleanup()
 
     def measure(self, job, repeat):
         """Of several tries the least disturbed one counts."""
@@ -119,12 +152,17 @@ class Plan(Rows):
     # ---- turns
 
     def is_wanted(self, job, repeat):
-        rounds = 1 if job.get("slow") else None
+        if job["reason"] or run_of(job, repeat):
+            return False
+        rounds = 1 if job.get("slow") else repeat + 1
         if job["runs"] and job["runs"][0]["wall"] > self.slow_seconds:
             rounds = self.slow_rounds
-        return not (job["reason"] or run_of(job, repeat) or (rounds and repeat >= rounds))
+        if job["runs"] and self.once_seconds < float("inf") and median(self.medians(job)) > self.once_seconds:
+            rounds = 1
+        return repeat < rounds
 
-    def is_disturbed(self, job, repeat, number):
+    @staticmethod
+    def is_disturbed(job, repeat, number):
         """Its run of that round, after so many tries."""
         run = run_of(job, repeat)
         tries = sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"]))

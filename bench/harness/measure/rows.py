@@ -52,25 +52,20 @@ class Rows:
         self.row(key, what, unit, lambda: known(reason), target=target)
 
     def finished(self, judged=True):
-        return [finish(row, judged) for row in self.rows]
+        """As they are written. Where `judged` is false the figures are no answers to the targets."""
+        return [finish(judged=judged, **row) for row in self.rows]
 
 
-def finish(row, judged=True):
-    """The row as it is written. Where `judged` is false the figure is no answer to the target."""
-    target = row["target"]
-    done = {"key": row["key"], "what": row["what"], "device": row["device"], "unit": row["unit"],
-            "least": target and target.least, "aim": target and target.aim,
-            "more_is_better": None if target is None else target.more_is_better,
-            "figure": None, "q1": None, "q3": None, "count": 0, "ratio_to_least": None, "ratio_to_aim": None,
-            "verdict": None, "note": row["note"], "reason": None}
+def finish(judged, key, what, device, unit, target, note, figure):
+    wanted = target or Target(None, None, None)
+    values, ratios, reason = [], (None, None, None), None
     try:
-        values = row["figure"]()
-        if not values:
-            raise Missing("nothing was measured")
+        values = known(figure() or None, "nothing was measured")
     except Missing as missing:
-        return {**done, "reason": str(missing)}
-    done["q1"], done["figure"], done["q3"] = quartiles(values)
-    done["count"] = len(values)
-    if judged:
-        done["ratio_to_least"], done["ratio_to_aim"], done["verdict"] = judge(target, done["figure"])
-    return done
+        reason = str(missing)
+    first, middle, third = quartiles(values) if values else (None, None, None)
+    if judged and values:
+        ratios = judge(target, middle)
+    return {"key": key, "what": what, "device": device, "unit": unit, "least": wanted.least, "aim": wanted.aim,
+            "more_is_better": wanted.more_is_better, "figure": middle, "q1": first, "q3": third, "count": len(values),
+            **dict(zip(("ratio_to_least", "ratio_to_aim", "verdict"), ratios)), "note": note, "reason": reason}

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Scene files: read and written, the default scene under any number of point lights without falloff, and what a scene holds."""
+"""Scene files: read and written, the default scene under any number of point lights without falloff, one object of as many
+triangles as wanted, and what a scene holds."""
 import json
 import math
+import re
 
-from harness.run.program import ROOT, Problem
+from harness.measure.numbers import count_words
+from harness.run.program import ROOT, Problem, run_tool
 
 DEFAULT = ROOT / "scenes/default.json"
 GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
@@ -12,6 +15,8 @@ COLOURS = [[1, 0.9, 0.8], [0.6, 0.7, 1], [0.8, 1, 0.85], [1, 0.8, 1], [1, 1, 0.7
 FACES = {"tetrahedron": 4, "cube": 6, "octahedron": 8, "dodecahedron": 12, "icosahedron": 20}
 EDGES = {"tetrahedron": 6, "cube": 12, "octahedron": 12, "dodecahedron": 30, "icosahedron": 30}
 FLOOR_PLANES = 5
+SAID = re.compile(r": (\d+) triangles;")
+TRIANGLE_TICKS = {count_words(10 ** power): 10 ** power for power in range(1, 8)}  # of an axis
 
 
 def read_scene(file):
@@ -48,6 +53,24 @@ def write_lights(folder, count):
     for solid in scene["solids"]:
         solid["edge_lights"]["intensity"] = 0
     return write_scene({**scene, "lights": lights(count)}, folder / f"lights-{count}.json")
+
+
+# ---- triangles
+
+def make_object(program, folder, count):
+    """(file, triangles): the object, which has about as many as asked for."""
+    file = folder / f"sphere-{count}.obj"
+    run_tool(program.beside("hedron_model"), "sphere", count, "-o", file)
+    with open(file, encoding="utf-8") as lines:
+        return file, int(SAID.search(lines.readline()).group(1))
+
+
+def write_object_scene(kind, file, folder, count):
+    """The path of a scene file with the object: `whole` has all that a mesh can ask for, mirrored and transmitted rays, and
+    coloured shadows of two lights; in `near` every primary ray meets the object, and there are no others."""
+    scene = read_scene(ROOT / f"bench/scenes/templates/{kind}.json")
+    scene["meshes"][0]["file"] = str(file)
+    return write_scene(scene, folder / f"{kind}-{count}.json")
 
 
 # ---- what the cost of a frame depends on

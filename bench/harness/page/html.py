@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The page of bench/study: one file of HTML with its charts in it, made of nothing but saved results."""
+"""The page of bench/study: one file of HTML with its charts in it, made of nothing but saved results; and its table."""
+import csv
 import html
+import io
 import re
-
-from harness.measure.numbers import spread_text
-from harness.page import tables
 
 STYLE = """body{font:16px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em;color:#222}
 h1,h2{line-height:1.2}h2{margin-top:2.2em;border-top:1px solid #ccc;padding-top:.8em}
@@ -31,69 +30,53 @@ def table(rows):
     return "<div class=\"wide\">" + "\n".join([*lines, "</table>"]) + "</div>"
 
 
-def inlined(name, svg):
-    """An SVG without its head; names within it are its own on a page with others."""
-    svg = svg[svg.index("<svg"):]
-    svg = re.sub(r"<title>.*?</title>\s*|<desc>.*?</desc>\s*", "", svg, flags=re.S)
-    svg = re.sub(r"\bid=(['\"])", rf"id=\1{name}-", svg)
-    svg = re.sub(r"href=(['\"])#", rf"href=\1#{name}-", svg)
-    svg = re.sub(r"url\((['\"]?)#", rf"url(\1#{name}-", svg)
-    return svg.strip()
-
-
 def figure(name, caption, folder):
+    """With the SVG in it, but for its head; names within it are its own on a page with others."""
     file = folder / f"{name}.svg"
     if not file.is_file():
         return f"<p>{text(caption)}</p>"
-    svg = inlined(name, file.read_text(encoding="utf-8"))
+    svg = file.read_text(encoding="utf-8")
+    svg = re.sub(r"<title>.*?</title>\s*|<desc>.*?</desc>\s*", "", svg[svg.index("<svg"):], flags=re.S)
+    svg = re.sub(r"(\bid=['\"]|href=['\"]#|url\(['\"]?#)", rf"\g<1>{name}-", svg).strip()
     return f"<figure id=\"{name}\" role=\"img\" aria-label=\"{text(caption)}\">\n{svg}\n</figure>"
 
 
-def device_words(device):
-    reason = f" (not: {device['reason']})" if device["reason"] else ""
-    return f"{device['label']} {device['name'] or ''}".strip() + reason
-
-
 def machine_rows(results):
-    rows = [["machine", "processor", "cores", "system", "devices", "measured", "hedron", "study", "load before, after"]]
+    yield ["machine", "processor", "cores", "system", "devices", "measured", "hedron", "study", "load before, after"]
     for result in results:
         place = result["machine"]
-        devices = "; ".join(map(device_words, result["devices"]))
-        after = place["load_after"]
-        rows.append([place["name"], place["cpu"], place["cores"], place["system"], devices, result["date"],
-                     f"{result['hedron']['version']} ({result['hedron']['sha256'][:12]})",
-                     ("quick" if result["quick"] else "full") + ("" if result["complete"] else ", unfinished"),
-                     f"{place['load_before'][0]}, {after[0] if after else 'not yet'}"])
-    return rows
+        devices = "; ".join(f"{device['label']} {device['name'] or ''}".strip()
+                            + (f" (not: {device['reason']})" if device["reason"] else "") for device in result["devices"])
+        yield [place["name"], place["cpu"], place["cores"], place["system"], devices, result["date"],
+               f"{result['hedron']['version']} ({result['hedron']['sha256'][:12]})",
+               ("quick" if result["quick"] else "full") + ("" if result["complete"] else ", unfinished"),
+               f"{place['load_before'][0]}, {place['load_after'][0] if place['load_after'] else 'not yet'}"]
 
 
 def noise_words(result):
     entries = [each for each in result["measurements"] if each["summary"]]
     disturbed = sum(each["summary"]["noisy"] for each in entries)
     rejected = sum(len(each["rejected"]) for each in entries)
-    loads = [run["load"] for each in entries for run in each["runs"]]
-    told = all(run["others"] is not None for each in entries for run in each["runs"])
-    words = f"{result['machine']['name']}: {len(loads)} runs of {len(entries)} measurements count. "
+    runs = [run for each in entries for run in each["runs"]]
+    loads = [run["load"] for run in runs]
+    words = f"{result['machine']['name']}: {len(runs)} runs of {len(entries)} measurements count. "
     words += (f"Where other programs took more than {100 * result['interference_limit']:g} % of the processors, a run was "
-              f"done again: {rejected} were rejected, and {disturbed} measurements stayed disturbed." if told else
+              f"done again: {rejected} were rejected, and {disturbed} measurements stayed disturbed."
+              if all(run["others"] is not None for run in runs) else
               "This system does not tell what other programs took of the processors, so no run was rejected.")
     return words + (f" The load was {min(loads)} to {max(loads)}." if loads else "")
 
 
 def head(results, failures, pictures):
-    words = ["<h1>hedron: a study of speed</h1>"]
-    words += [f"<p class=\"bad\">{text(each)}</p>" for each in failures]
+    words = ["<h1>hedron: a study of speed</h1>", *(f"<p class=\"bad\">{text(each)}</p>" for each in failures)]
     if any(not result["complete"] for result in results):
         words.append("<p class=\"bad\">A study here is unfinished: bench/study goes on where it stopped.</p>")
     if any(result["quick"] for result in results):
         words.append("<p>Quick studies have few repeats and small pictures; they are rough.</p>")
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
-    words += [table(machine_rows(results)), "<ul>", *[f"<li>{text(each)}</li>" for each in changed],
-              *[f"<li>{text(noise_words(result))}</li>" for result in results],
-              *[f"<li>{text(each)}</li>" for each in pictures],
-              f"<li>{METHOD}</li>", "</ul>"]
-    return words
+    told = [*changed, *map(noise_words, results), *pictures]
+    return [*words, table(machine_rows(results)), "<ul>", *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul>"]
 
 
 def section_words(section, folder):
@@ -119,30 +102,19 @@ CSV_HEAD = ["machine", "device", "device_name", "part", "series", "x", "scene", 
             "disturbed", "trace_ms_q1", "trace_ms_median", "trace_ms_q3", "frame_ms_median", "scale", "reason"]
 
 
-def csv_rows(result):
-    names = {device["label"]: device["name"] for device in result["devices"]}
-    rows = []
-    for entry in result["measurements"]:
-        rows.append([result["machine"]["name"], entry["device"], names[entry["device"]], entry["part"], entry["series"],
-                     entry["x"], entry["scene"], " ".join(entry["options"]), entry["renderer"] or "", *csv_figures(entry),
-                     entry["scale"], entry["reason"] or ""])
-    return rows
-
-
-def csv_figures(entry):
-    each = entry["summary"]
-    if not each:
-        return [0, len(entry["rejected"]), *[""] * 5]
-    return [each["runs"], each["rejected"], int(each["noisy"]),
-            *(each["trace_ms"][key] for key in ("q1", "median", "q3")), each["frame_ms"]["median"]]
-
-
-def summary_lines(result):
-    """For the terminal."""
-    rows = [["part", "device", "what", "trace ms [q1..q3]", "runs"]]
-    for entry in result["measurements"]:
-        each = entry["summary"]
-        if each:
-            rows.append([entry["part"], entry["device"], f"{entry['series']} {entry['x']:g}".strip(),
-                         spread_text(each["trace_ms"]) + (" disturbed" if each["noisy"] else ""), str(each["runs"])])
-    return tables.lines(rows)
+def csv_text(results):
+    """A line for each measurement of each machine."""
+    found = io.StringIO()
+    writer = csv.writer(found, lineterminator="\n")
+    writer.writerow(CSV_HEAD)
+    for result in results:
+        names = {device["label"]: device["name"] for device in result["devices"]}
+        for entry in result["measurements"]:
+            each, figures = entry["summary"], [0, len(entry["rejected"]), *[""] * 5]
+            if each:
+                figures = [each["runs"], each["rejected"], int(each["noisy"]),
+                           *(each["trace_ms"][key] for key in ("q1", "median", "q3")), each["frame_ms"]["median"]]
+            writer.writerow([result["machine"]["name"], entry["device"], names[entry["device"]], entry["part"], entry["series"],
+                             entry["x"], entry["scene"], " ".join(entry["options"]), entry["renderer"] or "", *figures,
+                             entry["scale"], entry["reason"] or ""])
+    return found.getvalue()

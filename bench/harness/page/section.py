@@ -1,14 +1,78 @@
 # SPDX-License-Identifier: MIT
-"""A section of bench/study's page, and what the sentences of all have in common."""
+"""A part of bench/study, and the section of its page: what all machines measured of the part."""
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from harness.chart.gnuplot import is_wide
-from harness.chart.lines import Axis, axis_number, lines
+from harness.chart.gnuplot import axis_number, device_title, is_wide, plain
+from harness.chart.lines import Axis, Line, lines
 from harness.measure.numbers import number, spread_text
-from harness.measure.points import WHOLE_FRAME
+from harness.store.result import machine_words
 
+NAME_LENGTH, MACHINE_LENGTH = 28, 24
 MOST_CLAUSES = 4
 TOO_LITTLE = "Too little was measured to compare."
+MS = "milliseconds for each frame"
+WHOLE_FRAME = "one frame of the built-in scene, 1280 x 720, 2 x 2 samples"
+
+
+@dataclass(frozen=True)
+class Part:
+    """What a file of harness/measurements declares for bench/study. Either `add` puts points into the plan, or `measure` does
+    something else and returns why it did not, if so."""
+    place: int  # in the order of the parts
+    title: str
+    about: str  # what was measured, in a sentence or two
+    add: Callable = None
+    scenes: Callable = None  # {name: file, or the reason why there is none} of those that it makes
+    measure: Callable = None
+    fill: Callable = None  # fills its section, from the results
+    failures: Callable = lambda result: []
+
+
+@dataclass(frozen=True)
+class Device:
+    """One of one machine, and what it measured of a part; `place` counts through all of them and gives the colour."""
+    result: dict
+    entry: dict
+    place: int
+    machine: int
+    several: bool  # machines
+    part: str
+
+    @property
+    def label(self):
+        return self.entry["label"]
+
+    @property
+    def machine_name(self):
+        return plain(self.result["machine"]["name"], MACHINE_LENGTH)
+
+    @property
+    def short(self):
+        return f"{self.label} ({self.machine_name})" if self.several else self.label
+
+    @property
+    def name(self):
+        """Of the machine too, where there are several."""
+        own = device_title(self.entry)
+        return f"{plain(own, NAME_LENGTH)}, {self.machine_name}" if self.several else own
+
+    def entries(self, **wanted):
+        """The measured ones."""
+        return [entry for entry in self.result["measurements"] if entry["part"] == self.part and entry["summary"]
+                and entry["device"] == self.label and all(entry[key] == value for key, value in wanted.items())]
+
+    def line(self, name=None, points=None, **wanted):
+        """Time against what the part varies."""
+        points = points or sorted((each["x"], each["summary"]["trace_ms"]) for each in self.entries(**wanted))
+        return Line(name or self.name, points, self.place, self.machine + 1, self.place, self.short)
+
+
+def all_devices(results, part):
+    """`results` are in the order of the page; this machine's, if any, comes first."""
+    found = [(number, result, entry) for number, result in enumerate(results) for entry in result["devices"]
+             if entry["reason"] is None]
+    return [Device(result, entry, place, number, len(results) > 1, part) for place, (number, result, entry) in enumerate(found)]
 
 
 @dataclass
@@ -16,15 +80,74 @@ class Section:
     part: str
     title: str
     about: str  # what was measured, in a sentence or two
-    charts: dict = field(default_factory=dict)  # name: (height, commands)
+    results: list
+    devices: list = field(default_factory=list)  # that measured it
+    charts: dict = field(default_factory=dict)
     captions: dict = field(default_factory=dict)
     table: list = field(default_factory=list)  # rows of cells, the first is the head
     notes: list = field(default_factory=list)
 
-    def draw(self, name, kind, about, title, caption, *arguments, **named):
-        self.charts[f"study_{name}"] = kind(about, title, caption, *arguments, **named)
-        self.captions[f"study_{name}"] = caption
+    def __post_init__(self):
+        self.devices = [device for device in all_devices(self.results, self.part) if device.entries()]
 
+    def entries(self):
+        return [entry for device in self.devices for entry in device.entries()]
+
+    def draw(self, kind, scene, title, caption, *arguments, name=None, **named):
+        """A chart of this kind, whose head tells of all machines."""
+        machines = [(f"{result['machine']['name']}: " if result["machine"]["name"] != result["machine"]["cpu"] else "")
+                    + machine_words(result) for result in self.results]
+        about = {"hedron": {"version": ", ".join(dict.fromkeys(result["hedron"]["version"] for result in self.results))},
+                 "scene": {"name": scene}, "machine": {"words": "; ".join(dict.fromkeys(machines))}}
+        self.add(name or self.part, kind(about, title, caption, *arguments, **named), caption)
+
+    def add(self, name, chart, caption):
+        self.charts[f"study_{name}"], self.captions[f"study_{name}"] = chart, caption
+
+    def tabulate(self, name, what="what"):
+        """A row for each measurement."""
+        self.table = [["device", "machine", what, "milliseconds [quartiles]", "times", "runs", "rejected", "options", "renderer"]]
+        for device in self.devices:
+            for entry in device.entries():
+                each = entry["summary"]
+                self.table.append([device.label, device.result["machine"]["name"], name(entry), spread_text(
+                    each["trace_ms"], " .. ") + (" (disturbed)" if each["noisy"] else ""), str(entry["scale"]),
+                    str(each["runs"]), str(each["rejected"]), " ".join(entry["options"]), entry["renderer"]])
+
+    def sweep(self, title, x_axis, caption=None, *, scene=WHOLE_FRAME, points=lambda line: line, name=lambda x: f"{x:g}",
+              bounds=None):
+        """A line for each device, and a table; `bounds` makes what cannot be undercut from the lines."""
+        drawn = [points(device.line()) for device in self.devices]
+        words = caption(drawn) if caption else growth_words(drawn, x_axis.words)
+        self.draw(lines, scene, title, words, replace(x_axis, ticks=ticks_of(drawn)),
+                  y_axis(None if x_axis.logarithmic else drawn), drawn, **(bounds(drawn) if bounds else {}))
+        self.tabulate(lambda entry: name(entry["x"]), x_axis.words)
+
+    def note_scales(self):
+        entries = self.entries()
+        for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
+            devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
+            self.notes.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
+                              f"times {scale}, where the figures say so.")
+
+
+def sections(parts, results):
+    """One for each part that anybody measured or that has a reason why not."""
+    found = []
+    for name, part in parts.items():
+        section = Section(name, part.title, part.about, results)
+        for result in results:
+            if result["left_out"].get(name):
+                section.notes.append(("" if len(results) == 1 else f"{result['machine']['name']}: ") + result["left_out"][name])
+        if part.fill and (part.measure or section.devices):
+            part.fill(section)
+            section.note_scales()
+        if part.fill and (section.charts or section.notes):
+            found.append(section)
+    return found
+
+
+# ---- what the sentences of all have in common
 
 def ratio(value):
     return f"{number(value, 3)} times"
@@ -44,8 +167,7 @@ def middle(entry):
 
 def y_axis(drawn=None):
     """Logarithmic, or as the lines need it."""
-    return Axis("milliseconds for each frame",
-                drawn is None or is_wide([spread["median"] for line in drawn for _, spread in line.points]))
+    return Axis(MS, drawn is None or is_wide([spread["median"] for line in drawn for _, spread in line.points]))
 
 
 def ticks_of(drawn):
@@ -85,42 +207,8 @@ def best_words(drawn, words=axis_number):
     return few(told)
 
 
-def table_of(sources, part, name, what):
-    """A row for each measurement."""
-    found = [["device", "machine", what, "milliseconds [quartiles]", "times", "runs", "rejected", "options", "renderer"]]
-    for device in sources.with_part(part):
-        for entry in device.entries(part):
-            each = entry["summary"]
-            disturbed = " (disturbed)" if each["noisy"] else ""
-            found.append([device.label, device.result["machine"]["name"], name(entry),
-                          spread_text(each["trace_ms"], " .. ") + disturbed, str(entry["scale"]), str(each["runs"]),
-                          str(each["rejected"]), " ".join(entry["options"]), entry["renderer"]])
-    return found
-
-
-def ideal(drawn):
-    """As if twice as many took half as long, from the first point of each line."""
-    found = {"bounds": [], "bound_name": "bound: in proportion to one"}
-    for line in drawn:
-        x, first = line.points[0][0], line.points[0][1]["median"]
-        if len(line.points) > 1:
-            found["bounds"].append([(each, first * x / each) for each, _ in line.points])
-    return found
-
-
-def sweep(sources, section, title, x_axis, caption=None, scene=WHOLE_FRAME, bounded=False):
-    """A line for each device, and a table."""
-    drawn = [device.line(section.part) for device in sources.with_part(section.part)]
-    words = caption(drawn) if caption else growth_words(drawn, x_axis.words)
-    section.draw(section.part, lines, sources.about(scene), title, words, replace(x_axis, ticks=ticks_of(drawn)),
-                 y_axis(None if x_axis.logarithmic else drawn), drawn, **(ideal(drawn) if bounded else {}))
-    section.table = table_of(sources, section.part, lambda entry: f"{entry['x']:g}", x_axis.words)
-
-
-def scaled_note(entries):
-    found = []
-    for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
-        devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
-        found.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
-                     f"times {scale}, where the figures say so.")
-    return found
+def proportional(drawn):
+    """Bounds: as if twice as many took half as long, from the first point of each line."""
+    ends = [(line, *growth(line)[:2]) for line in drawn if len(line.points) > 1]
+    return {"bounds": [[(each, first * x / each) for each, _ in line.points] for line, x, first in ends],
+            "bound_name": "bound: in proportion to one"}

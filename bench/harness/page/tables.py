@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A result as tables: for the terminal, and for documents."""
+"""A result as tables, (title, rows, lines below): for the terminal, and for documents."""
 from harness.measure.numbers import number, spread_text
 from harness.store.result import machine_words
 
@@ -9,7 +9,7 @@ HEAD = ["what", "device", "least", "aim", "figure [q1..q3]", "unit", "to least",
 
 def lines(rows):
     """The first two columns to the left, the others to the right."""
-    widths = [max(len(cells[column]) for cells in rows) for column in range(len(rows[0]))]
+    widths = [max(map(len, column)) for column in zip(*rows)]
     return ["  ".join(cell.ljust(width) if column < 2 else cell.rjust(width)
                       for column, (cell, width) in enumerate(zip(cells, widths))).rstrip() for cells in rows]
 
@@ -21,15 +21,12 @@ def markdown_lines(rows):
 
 # ---- rows with targets
 
-def target_words(row):
-    if row["least"] is None:
-        return "", ""
-    return tuple(number(row[key], 3).rstrip("0").rstrip(".") if row[key] < 1 else f"{row[key]:g}"
-                 for key in ("least", "aim"))
+def target_words(value):
+    return "" if value is None else number(value, 3).rstrip("0").rstrip(".") if value < 1 else f"{value:g}"
 
 
 def cells(row):
-    start = [row["what"], row["device"] or "-", *target_words(row)]
+    start = [row["what"], row["device"] or "-", target_words(row["least"]), target_words(row["aim"])]
     if row["figure"] is None:
         return [*start, "-", row["unit"], "", "", ""]
     ratios = [number(row[key], 3) if row[key] is not None else "" for key in ("ratio_to_least", "ratio_to_aim")]
@@ -37,14 +34,12 @@ def cells(row):
 
 
 def remarks(rows):
-    """What the table alone does not tell, each once, with the rows that it is about; many rows by their
-    keys."""
+    """What the table alone does not tell, each once, with the rows that it is about; many rows by their keys."""
     said = {}
     for row in rows:
         if row["reason"]:
             alike = [each["what"] for each in rows if each["reason"] == row["reason"]]
-            name = row["what"].strip() if len(alike) <= FEW_ROWS else row["key"]
-            said.setdefault(row["reason"], {})[name] = True
+            said.setdefault(row["reason"], {})[row["what"].strip() if len(alike) <= FEW_ROWS else row["key"]] = True
         if row["note"]:
             said.setdefault(row["note"], {})[row["key"]] = True
     return [f"{', '.join(who)}: {words}" for words, who in said.items()]
@@ -66,20 +61,14 @@ def head_lines(result):
     return found
 
 
-def tail_lines(result):
-    unfinished = [] if result["complete"] else ["Interrupted: only what was measured before counts."]
-    return [*remarks(result.get("rows", [])), *unfinished, result["pictures"]["sentence"]]
-
-
 def all_tables(result, tables):
-    """[(title, rows, lines below)]"""
-    rows = [("", [HEAD, *map(cells, result["rows"])], tail_lines(result))] if result.get("rows") else [
-        ("", [], tail_lines(result))]
-    return [*rows, *tables]
+    """With that of the rows."""
+    unfinished = [] if result["complete"] else ["Interrupted: only what was measured before counts."]
+    below = [*remarks(result["rows"]), *unfinished, result["pictures"]["sentence"]]
+    return [("", [HEAD, *map(cells, result["rows"])] if result["rows"] else [], below), *tables]
 
 
 def text(result, tables):
-    """`tables` are [(title, rows, lines below)]."""
     parts = head_lines(result)
     for title, rows, below in all_tables(result, tables):
         parts += ["", *([f"{title}:"] if title else []), *(lines(rows) + [""] if rows else []), *below]

@@ -6,8 +6,7 @@ from pathlib import Path
 
 from harness.chart.bars import Row, one_value, rows
 from harness.measure.numbers import number
-from harness.run import tool
-from harness.run.program import ROOT, Problem
+from harness.run.program import ROOT, Problem, run_tool
 
 SOURCES = ROOT / "bench/cuda_studies"
 FLAGS = ("-O3", "-std=c++17", "--fmad=false", "-DHD_LANES=1", "-DHD_DOUBLE=0")
@@ -23,22 +22,18 @@ def find_nvcc():
     return found and Path(found)
 
 
-def demand_gpu(backends):
-    """Raises Problem with the reason where none can be used."""
-    cuda = next((backend for backend in backends if backend["name"] == "cuda"), None)
+def run(name, program, folder, *words):
+    """What the study prints; compiled for the GPU that is here. Raises Problem with the reason where none can be used."""
+    cuda = next((backend for backend in program.backends() if backend["name"] == "cuda"), None)
     if cuda is None or not cuda["devices"]:
         raise Problem(3, (cuda and cuda["reason"]) or "there is no NVIDIA GPU")
     if all(device["unusable"] for device in cuda["devices"]):
         raise Problem(3, cuda["devices"][0]["unusable"])
     if find_nvcc() is None:
         raise Problem(3, "there is no nvcc, in PATH or in /usr/local/cuda/bin")
-
-
-def run(name, folder, *words):
-    """What the program prints; compiled for the GPU that is here."""
-    program = Path(folder, name)
-    tool.run(find_nvcc(), "-arch=native", *FLAGS, "-o", program, SOURCES / f"{name}.cu")
-    done = tool.run(program, *words, accepted=(0, NO_GPU))
+    study = Path(folder, name)
+    run_tool(find_nvcc(), "-arch=native", *FLAGS, "-o", study, SOURCES / f"{name}.cu")
+    done = run_tool(study, *(word() if callable(word) else word for word in words), accepted=(0, NO_GPU))
     if done.returncode == NO_GPU:
         raise Problem(3, f"{name}: {done.stderr.strip()}")
     try:

@@ -5,7 +5,7 @@ from statistics import median
 
 from harness.chart.bars import boxes, shade
 from harness.measure.numbers import number
-from harness.run import tool
+from harness.run.program import run_tool
 
 ORDERS = {"product": "product: item by item", "uncompacted": "with dead rays", "appended": "as they come",
           "segments": "passing, then mirrored", "touched": "sorted by object touched",
@@ -15,7 +15,7 @@ PARTS = ("first", "trace", "key", "sort")
 
 def run(program, *words):
     """Raises Problem with the reason where it cannot be."""
-    return tool.run(program.beside("bench/hedron_queue_order"), *words).stdout
+    return run_tool(program.beside("bench/hedron_queue_order"), *words).stdout
 
 
 def measure(program, scenes, rounds, samples):
@@ -25,30 +25,27 @@ def measure(program, scenes, rounds, samples):
 def parse(text):
     """{"instruction_set", "lanes", "orders": [...]}: nanoseconds are the processor's, for each ray of all levels."""
     result, counts, times = {}, {}, {}
-    for words in (line.split() for line in text.splitlines()):
-        key = tuple(words[1:4])
-        if words[0] == "build":
-            result = {"instruction_set": words[1], "lanes": int(words[2])}
-        elif words[0] == "order":
-            counts[key] = [int(word) for word in words[4:]]
-        elif words[0] == "time":
-            times.setdefault(key, []).append([float(word) for word in words[4:]])
-    result["orders"] = [entry(key, counts, rounds) for key, rounds in times.items()]
+    for what, *words in map(str.split, text.splitlines()):
+        key = tuple(words[:3])  # scene, batch, order
+        if what == "build":
+            result = {"instruction_set": words[0], "lanes": int(words[1])}
+        elif what == "order":
+            counts[key] = [int(word) for word in words[3:]]
+        elif what == "time":
+            times.setdefault(key, []).append([float(word) for word in words[3:]])
+    result["orders"] = [entry(*key, counts, rounds) for key, rounds in times.items()]
     return result
 
 
-def entry(key, counts, rounds):
-    scene, batch, order = key
-    first, below, bundles, touched, met = counts[key]
+def entry(scene, batch, order, counts, rounds):
+    _, below, bundles, touched, met = counts[scene, batch, order]
     # No order changes how many rays there are; `product` does not count them.
-    all_rays = sum(counts[(scene, batch, "appended")][:2])
+    all_rays = sum(counts[scene, batch, "appended"][:2])
     each = [[1e9 * value / all_rays for value in times] for times in rounds]
     return {"scene": scene.removesuffix(".json"), "batch": int(batch), "order": order, "rays": all_rays,
-            "ns_a_ray": {**{part: median(times[place] for times in each) for place, part in enumerate(PARTS)},
-                         "all": median(sum(times) for times in each)},
-            "lanes_alive": below / bundles if bundles else None,
-            "touched_a_bundle": touched / bundles if bundles else None,
-            "met_a_bundle": met / bundles if bundles else None}
+            "ns_a_ray": {**{part: median(column) for part, column in zip(PARTS, zip(*each))}, "all": median(map(sum, each))},
+            **{name: count / bundles if bundles else None for name, count in
+               (("lanes_alive", below), ("touched_a_bundle", touched), ("met_a_bundle", met))}}
 
 
 HEAD = ["scene", "order", "batch", "ns a ray", "levels below 0", "key", "sort", "lanes alive", "touched", "met"]
@@ -62,7 +59,7 @@ def cells(each):
 
 
 def chart(result):
-    """(height, commands): the first scene."""
+    """The first scene."""
     found = result["queue_order"]
     scene = found["orders"][0]["scene"]
     shown = [each for each in found["orders"] if each["scene"] == scene]
@@ -74,12 +71,10 @@ def chart(result):
                f"sorting by the object touched takes the levels below from {below['appended']} ns a ray to "
                f"{below['touched']} and costs {cost}; two segments take {below['segments']} and cost nothing. Medians of "
                "the processor's time; the product's own loop is timed as a whole.")
-    return boxes(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray",
-                 [(f"{each['batch']} samples, {ORDERS[each['order']]}", f"{number(each['ns_a_ray']['all'], 3)} ns",
-                   stacked(each["ns_a_ray"])) for each in shown], ("level 0", "levels below", "finding keys", "sorting"))
-
-
-def stacked(times):
-    """[(begin, end, shade)]"""
-    ends = list(itertools.accumulate(times[part] for part in PARTS))
-    return [(begin, end, shade(place)) for place, (begin, end) in enumerate(zip([0, *ends], ends))]
+    drawn = []
+    for each in shown:
+        ends = list(itertools.accumulate(each["ns_a_ray"][part] for part in PARTS))
+        drawn.append((f"{each['batch']} samples, {ORDERS[each['order']]}", f"{number(each['ns_a_ray']['all'], 3)} ns",
+                      [(begin, end, shade(place)) for place, (begin, end) in enumerate(zip([0, *ends], ends))]))
+    return boxes(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray", drawn,
+                 ("level 0", "levels below", "finding keys", "sorting"))

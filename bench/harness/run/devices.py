@@ -8,6 +8,11 @@ from harness.run.program import Problem
 # arithmetic instructions).
 LANES = {50: 128, 52: 128, 53: 128, 60: 64, 61: 128, 62: 128, 70: 64, 72: 64, 75: 64, 80: 64, 86: 128, 87: 128,
          89: 128, 90: 128, 100: 128, 103: 128, 120: 128}
+H200 = "H200"  # the GPU that targets are for
+
+
+def is_h200(device):
+    return not device["is_cpu"] and H200 in device["name"]
 
 
 def label(device):
@@ -42,11 +47,6 @@ def chosen(backends, wishes):
             raise Problem(3, f"--device is '{wish}', and 'hedron devices' lists no such device")
         picked += [each for each in matches if each not in picked]
     return picked
-
-
-def runnable(devices):
-    """{label: device}"""
-    return {device["label"]: device for device in devices if device["reason"] is None}
 
 
 def judge(devices):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Runs hedron. Its statistics are the source of times: no start of a program, no compiling of kernels
-is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors meanwhile."""
+"""Runs hedron, and the programs beside it. Hedron's statistics are the source of times: no start of a program, no compiling of
+kernels is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors meanwhile."""
 import hashlib
 import json
 import os
@@ -136,12 +136,9 @@ def children_seconds():
 
 
 def collect(place, code, message):
-    frames = []
     stats = place / "stats.jsonl"
-    if stats.exists():
-        for line in stats.read_text(encoding="utf-8").splitlines(keepends=True):
-            if line.endswith("\n"):  # else it was cut off
-                frames.append(json.loads(line))
+    lines = stats.read_text(encoding="utf-8").splitlines(keepends=True) if stats.exists() else []
+    frames = [json.loads(line) for line in lines if line.endswith("\n")]  # else it was cut off
     pictures = {frame["frame"]: place / f"{frame['frame']:07}.data" for frame in frames}
     digests = {number: digest(file) for number, file in pictures.items() if file.exists()}
     return {"code": code, "message": message_in(message), "said": message, "frames": frames, "digests": digests}
@@ -154,3 +151,20 @@ def digest(file):
 def message_in(text):
     lines = [line for line in text.splitlines() if line.strip()]
     return lines[0].removeprefix("hedron: ") if lines else "it says nothing"
+
+
+def run_tool(program, *words, accepted=(0,), limit=None):
+    """Another program, one of those beside hedron or a compiler: the finished process, with its `stdout`. Raises Problem with
+    the reason where there is none: 3 where the program is not there or takes more than `limit` seconds, 1 where it ends with
+    a code that is not accepted."""
+    if not program.is_file():
+        raise Problem(3, f"there is no {program}: ./dev build builds it")
+    try:
+        done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                              timeout=limit)
+    except subprocess.TimeoutExpired as expired:
+        raise Problem(3, f"{program.name} took more than {limit} s, on a busy machine") from expired
+    if done.returncode not in accepted:
+        said = done.stderr or done.stdout
+        raise Problem(1, f"{program.name}: {said.strip()[-600:] or f'it ended with {done.returncode}'}")
+    return done

@@ -19,8 +19,7 @@ class Recording:
     """Stands before FFmpeg in `path`. `folder` is temporary and has a name without quotes."""
 
     def __init__(self, folder, name):
-        self.ffmpeg = shutil.which("ffmpeg")
-        self.folder = Path(folder, name)
+        self.ffmpeg, self.folder = shutil.which("ffmpeg"), Path(folder, name)
         self.folder.mkdir()
         recorder = self.folder / "ffmpeg"
         recorder.write_text(RECORDER.format(folder=self.folder, ffmpeg=self.ffmpeg), encoding="utf-8")
@@ -45,14 +44,14 @@ class Recording:
             return time.monotonic() - start
 
 
-def alone(program, device, scene, lengths, options, folder, cores):
+def alone(plan, device, scene, lengths, cores):
     """(seconds of FFmpeg alone for a frame in steady state, its settings), or the reason why there is nothing."""
     if shutil.which("ffmpeg") is None:
         return "there is no ffmpeg"
-    with tempfile.TemporaryDirectory(dir=folder) as place:
+    with tempfile.TemporaryDirectory(dir=plan.folder) as place:
         recordings = [Recording(place, f"film-{count}") for count in lengths]
         for count, recording in zip(lengths, recordings):
-            run = program.render(device, scene, f"0-{count}", options, place, output="film.mp4", path=recording.path)
+            run = plan.program.render(device, scene, f"0-{count}", plan.options, place, output="film.mp4", path=recording.path)
             if run["code"] != 0:
                 return run["message"]
         short, long = recordings

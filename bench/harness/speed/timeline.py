@@ -34,15 +34,10 @@ def measure(frames):
     length = max(end for boxes in stages.values() for _, end, _ in boxes) - begin
     busy = {stage: busy_seconds(boxes) for stage, boxes in stages.items()}
     slowest = max(busy, key=busy.get)
-    return {
-        "seconds": length,
-        "stages": {stage: {"busy_seconds": busy[stage], "busy_share": busy[stage] / length,
-                           "work_seconds": sum(end - start for start, end, _ in boxes)}
-                   for stage, boxes in stages.items()},
-        "slowest": slowest,
-        "ratio_to_slowest": length / busy[slowest],
-        "boxes": {stage: [list(box) for box in boxes] for stage, boxes in stages.items()},
-    }
+    return {"seconds": length, "slowest": slowest, "ratio_to_slowest": length / busy[slowest],
+            "stages": {stage: {"busy_seconds": busy[stage], "busy_share": busy[stage] / length,
+                               "work_seconds": sum(end - start for start, end, _ in boxes)} for stage, boxes in stages.items()},
+            "boxes": {stage: [list(box) for box in boxes] for stage, boxes in stages.items()}}
 
 
 def table(timeline):
@@ -59,7 +54,7 @@ def light(colour):
 
 
 def chart(result):
-    """(height, commands): a row for each stage, a box for each frame."""
+    """A row for each stage, a box for each frame."""
     timeline = result["timeline"]
     first = min(box[0] for stage in timeline["boxes"].values() for box in stage)
     caption = (f"{timeline['slowest']} sets the pace: the run takes {timeline['ratio_to_slowest']:.2f} times as long as "

@@ -44,22 +44,18 @@ class OddScenes:
             return None
         return pfm.near_pixels(picture[0], *(each[0] for each in beside))
 
-    def try_geometry(self, odd, geometry):
-        runs = [self.render(odd.scene, geometry, kind) for kind in ("double", "float")]
-        truth = self.truths.setdefault((odd.name, geometry), runs[0])
-        if odd.like:
-            truth = self.truths[odd.like, geometry]
-        words, good = outcome(odd, runs)
-        counted = pictures.compare(runs[1], truth)
-        self.entries.append({"scene": odd.name, "geometry": geometry, "outcome": words, "as_it_should": good,
-                             "like": odd.like, "nan": pictures.odd_numbers(runs), "clamps": runs[1]["clamps"],
-                             **counted,
-                             "beside_near": self.near_beside(odd, geometry, runs[1]["pictures"]),
-                             "double_near": pictures.compare(runs[0], truth)["near"] if odd.like else None})
-
     def run(self, odd):
         for geometry in pictures.GEOMETRIES:
-            self.try_geometry(odd, geometry)
+            runs = [self.render(odd.scene, geometry, kind) for kind in ("double", "float")]
+            truth = self.truths.setdefault((odd.name, geometry), runs[0])
+            if odd.like:
+                truth = self.truths[odd.like, geometry]
+            words, good = outcome(odd, runs)
+            self.entries.append({"scene": odd.name, "geometry": geometry, "outcome": words, "as_it_should": good,
+                                 "like": odd.like, "nan": pictures.odd_numbers(runs), "clamps": runs[1]["clamps"],
+                                 **pictures.compare(runs[1], truth),
+                                 "beside_near": self.near_beside(odd, geometry, runs[1]["pictures"]),
+                                 "double_near": pictures.compare(runs[0], truth)["near"] if odd.like else None})
 
 
 def failures(entries):

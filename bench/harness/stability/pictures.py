@@ -36,15 +36,11 @@ def odd_numbers(runs):
     return sum(pfm.odd_numbers(picture) for run in runs for picture in run["pictures"].values())
 
 
-def frames_of(count):
-    """The first one and the middle one."""
-    return "0" if count < 2 else f"0,{count // 2}"
-
-
 def study_scene(program, file, options, folder):
-    """An entry for each geometry and comparison."""
+    """An entry for each geometry and comparison, of the first frame and the middle one."""
     entries, name = [], file.stem
-    frames = frames_of(read_scene(file)["camera"].get("frames", 1))
+    count = read_scene(file)["camera"].get("frames", 1)
+    frames = "0" if count < 2 else f"0,{count // 2}"
     for geometry in GEOMETRIES:
         runs = {}
         for kind, own in KINDS.items():

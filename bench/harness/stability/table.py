@@ -43,10 +43,6 @@ def percent(share):
     return f"{100 * share:.3g} %" if share >= 1e-4 else f"{100 * share:.1e} %"
 
 
-def where(each):
-    return f"scale {each['scale']:g}, offset {each['offset']:g}"
-
-
 def ours_words(counts, study, cases, what):
     said = []
     for method in methods.OURS:
@@ -59,70 +55,57 @@ def ours_words(counts, study, cases, what):
 
 
 def method_rows(counts, study, cases, what, words, test):
-    rows = []
     for method in [*methods.methods(counts, study), methods.CHECK]:
         these = methods.select(counts, study, cases, method)
         found = methods.worst(these, what)
         if method in methods.OURS or found is None:
             continue
         share, each = found
-        place = where(each) if study != "sums" else f"by up to {each['ulps']:g} units in the last place"
-        rows.append([words, methods.NAMES[method], percent(methods.share(these, what)), percent(share),
-                     place if share else "", ours_words(counts, study, cases, what), test])
-    return rows
+        place = (f"by up to {each['ulps']:g} units in the last place" if study == "sums" else
+                 f"scale {each['scale']:g}, offset {each['offset']:g}")
+        yield [words, methods.NAMES[method], percent(methods.share(these, what)), percent(share),
+               place if share else "", ours_words(counts, study, cases, what), test]
 
 
 def picture_rows(entries):
-    rows = []
     for what, method in ((pictures.FLOAT, "float"), (pictures.FAST, "fast arithmetic")):
         these = [each for each in entries if each["what"] == what]
-        found = min(these, key=lambda each: pictures.share([each]), default=None)
-        if found is None:
+        if not these:
             continue
-        off, worst = 1 - pictures.share(these), 1 - pictures.share([found])
-        ours = f"float by default, --precision double; {sum(each['nan'] for each in these)} NaN"
-        if what == pictures.FAST:
-            ours = "strict by default: the same bytes on every device"
-        rows.append([f"pixels off by more than 1 of 255, {what}, shipped scenes", method, percent(off), percent(worst),
-                     f"{found['scene']}, {found['geometry']}" if worst else "", ours,
-                     "conformance_c, conformance_notices_fast_math" if what == pictures.FAST else HERE])
-    return rows
+        found = min(these, key=lambda each: pictures.share([each]))
+        worst, is_fast = 1 - pictures.share([found]), what == pictures.FAST
+        yield [f"pixels off by more than 1 of 255, {what}, shipped scenes", method, percent(1 - pictures.share(these)),
+               percent(worst), f"{found['scene']}, {found['geometry']}" if worst else "",
+               "strict by default: the same bytes on every device" if is_fast else
+               f"float by default, --precision double; {sum(each['nan'] for each in these)} NaN",
+               "conformance_c, conformance_notices_fast_math" if is_fast else HERE]
 
 
 def scene_rows(entries):
-    rows = []
-    for each in entries:
-        if not each["like"]:
-            rows.append(scene_row(each["scene"], [each]))
+    for each in (each for each in entries if not each["like"]):
+        yield scene_row(each["scene"], [each])
     moved = [each for each in entries if each["like"]]
     for geometry in dict.fromkeys(each["geometry"] for each in moved):
-        rendered = [each for each in moved if each["geometry"] == geometry and each["outcome"] == "rendered"]
-        if rendered:
-            rows.append(scene_row("the default scene at every scale and offset", rendered))
-        refused = [each for each in moved if each["geometry"] == geometry and each["outcome"] != "rendered"]
-        if refused:
-            rows.append(scene_row("the same beyond 1e12", refused))
-    return rows
+        for name, is_rendered in (("the default scene at every scale and offset", True), ("the same beyond 1e12", False)):
+            these = [each for each in moved if each["geometry"] == geometry and (each["outcome"] == "rendered") is is_rendered]
+            if these:
+                yield scene_row(name, these)
 
 
 def scene_row(name, entries):
     worst = min(entries, key=lambda each: pictures.share([each]) or 0)
-    share, least = pictures.share(entries), pictures.share([worst])
-    pixels = [1 - share, 1 - least] if share is not None else [None, None]
-    said = "; ".join(dict.fromkeys(each["outcome"] for each in entries if each["outcome"] == "rendered")) or worst["outcome"]
+    off = [None if share is None else 1 - share for share in (pictures.share(entries), pictures.share([worst]))]
+    said = "rendered" if any(each["outcome"] == "rendered" for each in entries) else worst["outcome"]
     if worst["beside_near"] is not None:
         said += f"; off both pictures with it a hair to either side: {percent(1 - worst['beside_near'] / worst['pixels'])}"
-    return [f"{name.replace('_', ' ')}, {worst['geometry']}", "float against double", *map(percent, pixels),
-            worst["scene"] if pixels[1] and len(entries) > 1 else "",
+    return [f"{name.replace('_', ' ')}, {worst['geometry']}", "float against double", *map(percent, off),
+            worst["scene"] if off[1] and len(entries) > 1 else "",
             f"{said}; {sum(each['nan'] for each in entries)} NaN, {sum(each['clamps'] for each in entries)} clamps", HERE]
 
 
 def rows(result):
-    counts, found = result["counts"] or [], []
-    for (study, case), (words, test) in PLACES.items():
-        found += method_rows(counts, study, [case], study, words, test)
-    for what, (study, cases, words, test) in MORE.items():
-        found += method_rows(counts, study, cases, what, words, test)
-    found += picture_rows(result["precision"] or [])
-    found += scene_rows(result["odd"] or [])
+    places = [(study, [case], study, *said) for (study, case), said in PLACES.items()]
+    places += [(study, cases, what, *said) for what, (study, cases, *said) in MORE.items()]
+    found = [row for place in places for row in method_rows(result["counts"] or [], *place)]
+    found += [*picture_rows(result["precision"] or []), *scene_rows(result["odd"] or [])]
     return [dict(zip(("place", "method", "rate", "worst", "where", "ours", "test"), row)) for row in found]

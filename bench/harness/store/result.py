@@ -12,20 +12,11 @@ VERSION = 1
 
 
 def begin(bench, program, arguments, devices, **more):
-    return {
-        "hedron_bench": VERSION,
-        "bench": bench,
-        "complete": False,
-        "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-        "quick": arguments.quick,
-        "repeats": arguments.repeats,
-        "hedron": {"version": program.version, "options": arguments.options},
-        "machine": machine.describe(),
-        "devices": devices,
-        "pictures": None,
-        "failures": [],
-        **more,
-    }
+    return {"hedron_bench": VERSION, "bench": bench, "complete": False,
+            "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+            "quick": arguments.quick, "repeats": arguments.repeats,
+            "hedron": {"version": program.version, "options": arguments.options}, "machine": machine.describe(),
+            "devices": devices, "pictures": None, "failures": [], **more}
 
 
 def write_text(file, text):

@@ -10,7 +10,6 @@ from harness.store import result as results
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
         "bounds", "accuracy", "stability")
 KEPT = ("date", "bounds", "accuracy", "stability")  # what goes on with the measurements
-SAME = ("bench", "quick")  # what must be alike for a study to go on
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
 IDENTITY = ("part", "series", "x", "device", "scene", "options", "frames", "output", "warm_up", "scale", "cold")
@@ -29,12 +28,14 @@ def read(file):
     return result
 
 
+def question(result):
+    """What must be alike for the measurements of two to answer the same one."""
+    return [result["bench"], result["quick"], result["machine"]["cpu"], *(result["hedron"][key] for key in SAME_OF_HEDRON),
+            *(device[key] for device in result["devices"] for key in SAME_OF_DEVICES)]
+
+
 def is_continued(old, new):
-    """Whether the measurements of both answer the same question."""
-    devices = [[[device[key] for key in SAME_OF_DEVICES] for device in result["devices"]] for result in (old, new)]
-    return (devices[0] == devices[1] and old["machine"]["cpu"] == new["machine"]["cpu"]
-            and all(old[key] == new[key] for key in SAME)
-            and all(old["hedron"][key] == new["hedron"][key] for key in SAME_OF_HEDRON))
+    return question(old) == question(new)
 
 
 def identity(entry):

@@ -4,8 +4,7 @@ import re
 
 from harness.measure.numbers import count_words
 from harness.measure.rows import NONE, known
-from harness.run import tool
-from harness.run.program import Problem
+from harness.run.program import Problem, run_tool
 
 TOTAL = re.compile(r"total of (\d+) renderers:\s+(\d+) rays, (\d+) leaks, (\d+) double hits")
 SOME_LEAK, NOTHING_OPENS = 1, 77
@@ -19,7 +18,7 @@ def parse(text):
 
 def run(program, backend, rays):
     """Raises Problem with the reason where it cannot be."""
-    done = tool.run(program.beside("tests/leak_hunt/hedron_leak_hunt"), rays, "--backend", backend,
+    done = run_tool(program.beside("tests/leak_hunt/hedron_leak_hunt"), rays, "--backend", backend,
                     accepted=(0, SOME_LEAK, NOTHING_OPENS))
     if done.returncode == NOTHING_OPENS:
         raise Problem(3, f"no device of {backend} opens")
@@ -29,20 +28,14 @@ def run(program, backend, rays):
     return total
 
 
-def count(total):
-    return total["leaks"] + total["double_hits"]
-
-
-def failures(hunts):
-    return [f"{backend}: {total['leaks']} leaks and {total['double_hits']} double hits"
-            for backend, total in hunts.items() if not isinstance(total, str) and count(total) > 0]
-
-
 def add_rows(plan, hunts):
-    """`hunts` has for each backend what `run` gave, or the reason why there is nothing."""
+    """Rows and failures; `hunts` has for each backend what `run` gave, or the reason why there is nothing."""
     for backend, total in hunts.items():
-        aimed = "" if isinstance(total, str) else (
-            f" of {count_words(float(format(total['rays'], '.3g')))} rays aimed at edges and corners, "
-            f"{total['renderers']} renderers")
-        plan.row("leaks", f"leaks and double hits{aimed}", "rays", lambda total=total: [count(known(total))], device=backend,
-                 target=NONE)
+        aimed = ""
+        if not isinstance(total, str):
+            aimed = (f" of {count_words(float(format(total['rays'], '.3g')))} rays aimed at edges and corners, "
+                     f"{total['renderers']} renderers")
+            if total["leaks"] + total["double_hits"]:
+                plan.failures.add(f"{backend}: {total['leaks']} leaks and {total['double_hits']} double hits")
+        plan.row("leaks", f"leaks and double hits{aimed}", "rays", lambda total=total: [
+            known(total)["leaks"] + total["double_hits"]], device=backend, target=NONE)

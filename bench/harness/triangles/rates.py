@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Rates of the kernels' searches of meshes beside those of Embree, and the time of building."""
+"""Rates of the kernels' searches of meshes beside those of Embree, and the time of building. `objects` has for each number of
+triangles what `run` gave, or the reason why there is nothing."""
 from statistics import median
 
 from harness.measure.numbers import count_words
 from harness.measure.rows import Target, known
-from harness.run import tool
+from harness.run.program import run_tool
 
 COUNTS = (1000, 80000, 1000000)
 KINDS = ("primary", "mirrored", "diffuse", "shadow")
@@ -25,26 +26,23 @@ def parse(text):
     """{"instruction_set", "lanes", "triangles", "rates": {kind: {who: [...]}}, "same": {kind: {way: share}},
     "built": {who: [...]}} of one object; rates a CPU-second, one for each round."""
     found = {"instruction_set": None, "lanes": None, "triangles": None, "rates": {}, "same": {}, "built": {}}
-    for line in text.splitlines():
-        what, *rest = line.split()
+    for what, first, *rest in map(str.split, text.splitlines()):
         if what == "build":
-            found["instruction_set"], found["lanes"] = rest[0], int(rest[1])
+            found["instruction_set"], found["lanes"] = first, int(rest[0])
         elif what == "object":
-            found["triangles"] = int(rest[0])
+            found["triangles"] = int(first)
         elif what == "rate":
-            kind, _, who, value = rest
-            found["rates"].setdefault(kind, {}).setdefault(who, []).append(float(value))
+            found["rates"].setdefault(first, {}).setdefault(rest[1], []).append(float(rest[2]))
         elif what == "same":
-            kind, _, way, share = rest
-            found["same"].setdefault(kind, {})[way] = float(share)
+            found["same"].setdefault(first, {})[rest[1]] = float(rest[2])
         elif what == "built":
-            found["built"].setdefault(rest[1], []).append(float(rest[2]))
+            found["built"].setdefault(rest[0], []).append(float(rest[1]))
     return found
 
 
 def run(program, count, seconds, rounds, threads):
     """Raises Problem with the reason where it cannot be."""
-    return parse(tool.run(program.beside("bench/hedron_mesh_rates"), "--seconds", seconds, "--rounds", rounds, "--threads",
+    return parse(run_tool(program.beside("bench/hedron_mesh_rates"), "--seconds", seconds, "--rounds", rounds, "--threads",
                           threads, count).stdout)
 
 
@@ -69,54 +67,39 @@ def failures(objects):
     """What makes the rates no result."""
     found = []
     for count, measured in objects.items():
-        least = None if isinstance(measured, str) else least_same(measured)
-        if least and least[0] <= SAME_FROM:
-            found.append(f"THE SEARCHES DIFFER, so their rates are no result: only {100 * least[0]:.2f} % of the "
-                         f"{least[1]} rays meet the same at {count_words(count)} as Embree's {least[2]}")
+        share, kind, way = (None if isinstance(measured, str) else least_same(measured)) or (1, "", "")
+        if share <= SAME_FROM:
+            found.append(f"THE SEARCHES DIFFER, so their rates are no result: only {100 * share:.2f} % of the "
+                         f"{kind} rays meet the same at {count_words(count)} as Embree's {way}")
     return found
 
 
-class Rows:
-    """`objects` has for each count what `run` gave, or the reason why there is nothing."""
+def add_comparison(plan, objects, kind, count, allowed, target):
+    measured = objects.get(count)
+    way = best_way(measured["rates"][kind], allowed) if isinstance(measured, dict) else None
+    named = f"Embree's {way.replace('_', ' ')}" if way else "Embree"
 
-    def __init__(self, plan, objects):
-        self.plan, self.objects = plan, objects
+    def figure():
+        rates = known(measured)["rates"][kind]
+        return against(rates["hedron"], known(way and rates[way], NO_RIVAL))
+    plan.row("rates", f"{kind} rays, {count_words(count)} triangles, against {named}", "times", figure, target=target)
 
-    def rates(self, kind, count):
-        return known(self.objects.get(count))["rates"][kind]
 
-    def row(self, what, unit, figure, **named):
-        self.plan.row("rates", what, unit, figure, **named)
+def add_rows(plan, objects):
+    for comparison in RATES:
+        add_comparison(plan, objects, *comparison)
+    what = f"building, {count_words(BUILD_COUNT)} triangles"
 
-    def compare(self, kind, count, allowed, target):
-        measured = self.objects.get(count)
-        way = best_way(measured["rates"][kind], allowed) if isinstance(measured, dict) else None
-        named = f"Embree's {way.replace('_', ' ')}" if way else "Embree"
-
-        def figure():
-            rates = self.rates(kind, count)
-            return against(rates["hedron"], known(way and rates[way], NO_RIVAL))
-        self.row(f"{kind} rays, {count_words(count)} triangles, against {named}", "times", figure, target=target)
-
-    def build(self):
-        what = f"building, {count_words(BUILD_COUNT)} triangles"
-
-        def built():
-            return known(self.objects.get(BUILD_COUNT))["built"]
-        self.row(f"time of {what}, against Embree's medium build", "times",
-                 lambda: against(built()["hedron"], known(built().get("embree"), NO_RIVAL)), target=BUILD_TARGET,
-                 note="rates on one thread and the build on all, by the processor's time; quartiles of ratios are "
-                      "of hedron's rounds")
-        self.row(f"  {what}", "CPU s", lambda: built()["hedron"])
-
-    def add(self):
-        for comparison in RATES:
-            self.compare(*comparison)
-        self.build()
-        for kind in KINDS:
-            for count in COUNTS:
-                self.row(f"  {kind} rays a CPU-second, {count_words(count)} triangles", "M/s", lambda kind=kind, count=count: [
-                    1e-6 * value for value in self.rates(kind, count)["hedron"]])
+    def built():
+        return known(objects.get(BUILD_COUNT))["built"]
+    plan.row("rates", f"time of {what}, against Embree's medium build", "times",
+             lambda: against(built()["hedron"], known(built().get("embree"), NO_RIVAL)), target=BUILD_TARGET,
+             note="rates on one thread and the build on all, by the processor's time; quartiles of ratios are of hedron's rounds")
+    plan.row("rates", f"  {what}", "CPU s", lambda: built()["hedron"])
+    for kind in KINDS:
         for count in COUNTS:
-            self.row(f"  rays that meet the same as Embree's, least, {count_words(count)} triangles", "%", lambda count=count: [
-                100 * known(least_same(known(self.objects.get(count))), NO_RIVAL)[0]])
+            plan.row("rates", f"  {kind} rays a CPU-second, {count_words(count)} triangles", "M/s",
+                     lambda kind=kind, count=count: [1e-6 * value for value in known(objects.get(count))["rates"][kind]["hedron"]])
+    for count in COUNTS:
+        plan.row("rates", f"  rays that meet the same as Embree's, least, {count_words(count)} triangles", "%",
+                 lambda count=count: [100 * known(least_same(known(objects.get(count))), NO_RIVAL)[0]])

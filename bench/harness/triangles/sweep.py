@@ -7,7 +7,8 @@ from harness.chart.gnuplot import device_title
 from harness.chart.lines import Axis, Line, lines
 from harness.measure.numbers import count_words, number, spread
 from harness.measure.rows import Missing, Target
-from harness.triangles import models
+from harness.measure.scenes import TRIANGLE_TICKS
+from harness.page.section import MS
 
 # The smallest are there for brute force, which is the faster one for a handful.
 COUNTS = (12, 48, *(10 ** power for power in range(2, 8)))
@@ -27,28 +28,29 @@ def scene_name(count):
 class Sweep:
     """`triangles` has the true number of triangles for each count whose scene was made."""
 
-    def __init__(self, plan, runnable, triangles, options):
-        self.plan, self.runnable, self.triangles, self.options = plan, runnable, triangles, tuple(options)
+    def __init__(self, plan, triangles):
+        self.plan, self.triangles = plan, triangles
         self.jobs = {}  # (device, way, count): job
-        for label in runnable:
+        for label in plan.runnable:
             for count in triangles:
                 self.add_job(label, "bvh", count)
 
+    def probe_brute(self, most):
+        """Adds what can be timed in reasonable time: each further count waits for the one before."""
+        for label in self.plan.runnable:
+            for count in filter(lambda count: count <= most, self.triangles):
+                job = self.add_job(label, "brute", count)
+                self.plan.news(f"{label}, brute force, {count_words(count)} triangles")
+                self.plan.measure(job, 0)
+                if job["reason"] or median(self.plan.medians(job)) > ENOUGH_SECONDS:
+                    break
+
     def add_job(self, label, way, count):
         once = {"slow": True} if way == "brute" and count >= SLOW_FROM else {}
-        view = VIEWS[self.runnable[label]["is_cpu"]][1]
-        job = self.plan.job(label, scene_name(count), "0,1" if once else "0-3", (*view, "--accel", way, *self.options), **once)
+        view = VIEWS[self.plan.runnable[label]["is_cpu"]][1]
+        job = self.plan.job(label, scene_name(count), "0,1" if once else "0-3", (*view, "--accel", way), **once)
         self.jobs[label, way, count] = job
         return job
-
-    def probe_brute(self, label, most):
-        """Adds what can be timed in reasonable time: each further count waits for the one before."""
-        for count in filter(lambda count: count <= most, self.triangles):
-            job = self.add_job(label, "brute", count)
-            self.plan.news(f"{label}, brute force, {count_words(count)} triangles")
-            self.plan.measure(job, 0)
-            if job["reason"] or median(self.plan.medians(job)) > ENOUGH_SECONDS:
-                return
 
     def points(self):
         """What was measured, as it is written."""
@@ -57,16 +59,14 @@ class Sweep:
                  "reason": job["reason"] or (None if job["runs"] else "it was not run")}
                 for (label, way, count), job in self.jobs.items()]
 
-    def place(self, item):
-        label, way, count = item[0]
-        return list(self.runnable).index(label), list(WAYS).index(way), count
-
     def add_rows(self):
-        for label in self.runnable:
+        for label in self.plan.runnable:
             self.add_growth(label)
-        for (label, way, count), job in sorted(self.jobs.items(), key=self.place):
-            self.plan.row("sweep", f"  a frame by {WAYS[way]}, {count_words(count)} triangles", "ms",
-                          lambda job=job: self.plan.trace_ms(job), device=label)
+        for label in self.plan.runnable:
+            for way in WAYS:
+                for count in sorted(count for which, by, count in self.jobs if (which, by) == (label, way)):
+                    self.plan.row("sweep", f"  a frame by {WAYS[way]}, {count_words(count)} triangles", "ms",
+                                  lambda job=self.jobs[label, way, count]: self.plan.trace_ms(job), device=label)
 
     def add_growth(self, label):
         most = max(self.triangles, default=MOST)
@@ -77,28 +77,22 @@ class Sweep:
             if many is None or few is None or most <= BASE:
                 raise Missing(f"there are no scenes of {BASE} and more triangles")
             return self.plan.ratios(many, few)
-        view = VIEWS[self.runnable[label]["is_cpu"]][0]
-        self.plan.row("growth", f"time of a frame, {count_words(most)} triangles against "
-                      f"{count_words(BASE)}", "times", figure, device=label,
-                      target=TARGET if is_whole else None,
+        view = VIEWS[self.plan.runnable[label]["is_cpu"]][0]
+        self.plan.row("growth", f"time of a frame, {count_words(most)} triangles against {count_words(BASE)}", "times", figure,
+                      device=label, target=TARGET if is_whole else None,
                       note=view + ("" if is_whole else f"; the target is for {count_words(MOST)}"))
 
 
 # ---- the chart
 
-def line(points, label, way):
-    """[(triangles, milliseconds)]"""
-    return [(x, each["median"]) for x, each in spreads(points, label, way)]
-
-
 def spreads(points, label, way):
-    return sorted((each["triangles"], each["trace_ms"]) for each in points
-                  if each["trace_ms"] and (each["device"], each["way"]) == (label, way))
+    """[(triangles, spread of milliseconds)]"""
+    return sorted((each["triangles"], each["trace_ms"]) for each in points if (each["device"], each["way"]) == (label, way))
 
 
 def crossover(brute, tree):
-    """The number of triangles where both take the same time, interpolated between neighbours of the
-    logarithms; the words tell where that lies beyond what was measured. None: nothing to compare."""
+    """The number of triangles where both take the same time, interpolated between neighbours of the logarithms of
+    [(triangles, milliseconds)]; the words tell where that lies beyond what was measured. None: nothing to compare."""
     trees = dict(tree)
     # More than 0: brute force takes longer.
     gaps = [(math.log(count), math.log(ms / trees[count])) for count, ms in brute if count in trees]
@@ -112,28 +106,24 @@ def crossover(brute, tree):
     return f"beyond {math.exp(gaps[-1][0]):,.0f}"
 
 
-def growth_words(points, label):
-    times = {each["asked"]: each["trace_ms"]["median"] for each in points
-             if (each["device"], each["way"]) == (label, "bvh")}
-    most = max(times, default=0)
-    if BASE not in times or most == BASE:
-        return None
-    return (f"On {label} a frame of {count_words(most)} triangles takes "
-            f"{number(times[most] / times[BASE], 3)} times as long as one of {count_words(BASE)}")
-
-
 def caption(points, labels):
-    grown = [growth_words(points, label) for label in labels]
-    crossed = {label: crossover(line(points, label, "brute"), line(points, label, "bvh")) for label in labels}
-    sentences = [f"{words} with the hierarchy." for words in grown if words]
-    if any(crossed.values()):
-        sentences.append("Brute force and the hierarchy cross " + ", ".join(
-            f"{words} triangles on {label}" for label, words in crossed.items() if words) + ".")
+    sentences, crossed = [], []
+    for label in labels:
+        times = {each["asked"]: each["trace_ms"]["median"] for each in points if (each["device"], each["way"]) == (label, "bvh")}
+        most = max(times, default=0)
+        if BASE in times and most != BASE:
+            sentences.append(f"On {label} a frame of {count_words(most)} triangles takes {number(times[most] / times[BASE], 3)} "
+                             f"times as long as one of {count_words(BASE)} with the hierarchy.")
+        both = [[(x, each["median"]) for x, each in spreads(points, label, way)] for way in ("brute", "bvh")]
+        if crossover(*both):
+            crossed.append(f"{crossover(*both)} triangles on {label}")
+    if crossed:
+        sentences.append(f"Brute force and the hierarchy cross {', '.join(crossed)}.")
     return " ".join([*sentences, "Points are medians; the first frame of each run does not count."])
 
 
 def charts(result):
-    """{name: (height, commands)}"""
+    """{name: chart}"""
     measured = [each for each in result["sweep"] or [] if each["trace_ms"]]
     labels = list(dict.fromkeys(each["device"] for each in measured))
     known = {device["label"]: device for device in result["devices"]}
@@ -141,5 +131,4 @@ def charts(result):
                   spreads(measured, label, way), place, dash, place) for place, label in enumerate(labels)
              for way, dash in (("bvh", 1), ("brute", 2))]
     return {"triangles": lines(result, "Time of a frame against the number of triangles", caption(measured, labels),
-                               Axis("triangles", True, models.TICKS), Axis("milliseconds for each frame", True),
-                               drawn)} if measured else {}
+                               Axis("triangles", True, TRIANGLE_TICKS), Axis(MS, True), drawn)} if measured else {}

@@ -11,13 +11,14 @@ from harness.chart.lines import Axis, Line, lines
 from harness.command.bench import Bench
 from harness.measure.jobs import counted, picture_groups
 from harness.measure.numbers import number, rays, spread, spread_text
+from harness.measurements.animation import by_frame, most_varied
 from harness.page import tables
-from harness.page.section import ratio, y_axis
-from harness.parts.animation import by_frame, most_varied
+from harness.page.section import MS, ratio, y_axis
 from harness.run.program import Problem
 from harness.store.result import machine_words, scene_words
 
 HEAD = ["backend", "device", "trace ms [q1..q3]", "frame ms", "frames/s", "M rays/s", "M shadow tests/s", "ratio"]
+OF_SCENE = ("width", "height", "samples", "depth")
 
 
 def rate(count, seconds):
@@ -30,9 +31,12 @@ def median_rate(frames, count):
     return None if None in rates else median(rates)
 
 
-def summary(job):
+def counted_frames(job):
+    return [frame for run in job["runs"] for frame in counted(run)]
+
+
+def summary(frames):
     """None where no frame counts. Rates are those of the median frame."""
-    frames = [frame for run in job["runs"] for frame in counted(run)]
     if not frames:
         return None
     whole = median(sum(frame["seconds"].values()) for frame in frames)
@@ -41,71 +45,67 @@ def summary(job):
             "shadow_tests_per_second": median_rate(frames, lambda frame: frame["shadow_tests"])}
 
 
+def trace_ms(job):
+    return job["summary"]["trace_ms"]["median"]
+
+
 class Frames(Bench):
     name = "frames"
     about = "Time the frames of a scene, or of the built-in one, on every device."
     quick, repeats = None, (3,)
     chart_files = ("frames", "frames_animation")
+    keys = ("frames",)
 
-    @classmethod
-    def add_options(cls, parser):
+    def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("scene", nargs="?", type=Path, metavar="SCENE.json")
         parser.add_argument("--frames", default="0-4", metavar="LIST",
                             help="at least two, of which the first warms up and does not count (default: 0-4); "
                                  "a still scene gets them by -- --set camera.frames=5")
 
-    def __init__(self, arguments, program, folder):
-        scene = arguments.scene
-        if scene is not None and not scene.is_file():
+    def prepare(self):
+        scene, plan = self.arguments.scene, self.plan
+        if scene and not scene.is_file():
             raise Problem(2, f"there is no scene file {scene}")
-        super().__init__(arguments, program, folder)
-        self.plan.scenes["scene"] = scene and scene.resolve()
-        self.plan.keeps_parts = True
-        self.plan.save = self.check  # what is known is written after every run, so that nothing of it can be lost
+        plan.scenes["scene"] = scene and scene.resolve()
+        plan.keeps_parts, plan.save = True, self.check  # what is known is written after every run: nothing of it can be lost
         for label in self.runnable:
-            self.plan.job(label, "scene", arguments.frames, arguments.options)
-        self.result.update(frames=arguments.frames, scene={
-            "name": scene.stem if scene else self.scene, **dict.fromkeys(("width", "height", "samples", "depth")),
-            "rays_per_frame": None})
+            plan.job(label, "scene", self.arguments.frames)
+        self.result.update(frames=self.arguments.frames, scene={"name": scene.stem if scene else self.scene,
+                                                                **dict.fromkeys(OF_SCENE), "rays_per_frame": None})
 
     def check(self):
         if any(len(run["frames"]) < 2 for job in self.plan.jobs for run in job["runs"]):
             raise Problem(2, f"--frames is '{self.arguments.frames}', expected at least two frames, for the first warms up")
         self.save()
 
-    def measure(self):
-        self.plan.run_all(self.arguments.repeats)
-
     def fill(self):
         counts, scene = {}, self.result["scene"]
         for job in self.plan.jobs:
-            job["summary"] = summary(job)
-            for frame in (frame for run in job["runs"] for frame in counted(run)):
+            job["summary"] = summary(counted_frames(job))
+            for frame in counted_frames(job):
                 counts.setdefault(frame["frame"], rays(frame))
-                scene.update({key: frame[key] for key in ("width", "height", "samples", "depth")})
+                scene.update({key: frame[key] for key in OF_SCENE})
         scene["rays_per_frame"] = sum(counts.values()) / len(counts) if counts else None
-        fastest = min((job["summary"]["trace_ms"]["median"] for job in self.measured()), default=0)
-        for job in self.measured():
-            job["summary"]["ratio_to_fastest"] = rate(job["summary"]["trace_ms"]["median"], fastest)
+        self.measured = [job for job in self.plan.jobs if job["summary"]]
+        fastest = min(map(trace_ms, self.measured), default=0)
+        for job in self.measured:
+            job["summary"]["ratio_to_fastest"] = rate(trace_ms(job), fastest)
 
     def compared(self):
         jobs, options = self.plan.jobs, self.arguments.options
         names = [job["device"] for job in jobs if self.device(job)["strict"] and job["runs"]]
-        found = {"same": None, "devices": names}
         if "--math fast" in " ".join(options) or "--math=fast" in options:
-            return {**found, "devices": [], "sentence": "The pictures were not compared: --math fast promises no equal bytes."}
-        for (_, _, frame), makers in sorted(picture_groups(jobs, self.plan.devices).items()):
-            if len(makers) > 1:
-                groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
-                return {**found, "same": False,
-                        "sentence": f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."}
-        if len(names) < 2:
-            return {**found, "sentence": "The pictures were not compared: fewer than two strict devices made any."}
-        return {**found, "same": True, "sentence": f"The pictures of {', '.join(names)} are the same bytes."}
-
-    def measured(self):
-        return [job for job in self.plan.jobs if job["summary"]]
+            same, names, words = None, [], "The pictures were not compared: --math fast promises no equal bytes."
+        elif len(names) < 2:
+            same, words = None, "The pictures were not compared: fewer than two strict devices made any."
+        else:
+            same, words = True, f"The pictures of {', '.join(names)} are the same bytes."
+            for (_, _, frame), makers in sorted(picture_groups(jobs, self.plan.devices).items()):
+                if same and len(makers) > 1:
+                    groups = " / ".join(", ".join(dict.fromkeys(maker.split()[0] for maker in each)) for each in makers.values())
+                    same, words = False, f"THE PICTURES DIFFER, so these times are no result: frame {frame}, {groups}."
+        return {"same": same, "devices": names, "sentence": words}
 
     def device(self, job):
         return self.plan.devices[job["device"]]
@@ -120,40 +120,34 @@ class Frames(Bench):
                 number(each["ratio_to_fastest"], 3)]
 
     def tell(self):
-        print(f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), "", sep="\n")
-        if self.measured():
-            print(*tables.lines([HEAD, *map(self.cells, self.measured())]), "", sep="\n")
-        for each in [*self.result["devices"], *self.plan.jobs]:
-            if each["reason"] is not None:
-                print(f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}")
+        told = [f"hedron {self.program.version}, {scene_words(self.result)}", machine_words(self.result), ""]
+        if self.measured:
+            told += [*tables.lines([HEAD, *map(self.cells, self.measured)]), ""]
+        told += [f"{each.get('label') or each['device']} {'failed' if each.get('failed') else 'cannot run'}: {each['reason']}"
+                 for each in [*self.result["devices"], *self.plan.jobs] if each["reason"] is not None]
         if not self.result["complete"]:
-            print("Interrupted: only what was measured before counts.")
-        print(self.result["pictures"]["sentence"])
-        for line in gnuplot.draw(self.charts(), self.arguments.out):
-            print(line)
-        print(f"All times: {self.file}")
+            told.append("Interrupted: only what was measured before counts.")
+        print(*told, self.result["pictures"]["sentence"], *gnuplot.draw(self.charts(), self.arguments.out),
+              f"All times: {self.file}", sep="\n")
 
     def charts(self):
-        if not self.measured():
-            return {}
-        return {"frames": self.bars(), "frames_animation": self.animation()}
+        return {"frames": self.bars(), "frames_animation": self.animation()} if self.measured else {}
 
     def bars(self):
-        found = sorted(self.measured(), key=lambda job: job["summary"]["trace_ms"]["median"])
-        caption = f"{device_title(self.device(found[0]))} traces a frame in {ms(found[0]['summary']['trace_ms']['median'])}"
-        if len(found) > 1:
-            caption += f", and {found[-1]['device']}, the slowest, takes {ratio(found[-1]['summary']['ratio_to_fastest'])} as long"
+        fastest, slowest = min(self.measured, key=trace_ms), max(self.measured, key=trace_ms)
+        caption = f"{device_title(self.device(fastest))} traces a frame in {ms(trace_ms(fastest))}"
+        if slowest is not fastest:
+            caption += f", and {slowest['device']}, the slowest, takes {ratio(slowest['summary']['ratio_to_fastest'])} as long"
         return rows(self.result, "Time of a frame on each device",
-                    f"{caption}; bars are medians of {found[0]['summary']['frames']} frames, whiskers reach from the first to "
-                    "the third quartile.", "milliseconds for each frame",
+                    f"{caption}; bars are medians of {fastest['summary']['frames']} frames, whiskers reach from the first to "
+                    "the third quartile.", MS,
                     [Row(device_title(self.device(job)), job["summary"]["trace_ms"],
-                         f"{ms(job['summary']['trace_ms']['median'])}, whole {ms(job['summary']['frame_ms'])}", place,
-                         job["summary"]["frame_ms"]) for place, job in enumerate(self.measured())],
-                    "the whole frame, with copying and storing")
+                         f"{ms(trace_ms(job))}, whole {ms(job['summary']['frame_ms'])}", place, job["summary"]["frame_ms"])
+                     for place, job in enumerate(self.measured)], "the whole frame, with copying and storing")
 
     def animation(self):
         drawn = [Line(device_title(self.device(job)), by_frame(job), place, mark=place, short=job["device"])
-                 for place, job in enumerate(self.measured())]
+                 for place, job in enumerate(self.measured)]
         line, times = most_varied(drawn)
         fastest = {min(drawn, key=lambda line: dict(line.points).get(frame, {"median": math.inf})["median"]).short
                    for frame in {frame for line in drawn for frame, _ in line.points}}
@@ -169,7 +163,7 @@ class Frames(Bench):
 
     def exit_code(self):
         code = super().exit_code()
-        return 3 if code == 0 and not self.measured() else code
+        return 3 if code == 0 and not self.measured else code
 
 
 BENCH = Frames

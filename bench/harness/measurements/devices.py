@@ -37,27 +37,23 @@ class Devices(Bench):
     quick, repeats = None, (3,)
     keys = ("rates", "frames")
 
-    @classmethod
-    def add_options(cls, parser):
+    def add_options(self, parser):
         super().add_options(parser)
         parser.add_argument("scene", nargs="?", type=Path, default=ROOT / "scenes/official.json", metavar="SCENE.json")
         parser.add_argument("--frames", type=whole_number, default=48, metavar="N", help="frames for each device (default: 48)")
 
-    @classmethod
-    def complete(cls, arguments):
+    def complete(self, arguments):
         super().complete(arguments)
         arguments.device = arguments.device or ["cuda"]
         if arguments.frames < 3:
             raise ValueError("at least 3 frames are needed")
 
-    def __init__(self, arguments, program, folder):
-        if not arguments.scene.is_file():
-            raise Problem(2, f"there is no scene file {arguments.scene}")
-        super().__init__(arguments, program, folder)
-        if not self.runnable:
-            raise Problem(3, "; ".join(f"{device['label']}: {device['reason']}" for device in self.result["devices"]))
+    def prepare(self):
+        if not self.arguments.scene.is_file():
+            raise Problem(2, f"there is no scene file {self.arguments.scene}")
+        self.demand_device()
         self.pictures = {}
-        self.result.update(frames=arguments.frames, scene={"name": arguments.scene.stem}, rates=[
+        self.result.update(frames=self.arguments.frames, scene={"name": self.arguments.scene.stem}, rates=[
             {"devices": count, "frames_per_second": None, "times": None, "runs": []} for count in counts(len(self.runnable))])
 
     def run_once(self, row):

@@ -22,45 +22,35 @@ from harness.store.result import read
 
 TERMS = ("fixed", "rays x planes", "rays x lights", "shadow tests")
 BYTES_A_PIXEL = 12 + 4  # written as floats, and read once more as a picture
-
 GTX_1050 = {"name": "GTX 1050", "lane_rate": 5 * 128 * 1.455e9, "bytes_a_second": 112e9,
             "slowest": 1.354 / 1.455, "fastest": 1.5 / 1.455}
-
 # Student's t for 90 % of the values, two-sided, by degrees of freedom.
 STUDENT = {1: 6.31, 2: 2.92, 3: 2.35, 4: 2.13, 5: 2.02, 6: 1.94, 7: 1.89, 8: 1.86, 9: 1.83, 10: 1.81, 12: 1.78,
            15: 1.75, 20: 1.72, 30: 1.70}
-
-
-def student(freedom):
-    return STUDENT[max(each for each in STUDENT if each <= max(freedom, 1))]
+HEAD = ["scene", "use", "measured ms", "model ms", "error", f"{GTX_1050['name']} ms", "90 % of"]
 
 
 def features(point):
-    rays = point["rays"]
-    return [1.0, rays * point["planes"], rays * point["lights"], point["shadow_tests"]]
+    return [1.0, point["rays"] * point["planes"], point["rays"] * point["lights"], point["shadow_tests"]]
+
+
+def dot(one, other):
+    return sum(a * b for a, b in zip(one, other))
 
 
 def non_negative_fit(rows, wanted, rounds=20000):
     """Coefficients that make the sum of squares of rows x coefficients - wanted least, none below zero; by
     coordinate descent on scaled columns."""
-    count = len(rows[0])
-    scale = [math.sqrt(sum(row[column] ** 2 for row in rows)) or 1.0 for column in range(count)]
-    scaled = [[row[column] / scale[column] for column in range(count)] for row in rows]
-    products = [[sum(row[i] * row[j] for row in scaled) for j in range(count)] for i in range(count)]
-    target = [sum(row[i] * value for row, value in zip(scaled, wanted)) for i in range(count)]
-    found = [0.0] * count
+    scale = [math.hypot(*column) or 1.0 for column in zip(*rows)]
+    columns = [[value / each for value in column] for column, each in zip(zip(*rows), scale)]
+    products = [[dot(one, other) for other in columns] for one in columns]
+    target = [dot(column, wanted) for column in columns]
+    found = [0.0] * len(columns)
     for _ in range(rounds):
-        for i in range(count):
-            if products[i][i] > 0:
-                rest = target[i] - sum(products[i][j] * found[j] for j in range(count) if j != i)
-                found[i] = max(0.0, rest / products[i][i])
+        for i, row in enumerate(products):
+            if row[i] > 0:
+                found[i] = max(0.0, found[i] + (target[i] - dot(row, found)) / row[i])
     return [value / each for value, each in zip(found, scale)]
-
-
-def fit(points):
-    """For seconds; each point counts by its relative error."""
-    rows = [[value / point["seconds"] for value in features(point)] for point in points]
-    return non_negative_fit(rows, [1.0] * len(points))
 
 
 def predict(coefficients, point, speed=1.0, bytes_a_second=None):
@@ -103,11 +93,14 @@ def evaluate(points):
                          "bench/study speed makes them on a GPU")
     ordered = sorted(points, key=lambda point: point["seconds"])
     fitted, checked = ordered[0::2], ordered[1::2]
-    coefficients = fit(fitted)
+    # Each point counts by its relative error.
+    coefficients = non_negative_fit([[value / point["seconds"] for value in features(point)] for point in fitted],
+                                    [1.0] * len(fitted))
     errors = {point["scene"]: math.log(point["seconds"] / predict(coefficients, point)) for point in checked}
     mean_square = sum(error ** 2 for error in errors.values()) / len(errors)
-    spread = student(len(errors)) * math.sqrt(mean_square * (1 + 1 / len(errors)))
-    return {"coefficients": coefficients, "errors": errors, "spread": spread}
+    student = STUDENT[max(each for each in STUDENT if each <= len(errors))]
+    return {"coefficients": coefficients, "errors": errors,
+            "spread": student * math.sqrt(mean_square * (1 + 1 / len(errors)))}
 
 
 def table(points, model, lane_rate, target):
@@ -115,16 +108,12 @@ def table(points, model, lane_rate, target):
     speed = target["lane_rate"] / lane_rate
     rows = []
     for point in points:
-        def on_target(factor, point=point):
-            return predict(model["coefficients"], point, speed * factor, target["bytes_a_second"])
+        usual, fastest, slowest = [predict(model["coefficients"], point, speed * factor, target["bytes_a_second"])
+                                   for factor in (1, target["fastest"], target["slowest"])]
         rows.append({"scene": point["scene"], "measured": point["seconds"],
                      "predicted": predict(model["coefficients"], point), "error": model["errors"].get(point["scene"]),
-                     "target": on_target(1), "low": on_target(target["fastest"]) * math.exp(-model["spread"]),
-                     "high": on_target(target["slowest"]) * math.exp(model["spread"])})
+                     "target": usual, "low": fastest * math.exp(-model["spread"]), "high": slowest * math.exp(model["spread"])})
     return rows
-
-
-HEAD = ["scene", "use", "measured ms", "model ms", "error", f"{GTX_1050['name']} ms", "90 % of"]
 
 
 def cells(row):
@@ -133,32 +122,26 @@ def cells(row):
     return [row["scene"], "fitted" if row["error"] is None else "checked", *ms[:2], error, ms[2], f"{ms[3]}..{ms[4]}"]
 
 
-def words(result, device, points, model, rows):
-    name = next(each["name"] for each in result["devices"] if each["label"] == device)
-    errors = [abs(math.exp(error) - 1) for error in model["errors"].values()]
-    factors = [f"{coefficient:.3g} {term}" for coefficient, term in zip(model["coefficients"], TERMS)]
-    return "\n".join([
-        f"From {device}, {name}: seconds = {' + '.join(factors)}",
-        f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median {100 * median(errors):.0f} %, "
-        f"greatest {100 * max(errors):.0f} %", "", *tables.lines([HEAD, *[cells(row) for row in rows]])])
-
-
 class Predict(Command):
     name = "predict"
     about = "Predict the frame times of a GTX 1050 from those of another GPU."
 
-    @classmethod
-    def add_options(cls, parser):
+    def add_options(self, parser):
         parser.add_argument("file", type=Path, metavar="speed.json", help="what bench/study speed wrote on a machine with a GPU")
         parser.add_argument("--device", metavar="BACKEND:NUMBER", help="the GPU to start from (default: the first)")
 
-    @classmethod
-    def run(cls, arguments):
+    def run(self, arguments):
         result = read(arguments.file, "speed")
         device, lane_rate = choose_device(result, arguments.device)
         points = points_of(result, device)
         model = evaluate(points)
-        print(words(result, device, points, model, table(points, model, lane_rate, GTX_1050)))
+        name = next(each["name"] for each in result["devices"] if each["label"] == device)
+        errors = [abs(math.exp(error) - 1) for error in model["errors"].values()]
+        factors = [f"{coefficient:.3g} {term}" for coefficient, term in zip(model["coefficients"], TERMS)]
+        print(f"From {device}, {name}: seconds = {' + '.join(factors)}",
+              f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median {100 * median(errors):.0f} %, "
+              f"greatest {100 * max(errors):.0f} %", "",
+              *tables.lines([HEAD, *map(cells, table(points, model, lane_rate, GTX_1050))]), sep="\n")
         return 0
 
 

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Rays that a CPU traces together."""
 from harness.chart.lines import Axis
-from harness.page.part import Part
-from harness.page.section import best_words, sweep
+from harness.page.section import Part, best_words, proportional
 
 LANES = (1, 4, 8, 16)
 
 
-def add(points):
-    points.sweep("--lanes", LANES, lambda device: device["is_cpu"], none="No CPU was measured.")
+def add(plan):
+    plan.sweep("--lanes", LANES, lambda device: device["is_cpu"], none="No CPU was measured.")
 
 
-def sets_words(sources):
+def sets_words(entries):
     found = {}
-    for entry in sources.measured("lanes"):
+    for entry in entries:
         for name in ("avx512", "avx2", "generic"):
             if entry["renderer"] and f" {name}" in entry["renderer"]:
                 found.setdefault(name, set()).add(int(entry["x"]))
@@ -23,10 +22,10 @@ def sets_words(sources):
     return f"{words} (here {'; '.join(told)})." if told else f"{words}."
 
 
-def fill(sources, section):
-    sweep(sources, section, "Time against rays traced together", Axis("lanes", True),
-          lambda drawn: f"The fastest: {best_words(drawn, lambda x: f'{x:g} lanes')}.", bounded=True)
-    section.notes.append(sets_words(sources))
+def fill(section):
+    section.sweep("Time against rays traced together", Axis("lanes", True),
+                  lambda drawn: f"The fastest: {best_words(drawn, lambda x: f'{x:g} lanes')}.", bounds=proportional)
+    section.notes.append(sets_words(section.entries()))
 
 
 PART = Part(8, "Lanes and instruction sets", "--lanes of the CPUs.", add, fill=fill)

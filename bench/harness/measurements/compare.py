@@ -15,17 +15,13 @@ ERRORS = 3.0  # standard errors of a difference that count as beyond the noise
 QUARTILES = 1.349  # standard deviations between the quartiles of a normal distribution
 MEDIAN = 1.2533  # standard error of a median by that of a mean
 SLOWER, FASTER, SAME = "slower", "faster", "within the noise"
+HEAD = ["measurement", "device", "old ms", "new ms", "change", "noise", "verdict"]
 
 
 def deviation(entry):
     """Relative standard deviation of the runs, from the quartiles."""
     spread = entry["summary"]["trace_ms"]
     return (spread["q3"] - spread["q1"]) / QUARTILES / spread["median"] if spread["median"] > 0 else 0
-
-
-def usual_deviation(entries):
-    """Few runs may lie together by chance, so none counts as quieter than half of all."""
-    return median(deviation(entry) for entry in entries)
 
 
 def measured(result):
@@ -35,23 +31,17 @@ def measured(result):
             if entry["summary"]}
 
 
-def verdict(change, limit):
-    if abs(change) <= limit:
-        return SAME
-    return SLOWER if change > 0 else FASTER
-
-
 def compare(old, new):
-    """[{"entry", "old_ms", "new_ms", "change": share, "limit": share, "verdict", "disturbed"}], the most slowed first."""
-    ours, theirs = measured(old), measured(new)
-    common = [key for key in ours if key in theirs]
+    """[{"entry", "old_ms", "new_ms", "change": share, "limit": share, "verdict", "disturbed"}] of what both, as `measured`
+    gives it, have in common; the most slowed first."""
+    common = [key for key in old if key in new]
     if not common:
         raise Problem(2, "the two have no measurement in common: they are of other devices, or one is quick and the other "
                          "is not")
-    usual = [usual_deviation(each[key] for key in common) for each in (ours, theirs)]
+    # Few runs may lie together by chance, so none counts as quieter than half of all.
+    usual = [median(deviation(each[key]) for key in common) for each in (old, new)]
     found = []
-    for key in common:
-        pair = ours[key], theirs[key]
+    for pair in ((old[key], new[key]) for key in common):
         times = [entry["summary"]["trace_ms"]["median"] for entry in pair]
         if min(times) <= 0:
             continue
@@ -59,7 +49,7 @@ def compare(old, new):
                   for entry, least in zip(pair, usual)]
         change, limit = math.log(times[1] / times[0]), max(math.log1p(LEAST), ERRORS * math.hypot(*errors))
         found.append({"entry": pair[1], "old_ms": times[0], "new_ms": times[1], "change": math.expm1(change),
-                      "limit": math.expm1(limit), "verdict": verdict(change, limit),
+                      "limit": math.expm1(limit), "verdict": SAME if abs(change) <= limit else SLOWER if change > 0 else FASTER,
                       "disturbed": any(entry["summary"]["noisy"] for entry in pair)})
     return sorted(found, key=lambda each: -each["change"])
 
@@ -72,46 +62,30 @@ def row(each):
             each["verdict"] + (", disturbed" if each["disturbed"] else "")]
 
 
-HEAD = ["measurement", "device", "old ms", "new ms", "change", "noise", "verdict"]
-
-
-def missing_words(old, new):
-    told = []
-    for words, one, other in (("only in the old one", old, new), ("only in the new one", new, old)):
-        count = len(measured(one).keys() - measured(other).keys())
-        if count:
-            told.append(f"{count} measurements are {words}.")
-    return told
-
-
-def text(old, new, found, everything):
-    beyond = [each for each in found if each["verdict"] != SAME]
-    shown = found if everything else beyond
-    words = [*(f"{name}: hedron {each['hedron']['version']} ({each['hedron']['sha256'][:12]}), {each['date']}, "
-               f"{each['machine']['name']}" for name, each in (("old", old), ("new", new))), ""]
-    if shown:
-        words += [*tables.lines([HEAD, *map(row, shown)]), ""]
-    counts = {name: sum(each["verdict"] == name for each in found) for name in (SLOWER, FASTER, SAME)}
-    words.append(f"{counts[SLOWER]} slower, {counts[FASTER]} faster, {counts[SAME]} within the noise.")
-    return "\n".join([*words, *missing_words(old, new)])
-
-
 class Compare(Command):
     name = "compare"
     about = "Tell what became slower or faster between two results of bench/study."
     codes = "exit codes: 0 nothing is slower beyond the noise, 1 something is, 2 wrong usage or input"
 
-    @classmethod
-    def add_options(cls, parser):
+    def add_options(self, parser):
         parser.add_argument("old", type=Path, metavar="OLD.json", help="what bench/study wrote before")
         parser.add_argument("new", type=Path, metavar="NEW.json", help="what it wrote after")
         parser.add_argument("--all", action="store_true", help="list what is within the noise, too")
 
-    @classmethod
-    def run(cls, arguments):
-        old, new = study.read(arguments.old), study.read(arguments.new)
-        found = compare(old, new)
-        print(text(old, new, found, arguments.all))
+    def run(self, arguments):
+        results = {"old": study.read(arguments.old), "new": study.read(arguments.new)}
+        ours, theirs = map(measured, results.values())
+        found = compare(ours, theirs)
+        for name, each in results.items():
+            print(f"{name}: hedron {each['hedron']['version']} ({each['hedron']['sha256'][:12]}), {each['date']}, "
+                  f"{each['machine']['name']}")
+        shown = [each for each in found if arguments.all or each["verdict"] != SAME]
+        print("", *([*tables.lines([HEAD, *map(row, shown)]), ""] if shown else []), sep="\n")
+        counts = [f"{sum(each['verdict'] == name for each in found)} {name}" for name in (SLOWER, FASTER, SAME)]
+        print(f"{', '.join(counts)}.")
+        for name, one, other in (("old", ours, theirs), ("new", theirs, ours)):
+            if one.keys() - other.keys():
+                print(f"{len(one.keys() - other.keys())} measurements are only in the {name} one.")
         return 1 if any(each["verdict"] == SLOWER for each in found) else 0
 
 

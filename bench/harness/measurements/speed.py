@@ -14,12 +14,6 @@ from harness.speed.rows import COUNTED_LIGHTS, LIGHT_VIEWS, ROWS, Rows
 CORES = 2  # that the targets for two cores are measured on
 
 
-def few_cores():
-    """None: there are no more."""
-    usable = sorted(os.sched_getaffinity(0))
-    return set(usable[:CORES]) if len(usable) > CORES else None
-
-
 def find_scenes(folder):
     """Every scene that ships, those to measure by, and the made ones."""
     files = [file for place in ("scenes", "bench/scenes") for file in sorted((ROOT / place).glob("*.json"))]
@@ -35,13 +29,13 @@ class Speed(Bench):
     chart_files = ("timeline",)
     keys = ("kernel_rates", "counted", "film", "timeline", "scenes", "peaks")
 
-    def __init__(self, arguments, program, folder):
-        super().__init__(arguments, program, folder)
+    def prepare(self):
         self.result["few_cores"] = min(CORES, machine.cores())
-        self.plan.scenes = find_scenes(arguments.out)
-        self.plan.cores = few_cores()
-        self.rows = Rows(self.plan, self.runnable, arguments.quick, arguments.options)
-        for name in arguments.parts:
+        self.plan.scenes = find_scenes(self.arguments.out)
+        usable = sorted(os.sched_getaffinity(0))
+        self.plan.cores = set(usable[:CORES]) if len(usable) > CORES else None
+        self.rows = Rows(self.plan)
+        for name in self.arguments.parts:
             getattr(self.rows, name)()
 
     def measure_loops(self):
@@ -59,8 +53,8 @@ class Speed(Bench):
         device = self.plan.devices[self.rows.cpu("c") or next(iter(self.runnable))]
         for is_cpu in {each["is_cpu"] for each in self.runnable.values()}:
             self.news("FFmpeg alone")
-            self.rows.film[is_cpu] = film.alone(self.program, device, self.plan.scenes["headline"], self.rows.film_lengths(),
-                                                self.arguments.options, self.folder, self.plan.cores if is_cpu else None)
+            self.rows.film[is_cpu] = film.alone(self.plan, device, self.plan.scenes["headline"], self.rows.film_lengths(),
+                                                self.plan.cores if is_cpu else None)
 
     def measure_timeline(self):
         label = self.rows.cpu("c") or next(iter(self.runnable))
@@ -69,11 +63,11 @@ class Speed(Bench):
                                   self.arguments.options, self.folder, output="film.mp4")
         self.result["timeline"] = {"device": label, "reason": run["message"]}
         if run["code"] == 0:
+            self.result["scene"].update({key: run["frames"][0][key] for key in ("width", "height", "samples", "depth")})
             try:
                 self.result["timeline"] = {"device": label, **timeline.measure(run["frames"])}
             except Missing as missing:
                 self.result["timeline"]["reason"] = str(missing)
-            self.result["scene"].update({key: run["frames"][0][key] for key in ("width", "height", "samples", "depth")})
 
     def measure(self):
         self.measure_loops()
@@ -94,16 +88,14 @@ class Speed(Bench):
             device["label"]: devices.lane_rate(device, self.result["devices"]) for device in self.result["devices"]
             if device["is_cpu"] is False})
 
-    def has_timeline(self):
-        return self.result["timeline"] and "stages" in self.result["timeline"]
-
     def tables(self):
-        if self.has_timeline():
-            return [timeline.table(self.result["timeline"])]
-        return [("Stages of a run", [], [f"None: {self.result['timeline']['reason']}."])] if self.result["timeline"] else []
+        found = self.result["timeline"]
+        if found and "stages" not in found:
+            return [("Stages of a run", [], [f"None: {found['reason']}."])]
+        return [timeline.table(found)] if found else []
 
     def charts(self):
-        return {"timeline": timeline.chart(self.result)} if self.has_timeline() else {}
+        return {"timeline": timeline.chart(self.result)} if "stages" in (self.result["timeline"] or {}) else {}
 
 
 BENCH = Speed

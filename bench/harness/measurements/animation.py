@@ -3,24 +3,22 @@
 from harness.chart.lines import Axis, lines
 from harness.measure.jobs import chosen_runs, counted
 from harness.measure.numbers import spread
-from harness.measure.points import DEFAULT, WHOLE_FRAME
-from harness.page.part import Part
-from harness.page.section import ratio, table_of, y_axis
+from harness.measure.plan import DEFAULT
+from harness.page.section import WHOLE_FRAME, Part, ratio, y_axis
 
 BETWEEN = {True: 24, False: 8}  # frames between those that are timed, quickly and not so quickly: they are 240
 
 
-def add(points):
-    for label, _, view, scale in points.each():
-        points.add("", 0, label, DEFAULT, view, frames=",".join(map(str, range(0, 240, BETWEEN[points.quick]))), scale=scale)
+def add(plan):
+    for label, _, view, scale in plan.each():
+        plan.point("", 0, label, DEFAULT, view, frames=",".join(map(str, range(0, 240, BETWEEN[plan.quick]))), scale=scale)
 
 
 def by_frame(entry):
     """[(frame, spread)]"""
     times = {}
-    for run in chosen_runs(entry):
-        for frame in counted(run):
-            times.setdefault(frame["frame"], []).append(1e3 * entry["scale"] * frame["seconds"]["trace"])
+    for frame in (frame for run in chosen_runs(entry) for frame in counted(run)):
+        times.setdefault(frame["frame"], []).append(1e3 * entry["scale"] * frame["seconds"]["trace"])
     return [(frame, spread(values)) for frame, values in sorted(times.items())]
 
 
@@ -31,15 +29,14 @@ def most_varied(drawn):
     return drawn[ratios.index(max(ratios))], max(ratios)
 
 
-def fill(sources, section):
-    drawn = [device.line("animation", points=by_frame(device.entries("animation")[0]))
-             for device in sources.with_part("animation")]
+def fill(section):
+    drawn = [device.line(points=by_frame(device.entries()[0])) for device in section.devices]
     line, times = most_varied(drawn)
     slowest = max(line.points, key=lambda point: point[1]["median"])
-    section.draw("animation", lines, sources.about(WHOLE_FRAME), "Time of tracing along the animation",
+    section.draw(lines, WHOLE_FRAME, "Time of tracing along the animation",
                  f"The slowest frame ({slowest[0]}) takes {ratio(times)} as long as the fastest on {line.short}, where that "
                  "differs most.", Axis("frame number"), y_axis(drawn), drawn)
-    section.table = table_of(sources, "animation", lambda entry: f"frames {entry['frames']}", "what")
+    section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 
 PART = Part(2, "Along the animation", "The built-in scene's tracing, frame by frame.", add, fill=fill)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: MIT
+"""Every part on every device, and one page of them; what was interrupted goes on where it stopped."""
+import hashlib
+import importlib
+import sys
+from pathlib import Path
+
+from harness.chart import gnuplot
+from harness.command.bench import OWN, Bench
+from harness.measure import jobs
+from harness.measure.numbers import spread_text
+from harness.measure.plan import DEFAULT, OFFICIAL
+from harness.page import html, tables
+from harness.page.section import sections
+from harness.run.program import ROOT, Problem
+from harness.store import result as results
+from harness.store import study
+
+FOLDER = Path(__file__).resolve().parent.parent / "measurements"
+MEASUREMENTS = {file.stem: importlib.import_module(f"harness.measurements.{file.stem}") for file in FOLDER.glob("[a-z]*.py")}
+PARTS = dict(sorted(((name, module.PART) for name, module in MEASUREMENTS.items() if hasattr(module, "PART")),
+                    key=lambda each: each[1].place))
+# What the first word may name; frames and compare are programs of their own.
+NAMES = sorted(name for name, module in MEASUREMENTS.items()
+               if hasattr(module, "BENCH") and not (ROOT / "bench" / name).is_file())
+LIMIT = 10  # per cent of all processors' time: a run of which others took more is measured again, if not said
+SLOW_SECONDS, SLOW_ROUNDS = 6, 2  # a whole run of so long is done so often
+
+
+def percent(text):
+    number = float(text)
+    if not 0 <= number <= 100:
+        raise ValueError
+    return number
+
+
+percent.__name__ = "number from 0 to 100"
+
+
+class Study(Bench):
+    name = "study"
+    about = (f"Measure everything on every device, and make one page of it. What was interrupted goes on where it stopped. "
+             f"bench/study NAME measures something else, with options of its own: {', '.join(NAMES)}.")
+    own_options = (*OWN, "--size", "--samples", "--depth", "--lanes", "--threads", "--pipeline", "--block", "--grid", "--accel",
+                   "--precision", "--math")
+    parts = tuple(PARTS)
+
+    def main(self, words):
+        if words and words[0] in NAMES:
+            return MEASUREMENTS[words[0]].BENCH().main(words[1:])
+        return super().main(words)
+
+    def add_options(self, parser):
+        super().add_options(parser)
+        parser.add_argument("--again", action="store_true", help="measure everything anew, whatever was saved")
+        parser.add_argument("--report", action="store_true", help="measure nothing: the page of what was saved")
+        parser.add_argument("--machine", metavar="NAME", help="what the page calls this machine (default: its processor)")
+        parser.add_argument("--others", type=percent, default=LIMIT, metavar="PERCENT",
+                            help="a run is done again, a few times at most, where other programs took more of the processors "
+                                 "(default: 10; 100: never)")
+        parser.add_argument("--results", type=Path, default=ROOT / "bench/results", metavar="FOLDER",
+                            help="results of other machines (default: bench/results)")
+
+    def complete(self, arguments):
+        super().complete(arguments)
+        if arguments.report and arguments.again:
+            raise ValueError("--report measures nothing, so there is no --again")
+
+    def run(self, arguments):
+        return self.report(arguments) if arguments.report else super().run(arguments)
+
+    def prepare(self):
+        self.demand_device("no device can be timed: ")
+        arguments, plan = self.arguments, self.plan
+        for left in arguments.out.glob("study.json.tmp-*"):
+            left.unlink()
+        self.result["machine"] = {"name": arguments.machine, **self.result["machine"]}
+        self.result["hedron"]["sha256"] = hashlib.sha256(self.program.path.read_bytes()).hexdigest()
+        self.result.update(interference_limit=arguments.others / 100, bounds=None, accuracy=None, stability=None)
+        plan.save, plan.slow_seconds, plan.slow_rounds = self.save, SLOW_SECONDS, SLOW_ROUNDS
+
+    def before(self):
+        """What was saved and may be gone on from, or None."""
+        if not self.file.is_file() or self.arguments.again:
+            return None
+        old = study.read(self.file)
+        if study.is_continued(old, self.result):
+            return old
+        kept = self.file.with_suffix(".before.json")
+        self.file.replace(kept)
+        print(f"What {self.file} has is of another program, another device or another kind of study: all is measured "
+              f"anew. The old one is {kept} now.", file=sys.stderr)
+        return None
+
+    def make_plan(self):
+        plan, wanted = self.plan, self.arguments.parts
+        plan.scenes = {name: ROOT / f"scenes/{name}.json" for name in (DEFAULT, OFFICIAL)}
+        for plan.part in wanted:
+            if PARTS[plan.part].scenes:
+                plan.scenes |= PARTS[plan.part].scenes(plan)
+            if PARTS[plan.part].add:
+                PARTS[plan.part].add(plan)
+        study.merge(self.before(), self.result, plan.jobs, wanted, list(PARTS))
+        self.result["left_out"].update(plan.left_out)
+        plan.jobs = [entry for entry in self.result["measurements"] if entry["part"] in wanted]
+
+    def measure(self):
+        self.make_plan()
+        self.save()
+        if not self.plan.run_all(self.arguments.repeats, lambda: compare(self.result)["same"] is not False):
+            return False
+        for name in self.arguments.parts:
+            if PARTS[name].measure:
+                self.measure_part(name)
+            self.result["done"].append(name)
+            self.save()
+        return set(self.result["parts"]) <= set(self.result["done"])
+
+    def measure_part(self, name):
+        try:
+            reason = PARTS[name].measure(self)
+        except Problem as problem:
+            if problem.code == 2:
+                raise
+            reason = f"{problem}."
+            if problem.code == 1:
+                self.result["failed"][name] = reason
+        if reason:
+            self.result["left_out"][name] = reason
+
+    def report(self, arguments):
+        self.arguments, self.file = arguments, arguments.out / "study.json"
+        if not self.file.is_file():
+            raise Problem(2, f"there is no {self.file} to make a page of: leave --report away to measure")
+        self.result = study.read(self.file)
+        self.result["machine"]["name"] = arguments.machine or self.result["machine"]["name"]
+        code = self.finish()
+        return 0 if code == 130 else code
+
+    def finish(self):
+        """Everything that follows from what was saved: the page, the charts, the table; the exit code."""
+        result, out = self.result, self.arguments.out
+        jobs.summarize(result["measurements"])
+        result.update(pictures=compare(result), failures=failures(result))
+        self.save()
+        found = [result, *others(self.arguments.results, result)]
+        drawn = sections(PARTS, found)
+        gnuplot.remove_old(out, ["study_*"])  # charts of sections that are gone go too
+        charts = {name: chart for section in drawn for name, chart in section.charts.items()}
+        problems = [line for line in gnuplot.draw(charts, out) if not line.startswith("Chart: ")]
+        wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
+                        if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]
+        failed = [f"FAILED: {words}" for words in result["failures"]]
+        results.write_text(out / "report.html", html.page(found, drawn, [*wrong, *failed], told, out))
+        results.write_text(out / "study.csv", html.csv_text(found))
+        print(*summary_lines(result), "", *problems, *failed, *wrong, *told, sep="\n")
+        if not result["complete"]:
+            print("Interrupted: the same call goes on where it stopped.")
+        print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")
+        if result["pictures"]["same"] is False or result["failures"]:
+            return 1
+        return 0 if result["complete"] else 130
+
+
+def compare(result):
+    """Whether all that must make the same pictures did."""
+    return jobs.compare_pictures(result["measurements"], {device["label"]: device for device in result["devices"]})
+
+
+def failures(result):
+    return [*sorted(jobs.failures(result["measurements"])), *(f"{name}: {words}" for name, words in result["failed"].items()),
+            *(f"{name}: {words}" for name, part in PARTS.items() for words in part.failures(result))]
+
+
+def others(folder, own):
+    """The results of other machines, by their names; not that which was copied from here."""
+    found = [study.read(file) for file in sorted(folder.glob("*.json"))]
+    return sorted(({**result, "pictures": compare(result)} for result in found
+                   if (result["date"], result["machine"]["name"]) != (own["date"], own["machine"]["name"])),
+                  key=lambda result: (result["machine"]["name"], result["date"]))
+
+
+def summary_lines(result):
+    """For the terminal."""
+    rows = [["part", "device", "what", "trace ms [q1..q3]", "runs"]]
+    for entry in result["measurements"]:
+        each = entry["summary"]
+        if each:
+            rows.append([entry["part"], entry["device"], f"{entry['series']} {entry['x']:g}".strip(),
+                         spread_text(each["trace_ms"]) + (" disturbed" if each["noisy"] else ""), str(each["runs"])])
+    return tables.lines(rows)

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: MIT
+"""Error against time for many settings, and the targets of accuracy; the study has the chart of each device."""
+import argparse
+import re
+
+from harness.accuracy import chart, choices
+from harness.accuracy.points import SCENE, Points, empty_memory, equal_error, recommended
+from harness.accuracy.targets import SceneTargets
+from harness.command.bench import Bench
+from harness.measure.numbers import number, spread_text
+from harness.measure.plan import Plan
+from harness.measure.rows import NONE, Target
+from harness.page.section import Part, all_devices
+from harness.run import devices
+from harness.run.program import ROOT
+
+EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
+# GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
+SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
+ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
+HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
+
+
+def size(text):
+    if not re.fullmatch("[1-9][0-9]{0,4}x[1-9][0-9]{0,4}", text):
+        raise argparse.ArgumentTypeError(f"'{text}' is no size such as 128x96")
+    return tuple(map(int, text.split("x")))
+
+
+def cells(point):
+    return [point["name"], point["device"], spread_text(point["trace_ms"]), number(point["rmse"], 3), number(point["largest"], 3),
+            number(1e-6 * sum(point["rays"].values()), 3), "front" if point["on_front"] else "", point["recommended"] or ""]
+
+
+def truth_words(truth):
+    edge = f"at most {truth['edge_error']} of 255 off on an edge between black and white" if truth["edge_error"] else (
+        "coarser than hedron's own")
+    return (f"Reference: {truth['samples']} x {truth['samples']} dense samples in double, {edge}; what it leaves out is "
+            f"at most {number(truth['missing']['largest'], 2)} of 255 (--max-error {truth['max_error']:g}); a "
+            f"reference of a quarter of the samples has RMSE {number(truth['to_quarter_of_samples']['rmse'], 3)} "
+            f"and is off by {number(truth['to_quarter_of_samples']['largest'], 3)} at most. "
+            f"{number(truth['seconds'], 3)} s on {truth['device']}.")
+
+
+def point_words(result):
+    yield truth_words(result["truth"])
+    for device in result["devices"]:
+        for word, point in recommended([each for each in result["points"] if each["device"] == device["label"]]):
+            yield (f"Recommended on {point['device']}, {word}: {' '.join(point['options'])}: {number(point['ms'], 3)} ms, "
+                   f"RMSE {number(point['rmse'], 3)}, largest {number(point['largest'], 3)}.")
+    for each in result["equal_error"] or []:
+        yield (f"Equal RMSE on {each['device']}: at {number(each['rmse'], 3)} adaptive sampling and bounded depth "
+               f"take {number(each['ratio'], 3)} of the time of the grid in full depth.")
+    absent = {}
+    for each in result["not_tried"] or []:
+        absent.setdefault((each["device"], each["family"], each["reason"].split(" some ")[0]), []).append(each["name"])
+    for (device, _, reason), names in absent.items():
+        yield f"Not tried on {device}: {', '.join(names)}: {reason}{' too long' if reason.endswith('take') else ''}"
+
+
+class Accuracy(Bench):
+    name = "accuracy"
+    about = "Draw error against time for many settings, and measure the targets of accuracy."
+    codes = """exit codes: 0 done, 1 pictures differ, have values that are not finite, or a run failed,
+2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
+    quick, repeats = "few settings, small frames, a coarser reference; rough", (3, 1)
+    own_options = (*Bench.own_options, "--size", "--samples", "--depth", "--cutoff", "--aa", "--max-error", "--reference",
+                   "--crop", "--precision", "--math", "--geometry", "--pipeline", "--accel", "--divisions")
+    parts = ("settings", *ON_ALL_SCENES, "choices")
+    chart_files = ("accuracy_*",)
+    keys = ("size", "truth", "points", "equal_error", "not_tried", "targets", "choices")
+
+    def add_options(self, parser):
+        super().add_options(parser)
+        parser.add_argument("--size", type=size, metavar="WxH",
+                            help="of the frames of the settings (default: 128x96, with --quick 64x48, where all devices "
+                                 "are GPUs 640x360)")
+
+    def prepare(self):
+        plan, scenes = self.plan, sorted((ROOT / "scenes").glob("*.json"))
+        plan.scenes = {SCENE: None, "few": ROOT / "bench/scenes/few.json", **{file.stem: file for file in scenes}}
+        self.judge, self.memory = devices.judge(self.runnable.values()), empty_memory()
+        self.targets = self.points = self.choices = None
+        only_gpus = self.runnable and all(device["is_cpu"] is False for device in self.runnable.values())
+        frame = self.arguments.size or (SIZE_OF_GPUS if only_gpus else SIZE[self.arguments.quick])
+        self.result["size"] = list(frame)
+        if self.judge:
+            self.targets = SceneTargets(plan, self.judge, scenes)
+            if self.wants("settings"):
+                self.points = Points(plan, self.judge, frame, self.memory, self.folder / "truth.pfm")
+            if self.wants("choices"):
+                self.choices = choices.Choices(plan, self.judge, frame)
+
+    def measure(self):
+        if not self.judge:
+            self.plan.absent("reference", "reference", "", None, "no device that is strict has double precision")
+            return False
+        for part in filter(self.wants, ON_ALL_SCENES):
+            getattr(self.targets, f"measure_{part}")()
+        for study in filter(None, (self.points, self.choices)):
+            study.measure(self.arguments.repeats)
+        return True
+
+    # ---- what came of it
+
+    def add_equal_error(self):
+        for label in self.runnable:
+            for key, what, families, target, note in (
+                    ("equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth", (),
+                     EQUAL_ERROR, "full depth is 40 without a cut-off, and deeper would take longer still; the median over "
+                                  "the errors that both have"),
+                    ("equal_error_sampling", "  of adaptive sampling alone, against the grid of the same depth",
+                     (("adaptive",), "grid"), None, None)):
+                found = [each for _, each in equal_error(self.memory["points"], label, *families)]
+                self.plan.row(key, what, "times", lambda found=found: found, device=label, target=target, note=note)
+
+    def add_not_finite(self):
+        studies = list(filter(None, (self.targets, self.choices)))
+        count = self.memory["not_finite"] + (self.memory["truth"] or {}).get("not_finite", 0) + sum(
+            study.not_finite for study in studies)
+        frames = sum(len(job["runs"][0]["frames"]) for job in self.memory["jobs"].values() if "error" in job) + sum(
+            study.frames for study in studies)
+        self.plan.row("not_finite", f"values that are NaN or infinite, {frames} frames", "values",
+                      lambda: [count] if frames else [], target=NONE)
+        if count:
+            self.plan.failures.add(f"{count} values are NaN or infinite")
+
+    def fill(self):
+        for part in filter(self.wants, ON_ALL_SCENES if self.targets else ()):
+            getattr(self.targets, f"add_{part}")()
+        if self.points and self.points.truth.facts:
+            self.points.save()
+            self.add_equal_error()
+            self.result.update({key: self.memory[key] for key in ("truth", "points", "equal_error", "not_tried")})
+        self.add_not_finite()
+        self.result.update(choices=self.choices and self.choices.table(), targets=self.targets and {
+            part: getattr(self.targets, part) or None for part in ON_ALL_SCENES})
+
+    def tables(self):
+        found = []
+        if self.result["points"]:
+            found.append(("Settings", [HEAD, *map(cells, self.result["points"])], list(point_words(self.result))))
+        if self.result["choices"]:
+            found.append(("What hedron chooses by itself", [choices.HEAD, *map(choices.cells, self.result["choices"])],
+                          ["Errors are against double with the same samples, and solids in place of triangles."]))
+        return found
+
+    def charts(self):
+        return chart.charts(self.result)
+
+    def exit_code(self):
+        return super().exit_code() if self.judge else 3
+
+
+BENCH = Accuracy
+
+
+# ---- the study's part
+
+ROUNDS = {True: 1, False: 3}  # at most
+SIZES = {"cpu": {True: (48, 36), False: (64, 48)}, "gpu": {True: (320, 180), False: (640, 360)}}
+
+
+def measure(study):
+    """Fills `cpu` and `gpu`, for they render pictures of different sizes; an interrupted study goes on where it was."""
+    arguments, judge = study.arguments, devices.judge(study.runnable.values())
+    if judge is None:
+        return "No device that is strict has double precision, so there is no reference."
+    memories = study.result["accuracy"] = study.result["accuracy"] or {}
+    for kind, sizes in SIZES.items():
+        group = {label: device for label, device in study.runnable.items() if device["is_cpu"] is (kind == "cpu")}
+        if group:
+            width, height = sizes[arguments.quick]
+            plan = Plan(group, {SCENE: None}, study.program, study.folder, study.news, quick=arguments.quick,
+                        options=arguments.options)
+            Points(plan, judge, (width, height), memories.setdefault(kind, empty_memory()),
+                   arguments.out / f"study_truth_{width}x{height}.pfm", study.save
+                   ).measure(min(arguments.repeats, ROUNDS[arguments.quick]))
+    return None
+
+
+def add_device(section, device, memory):
+    label, own = device.label, [point for point in memory["points"] if point["device"] == device.label]
+    if not own:
+        return
+    place, (width, height) = device.result["machine"], memory["size"]
+    about = {"hedron": device.result["hedron"], "machine": {"words": f"{place['name']}, {place['cores']} cores"},
+             "devices": [device.entry], "points": memory["points"], "truth": memory["truth"],
+             "scene": {"name": f"built-in scene, {width} x {height}"}}
+    told = [f"{word}: {' '.join(point['options'])} in {number(point['ms'], 3)} ms" for word, point in recommended(own)]
+    section.add(f"accuracy{device.machine}_{label.replace(':', '')}", chart.chart(about, label, "rmse"),
+                f"On {device.short} {sum(point['on_front'] for point in own)} of {len(own)} settings are on the "
+                f"front, which no other beats in both time and error; recommended: {'; '.join(told)}.")
+    section.table += [[label, place["name"], point["name"], " ".join(point["options"]),
+                       number(point["ms"]), number(point["rmse"], 3), number(point["largest"], 3),
+                       "yes" if point["on_front"] else "", point["recommended"] or ""] for point in own]
+
+
+def fill(section):
+    section.table = [["device", "machine", "setting", "options", "milliseconds", "RMSE", "largest error", "front",
+                      "recommended"]]
+    for device in all_devices(section.results, section.part):
+        for memory in (device.result["accuracy"] or {}).values():
+            add_device(section, device, memory)
+
+
+def failures(result):
+    found = []
+    for memory in (result["accuracy"] or {}).values():
+        found += memory["failures"]
+        if memory["not_finite"]:
+            found.append(f"{memory['not_finite']} values are NaN or infinite")
+    return found
+
+
+PART = Part(15, "Speed against accuracy", "Root mean square error of many settings against a reference of dense samples in "
+            "double, by the time of a frame of the built-in scene; see bench/README.md, bench/study accuracy.", measure=measure,
+            fill=fill, failures=failures)

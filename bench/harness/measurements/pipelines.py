@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""The megakernel and the wavefront: what the choices behind them are worth, and the study's chart of all machines."""
+from statistics import median
+
+from harness.chart.bars import Row, one_value, rows, spread_words
+from harness.command.bench import Bench
+from harness.measure.numbers import number, spread, spread_text
+from harness.measure.plan import DEFAULT, OFFICIAL
+from harness.measure.rows import Missing
+from harness.page.section import MS, TOO_LITTLE, Part, middle, ratio
+from harness.pipelines import cuda, order
+from harness.run.program import ROOT
+
+PIPELINES = ("mega", "wavefront", "wavefront-uncompacted")
+PARTS = ("pipelines", "queue_order", "image_sums", "texture_lookups")
+SCENES = {"headline": "bench/scenes/headline.json", "fullhd": "bench/scenes/fullhd.json", "default": "scenes/default.json"}
+QUEUE_SCENES = ("headline", "default")
+FEWER = {"fullhd": (("--size", "480x270", "--samples", "2"), 64)}  # for CPUs, and by what that has less to do
+HEAD = ["device", "scene", "pipeline", "trace ms [q1..q3]", "to mega", "processor time to mega"]
+
+
+def cells(each):
+    scaled = f" (scaled {each['scale']} times)" if each["scale"] != 1 else ""
+    start = [each["device"], each["scene"] + scaled, each["pipeline"]]
+    if each["reason"]:
+        return [*start, each["reason"], "-", "-"]
+    return [*start, spread_text(each["trace_ms"]), number(each["ratio_to_mega"], 3), number(each["processor_ratio_to_mega"], 3)]
+
+
+class Pipelines(Bench):
+    name = "pipelines"
+    about = "Measure what the choices behind the pipelines are worth, and draw charts."
+    quick = "few frames, rounds and samples; rough"
+    own_options = (*Bench.own_options, "--pipeline")
+    parts = PARTS
+    scene = f"scenes {', '.join(SCENES)}"
+    chart_files = PARTS  # a chart for each
+    keys = PARTS
+
+    def prepare(self):
+        self.scenes = self.plan.scenes = {name: ROOT / file for name, file in SCENES.items()}
+        self.jobs = []  # (pipeline, job, that of the megakernel)
+        for label, device in self.runnable.items() if self.wants("pipelines") else ():
+            for scene in SCENES:
+                added, scale = FEWER.get(scene, ((), 1)) if device["is_cpu"] else ((), 1)
+                made = [self.plan.job(label, scene, "0-2" if self.arguments.quick else "0-4", (*added, "--pipeline", name),
+                                      scale=scale) for name in PIPELINES]
+                self.jobs += [(name, job, made[0]) for name, job in zip(PIPELINES, made)]
+
+    def measure_queues(self):
+        return order.measure(self.program, [self.scenes[name] for name in QUEUE_SCENES], self.arguments.repeats,
+                             1 << 14 if self.arguments.quick else 1 << 19)
+
+    def record(self):
+        """What the rays of a frame add to the picture."""
+        file = self.folder / "recording"
+        order.run(self.program, "--record", file, self.scenes["headline"])
+        return file
+
+    def measure(self):
+        for name, measure, *words in (("queue_order", self.measure_queues),
+                                      ("image_sums", cuda.run, "image_sums", self.program, self.folder, self.record),
+                                      ("texture_lookups", cuda.run, "texture_lookups", self.program, self.folder)):
+            if self.wants(name):
+                found = self.tried(name.replace("_", " "), measure, *words)
+                self.result[name] = {"reason": found} if isinstance(found, str) else found
+        self.plan.run_all(self.arguments.repeats)
+
+    def row(self, pipeline, job, base):
+        done = {"device": job["device"], "scene": job["scene"], "pipeline": pipeline, "scale": job["scale"], "trace_ms": None,
+                "ratio_to_mega": None, "processor_ratio_to_mega": None, "reason": None}
+        try:
+            done["trace_ms"] = spread(self.plan.trace_ms(job))
+            ratios = self.plan.ratios(job, base)
+            done["ratio_to_mega"] = median(ratios) if ratios else None
+            if self.runnable[job["device"]]["is_cpu"]:  # whole runs' processor time: other work changes it little
+                done["processor_ratio_to_mega"] = median(
+                    one["cpu"] / other["cpu"] for one, other in zip(self.plan.done(job), self.plan.done(base)))
+        except Missing as missing:
+            done["reason"] = str(missing)
+        return done
+
+    def fill(self):
+        if self.jobs:
+            self.result["pipelines"] = [self.row(*each) for each in self.jobs]
+        if self.has("image_sums") and not cuda.fixed_is_exact(self.result["image_sums"]):
+            self.plan.failures.add("two runs of sums in fixed point differ")
+
+    def has(self, name):
+        return self.result[name] and "reason" not in self.result[name]
+
+    def tables(self):
+        found = [("Pipelines", [HEAD, *map(cells, self.result["pipelines"])], [])] if self.jobs else []
+        for name, head, make in (
+                ("queue_order", order.HEAD, lambda each: map(order.cells, each["orders"])),
+                ("image_sums", cuda.SUM_HEAD, lambda each: (cuda.sum_cells(each, name) for name in cuda.SUMS)),
+                ("texture_lookups", cuda.LOOKUP_HEAD, lambda each: (cuda.lookup_cells(each, name) for name in cuda.LOOKUPS))):
+            title, each = name.replace("_", " ").capitalize(), self.result[name]
+            if self.has(name):
+                found.append((title, [head, *make(each)], []))
+            elif each:
+                found.append((title, [], [f"Not measured: {each['reason']}"]))
+        return found
+
+    def charts(self):
+        wanted = {"queue_order": order.chart, "image_sums": cuda.sum_chart, "texture_lookups": cuda.lookup_chart}
+        found = {name: chart(self.result) for name, chart in wanted.items() if self.has(name)}
+        measured = [each for each in self.result["pipelines"] or [] if each["ratio_to_mega"]]
+        if measured:
+            found["pipelines"] = self.chart(measured)
+        return found
+
+    def chart(self, measured):
+        wavefronts = [each for each in measured if each["pipeline"] == "wavefront"]
+        best = min(wavefronts or measured, key=lambda each: each["ratio_to_mega"])
+        caption = (f"A bar of 1 is as long as the megakernel takes. The wavefront does best on {best['device']} with "
+                   f"{best['scene']}: {number(best['ratio_to_mega'], 3)}. Medians of the rounds' ratios.")
+        return rows(self.result, "Time of tracing, against the megakernel", caption, "times the megakernel's time", [
+            Row(f"{each['device']} {each['scene']}, {each['pipeline']}", one_value(each["ratio_to_mega"]),
+                f"{number(each['ratio_to_mega'], 3)}  ({number(each['trace_ms']['median'], 3)} ms)",
+                PIPELINES.index(each["pipeline"]), group=f"{each['device']} {each['scene']}") for each in measured])
+
+
+BENCH = Pipelines
+
+
+# ---- the study's part
+
+def add(plan):
+    for label, _, *own in plan.each():
+        for scene, (view, scale) in {DEFAULT: own, OFFICIAL: (("--samples", "2"), 1)}.items():
+            for place, name in enumerate(PIPELINES):
+                plan.point(scene, place, label, scene, (*view, "--pipeline", name), scale=scale)
+
+
+def gain_words(gains):
+    if not gains:
+        return TOO_LITTLE
+    best, compacted = min(gains), max(gains, key=lambda each: each[1])
+    return (f"The wavefront does best on {best[2]}, where it takes {ratio(best[0])} the megakernel's time; closing up the "
+            f"live rays helps most on {compacted[2]}: without it the wavefront takes {ratio(compacted[1])} as long.")
+
+
+def fill(section):
+    drawn, gains = [], []
+    for device in section.devices:
+        for scene in (DEFAULT, OFFICIAL):
+            found = {PIPELINES[int(entry["x"])]: entry for entry in device.entries(series=scene)}
+            for place, name in enumerate(PIPELINES):
+                if name in found:
+                    times = found[name]["summary"]["trace_ms"]
+                    drawn.append(Row(f"{device.short}, {scene}, {name}", times, spread_words(times), place,
+                                     group=f"{device.place} {scene}"))
+            if len(found) == len(PIPELINES):
+                mega, wavefront, uncompacted = (middle(found[name]) for name in PIPELINES)
+                gains.append((wavefront / mega, uncompacted / wavefront, f"{device.short}, {scene}"))
+    section.draw(rows, "built-in scene, 1280 x 720, and official example, 640 x 480, 2 x 2 samples", "Megakernel and wavefront",
+                 gain_words(gains), MS, drawn)
+    section.tabulate(lambda entry: f"{entry['series']}, {PIPELINES[int(entry['x'])]}")
+
+
+PART = Part(11, "Megakernel and wavefront", "--pipeline mega, wavefront, and wavefront-uncompacted, which keeps dead rays.",
+            add, fill=fill)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""Where methods of geometry and arithmetic fail, ours among them. It all runs on the CPU, and every number is the same each
+time; an interrupted study goes on where it was."""
+from pathlib import Path
+
+from harness.command.bench import Bench
+from harness.command.options import whole_number
+from harness.page.section import Part
+from harness.run.program import ROOT, Problem
+from harness.stability import charts, methods, odd, pictures, rows, scenes, table
+
+QUICK_PART = 20
+SIZES = {False: ("--size", "160x120", "--samples", "2"), True: ("--size", "80x60", "--samples", "1")}
+ODD_SIZE = ("--size", "96x54", "--samples", "1")
+
+
+class Stability(Bench):
+    name = "stability"
+    about = "Measure where methods of geometry and arithmetic fail, ours among them."
+    codes = """exit codes: 0 done, 1 ours failed where it never may, or a run failed, 2 wrong usage or input,
+130 interrupted (what was measured is kept)"""
+    quick, repeats = "a twentieth of the rays, and smaller pictures; rough", None
+    own_options = (*Bench.own_options, "--precision", "--math", "--geometry")
+    parts = (*methods.STUDIES, "precision", "odd")
+    scene = "solids, triangles and odd scenes"
+    chart_files = ("stability_*",)
+    keys = ("counts", "precision", "odd", "table")
+
+    def add_options(self, parser):
+        super().add_options(parser)
+        parser.add_argument("--rays", type=whole_number, metavar="N",
+                            help="rays, paths or segments for each method and place (default: by the part)")
+        parser.add_argument("--scenes", type=Path, default=ROOT / "scenes", metavar="FOLDER",
+                            help="the scenes of the part precision (default: scenes)")
+
+    def tried(self, what, measure, *arguments, **named):
+        """An empty list where it cannot be, which counts as a failure."""
+        try:
+            self.news(what)
+            return measure(*arguments, **named)
+        except Problem as problem:
+            self.plan.failures.add(str(problem))
+            return []
+
+    def measure_precision(self):
+        files, self.result["precision"] = sorted(self.arguments.scenes.resolve().glob("*.json")), []
+        if not files:
+            raise Problem(2, f"there is no scene in {self.arguments.scenes}")
+        for file in files:
+            self.result["precision"] += self.tried(f"precision: {file.stem}", pictures.study_scene, self.program, file, [
+                *SIZES[self.arguments.quick], *self.arguments.options], self.folder)
+
+    def measure(self):
+        for study in filter(self.wants, methods.STUDIES):
+            count = self.arguments.rays or methods.COUNTS[study] // (QUICK_PART if self.arguments.quick else 1)
+            found = self.tried(f"methods: {study}", methods.run, self.program, study, count)
+            self.result["counts"] = [*(self.result["counts"] or []), *found]
+        if self.wants("precision"):
+            self.measure_precision()
+        if self.wants("odd"):
+            study = odd.OddScenes(self.program, self.folder, [*ODD_SIZE, *self.arguments.options])
+            self.result["odd"] = study.entries
+            for each in scenes.all_scenes(self.folder, self.arguments.quick):
+                self.tried(f"odd scenes: {each.name}", study.run, each)
+
+    def fill(self):
+        rows.add(self.plan, self.result)
+        self.result["table"] = table.rows(self.result)
+        self.plan.failures |= {*methods.failures(self.result["counts"] or []), *odd.failures(self.result["odd"] or [])}
+
+    def compared(self):
+        return {"same": None, "sentence": "A share that is 0 was not seen to fail; how many were tried stands beside ours."}
+
+    def tables(self):
+        return [("How methods fail", [table.HEAD, *(list(row.values()) for row in self.result["table"])], [])]
+
+    def charts(self):
+        return charts.charts(self.result)
+
+
+BENCH = Stability
+
+
+# ---- the study's part
+
+FEWER = {True: QUICK_PART, False: 4}  # by what it counts less
+
+
+def measure(study):
+    """Raises Problem where it cannot be."""
+    memory = study.result["stability"] = study.result["stability"] or {"steps": [], "counts": [], "precision": [], "odd": None}
+    options = (*SIZES[True], *study.arguments.options)
+    steps = {each: ("counts", methods.run, study.program, each, methods.COUNTS[each] // FEWER[study.arguments.quick])
+             for each in methods.STUDIES}
+    steps |= {f"precision {file.stem}": ("precision", pictures.study_scene, study.program, file, options, study.folder)
+              for file in sorted((ROOT / "scenes").glob("*.json"))}
+    for step, (key, work, *arguments) in steps.items():
+        if step not in memory["steps"]:
+            study.news(f"stability, {step}")
+            memory[key] += work(*arguments)
+            memory["steps"].append(step)
+            study.save()
+
+
+def fill(section):
+    """Of the first machine that has it: every number is the same everywhere."""
+    found = next((result for result in section.results if result["stability"]), None)
+    if found is None:
+        return
+    about = {**found["stability"], "hedron": found["hedron"], "machine": found["machine"],
+             "scene": {"name": "solids and triangles"}}
+    for name, chart in charts.charts(about).items():
+        section.add(name, chart, "")
+    section.table = [table.HEAD, *[list(row.values()) for row in table.rows(about)]]
+
+
+def failures(result):
+    return methods.failures(result["stability"]["counts"]) if result["stability"] else []
+
+
+PART = Part(16, "Stability", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes and "
+            "distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""A run of one frame, with all that comes before and after."""
+from statistics import median
+
+from harness.chart.bars import Row, ms, rows
+from harness.measure.jobs import chosen_runs
+from harness.measure.numbers import spread
+from harness.measure.plan import DEFAULT
+from harness.page.section import Part, few, sentence
+
+COLD, WARM = "nothing compiled", "compiled before"
+STAGES = ("program and device start", "kernels built", "scene and kernels to the device", "prepare", "trace",
+          "read back", "convert and encode PNG")
+
+
+def add(plan):
+    for label, device in plan.runnable.items():
+        for cold, series in ((True, COLD), (False, WARM))[device["backend"] == "c":]:  # C is compiled ahead
+            plan.point(series, 0, label, DEFAULT, ("--size", "640x360"), frames="0", output="#######.png",
+                       warm_up=False, cold=cold)
+
+
+def stage_seconds(run):
+    """Seconds of the stages of a run of one frame; None: of the building of kernels a warm run has nothing."""
+    frame = run["frames"][0]
+    seconds, began = frame["seconds"], {stage: value for stage, value in frame["began"].items() if value is not None}
+    end = max(value + seconds[stage] for stage, value in began.items())
+    return dict(zip(STAGES, (max(0.0, run["wall"] - end), None, min(began.values()), seconds["prepare"], seconds["trace"],
+                             seconds["copy"], seconds["convert"] + seconds["store"])))
+
+
+def stage_spreads(device):
+    """{stage: spread in milliseconds}"""
+    warm, cold = [[run for entry in device.entries(series=series) for run in chosen_runs(entry)] for series in (WARM, COLD)]
+    if not warm:
+        return {}
+    each = [stage_seconds(run) for run in warm]
+    found = {name: spread([1e3 * seconds[name] for seconds in each]) for name in STAGES if each[0][name] is not None}
+    if cold:
+        usual = median(run["wall"] for run in warm)
+        found["kernels built"] = spread([max(0.0, 1e3 * (run["wall"] - usual)) for run in cold])
+    return found
+
+
+def fill(section):
+    drawn, told = [], []
+    for device in section.devices:
+        found = stage_spreads(device)
+        drawn += [Row(f"{device.short}, {name}", found[name], ms(found[name]["median"]), place, group=str(device.place))
+                  for place, name in enumerate(STAGES) if name in found]
+        if found:
+            longest = max(found, key=lambda name: found[name]["median"])
+            told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")
+    if drawn:
+        section.draw(rows, "one frame of the built-in scene to PNG, 640 x 360, 3 x 3 samples",
+                     "Start-up and stages of a run of one frame", sentence(few(told) + "."), "milliseconds", drawn)
+        section.tabulate(lambda entry: entry["series"])
+
+
+PART = Part(13, "Start-up and stages", "Whole runs of one frame. What a run takes longer with empty caches is the building of "
+            "kernels; those of the C backend are compiled ahead.", add, fill=fill)

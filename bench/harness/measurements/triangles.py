@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Every target of triangles, and time against their number; the study has a chart of all machines."""
+from dataclasses import replace
+
+from harness.chart.lines import Axis, lines
+from harness.command.bench import Bench
+from harness.command.options import whole_number
+from harness.measure.numbers import count_words
+from harness.measure.scenes import TRIANGLE_TICKS, make_object, write_object_scene
+from harness.page.section import Part, few, growth_words, y_axis
+from harness.run import machine
+from harness.triangles import leaks, primary, rates, sweep
+from harness.triangles.sweep import scene_name
+
+MOST, BRUTE_MOST_QUICKLY = {True: 1000000, False: sweep.MOST}, 10000
+LEAK_RAYS = {True: 10 ** 5, False: 10 ** 8}
+MOST_THREADS = 64  # that hedron_mesh_rates takes
+
+
+def entries(key, found):
+    """As they are written: what was measured, or the reason why it was not."""
+    return [{key: each, **({"reason": measured} if isinstance(measured, str) else measured)}
+            for each, measured in found.items()] or None
+
+
+class Triangles(Bench):
+    name = "triangles"
+    about = "Measure every target of triangles, and draw time against their number."
+    codes = """exit codes: 0 done, 1 pictures or searches differ, rays leak, or a run failed,
+2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
+    quick = "few rounds and rays, and no more than 1 M triangles; rough"
+    own_options = (*Bench.own_options, "--accel")
+    parts = ("rates", "sweep", "primary", "leaks")
+    scene = "a mirrored, transparent sphere with bumps over a floor, two lights, depth 4"
+    chart_files = ("triangles",)
+    keys = ("mesh_rates", "sweep", "leaks", "most")
+
+    def add_options(self, parser):
+        super().add_options(parser)
+        parser.add_argument("--most", type=whole_number, metavar="N",
+                            help="no object of more triangles (default: 10 M, with --quick 1 M)")
+        parser.add_argument("--leak-rays", type=whole_number, metavar="N",
+                            help="rays of the leak hunt for each backend and precision (default: 1e8, with --quick 1e5)")
+
+    def complete(self, arguments):
+        super().complete(arguments)
+        arguments.most = arguments.most or MOST[arguments.quick]
+        arguments.leak_rays = arguments.leak_rays or LEAK_RAYS[arguments.quick]
+
+    def prepare(self):
+        self.result["most"] = self.arguments.most
+        self.objects, self.hunts, self.unmade, self.sweep = {}, {}, {}, None
+
+    def measure_rates(self):
+        seconds, threads = 0.05 if self.arguments.quick else 0.3, min(machine.cores(), MOST_THREADS)
+        for count in rates.COUNTS:
+            self.objects[count] = f"it has more than {count_words(self.arguments.most)} triangles (--most)"
+            if count <= self.arguments.most:
+                self.objects[count] = self.tried(f"rates of searches, {count_words(count)} triangles", rates.run, self.program,
+                                                 count, seconds, self.arguments.repeats, threads)
+
+    def hunt(self):
+        for backend in dict.fromkeys(device["backend"] for device in self.runnable.values()):
+            self.hunts[backend] = self.tried(f"leak hunt on {backend}", leaks.run, self.program, backend,
+                                             self.arguments.leak_rays)
+
+    def make_scenes(self):
+        """{count: triangles} of the objects there are now."""
+        made = {}
+        wanted = {*(sweep.COUNTS if self.wants("sweep") else ()), *(primary.TARGETS if self.wants("primary") else ())}
+        for count in sorted(number for number in wanted if number <= self.arguments.most):
+            found = self.tried(f"making {count_words(count)} triangles", make_object, self.program, self.folder, count)
+            if isinstance(found, str):
+                self.unmade[count] = found
+                continue
+            file, made[count] = found
+            for name, kind in ((scene_name(count), "whole"), (primary.scene_name(count), "near")):
+                self.plan.scenes[name] = write_object_scene(kind, file, self.folder, count)
+        return made
+
+    def measure(self):
+        if self.wants("rates"):
+            self.measure_rates()
+        if self.wants("leaks"):
+            self.hunt()
+        if self.wants("sweep", "primary"):
+            made = self.make_scenes()
+            if self.wants("sweep"):
+                self.sweep = sweep.Sweep(self.plan, made)
+                self.sweep.probe_brute(BRUTE_MOST_QUICKLY if self.arguments.quick else sweep.MOST)
+            if self.wants("primary"):
+                primary.add(self.plan)
+            self.plan.run_all(self.arguments.repeats)
+
+    def fill(self):
+        primary_rows, self.plan.rows = self.plan.rows, []
+        if self.wants("rates"):
+            rates.add_rows(self.plan, self.objects)
+        if self.sweep:
+            self.sweep.add_rows()
+        self.plan.rows += primary_rows
+        for reason in dict.fromkeys(self.unmade.values()):
+            self.plan.absent("scenes", "scenes of the sweep and of primary rays", "", None, reason)
+        leaks.add_rows(self.plan, self.hunts)
+        self.plan.failures |= set(rates.failures(self.objects))
+        self.result.update(mesh_rates=entries("asked", self.objects), leaks=entries("backend", self.hunts),
+                           sweep=self.sweep and self.sweep.points())
+
+    def charts(self):
+        return sweep.charts(self.result)
+
+
+BENCH = Triangles
+
+
+# ---- the study's part
+
+TRIANGLES = {True: (12, 100, 1000, 10000, 100000), False: (12, 48, 100, 1000, 10000, 100000, 1000000)}
+BRUTE_MOST = {True: {True: 100, False: 1000}, False: {True: 1000, False: 10000}}  # CPUs or not, quickly or not
+VIEWS = {is_cpu: (view, 64 if is_cpu else 1) for is_cpu, (_, view) in sweep.VIEWS.items()}
+
+
+def scenes(plan):
+    made = {}
+    for count in TRIANGLES[plan.quick]:
+        plan.news(f"making {count_words(count)} triangles")
+        made[scene_name(count)] = found = plan.tried(make_object, plan.program, plan.folder, count)
+        if not isinstance(found, str):
+            made[scene_name(count)] = write_object_scene("whole", found[0], plan.folder, count)
+    return made
+
+
+def add(plan):
+    for label, device, view, scale in plan.each(VIEWS):
+        for way in sweep.WAYS:
+            for count in TRIANGLES[plan.quick]:
+                if way == "bvh" or count <= BRUTE_MOST[device["is_cpu"]][plan.quick]:
+                    plan.point(way, count, label, scene_name(count), (*view, "--accel", way), scale=scale)
+
+
+def crossing_words(device):
+    trees = {x: spread["median"] for x, spread in device.line(series="bvh").points}
+    slower = [x for x, spread in device.line(series="brute").points if x in trees and spread["median"] > trees[x]]
+    where = f"from {count_words(int(min(slower)))} triangles on" if slower else "nowhere that was measured"
+    return f"on {device.short} {where}"
+
+
+def fill(section):
+    drawn, trees = [], []
+    for device in section.devices:
+        if device.entries(series="bvh"):
+            trees.append(device.line(f"{device.short}, hierarchy", series="bvh"))
+            drawn += [trees[-1], replace(device.line(f"{device.short}, each triangle tried", series="brute"), dash=4)]
+    if not trees:
+        return
+    caption = growth_words(trees, "triangles", lambda x: count_words(int(x)))
+    caption += f" The hierarchy is the faster one {few(list(map(crossing_words, section.devices)))}."
+    section.draw(lines, "mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples", "Time against the number of triangles",
+                 caption, Axis("triangles", True, TRIANGLE_TICKS), y_axis(), drawn)
+    section.tabulate(lambda entry: f"{entry['x']:g}, {entry['series']}", "triangles")
+
+
+PART = Part(4, "Number of triangles", "A sphere of so many triangles, searched by a hierarchy (--accel bvh) and one by one "
+            "(--accel brute).", add, scenes, fill=fill)
