@@ -54,7 +54,8 @@ def chart(result, label, error):
     times, errors = [point["ms"] for point in points], [point[error] for point in points]
     ranges = (min(times) / 1.5, max(times) * 2.5), (min(errors) / 1.6, max(errors) * 1.6)
     made.add("set logscale xy", *(f"set {name}range [{low!r}:{high!r}]" for name, (low, high) in zip("xy", ranges)),
-             "set xlabel 'milliseconds for each frame (logarithmic)'", f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
+             "set xlabel 'milliseconds for each frame (logarithmic)'",
+             f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
              *labels(points, error, ranges))
     made.ticks("x", ticks(times))
     made.ticks("y", ticks(errors))

@@ -23,10 +23,10 @@ class Choice:
     part: int = 1  # of the sides of the frame
 
 
+SEARCHES = {"hierarchy": "bvh", "brute force": "brute"}
 CHOICES = (
-    Choice("search of triangles, many", "--accel", {"hierarchy": "bvh", "brute force": "brute"}, "knot", ("--samples", "1"), part=4),
-    Choice("search of triangles, few", "--accel", {"hierarchy": "bvh", "brute force": "brute"}, "few",
-           (*GRID, "--geometry", "triangles")),
+    Choice("search of triangles, many", "--accel", SEARCHES, "knot", ("--samples", "1"), part=4),
+    Choice("search of triangles, few", "--accel", SEARCHES, "few", (*GRID, "--geometry", "triangles")),
     Choice("geometry", "--geometry", {"solids": "solids", "triangles": "triangles"}),
     Choice("precision", "--precision", {"float": "float", "double": "double"}),
     Choice("pipeline", "--pipeline", {"mega": "mega", "wavefront": "wavefront"}),
@@ -51,8 +51,9 @@ class Choices:
 
     def measure_choice(self, choice, repeats):
         size = "--size", "x".join(str(max(1, length // choice.part)) for length in self.size)
+        reference = self.plan.folder / "double.pfm"
         # Double with the same samples, and no triangles in place of solids.
-        reference, view = self.plan.folder / "double.pfm", [word for word in choice.view if word not in ("--geometry", "triangles")]
+        view = [word for word in choice.view if word not in ("--geometry", "triangles")]
         render(self.plan, self.judge, self.plan.scenes[choice.scene], (*view, *size, "--precision", "double"), reference)
         ways = {AUTOMATIC: (), **{name: (choice.option, value) for name, value in choice.ways.items()}}
         for repeat in range(repeats):  # in turns

@@ -113,7 +113,8 @@ class SceneTargets:
                                         ("time", "time, one frame", "times", None),
                                         ("within_2", "pixels within 2 of 255", "%", WITHIN)):
             self.plan.row("adaptive", f"adaptive against grid 4 x 4, built-in scene: {what}", unit,
-                          lambda key=key: [known(self.adaptive or None)[key]], device=self.device["label"], target=target, note=size)
+                          lambda key=key: [known(self.adaptive or None)[key]], device=self.device["label"], target=target,
+                          note=size)
 
     # ---- rows
 

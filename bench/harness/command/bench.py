@@ -51,6 +51,7 @@ class Bench(Command):
     keys = {}  # of the result, beside those that all have
 
     def add_options(self, parser):
+        parser.set_defaults(quick=False, repeats=None, device=[])
         if self.quick:
             parser.add_argument("--quick", action="store_true", help=self.quick)
         parser.add_argument("--hedron", type=Path, default=ROOT / "build/release/hedron", metavar="PROGRAM",
@@ -65,7 +66,6 @@ class Bench(Command):
         if self.parts:
             parser.add_argument("--parts", type=part_names(self.parts), default=list(self.parts), metavar="NAME,...",
                                 help=f"only these; of {', '.join(self.parts)}")
-        parser.set_defaults(**({} if self.quick else {"quick": False}), **({} if self.repeats else {"repeats": None, "device": []}))
 
     def complete(self, arguments):
         if self.repeats:

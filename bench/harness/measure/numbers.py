@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Quartiles, and numbers as they are told."""
 import math
+from statistics import quantiles
 
 
 def quartiles(values):
     """First quartile, median, third: at a quarter, a half and three quarters of the way from the
     smallest to the largest, linearly between neighbours."""
-    ordered = sorted(values)
-
-    def at(share):
-        place = (len(ordered) - 1) * share
-        low = int(place)
-        high = min(low + 1, len(ordered) - 1)
-        return ordered[low] + (ordered[high] - ordered[low]) * (place - low)
-
-    return [at(0.25), at(0.5), at(0.75)]
+    values = list(values)
+    return quantiles(values if len(values) > 1 else 2 * values, n=4, method="inclusive")
 
 
 def spread(values):

@@ -17,7 +17,7 @@ from harness.measure.jobs import counted
 from harness.measure.numbers import number, rays
 from harness.page import tables
 from harness.run.program import Problem
-from harness.speed.rows import MODEL_OPTIONS
+from harness.measurements.speed import MODEL_OPTIONS
 from harness.store.result import read
 
 TERMS = ("fixed", "rays x planes", "rays x lights", "shadow tests")
@@ -139,8 +139,8 @@ class Predict(Command):
         errors = [abs(math.exp(error) - 1) for error in model["errors"].values()]
         factors = [f"{coefficient:.3g} {term}" for coefficient, term in zip(model["coefficients"], TERMS)]
         print(f"From {device}, {name}: seconds = {' + '.join(factors)}",
-              f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median {100 * median(errors):.0f} %, "
-              f"greatest {100 * max(errors):.0f} %", "",
+              f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median "
+              f"{100 * median(errors):.0f} %, greatest {100 * max(errors):.0f} %", "",
               *tables.lines([HEAD, *map(cells, table(points, model, lane_rate, GTX_1050))]), sep="\n")
         return 0
 

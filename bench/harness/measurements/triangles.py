@@ -155,8 +155,8 @@ def fill(section):
         return
     caption = growth_words(trees, "triangles", lambda x: count_words(int(x)))
     caption += f" The hierarchy is the faster one {few(list(map(crossing_words, section.devices)))}."
-    section.draw(lines, "mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples", "Time against the number of triangles",
-                 caption, Axis("triangles", True, TRIANGLE_TICKS), y_axis(), drawn)
+    section.draw(lines, "mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples",
+                 "Time against the number of triangles", caption, Axis("triangles", True, TRIANGLE_TICKS), y_axis(), drawn)
     section.tabulate(lambda entry: f"{entry['x']:g}, {entry['series']}", "triangles")
 
 

@@ -76,7 +76,8 @@ def head(results, failures, pictures):
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
     told = [*changed, *map(noise_words, results), *pictures]
-    return [*words, table(machine_rows(results)), "<ul>", *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul>"]
+    words += [table(machine_rows(results)), "<ul>", *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul>"]
+    return words
 
 
 def section_words(section, folder):

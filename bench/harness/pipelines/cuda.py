@@ -91,5 +91,6 @@ def lookup_chart(result):
                f"unit with floats by {found['hardware_floats']['error_noise']['max']:.3g}, with 8 bits by "
                f"{found['hardware_8_bits']['error_noise']['max']:.3g}.")
     return rows(result, "Texture lookups", caption, "nanoseconds for each lookup, the whole GPU at work", [
-        Row(f"{name}, {kind}", one_value(found[key][f"{kind}_ns"]), f"{number(found[key][f'{kind}_ns'], 3)} ns", place, group=kind)
+        Row(f"{name}, {kind}", one_value(found[key][f"{kind}_ns"]), f"{number(found[key][f'{kind}_ns'], 3)} ns", place,
+            group=kind)
         for kind in ("coherent", "random") for place, (key, name) in enumerate(LOOKUPS.items())])

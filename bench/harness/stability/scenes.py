@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Scenes in which something is odd: what the eye, a light or a number must not be put on lightly."""
 import copy
+import itertools
 import math
 import struct
 from dataclasses import dataclass
@@ -36,32 +37,29 @@ def camera(eye, target=(0.0, 0.0, 0.0), field_of_view=60):
     return {"field_of_view": field_of_view, "eye": list(eye), "target": list(target)}
 
 
-def hairs(place, make):
-    """Scenes with a thing a little outwards and inwards of its place; floors are left upwards."""
-    up = place[2] < -0.7
-    return tuple(make([x + sign * HAIR * (k == 2 if up else x > 0.3) for k, x in enumerate(place)]) for sign in (1, -1))
+def at_places(kind, places, make):
+    """A scene of each place; where the thing stands on something, also of those a hair outwards and inwards of it, for floors
+    upwards and downwards."""
+    for name, place in places.items():
+        up = place[2] < -0.7
+        hairs = [[x + sign * HAIR * (k == 2 if up else x > 0.3) for k, x in enumerate(place)] for sign in (1, -1)]
+        yield Odd(f"{kind}_{name}", make(place), beside=() if name == "inside" else tuple(map(make, hairs)))
+
+
+PLACES = {"on_face": [FACE, 0.1, 0.2], "on_edge": [FACE, FACE, 0.1], "on_corner": [FACE] * 3, "inside": [0.1, 0.2, -0.1]}
 
 
 def eyes():
-    places = {"eye_on_face": (FACE, 0.1, 0.2), "eye_on_edge": (FACE, FACE, 0.1), "eye_on_corner": (FACE,) * 3,
-              "eye_inside": (0.1, 0.2, -0.1), "eye_on_floor": (1.9, -1.4, -0.8)}
-    for name, place in places.items():
-        def make(at):
-            return base(camera=camera(at, (-1.0, 0.3, -0.2)))
-        yield Odd(name, make(place), beside=() if name == "eye_inside" else hairs(place, make))
+    yield from at_places("eye", {**PLACES, "on_floor": [1.9, -1.4, -0.8]},
+                         lambda at: base(camera=camera(at, (-1.0, 0.3, -0.2))))
 
 
 def lights():
     looks_at = [1.5, -1.2, -0.8]  # on the floor, in the middle of the picture
-    places = {"light_on_face": [FACE, 0.1, 0.2], "light_on_edge": [FACE, FACE, 0.1], "light_on_corner": [FACE] * 3,
-              "light_inside": [0.1, 0.2, -0.1], "light_at_a_hit_point": looks_at}
-    for name, place in places.items():
-        def make(at):
-            return base(lights=[{"position": at}], camera=camera((2.6, -1.9, 1.3), looks_at))
-        yield Odd(name, make(place), beside=() if name == "light_inside" else hairs(place, make))
-    bright = {"light_of_1e30": (1e30, True), "light_of_1e12": (1e12, False), "light_of_1e-30": (1e-30, False)}
-    for name, (intensity, refused) in bright.items():
-        yield Odd(name, base(lights=[{"position": [3, -4, 5], "intensity": intensity}]), refused=refused)
+    yield from at_places("light", {**PLACES, "at_a_hit_point": looks_at},
+                         lambda at: base(lights=[{"position": at}], camera=camera((2.6, -1.9, 1.3), looks_at)))
+    for name, (intensity, refused) in {"1e30": (1e30, True), "1e12": (1e12, False), "1e-30": (1e-30, False)}.items():
+        yield Odd(f"light_of_{name}", base(lights=[{"position": [3, -4, 5], "intensity": intensity}]), refused=refused)
 
 
 def views():
@@ -70,12 +68,11 @@ def views():
 
 
 def glass():
-    scene = base(camera=camera((0.0, 0.0, 0.0), (1.0, 0.9, 0.3), 100))
-    scene["materials"]["glass"] = {"reflection": 0.05, "transmission": 0.9, "index_of_refraction": 1.5}
-    yield Odd("critical_angle_from_inside", scene)
-    scene = copy.deepcopy(scene)
-    scene["camera"] = camera((FACE + 1e-4, -3.0, 0.2), (FACE, 0.0, 0.2), 4)
-    yield Odd("critical_angle_grazing", scene)
+    for name, view in (("from_inside", camera((0.0, 0.0, 0.0), (1.0, 0.9, 0.3), 100)),
+                       ("grazing", camera((FACE + 1e-4, -3.0, 0.2), (FACE, 0.0, 0.2), 4))):
+        scene = base(camera=view)
+        scene["materials"]["glass"] = {"reflection": 0.05, "transmission": 0.9, "index_of_refraction": 1.5}
+        yield Odd(f"critical_angle_{name}", scene)
 
 
 def colours():
@@ -89,12 +86,9 @@ def colours():
 
 def write_texture(file, width, height):
     """A chequered one, in the data format."""
-    pixels = [struct.pack("4B", 255, 255, 255, 255), struct.pack("4B", 10, 40, 90, 255)]
-    rows = [b"".join(pixels[(x + y) % 2] for x in range(2)) * (width // 2) + pixels[y] * (width % 2) for y in range(2)]
-    with open(file, "wb") as stream:
-        stream.write(struct.pack("<2i", width, height))
-        for y in range(height):
-            stream.write(rows[y % 2])
+    pixels = bytes([255] * 4), bytes([10, 40, 90, 255])
+    rows = [(pixels[y] + pixels[1 - y]) * (width // 2) + pixels[y] * (width % 2) for y in (0, 1)]
+    file.write_bytes(struct.pack("<2i", width, height) + b"".join(rows[y % 2] for y in range(height)))
 
 
 def textures(folder):
@@ -110,16 +104,14 @@ def textures(folder):
 
 # ---- the default scene, larger and smaller, and elsewhere
 
-def path_point(path):
-    """Where a path begins."""
-    def wave(name):
-        return path.get(f"{name}0", 0) + path.get(f"{name}_amplitude", 0) * math.sin(path.get(f"{name}_phase", 0))
-    angle = path.get("phi0", 0)
-    return [wave("r") * math.cos(angle), wave("r") * math.sin(angle), wave("z")]
-
-
 def point(place):
-    return place if isinstance(place, list) else path_point(place)
+    """Where it is, or where a path begins."""
+    if isinstance(place, list):
+        return place
+    radius, height = [place.get(f"{name}0", 0) + place.get(f"{name}_amplitude", 0) * math.sin(place.get(f"{name}_phase", 0))
+                      for name in "rz"]
+    angle = place.get("phi0", 0)
+    return [radius * math.cos(angle), radius * math.sin(angle), height]
 
 
 def moved(scene, scale, offset):
@@ -150,30 +142,19 @@ def moved(scene, scale, offset):
     return scene
 
 
-def largest(scene):
-    numbers = [*scene["camera"]["eye"], *(x for corner in scene["floor"]["corners"] for x in corner)]
-    return max(map(abs, numbers))
-
-
-def moved_name(scale, offset):
-    return f"scale_{scale:g}_offset_{offset:g}"
-
-
 def moves(scene, quick):
-    for scale in SCALES:
-        for offset in OFFSETS:
-            if quick and scale != 1.0 and offset not in (0.0, 1e4):
-                continue
-            there = moved(scene, scale, offset)
-            yield Odd(moved_name(scale, offset), there, like=moved_name(1.0, 0.0), refused=largest(there) > LIMIT)
+    """That which the others are to look like is the first."""
+    def name(scale, offset):
+        return f"scale_{scale:g}_offset_{offset:g}"
+    for scale, offset in sorted(itertools.product(SCALES, OFFSETS), key=lambda place: place != (1.0, 0.0)):
+        if quick and scale != 1.0 and offset not in (0.0, 1e4):
+            continue
+        there = moved(scene, scale, offset)
+        numbers = [*there["camera"]["eye"], *(x for corner in there["floor"]["corners"] for x in corner)]
+        yield Odd(name(scale, offset), there, like=name(1.0, 0.0), refused=max(map(abs, numbers)) > LIMIT)
 
 
 def all_scenes(folder, quick):
-    yield from eyes()
-    yield from lights()
-    yield from views()
-    yield from glass()
-    yield from colours()
-    yield from textures(folder)
-    default = read_scene(ROOT / "scenes/default.json")
-    yield from sorted(moves(default, quick), key=lambda odd: odd.name != odd.like)
+    for scenes in (eyes(), lights(), views(), glass(), colours(), textures(folder),
+                   moves(read_scene(ROOT / "scenes/default.json"), quick)):
+        yield from scenes

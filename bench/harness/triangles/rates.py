@@ -99,7 +99,8 @@ def add_rows(plan, objects):
     for kind in KINDS:
         for count in COUNTS:
             plan.row("rates", f"  {kind} rays a CPU-second, {count_words(count)} triangles", "M/s",
-                     lambda kind=kind, count=count: [1e-6 * value for value in known(objects.get(count))["rates"][kind]["hedron"]])
+                     lambda kind=kind, count=count: [
+                         1e-6 * value for value in known(objects.get(count))["rates"][kind]["hedron"]])
     for count in COUNTS:
         plan.row("rates", f"  rays that meet the same as Embree's, least, {count_words(count)} triangles", "%",
                  lambda count=count: [100 * known(least_same(known(objects.get(count))), NO_RIVAL)[0]])
