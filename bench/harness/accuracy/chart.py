@@ -6,7 +6,7 @@ from harness.accuracy import front
 from harness.accuracy.points import recommended
 from harness.accuracy.settings import FAMILIES
 from harness.chart.gnuplot import TICKS, Chart, colour, device_title, plain, quoted
-from harness.chart.names import Names
+from harness.chart.names import find_room
 from harness.measure.numbers import number
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
@@ -27,15 +27,14 @@ def labels(points, error, ranges):
     """Those on the front are named where there is room, and what is recommended in words of its own."""
     named = [point for point in points if point["recommended"]]
     named += [point for point in front.front(points, error) if point not in named]
-    names = Names(ranges, [(point["ms"], point[error]) for point in points])
-    for place, point in enumerate(named):
-        word = f" ({point['recommended']})" if point["recommended"] else ""
-        name = plain(point["name"] + word, 40)
-        where = names.place((point["ms"], point[error]), name, bool(word))
+    names = [((point["ms"], point[error]), plain(f"{point['name']} ({point['recommended']})", 40) if point["recommended"] else
+              plain(point["name"], 40), point["recommended"]) for point in named]
+    rooms = find_room(ranges, [(point["ms"], point[error]) for point in points], names)
+    for place, (((x, y), name, _), where) in enumerate(zip(names, rooms)):
         if where:
             to, right, up = where
-            yield (f"set label {place + 10} {quoted(name)} at {point['ms']!r}, {point[error]!r} {to} "
-                   f"offset character {right}, {up} noenhanced font ',11'")
+            yield (f"set label {place + 10} {quoted(name)} at {x!r}, {y!r} {to} offset character {right}, {up} noenhanced "
+                   "font ',11'")
 
 
 def ticks(values):

@@ -10,38 +10,24 @@ SIDES = (("left", 0.8, 0.6), ("right", -0.8, -0.7), ("left", 0.8, -0.7), ("right
          ("right", -0.8, -1.6), ("left", 0.8, -1.6), ("right", -0.8, 1.5))
 
 
-def overlap(one, other):
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+def is_free(box, taken):
+    inside = 0 <= box[0] and box[2] <= PLOT[0] and 0 <= box[1] and box[3] <= PLOT[1]
+    return inside and not any(box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
+                              for other in taken)
 
 
-class Names:
-    """`ranges` of x and y; `points` are pairs that names must not hide."""
-
-    def __init__(self, ranges, points):
-        self.ranges = ranges
-        self.taken = [self.mark(*self.position(point)) for point in points]
-
-    def position(self, point):
+def find_room(ranges, points, names):
+    """For each (point, name, whether it must be named): (alignment, characters to the right, up), or None where there is no
+    room. `ranges` are of x and y; `points` are pairs that names must not hide."""
+    def position(point):
         return [size * math.log(value / first) / math.log(last / first)
-                for size, value, (first, last) in zip(PLOT, point, self.ranges)]
-
-    @staticmethod
-    def mark(x, y):
-        return (x - MARK, y - MARK / 2, x + MARK, y + MARK / 2)
-
-    def box(self, point, name, side):
-        x, y = self.position(point)
-        width = LETTER * (len(name) + 1)
-        left = x + side[1] - (width if side[0] == "right" else 0)
-        return (left, y + side[2] - LINE / 2, left + width, y + side[2] + LINE / 2)
-
-    def is_free(self, box):
-        inside = 0 <= box[0] and box[2] <= PLOT[0] and 0 <= box[1] and box[3] <= PLOT[1]
-        return inside and not any(overlap(box, other) for other in self.taken)
-
-    def place(self, point, name, must):
-        """(alignment, characters to the right, up), or None where there is no room; what must be named is."""
-        side = next((each for each in SIDES if self.is_free(self.box(point, name, each))), SIDES[0] if must else None)
-        if side:
-            self.taken.append(self.box(point, name, side))
-        return side
+                for size, value, (first, last) in zip(PLOT, point, ranges)]
+    taken = [(x - MARK, y - MARK / 2, x + MARK, y + MARK / 2) for x, y in map(position, points)]
+    for point, name, must in names:
+        (x, y), width, boxes = position(point), LETTER * (len(name) + 1), {}
+        for side in SIDES:
+            left, middle = x + side[1] - (width if side[0] == "right" else 0), y + side[2]
+            boxes[side] = (left, middle - LINE / 2, left + width, middle + LINE / 2)
+        found = next((side for side, box in boxes.items() if is_free(box, taken)), SIDES[0] if must else None)
+        taken += [boxes[found]] if found else []
+        yield found

@@ -5,7 +5,6 @@ import math
 import os
 import signal
 import sys
-from pathlib import Path
 
 from harness.run.program import ROOT, Problem
 

@@ -14,7 +14,6 @@ from harness.page import html, tables
 from harness.page.section import sections
 from harness.run.program import ROOT, Problem
 from harness.store import result as results
-from harness.store import study
 
 FOLDER = Path(__file__).resolve().parent.parent / "measurements"
 MEASUREMENTS = {file.stem: importlib.import_module(f"harness.measurements.{file.stem}") for file in FOLDER.glob("[a-z]*.py")}
@@ -83,8 +82,8 @@ class Study(Bench):
         """What was saved and may be gone on from, or None."""
         if not self.file.is_file() or self.arguments.again:
             return None
-        old = study.read(self.file)
-        if study.is_continued(old, self.result):
+        old = results.read_study(self.file)
+        if results.is_continued(old, self.result):
             return old
         kept = self.file.with_suffix(".before.json")
         self.file.replace(kept)
@@ -100,7 +99,7 @@ class Study(Bench):
                 plan.scenes |= PARTS[plan.part].scenes(plan)
             if PARTS[plan.part].add:
                 PARTS[plan.part].add(plan)
-        study.merge(self.before(), self.result, plan.jobs, wanted, list(PARTS))
+        results.merge(self.before(), self.result, plan.jobs, wanted, list(PARTS))
         self.result["left_out"].update(plan.left_out)
         plan.jobs = [entry for entry in self.result["measurements"] if entry["part"] in wanted]
 
@@ -132,7 +131,7 @@ class Study(Bench):
         self.arguments, self.file = arguments, arguments.out / "study.json"
         if not self.file.is_file():
             raise Problem(2, f"there is no {self.file} to make a page of: leave --report away to measure")
-        self.result = study.read(self.file)
+        self.result = results.read_study(self.file)
         self.result["machine"]["name"] = arguments.machine or self.result["machine"]["name"]
         code = self.finish()
         return 0 if code == 130 else code
@@ -174,7 +173,7 @@ def failures(result):
 
 def others(folder, own):
     """The results of other machines, by their names; not that which was copied from here."""
-    found = [study.read(file) for file in sorted(folder.glob("*.json"))]
+    found = [results.read_study(file) for file in sorted(folder.glob("*.json"))]
     return sorted(({**result, "pictures": compare(result)} for result in found
                    if (result["date"], result["machine"]["name"]) != (own["date"], own["machine"]["name"])),
                   key=lambda result: (result["machine"]["name"], result["date"]))

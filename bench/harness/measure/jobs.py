@@ -7,6 +7,7 @@ from harness.measure.numbers import spread
 
 PICTURES = "#######.data"
 FRAME_KEYS = ("frame", "width", "height", "samples", "depth", "seconds", "began", "rays", "shadow_tests", "missing")
+CLASSIC_STAGES = ("prepare", "trace", "copy")  # which the classic mode prints as the time of a frame
 FREE = ("--threads", "--pipeline", "--accel", "--lanes", "--block", "--grid")  # they change no byte of a picture
 
 
@@ -35,23 +36,18 @@ def counted(run):
     return [frame for frame in run["frames"] if not frame["warm_up"]]
 
 
+def counted_frames(entry):
+    return [frame for run in entry["runs"] for frame in counted(run)]
+
+
 def chosen_runs(entry):
     """Those that nothing disturbed; all, where there are none."""
     return [run for run in entry["runs"] if not run["noisy"]] or entry["runs"]
 
 
-def trace_seconds(frame):
-    return frame["seconds"]["trace"]
-
-
-def frame_seconds(frame):
-    """What the classic mode prints as the time of a frame."""
-    return sum(frame["seconds"][stage] for stage in ("prepare", "trace", "copy"))
-
-
-def run_ms(entry, run, seconds=trace_seconds):
+def run_ms(entry, run, stages=("trace",)):
     """The mean of its frames."""
-    return 1e3 * entry["scale"] * mean(seconds(frame) for frame in counted(run))
+    return 1e3 * entry["scale"] * mean(sum(frame["seconds"][stage] for stage in stages) for frame in counted(run))
 
 
 def summarize(entries):
@@ -61,7 +57,7 @@ def summarize(entries):
         entry["summary"] = runs and {
             "runs": len(runs), "noisy": any(run["noisy"] for run in runs), "rejected": len(entry["rejected"]),
             "trace_ms": spread([run_ms(entry, run) for run in runs]),
-            "frame_ms": spread([run_ms(entry, run, frame_seconds) for run in runs])} or None
+            "frame_ms": spread([run_ms(entry, run, CLASSIC_STAGES) for run in runs])} or None
 
 
 def failures(entries):
@@ -85,8 +81,8 @@ def picture_groups(entries, devices):
             if free in words:
                 del words[words.index(free):words.index(free) + 2]
         for frame in (frame for run in entry["runs"] for frame in run["frames"] if frame["picture"]):
-            makers = groups.setdefault((entry["scene"], tuple(words), frame["frame"]), {})
-            makers.setdefault(frame["picture"], []).append(f"{entry['device']} {options}".strip())
+            groups.setdefault((entry["scene"], tuple(words), frame["frame"]), {}).setdefault(
+                frame["picture"], []).append(f"{entry['device']} {options}".strip())
     return groups
 
 

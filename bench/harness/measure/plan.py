@@ -34,7 +34,7 @@ class Plan(Rows):
         self.part, self.left_out = None, {}  # the part that adds its points now; by part: why there is nothing, or not all
         self.cores = None  # those of jobs on few cores; None: of all
         self.keeps_parts = False  # of a run that was interrupted
-        self.slow_seconds, self.slow_rounds, self.once_seconds = float("inf"), 1, float("inf")
+        self.slow_seconds, self.slow_rounds, self.once_seconds = float("inf"), 1, None
 
     # ---- what is measured
 
@@ -81,7 +81,7 @@ class Plan(Rows):
 
     def medians(self, job):
         """The median time of tracing of each round."""
-        return [median(map(jobs.trace_seconds, jobs.counted(run))) for run in self.done(job)]
+        return [median(frame["seconds"]["trace"] for frame in jobs.counted(run)) for run in self.done(job)]
 
     def ratios(self, job, base):
         """Of the times of two jobs, round by round, so that a slow minute meets both."""
@@ -146,27 +146,16 @@ class Plan(Rows):
             return
         better, worse = sorted((before, run), key=lambda each: (each["noisy"], each["others"] or 0))
         job["runs"][job["runs"].index(before)] = better
-        job["rejected"].append({"repeat": worse["repeat"], "others": worse["others"], "load": worse["load"],
-                                "trace_ms": jobs.run_ms(job, worse)})
+        job["rejected"].append({**{key: worse[key] for key in ("repeat", "others", "load")}, "trace_ms": jobs.run_ms(job, worse)})
 
     # ---- turns
 
     def is_wanted(self, job, repeat):
         if job["reason"] or run_of(job, repeat):
             return False
-        rounds = 1 if job.get("slow") else repeat + 1
-        if job["runs"] and job["runs"][0]["wall"] > self.slow_seconds:
-            rounds = self.slow_rounds
-        if job["runs"] and self.once_seconds < float("inf") and median(self.medians(job)) > self.once_seconds:
-            rounds = 1
-        return repeat < rounds
-
-    @staticmethod
-    def is_disturbed(job, repeat, number):
-        """Its run of that round, after so many tries."""
-        run = run_of(job, repeat)
-        tries = sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"]))
-        return run is not None and run["noisy"] and tries == number
+        if job.get("slow") or (job["runs"] and self.once_seconds and median(self.medians(job)) > self.once_seconds):
+            return repeat < 1
+        return not job["runs"] or job["runs"][0]["wall"] <= self.slow_seconds or repeat < self.slow_rounds
 
     def turn(self, repeat, repeats, words, wanted):
         for place, job in enumerate(self.jobs):
@@ -175,11 +164,11 @@ class Plan(Rows):
                           f"{job.get('part') or ' '.join([job['scene'], *job['options']])}", self.seconds_left(repeat, repeats))
                 self.measure(job, repeat)
 
-    def run_again(self, repeat, repeats, words):
-        most = MOST_REJECTED * len(self.jobs) * repeats
-        for number in range(1, AGAIN + 1):
-            self.turn(repeat, repeats, words, lambda job: sum(len(each["rejected"]) for each in self.jobs) < most
-                      and self.is_disturbed(job, repeat, number))
+    def is_disturbed(self, job, repeat, repeats, tries):
+        """Whether its run of that round is, after so many tries, and may be done again."""
+        rejected, run = sum(len(each["rejected"]) for each in self.jobs), run_of(job, repeat)
+        return (rejected < MOST_REJECTED * len(self.jobs) * repeats and run is not None and run["noisy"]
+                and sum(each["repeat"] == repeat for each in (*job["runs"], *job["rejected"])) == tries)
 
     def run_all(self, repeats, is_good=lambda: True):
         """Every job once a round, so that a slow minute of the machine meets all of them; what was disturbed again at the
@@ -187,7 +176,9 @@ class Plan(Rows):
         for repeat in range(repeats):
             words = f"round {repeat + 1} of {repeats}"
             self.turn(repeat, repeats, words, lambda job: self.is_wanted(job, repeat))
-            self.run_again(repeat, repeats, f"{words}, again what was disturbed")
+            for tries in range(1, AGAIN + 1):
+                self.turn(repeat, repeats, f"{words}, again what was disturbed",
+                          lambda job: self.is_disturbed(job, repeat, repeats, tries))
             if not is_good():
                 return False
         return True

@@ -103,16 +103,9 @@ class Accuracy(Bench):
 
     # ---- what came of it
 
-    def add_equal_error(self):
-        for label in self.runnable:
-            for key, what, families, target, note in (
-                    ("equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth", (),
-                     EQUAL_ERROR, "full depth is 40 without a cut-off, and deeper would take longer still; the median over "
-                                  "the errors that both have"),
-                    ("equal_error_sampling", "  of adaptive sampling alone, against the grid of the same depth",
-                     (("adaptive",), "grid"), None, None)):
-                found = [each for _, each in equal_error(self.memory["points"], label, *families)]
-                self.plan.row(key, what, "times", lambda found=found: found, device=label, target=target, note=note)
+    def add_equal_error(self, label, key, what, *families, **named):
+        self.plan.row(key, what, "times", lambda: [each for _, each in equal_error(self.memory["points"], label, *families)],
+                      device=label, **named)
 
     def add_not_finite(self):
         studies = list(filter(None, (self.targets, self.choices)))
@@ -130,7 +123,13 @@ class Accuracy(Bench):
             getattr(self.targets, f"add_{part}")()
         if self.points and self.points.truth.facts:
             self.points.save()
-            self.add_equal_error()
+            for label in self.runnable:
+                self.add_equal_error(
+                    label, "equal_error", "time at equal RMSE, adaptive and bounded depth against grid and full depth",
+                    target=EQUAL_ERROR, note="full depth is 40 without a cut-off, and deeper would take longer still; the median "
+                                             "over the errors that both have")
+                self.add_equal_error(label, "equal_error_sampling",
+                                     "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
             self.result.update({key: self.memory[key] for key in ("truth", "points", "equal_error", "not_tried")})
         self.add_not_finite()
         self.result.update(choices=self.choices and self.choices.table(), targets=self.targets and {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Strict and fast arithmetic, float and double."""
-from harness.chart.bars import Row, rows, spread_words
+from harness.chart.bars import rows
 from harness.measure.plan import DEFAULT
 from harness.page.section import MS, TOO_LITTLE, WHOLE_FRAME, Part, few, middle, ratio, sentence
 
@@ -18,9 +18,7 @@ def fill(section):
     drawn, told = [], []
     for device in section.devices:
         found = {ARITHMETIC[int(entry["x"])]: entry for entry in device.entries()}
-        drawn += [Row(f"{device.short}, {kind[0]}, {kind[1]}", entry["summary"]["trace_ms"],
-                      spread_words(entry["summary"]["trace_ms"]), ARITHMETIC.index(kind), group=str(device.place))
-                  for kind, entry in found.items()]
+        drawn += [section.bar(device, ", ".join(kind), entry, ARITHMETIC.index(kind)) for kind, entry in found.items()]
         base = found.get(("float", "strict"))
         others = [f"{words} takes {ratio(middle(found[kind]) / middle(base))} as long" for kind, words in
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]

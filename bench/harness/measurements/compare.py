@@ -8,7 +8,7 @@ from harness.command.options import Command
 from harness.measure.numbers import number
 from harness.page import tables
 from harness.run.program import Problem
-from harness.store import study
+from harness.store import result as results
 
 LEAST = 0.03  # less of a difference is none, however quiet the machine was
 ERRORS = 3.0  # standard errors of a difference that count as beyond the noise
@@ -27,7 +27,7 @@ def deviation(entry):
 def measured(result):
     """{what it is: entry}; the device's name belongs to it, for c:0 of another machine is another device."""
     names = {device["label"]: device["name"] for device in result["devices"]}
-    return {(study.identity(entry), names[entry["device"]]): entry for entry in result["measurements"]
+    return {(results.identity(entry), names[entry["device"]]): entry for entry in result["measurements"]
             if entry["summary"]}
 
 
@@ -73,10 +73,10 @@ class Compare(Command):
         parser.add_argument("--all", action="store_true", help="list what is within the noise, too")
 
     def run(self, arguments):
-        results = {"old": study.read(arguments.old), "new": study.read(arguments.new)}
-        ours, theirs = map(measured, results.values())
+        both = {"old": results.read_study(arguments.old), "new": results.read_study(arguments.new)}
+        ours, theirs = map(measured, both.values())
         found = compare(ours, theirs)
-        for name, each in results.items():
+        for name, each in both.items():
             print(f"{name}: hedron {each['hedron']['version']} ({each['hedron']['sha256'][:12]}), {each['date']}, "
                   f"{each['machine']['name']}")
         shown = [each for each in found if arguments.all or each["verdict"] != SAME]

@@ -9,7 +9,7 @@ from harness.chart.bars import Row, ms, rows
 from harness.chart.gnuplot import device_title
 from harness.chart.lines import Axis, Line, lines
 from harness.command.bench import Bench
-from harness.measure.jobs import counted, picture_groups
+from harness.measure.jobs import counted_frames, picture_groups
 from harness.measure.numbers import number, rays, spread, spread_text
 from harness.measurements.animation import by_frame, most_varied
 from harness.page import tables
@@ -29,10 +29,6 @@ def rate(count, seconds):
 def median_rate(frames, count):
     rates = [rate(count(frame), frame["seconds"]["trace"]) for frame in frames]
     return None if None in rates else median(rates)
-
-
-def counted_frames(job):
-    return [frame for run in job["runs"] for frame in counted(run)]
 
 
 def summary(frames):

@@ -2,7 +2,7 @@
 """The megakernel and the wavefront: what the choices behind them are worth, and the study's chart of all machines."""
 from statistics import median
 
-from harness.chart.bars import Row, one_value, rows, spread_words
+from harness.chart.bars import Row, one_value, rows
 from harness.command.bench import Bench
 from harness.measure.numbers import number, spread, spread_text
 from harness.measure.plan import DEFAULT, OFFICIAL
@@ -146,11 +146,8 @@ def fill(section):
     for device in section.devices:
         for scene in (DEFAULT, OFFICIAL):
             found = {PIPELINES[int(entry["x"])]: entry for entry in device.entries(series=scene)}
-            for place, name in enumerate(PIPELINES):
-                if name in found:
-                    times = found[name]["summary"]["trace_ms"]
-                    drawn.append(Row(f"{device.short}, {scene}, {name}", times, spread_words(times), place,
-                                     group=f"{device.place} {scene}"))
+            drawn += [section.bar(device, f"{scene}, {name}", found[name], place)
+                      for place, name in enumerate(PIPELINES) if name in found]
             if len(found) == len(PIPELINES):
                 mega, wavefront, uncompacted = (middle(found[name]) for name in PIPELINES)
                 gains.append((wavefront / mega, uncompacted / wavefront, f"{device.short}, {scene}"))

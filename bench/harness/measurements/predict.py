@@ -13,7 +13,7 @@ from pathlib import Path
 from statistics import median
 
 from harness.command.options import Command
-from harness.measure.jobs import counted
+from harness.measure.jobs import counted_frames
 from harness.measure.numbers import number, rays
 from harness.page import tables
 from harness.run.program import Problem
@@ -64,7 +64,7 @@ def points_of(result, device):
     """One for each scene that was run as it stands."""
     points = []
     for job in sorted(result["measurements"], key=lambda job: job["scene"]):
-        frames = [frame for run in job["runs"] for frame in counted(run)]
+        frames = counted_frames(job)
         if (job["device"], job["options"]) != (device, MODEL_OPTIONS) or not job["output"].endswith(".data") or not frames:
             continue
         seconds = median(frame["seconds"]["trace"] for frame in frames)

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
+from harness.chart.bars import Row, spread_words
 from harness.chart.gnuplot import axis_number, device_title, is_wide, plain
 from harness.chart.lines import Axis, Line, lines
 from harness.measure.numbers import number, spread_text
@@ -36,31 +37,16 @@ class Device:
     entry: dict
     place: int
     machine: int
-    several: bool  # machines
     part: str
-
-    @property
-    def label(self):
-        return self.entry["label"]
-
-    @property
-    def machine_name(self):
-        return plain(self.result["machine"]["name"], MACHINE_LENGTH)
-
-    @property
-    def short(self):
-        return f"{self.label} ({self.machine_name})" if self.several else self.label
-
-    @property
-    def name(self):
-        """Of the machine too, where there are several."""
-        own = device_title(self.entry)
-        return f"{plain(own, NAME_LENGTH)}, {self.machine_name}" if self.several else own
+    label: str
+    short: str  # in sentences
+    name: str  # of the machine too, where there are several
 
     def entries(self, **wanted):
         """The measured ones."""
-        return [entry for entry in self.result["measurements"] if entry["part"] == self.part and entry["summary"]
-                and entry["device"] == self.label and all(entry[key] == value for key, value in wanted.items())]
+        wanted.update(part=self.part, device=self.label)
+        return [entry for entry in self.result["measurements"]
+                if entry["summary"] and all(entry[key] == value for key, value in wanted.items())]
 
     def line(self, name=None, points=None, **wanted):
         """Time against what the part varies."""
@@ -70,9 +56,14 @@ class Device:
 
 def all_devices(results, part):
     """`results` are in the order of the page; this machine's, if any, comes first."""
-    found = [(number, result, entry) for number, result in enumerate(results) for entry in result["devices"]
-             if entry["reason"] is None]
-    return [Device(result, entry, place, number, len(results) > 1, part) for place, (number, result, entry) in enumerate(found)]
+    found = []
+    for count, result in enumerate(results):
+        machine = plain(result["machine"]["name"], MACHINE_LENGTH)
+        for entry in (entry for entry in result["devices"] if entry["reason"] is None):
+            names = (entry["label"], device_title(entry)) if len(results) == 1 else (
+                f"{entry['label']} ({machine})", f"{plain(device_title(entry), NAME_LENGTH)}, {machine}")
+            found.append(Device(result, entry, len(found), count, part, entry["label"], *names))
+    return found
 
 
 @dataclass
@@ -113,6 +104,11 @@ class Section:
                 self.table.append([device.label, device.result["machine"]["name"], name(entry), spread_text(
                     each["trace_ms"], " .. ") + (" (disturbed)" if each["noisy"] else ""), str(entry["scale"]),
                     str(each["runs"]), str(each["rejected"]), " ".join(entry["options"]), entry["renderer"]])
+
+    def bar(self, device, name, entry, colour):
+        """Of a group: the device's, or that of a series of it."""
+        times = entry["summary"]["trace_ms"]
+        return Row(f"{device.short}, {name}", times, spread_words(times), colour, group=f"{device.place} {entry['series']}")
 
     def sweep(self, title, x_axis, caption=None, *, scene=WHOLE_FRAME, points=lambda line: line, name=lambda x: f"{x:g}",
               bounds=None):

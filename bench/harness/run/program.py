@@ -96,27 +96,33 @@ class Program:
             shutil.rmtree(place)
 
 
+def processor_seconds(who):
+    """Of this process, or of all its children that have ended."""
+    used = resource.getrusage(who)
+    return used.ru_utime + used.ru_stime
+
+
 class Clock:
     """What a run takes, from when this is made."""
 
     def __init__(self):
-        self.start, self.worked, self.own, self.busy = time.monotonic(), children_seconds(), own_seconds(), machine.busy_seconds()
+        self.before = self.now()
+
+    @staticmethod
+    def now():
+        return (time.monotonic(), processor_seconds(resource.RUSAGE_CHILDREN), processor_seconds(resource.RUSAGE_SELF),
+                machine.busy_seconds())
 
     def times(self, limit):
-        wall, cpu, busy = time.monotonic() - self.start, children_seconds() - self.worked, machine.busy_seconds()
+        *now, busy = self.now()
+        wall, cpu, own = [after - before for after, before in zip(now, self.before)]
         found = {"wall": wall, "cpu": cpu, "load": machine.load()[0], "others": None, "noisy": False}
-        if self.busy is not None and busy is not None:
-            seconds = max(0.0, busy - self.busy - cpu - (own_seconds() - self.own))
+        if self.before[-1] is not None and busy is not None:
+            seconds = max(0.0, busy - self.before[-1] - cpu - own)
             whole = wall * machine.cores()
             found["others"] = round(min(1.0, seconds / whole), 4) if whole > 0 else None
             found["noisy"] = seconds > LEAST_SECONDS and seconds > limit * whole and limit < NEVER
         return found
-
-
-def own_seconds():
-    """Processor time of this process."""
-    used = os.times()
-    return used.user + used.system
 
 
 def stop(child):
@@ -127,12 +133,6 @@ def stop(child):
     except subprocess.TimeoutExpired:
         child.kill()
         child.communicate()
-
-
-def children_seconds():
-    """Processor time of all children that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def collect(place, code, message):

@@ -9,9 +9,8 @@ def intervals(frames):
     stages = {}
     for frame in frames:
         for stage, begin in frame.get("began", {}).items():
-            length = frame["seconds"].get(stage, 0)
-            if length > 0:
-                stages.setdefault(stage, []).append((begin, begin + length, frame["frame"]))
+            if frame["seconds"].get(stage, 0) > 0:
+                stages.setdefault(stage, []).append((begin, begin + frame["seconds"][stage], frame["frame"]))
     return {stage: sorted(boxes) for stage, boxes in stages.items()}
 
 
@@ -42,10 +41,9 @@ def measure(frames):
 
 def table(timeline):
     """(title, rows, lines below)"""
-    rows = [["stage", "busy", "ms"]]
-    for stage, each in sorted(timeline["stages"].items(), key=lambda entry: -entry[1]["busy_share"]):
-        rows.append([stage, f"{100 * each['busy_share']:.1f} %", f"{1e3 * each['busy_seconds']:.1f}"])
-    return ("Stages of a run", rows, [f"The run took {1e3 * timeline['seconds']:.0f} ms, {timeline['ratio_to_slowest']:.2f} "
+    rows = [[stage, f"{100 * each['busy_share']:.1f} %", f"{1e3 * each['busy_seconds']:.1f}"]
+            for stage, each in sorted(timeline["stages"].items(), key=lambda entry: -entry[1]["busy_share"])]
+    return ("Stages of a run", [["stage", "busy", "ms"], *rows], [f"The run took {1e3 * timeline['seconds']:.0f} ms, {timeline['ratio_to_slowest']:.2f} "
                                       f"times its slowest stage, {timeline['slowest']}."])
 
 
