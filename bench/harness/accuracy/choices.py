@@ -63,7 +63,10 @@ class Choices:
                     if self.plan.is_wanted(made, repeat):
                         self.plan.measure(made, repeat)
                     if not made["reason"] and "error" not in made:
-                        self.judge_picture(made, reference)
+                        file = made["output"].replace("####", "0000")
+                        made["error"] = pfm.errors(self.plan.program, file, reference)
+                        self.not_finite += pfm.not_finite(file)
+                        self.frames += 1
 
     def job(self, label, choice, name, options):
         key = label, choice.name, name
@@ -71,12 +74,6 @@ class Choices:
             self.jobs[key] = self.plan.job(label, choice.scene, FRAMES, options,
                                            output=str(self.plan.folder / f"choice-{len(self.jobs)}-####.pfm"))
         return self.jobs[key]
-
-    def judge_picture(self, made, reference):
-        file = made["output"].replace("####", "0000")
-        made["error"] = pfm.errors(self.plan.program, file, reference)
-        self.not_finite += pfm.not_finite(file)
-        self.frames += 1
 
     def table(self):
         """Entries of the report: time, ratio to what comes by itself, and error."""

@@ -29,10 +29,9 @@ class Truth:
         self.facts = None
 
     def is_made(self, facts):
-        """Whether the file is that of these facts."""
-        same = facts and self.file.is_file() and digest(self.file) == facts["sha256"]
-        self.facts = facts if same else None
-        return bool(same)
+        """Whether the file is that of these facts, which then are known of it."""
+        self.facts = facts if facts and self.file.is_file() and digest(self.file) == facts["sha256"] else None
+        return self.facts is not None
 
     def render(self, side, limit, file, *more):
         return render(self.plan, self.device, None, ("--reference", "--samples", str(side), "--max-error", limit,

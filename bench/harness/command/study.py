@@ -83,7 +83,7 @@ class Study(Bench):
         if not self.file.is_file() or self.arguments.again:
             return None
         old = results.read_study(self.file)
-        if results.is_continued(old, self.result):
+        if results.question(old) == results.question(self.result):
             return old
         kept = self.file.with_suffix(".before.json")
         self.file.replace(kept)
@@ -145,7 +145,7 @@ class Study(Bench):
         found = [result, *others(self.arguments.results, result)]
         drawn = sections(PARTS, found)
         gnuplot.remove_old(out, ["study_*"])  # charts of sections that are gone go too
-        charts = {name: chart for section in drawn for name, chart in section.charts.items()}
+        charts = {name: chart for section in drawn for name, (chart, _) in section.charts.items()}
         problems = [line for line in gnuplot.draw(charts, out) if not line.startswith("Chart: ")]
         wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
                         if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]

@@ -14,17 +14,9 @@ MOVES = ("vmov", "vbroadcast", "vpbroadcast", "vextract", "vinsert", "vperm", "v
 
 def lanes_of(name, operands):
     """Numbers of 32 bits that the instruction works on."""
-    if re.search(r"(ss|sd|si)$", name):
+    if name.endswith(("ss", "sd", "si")):
         return 1
-    for register, lanes in (("zmm", 16), ("ymm", 8), ("xmm", 4)):
-        if register in operands:
-            return lanes
-    return 0
-
-
-def is_zeroing(name, operands):
-    """A register combined with itself gives zero without being executed."""
-    return "xor" in name and len(set(re.findall(r"%[xyz]mm\d+", operands))) == 1
+    return next((lanes for register, lanes in (("zmm", 16), ("ymm", 8), ("xmm", 4)) if register in operands), 0)
 
 
 def weigh(name, operands):
@@ -34,9 +26,9 @@ def weigh(name, operands):
     mask registers' instructions take slots of the vector units all the same."""
     if name.startswith("k"):
         return 0, 1
-    if not name.startswith("v") or is_zeroing(name, operands):
-        return 0, 0
-    if name.startswith(MOVES) and "{%k" not in operands:
+    # A register combined with itself gives zero without being executed.
+    is_zeroing = "xor" in name and len(set(re.findall(r"%[xyz]mm\d+", operands))) == 1
+    if not name.startswith("v") or is_zeroing or name.startswith(MOVES) and "{%k" not in operands:
         return 0, 0
     each = 2 if name.startswith(("vfmadd", "vfmsub", "vfnmadd", "vfnmsub")) else 1
     return each * lanes_of(name, operands), 1
@@ -66,7 +58,7 @@ def parse(program, text):
     """{"instruction_set", "lanes", "rates": {name: [...]}, "counted": {name: what was executed for each unit of it},
     "uncounted": [...]}"""
     result = {"instruction_set": None, "lanes": None, "rates": {}, "counted": {}, "uncounted": []}
-    times, works = {}, []
+    times, works = {}, {}
     for what, name, *rest in map(str.split, text.splitlines()):
         if what == "build":
             result["instruction_set"], result["lanes"] = name, int(rest[0])
@@ -77,8 +69,8 @@ def parse(program, text):
         elif what == "uncounted":
             result["uncounted"].append(name)
         elif what == "counted":
-            works.append((name, rest))
-    for name, (instruction_set, lanes, symbol, amount) in works:
+            works[name] = rest
+    for name, (instruction_set, lanes, symbol, amount) in works.items():
         total = add_up(disassemble(program, symbol), times.get(name, {}))
         result["counted"][name] = {"instruction_set": instruction_set, "lanes": int(lanes), "amount": float(amount),
                                    **{f"{key}_each": value / float(amount) for key, value in total.items()}}

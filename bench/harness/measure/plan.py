@@ -30,7 +30,7 @@ class Plan(Rows):
             devices, scenes, program, folder, news, save)
         self.quick, self.options = quick, tuple(options)
         self.runnable = {label: device for label, device in devices.items() if device.get("reason") is None}
-        self.jobs, self.failures = [], set()
+        self.jobs, self.made, self.failures = [], {}, set()
         self.part, self.left_out = None, {}  # the part that adds its points now; by part: why there is nothing, or not all
         self.cores = None  # those of jobs on few cores; None: of all
         self.keeps_parts = False  # of a run that was interrupted
@@ -41,11 +41,10 @@ class Plan(Rows):
     def job(self, device, scene, frames, options=(), **named):
         """The same one where it was asked for before."""
         wanted = jobs.job(device, scene, frames, (*options, *self.options), **named)
-        alike = [each for each in self.jobs if {**each, "runs": [], "rejected": [], "renderer": None, "reason": None,
-                                                "failed": False} == wanted]
-        if not alike:
+        made = self.made.setdefault(repr(wanted), wanted)
+        if made is wanted:
             self.jobs.append(wanted)
-        return alike[0] if alike else wanted
+        return made
 
     def point(self, series, x, device, scene, options, *, frames=None, **named):
         """A point of a chart of the part: one job on one device."""

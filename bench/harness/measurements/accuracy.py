@@ -32,18 +32,15 @@ def cells(point):
             number(1e-6 * sum(point["rays"].values()), 3), "front" if point["on_front"] else "", point["recommended"] or ""]
 
 
-def truth_words(truth):
+def point_words(result):
+    truth = result["truth"]
     edge = f"at most {truth['edge_error']} of 255 off on an edge between black and white" if truth["edge_error"] else (
         "coarser than hedron's own")
-    return (f"Reference: {truth['samples']} x {truth['samples']} dense samples in double, {edge}; what it leaves out is "
-            f"at most {number(truth['missing']['largest'], 2)} of 255 (--max-error {truth['max_error']:g}); a "
-            f"reference of a quarter of the samples has RMSE {number(truth['to_quarter_of_samples']['rmse'], 3)} "
-            f"and is off by {number(truth['to_quarter_of_samples']['largest'], 3)} at most. "
-            f"{number(truth['seconds'], 3)} s on {truth['device']}.")
-
-
-def point_words(result):
-    yield truth_words(result["truth"])
+    yield (f"Reference: {truth['samples']} x {truth['samples']} dense samples in double, {edge}; what it leaves out is "
+           f"at most {number(truth['missing']['largest'], 2)} of 255 (--max-error {truth['max_error']:g}); a "
+           f"reference of a quarter of the samples has RMSE {number(truth['to_quarter_of_samples']['rmse'], 3)} "
+           f"and is off by {number(truth['to_quarter_of_samples']['largest'], 3)} at most. "
+           f"{number(truth['seconds'], 3)} s on {truth['device']}.")
     for device in result["devices"]:
         for word, point in recommended([each for each in result["points"] if each["device"] == device["label"]]):
             yield (f"Recommended on {point['device']}, {word}: {' '.join(point['options'])}: {number(point['ms'], 3)} ms, "

@@ -65,25 +65,21 @@ def points_of(result, device):
     points = []
     for job in sorted(result["measurements"], key=lambda job: job["scene"]):
         frames = counted_frames(job)
-        if (job["device"], job["options"]) != (device, MODEL_OPTIONS) or not job["output"].endswith(".data") or not frames:
-            continue
-        seconds = median(frame["seconds"]["trace"] for frame in frames)
-        if seconds > 0:
-            points.append({"scene": job["scene"], **result["scenes"][job["scene"]], "seconds": seconds,
-                           "rays": median(map(rays, frames)),
+        if (job["device"], job["options"]) == (device, MODEL_OPTIONS) and job["output"].endswith(".data") and frames:
+            points.append({"scene": job["scene"], **result["scenes"][job["scene"]], "rays": median(map(rays, frames)),
+                           "seconds": median(frame["seconds"]["trace"] for frame in frames),
                            "shadow_tests": median(frame["shadow_tests"] for frame in frames),
                            "pixels": frames[0]["width"] * frames[0]["height"]})
-    return points
+    return [point for point in points if point["seconds"] > 0]
 
 
 def choose_device(result, wish):
     peaks = {label: rate for label, rate in (result.get("peaks") or {}).items() if rate}
-    if wish is None and peaks:
-        wish = next(iter(peaks))
-    if wish not in peaks:
+    label = wish or next(iter(peaks), None)
+    if label not in peaks:
         raise Problem(3, "the file has no GPU whose lanes are known" if wish is None else
                       f"--device is '{wish}', expected one of {', '.join(peaks) or 'none'}")
-    return wish, peaks[wish]
+    return label, peaks[label]
 
 
 def evaluate(points):

@@ -37,12 +37,6 @@ def add_paths(plan, counts, method):
     return f"  after 300 bounces, {methods.NAMES[method]}", lambda: percent(tried_far - far, tried_far)
 
 
-def add_pictures(plan, entries, what, geometry, target):
-    near, pixels = pictures.total(entries, what, geometry)
-    plan.row("precision", f"pixels within 1 of 255, {what}, all scenes, {geometry}", "%", lambda: percent(near, pixels),
-             target=target, note=f"{what}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None)
-
-
 def add_rows(plan, result):
     counts, precision, odd = [result[key] or [] for key in ("counts", "precision", "odd")]
     after_300 = [add_paths(plan, counts, method) for method in ("ours_solids", "ours_triangles", methods.CHECK)]
@@ -55,7 +49,10 @@ def add_rows(plan, result):
         plan.row(study, f"{what}, ours", "pixels" if study == "sums" else "count", figure, target=NONE)
     for what, target in ((pictures.FLOAT, NEAR), (pictures.FAST, None)):
         for geometry in pictures.GEOMETRIES:
-            add_pictures(plan, precision, what, geometry, target)
+            near, pixels = pictures.total(precision, what, geometry)
+            plan.row("precision", f"pixels within 1 of 255, {what}, all scenes, {geometry}", "%",
+                     lambda near=near, pixels=pixels: percent(near, pixels), target=target,
+                     note=f"{what}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None)
     plan.row("odd", "pixels that are no numbers or infinite, all frames", "pixels",
              lambda: [sum(each["nan"] for each in known([*precision, *odd] or None))], target=NONE)
     plan.row("odd", "odd scenes that neither render nor are refused with a clear error", "scenes",
@@ -90,21 +87,18 @@ class Stability(Bench):
             self.plan.failures.add(str(problem))
             return []
 
-    def measure_precision(self):
-        files, self.result["precision"] = sorted(self.arguments.scenes.resolve().glob("*.json")), []
-        if not files:
-            raise Problem(2, f"there is no scene in {self.arguments.scenes}")
-        for file in files:
-            self.result["precision"] += self.tried(f"precision: {file.stem}", pictures.study_scene, self.program, file, [
-                *SIZES[self.arguments.quick], *self.arguments.options], self.folder)
-
     def measure(self):
         for study in filter(self.wants, methods.STUDIES):
             count = self.arguments.rays or methods.COUNTS[study] // (QUICK_PART if self.arguments.quick else 1)
             found = self.tried(f"methods: {study}", methods.run, self.program, study, count)
             self.result["counts"] = [*(self.result["counts"] or []), *found]
         if self.wants("precision"):
-            self.measure_precision()
+            files, self.result["precision"] = sorted(self.arguments.scenes.resolve().glob("*.json")), []
+            if not files:
+                raise Problem(2, f"there is no scene in {self.arguments.scenes}")
+            for file in files:
+                self.result["precision"] += self.tried(f"precision: {file.stem}", pictures.study_scene, self.program, file, [
+                    *SIZES[self.arguments.quick], *self.arguments.options], self.folder)
         if self.wants("odd"):
             study = odd.OddScenes(self.program, self.folder, [*ODD_SIZE, *self.arguments.options])
             self.result["odd"] = study.entries

@@ -82,7 +82,7 @@ def head(results, failures, pictures):
 
 def section_words(section, folder):
     words = [f"<h2 id=\"{section.part}\">{text(section.title)}</h2>", f"<p>{text(section.about)}</p>"]
-    words += [figure(name, section.captions[name], folder) for name in section.charts]
+    words += [figure(name, caption, folder) for name, (_, caption) in section.charts.items()]
     words += [f"<p>{text(note)}</p>" for note in section.notes]
     if len(section.table) > 1:
         words.append(f"<details><summary>The figures</summary>{table(section.table)}</details>")

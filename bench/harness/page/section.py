@@ -73,8 +73,7 @@ class Section:
     about: str  # what was measured, in a sentence or two
     results: list
     devices: list = field(default_factory=list)  # that measured it
-    charts: dict = field(default_factory=dict)
-    captions: dict = field(default_factory=dict)
+    charts: dict = field(default_factory=dict)  # (chart, caption) by their names
     table: list = field(default_factory=list)  # rows of cells, the first is the head
     notes: list = field(default_factory=list)
 
@@ -93,7 +92,7 @@ class Section:
         self.add(name or self.part, kind(about, title, caption, *arguments, **named), caption)
 
     def add(self, name, chart, caption):
-        self.charts[f"study_{name}"], self.captions[f"study_{name}"] = chart, caption
+        self.charts[f"study_{name}"] = chart, caption
 
     def tabulate(self, name, what="what"):
         """A row for each measurement."""

@@ -14,11 +14,6 @@ def lines(rows):
                       for column, (cell, width) in enumerate(zip(cells, widths))).rstrip() for cells in rows]
 
 
-def markdown_lines(rows):
-    table = ["| " + " | ".join(cell.strip().replace("|", "\\|") for cell in cells) + " |" for cells in rows]
-    return [table[0], "|" + "---|" * len(rows[0]), *table[1:]]
-
-
 # ---- rows with targets
 
 def target_words(value):
@@ -78,6 +73,8 @@ def text(result, tables):
 def markdown(result, tables):
     parts = [f"- {words}" for words in head_lines(result)] + [""]
     for title, rows, below in all_tables(result, tables):
-        parts += [*([f"## {title}", ""] if title else []), *(markdown_lines(rows) + [""] if rows else []),
+        table = ["| " + " | ".join(cell.strip().replace("|", "\\|") for cell in cells) + " |" for cells in rows]
+        table[1:1] = ["|" + "---|" * len(row) for row in rows[:1]]
+        parts += [*([f"## {title}", ""] if title else []), *(table + [""] if table else []),
                   *[f"- {words}" for words in below], ""]
     return "\n".join(parts)

@@ -43,8 +43,9 @@ def table(timeline):
     """(title, rows, lines below)"""
     rows = [[stage, f"{100 * each['busy_share']:.1f} %", f"{1e3 * each['busy_seconds']:.1f}"]
             for stage, each in sorted(timeline["stages"].items(), key=lambda entry: -entry[1]["busy_share"])]
-    return ("Stages of a run", [["stage", "busy", "ms"], *rows], [f"The run took {1e3 * timeline['seconds']:.0f} ms, {timeline['ratio_to_slowest']:.2f} "
-                                      f"times its slowest stage, {timeline['slowest']}."])
+    return ("Stages of a run", [["stage", "busy", "ms"], *rows], [
+        f"The run took {1e3 * timeline['seconds']:.0f} ms, {timeline['ratio_to_slowest']:.2f} times its slowest stage, "
+        f"{timeline['slowest']}."])
 
 
 def light(colour):

@@ -21,7 +21,7 @@ def line(counts, what, key):
 def lines(counts, study, cases, what):
     """{method: (against the scale, against the offset)}"""
     return {method: (line(methods.select(counts, study, cases, method, methods.is_at_origin), what, "scale"),
-                     line(methods.select(counts, study, cases, method, methods.is_unit_scale), what, "offset"))
+                     line(methods.select(counts, study, cases, method, lambda each: each["scale"] == 1), what, "offset"))
             for method in methods.methods(counts, study)}
 
 

@@ -72,10 +72,6 @@ def is_at_origin(each):
     return each["offset"] == 0
 
 
-def is_unit_scale(each):
-    return each["scale"] == 1
-
-
 def is_in_target(each):
     """Where the target of the paths holds."""
     return 1e-4 <= each["scale"] <= 1e4 and each["offset"] <= 1e4

@@ -7,20 +7,15 @@ from harness.stability import pictures
 REFUSED = 2
 
 
-def problem_in(run):
-    """The first of those that hedron tells, without the file's name."""
-    first, *others = run["said"].strip().splitlines()
-    words = first.rpartition(".json: ")[2]
-    return f"{others[0].strip()} ({words})" if others else words
-
-
 def outcome(odd, runs):
     """(words, whether it is as it should be)"""
     codes = {run["code"] for run in runs}
     if codes == {0}:
         return "rendered", not odd.refused
-    if codes == {REFUSED}:
-        return f"refused: {problem_in(runs[0])}", odd.refused
+    if codes == {REFUSED}:  # the first problem that hedron tells, without the file's name
+        first, *others = runs[0]["said"].strip().splitlines()
+        words = first.rpartition(".json: ")[2]
+        return f"refused: {others[0].strip()} ({words})" if others else f"refused: {words}", odd.refused
     return f"failed: {next(run['message'] for run in runs if run['code'])}", False
 
 
@@ -59,5 +54,6 @@ class OddScenes:
 
 
 def failures(entries):
-    return [f"{each['scene']}, {each['geometry']}: {each['outcome']}" for each in entries if not each["as_it_should"]] + [
-        f"{each['scene']}, {each['geometry']}: {each['nan']} pixels are no numbers" for each in entries if each["nan"]]
+    wrong = [(each, each["outcome"]) for each in entries if not each["as_it_should"]]
+    wrong += [(each, f"{each['nan']} pixels are no numbers") for each in entries if each["nan"]]
+    return [f"{each['scene']}, {each['geometry']}: {words}" for each, words in wrong]

@@ -11,13 +11,10 @@ KINDS = {"double": ("--precision", "double"), "float": (), "fast": ("--math", "f
 FLOAT, FAST = "float against double", "fast against strict"
 
 
-def read_all(folder):
-    return {int(file.stem): pfm.read(file) for file in sorted(folder.glob("*.pfm"))}
-
-
 def render(program, scene, frames, options, folder):
     """{"code", "message": None or why there are no pictures, "said", "pictures": {frame: picture}, "clamps"}"""
-    run = program.render(DEVICE, scene, frames, list(options), folder, output=PICTURES, look=read_all)
+    run = program.render(DEVICE, scene, frames, list(options), folder, output=PICTURES, look=lambda place: {
+        int(file.stem): pfm.read(file) for file in sorted(place.glob("*.pfm"))})
     failed = run["code"] != 0
     return {"code": run["code"], "message": run["message"] if failed else None, "said": run["said"],
             "pictures": {} if failed else run["seen"],

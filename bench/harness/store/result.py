@@ -74,13 +74,9 @@ def read_study(file):
 
 
 def question(result):
-    """What must be alike for the measurements of two to answer the same one."""
+    """That which the measurements answer: one goes on from another whose question is the same."""
     return [result["bench"], result["quick"], result["machine"]["cpu"], *(result["hedron"][key] for key in SAME_OF_HEDRON),
             *(device[key] for device in result["devices"] for key in SAME_OF_DEVICES)]
-
-
-def is_continued(old, new):
-    return question(old) == question(new)
 
 
 def identity(entry):
