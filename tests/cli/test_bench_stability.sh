@@ -69,7 +69,7 @@ shadows, edge_lights, ours, in double: 3 blocked of 9" "$(cat never.py)"
 
 # ---- odd scenes: what is to be rendered is, what is to be refused is, and nothing else ends otherwise
 cat >odd.py <<'PYTHON'
-from harness.stability.odd import failures, outcome
+from harness.stability.pictures import failures, outcome
 from harness.stability.scenes import Odd
 refused = {"code": 2, "said": "hedron: x.json: 2 problems\n  a is 1\n  b is 2\n"}
 for wanted in (False, True):

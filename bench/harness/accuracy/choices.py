@@ -6,7 +6,6 @@ from harness.accuracy.points import FRAMES, ONCE_SECONDS
 from harness.accuracy.truth import render
 from harness.measure.numbers import number, spread, spread_text
 from harness.run import pfm
-from harness.run.program import Problem
 
 GRID = ("--samples", "4")
 AUTOMATIC = "automatic"
@@ -44,10 +43,9 @@ class Choices:
     def measure(self, repeats):
         for choice in CHOICES:
             self.plan.news(f"choices: {choice.name}")
-            try:
-                self.measure_choice(choice, repeats)
-            except Problem as problem:
-                self.plan.failures.add(str(problem))
+            reason = self.plan.tried(self.measure_choice, choice, repeats)
+            if reason:
+                self.plan.failures.add(reason)
 
     def measure_choice(self, choice, repeats):
         size = "--size", "x".join(str(max(1, length // choice.part)) for length in self.size)

@@ -8,7 +8,7 @@ from harness.command.options import whole_number
 from harness.measure.rows import NONE, Missing, Target, known
 from harness.page.section import Part
 from harness.run.program import ROOT, Problem
-from harness.stability import charts, methods, odd, pictures, scenes, table
+from harness.stability import charts, methods, pictures, scenes, table
 
 QUICK_PART = 20
 SIZES = {False: ("--size", "160x120", "--samples", "2"), True: ("--size", "80x60", "--samples", "1")}
@@ -80,12 +80,10 @@ class Stability(Bench):
 
     def tried(self, what, measure, *arguments, **named):
         """An empty list where it cannot be, which counts as a failure."""
-        try:
-            self.news(what)
-            return measure(*arguments, **named)
-        except Problem as problem:
-            self.plan.failures.add(str(problem))
-            return []
+        found = super().tried(what, measure, *arguments, **named)
+        if isinstance(found, str):
+            self.plan.failures.add(found)
+        return [] if isinstance(found, str) else found
 
     def measure(self):
         for study in filter(self.wants, methods.STUDIES):
@@ -100,7 +98,7 @@ class Stability(Bench):
                 self.result["precision"] += self.tried(f"precision: {file.stem}", pictures.study_scene, self.program, file, [
                     *SIZES[self.arguments.quick], *self.arguments.options], self.folder)
         if self.wants("odd"):
-            study = odd.OddScenes(self.program, self.folder, [*ODD_SIZE, *self.arguments.options])
+            study = pictures.OddScenes(self.program, self.folder, [*ODD_SIZE, *self.arguments.options])
             self.result["odd"] = study.entries
             for each in scenes.all_scenes(self.folder, self.arguments.quick):
                 self.tried(f"odd scenes: {each.name}", study.run, each)
@@ -108,7 +106,7 @@ class Stability(Bench):
     def fill(self):
         add_rows(self.plan, self.result)
         self.result["table"] = table.rows(self.result)
-        self.plan.failures |= {*methods.failures(self.result["counts"] or []), *odd.failures(self.result["odd"] or [])}
+        self.plan.failures |= {*methods.failures(self.result["counts"] or []), *pictures.failures(self.result["odd"] or [])}
 
     def compared(self):
         return {"same": None, "sentence": "A share that is 0 was not seen to fail; how many were tried stands beside ours."}
