@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Every target of triangles, and time against their number; the study has a chart of all machines."""
 from dataclasses import replace
+from statistics import median
 
 from harness.chart.lines import Axis, lines
 from harness.command.bench import Bench
 from harness.command.options import whole_number
-from harness.measure.numbers import count_words
+from harness.measure.numbers import count_words, spread
+from harness.measure.rows import Missing
 from harness.measure.scenes import TRIANGLE_TICKS, make_object, write_object_scene
 from harness.page.section import Part, few, growth_words, y_axis
 from harness.run import machine
@@ -49,7 +51,8 @@ class Triangles(Bench):
 
     def prepare(self):
         self.result["most"] = self.arguments.most
-        self.objects, self.hunts, self.unmade, self.sweep = {}, {}, {}, None
+        self.objects, self.hunts, self.unmade = {}, {}, {}
+        self.jobs, self.triangles = {}, None  # (device, way, asked): job of the sweep; asked: true number
 
     def measure_rates(self):
         seconds, threads = 0.05 if self.arguments.quick else 0.3, min(machine.cores(), MOST_THREADS)
@@ -86,25 +89,75 @@ class Triangles(Bench):
         if self.wants("sweep", "primary"):
             made = self.make_scenes()
             if self.wants("sweep"):
-                self.sweep = sweep.Sweep(self.plan, made)
-                self.sweep.probe_brute(BRUTE_MOST_QUICKLY if self.arguments.quick else sweep.MOST)
+                self.begin_sweep(made, BRUTE_MOST_QUICKLY if self.arguments.quick else sweep.MOST)
             if self.wants("primary"):
                 primary.add(self.plan)
             self.plan.run_all(self.arguments.repeats)
+
+    # ---- the sweep
+
+    def begin_sweep(self, made, brute_most):
+        """Brute force is added where it can be timed in reasonable time: each further count waits for the one before."""
+        self.triangles = made
+        for label in self.runnable:
+            for count in made:
+                self.add_job(label, "bvh", count)
+        for label in self.runnable:
+            for count in filter(lambda count: count <= brute_most, made):
+                job = self.add_job(label, "brute", count)
+                self.news(f"{label}, brute force, {count_words(count)} triangles")
+                self.plan.measure(job, 0)
+                if job["reason"] or median(self.plan.medians(job)) > sweep.ENOUGH_SECONDS:
+                    break
+
+    def add_job(self, label, way, count):
+        once = {"slow": True} if way == "brute" and count >= sweep.SLOW_FROM else {}
+        view = sweep.VIEWS[self.runnable[label]["is_cpu"]][1]
+        job = self.plan.job(label, scene_name(count), "0,1" if once else "0-3", (*view, "--accel", way), **once)
+        self.jobs[label, way, count] = job
+        return job
+
+    def add_growth(self, label):
+        most = max(self.triangles, default=sweep.MOST)
+        many, few = self.jobs.get((label, "bvh", most)), self.jobs.get((label, "bvh", sweep.BASE))
+        is_whole = most == sweep.MOST
+
+        def figure():
+            if many is None or few is None or most <= sweep.BASE:
+                raise Missing(f"there are no scenes of {sweep.BASE} and more triangles")
+            return self.plan.ratios(many, few)
+        self.plan.row("growth", f"time of a frame, {count_words(most)} triangles against {count_words(sweep.BASE)}", "times",
+                      figure, device=label, target=sweep.TARGET if is_whole else None,
+                      note=sweep.VIEWS[self.runnable[label]["is_cpu"]][0]
+                      + ("" if is_whole else f"; the target is for {count_words(sweep.MOST)}"))
+
+    def add_sweep(self):
+        """Its rows, and what was measured, as it is written."""
+        for label in self.runnable:
+            self.add_growth(label)
+        places = [list(self.runnable), list(sweep.WAYS)]
+        for key in sorted(self.jobs, key=lambda key: (*map(list.index, places, key), key[2])):
+            self.plan.row("sweep", f"  a frame by {sweep.WAYS[key[1]]}, {count_words(key[2])} triangles", "ms",
+                          lambda job=self.jobs[key]: self.plan.trace_ms(job), device=key[0])
+        self.result["sweep"] = [{"device": label, "way": way, "asked": count, "triangles": self.triangles[count],
+                                 "trace_ms": spread(self.plan.trace_ms(job)) if job["runs"] else None,
+                                 "reason": job["reason"] or (None if job["runs"] else "it was not run")}
+                                for (label, way, count), job in self.jobs.items()]
+
+    # ---- what came of it
 
     def fill(self):
         primary_rows, self.plan.rows = self.plan.rows, []
         if self.wants("rates"):
             rates.add_rows(self.plan, self.objects)
-        if self.sweep:
-            self.sweep.add_rows()
+        if self.triangles is not None:
+            self.add_sweep()
         self.plan.rows += primary_rows
         for reason in dict.fromkeys(self.unmade.values()):
             self.plan.absent("scenes", "scenes of the sweep and of primary rays", "", None, reason)
         leaks.add_rows(self.plan, self.hunts)
         self.plan.failures |= set(rates.failures(self.objects))
-        self.result.update(mesh_rates=entries("asked", self.objects), leaks=entries("backend", self.hunts),
-                           sweep=self.sweep and self.sweep.points())
+        self.result.update(mesh_rates=entries("asked", self.objects), leaks=entries("backend", self.hunts))
 
     def charts(self):
         return sweep.charts(self.result)

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The time of a frame against the number of triangles, by the hierarchy and by brute force."""
+"""The time of a frame against the number of triangles, by the hierarchy and by brute force: what is compared, and the chart."""
 import math
-from statistics import median
 
 from harness.chart.gnuplot import device_title
 from harness.chart.lines import Axis, Line, lines
-from harness.measure.numbers import count_words, number, spread
-from harness.measure.rows import Missing, Target
+from harness.measure.numbers import count_words, number
+from harness.measure.rows import Target
 from harness.measure.scenes import TRIANGLE_TICKS
 from harness.page.section import MS
 
@@ -24,66 +23,6 @@ SLOW_FROM = 10000  # with brute force once is enough
 def scene_name(count):
     return f"sphere-{count}"
 
-
-class Sweep:
-    """`triangles` has the true number of triangles for each count whose scene was made."""
-
-    def __init__(self, plan, triangles):
-        self.plan, self.triangles = plan, triangles
-        self.jobs = {}  # (device, way, count): job
-        for label in plan.runnable:
-            for count in triangles:
-                self.add_job(label, "bvh", count)
-
-    def probe_brute(self, most):
-        """Adds what can be timed in reasonable time: each further count waits for the one before."""
-        for label in self.plan.runnable:
-            for count in filter(lambda count: count <= most, self.triangles):
-                job = self.add_job(label, "brute", count)
-                self.plan.news(f"{label}, brute force, {count_words(count)} triangles")
-                self.plan.measure(job, 0)
-                if job["reason"] or median(self.plan.medians(job)) > ENOUGH_SECONDS:
-                    break
-
-    def add_job(self, label, way, count):
-        once = {"slow": True} if way == "brute" and count >= SLOW_FROM else {}
-        view = VIEWS[self.plan.runnable[label]["is_cpu"]][1]
-        job = self.plan.job(label, scene_name(count), "0,1" if once else "0-3", (*view, "--accel", way), **once)
-        self.jobs[label, way, count] = job
-        return job
-
-    def points(self):
-        """What was measured, as it is written."""
-        return [{"device": label, "way": way, "asked": count, "triangles": self.triangles[count],
-                 "trace_ms": spread(self.plan.trace_ms(job)) if job["runs"] else None,
-                 "reason": job["reason"] or (None if job["runs"] else "it was not run")}
-                for (label, way, count), job in self.jobs.items()]
-
-    def add_rows(self):
-        for label in self.plan.runnable:
-            self.add_growth(label)
-        for label in self.plan.runnable:
-            for way in WAYS:
-                for count in sorted(count for which, by, count in self.jobs if (which, by) == (label, way)):
-                    self.plan.row("sweep", f"  a frame by {WAYS[way]}, {count_words(count)} triangles", "ms",
-                                  lambda job=self.jobs[label, way, count]: self.plan.trace_ms(job), device=label)
-
-    def add_growth(self, label):
-        most = max(self.triangles, default=MOST)
-        many, few = self.jobs.get((label, "bvh", most)), self.jobs.get((label, "bvh", BASE))
-        is_whole = most == MOST
-
-        def figure():
-            if many is None or few is None or most <= BASE:
-                raise Missing(f"there are no scenes of {BASE} and more triangles")
-            return self.plan.ratios(many, few)
-        view = VIEWS[self.plan.runnable[label]["is_cpu"]][0]
-        self.plan.row("growth", f"time of a frame, {count_words(most)} triangles against {count_words(BASE)}", "times", figure,
-                      device=label, target=TARGET if is_whole else None,
-                      note=view + ("" if is_whole else f"; the target is for {count_words(MOST)}"))
-
-
-# ---- the chart
 
 def spreads(points, label, way):
     """[(triangles, spread of milliseconds)]"""
