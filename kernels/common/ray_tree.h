@@ -12,17 +12,13 @@ typedef struct {
     vfix r, g, b;
     vint mirrored, transmitted; /* rays */
     vint shadow_tests, clamps;
-    vfix bound;    /* of surveyed scenes: of what was left out, with BOUND_BITS fewer bits */
+    vfix bound;    /* of surveyed scenes: of what was left out, times view->bound_to_fixed */
     vint identity; /* likewise: those of what it met */
 } Sample;
 
-enum { BOUND_BITS = 2 };
-
-#define CONTRIBUTION_LIMIT R(65536.0)
-
 /* The one conversion to fixed point; truncates. NaN counts as 0. */
 FN vfix contribution(vmask m, vreal radiance, vreal weight, real to_fixed, vint *clamps) {
-    vreal limit = splat(CONTRIBUTION_LIMIT);
+    vreal limit = splat((real)HD_CONTRIBUTION_LIMIT);
     vmask over = m & lt(limit, radiance);
     *clamps = count_lanes(*clamps, over);
     vreal clamped =
@@ -41,12 +37,11 @@ FN vreal greatest_component(Vec3 a) {
     return greater(a.x, greater(a.y, a.z));
 }
 
-/* Adds to the bound of what was left out, in the lanes of `m`; rounded up. More than MOST_BOUND
-   says as little. */
-#define MOST_BOUND R(16.0)
+/* Adds to the bound of what was left out, in the lanes of `m`; rounded up. No ray adds more than
+   HD_RADIANCE_LIMIT. */
 FN void add_to_bound(SCENE_PARAMETERS Sample *sample, vmask m, vreal bound) {
-    real scale = view->to_fixed / (real)(1 << BOUND_BITS);
-    vreal ceiling = multiply_add(lesser(bound, splat(MOST_BOUND)), splat(scale), splat(R(1.0)));
+    vreal ceiling = multiply_add(lesser(bound, splat((real)HD_RADIANCE_LIMIT)), splat(view->bound_to_fixed),
+                                 splat(R(1.0)));
     sample->bound += truncate_to_fix(pick(m, ceiling, splat(R(0.0))));
 }
 

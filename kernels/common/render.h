@@ -96,10 +96,10 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     return alive;
 }
 
-/* A sample's bound; more than this says as little, and pixels may have many samples. */
-FN fixed64 saturated(fixed64 bound) {
-    const fixed64 most = (fixed64)1 << 48;
-    return bound < most ? bound : most;
+/* What a sample's bound adds to its pixel's; rounded up. */
+FN fixed64 shifted_bound(GLOBAL const View *view, fixed64 bound) {
+    const fixed64 below_one = ((fixed64)1 << view->bound_shift) - 1;
+    return (bound + below_one) >> view->bound_shift;
 }
 
 FN Sample empty_sample(void) {
@@ -134,7 +134,7 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
         sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
         if (SURVEYED(header)) {
-            sums[HD_RADIANCE_SUMS] += saturated(lane_fix(&sample->bound, lane));
+            sums[HD_RADIANCE_SUMS] += shifted_bound(view, lane_fix(&sample->bound, lane));
             sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
         }
         gathered->counts.mirrored += (uint64)lane_int(&sample->mirrored, lane);
@@ -178,8 +178,8 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             out[channel] = (float)((real)sums[channel] * view->from_fixed / samples);
         if (SURVEYED(header)) {
-            real one = (real)(1 << BOUND_BITS) / view->to_fixed;
-            out[HD_RADIANCE_SUMS] = (float)((real)sums[HD_RADIANCE_SUMS] * one / samples);
+            out[HD_RADIANCE_SUMS] =
+                (float)((real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed / samples);
             out[HD_RADIANCE_SUMS + 1] = (float)(sums[HD_RADIANCE_SUMS + 1] & HD_IDENTITY_MASK);
         }
     }

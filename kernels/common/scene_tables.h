@@ -196,7 +196,9 @@ typedef struct ALIGNED_16 {
     real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
     real bound_cutoff; /* of surveyed scenes: rays and lights that cannot add more than this to a
                           sample, after exposure, are left out; 0: none are */
-    real unused[3];
+    real bound_to_fixed;   /* 2^(fraction bits of a sample's bound) */
+    real bound_from_fixed; /* a pixel's sum times this is the sum of its samples' bounds */
+    real unused;
     int width, height;
     int samples; /* of a pixel */
     int grid_side;
@@ -204,7 +206,8 @@ typedef struct ALIGNED_16 {
     int listed;
     int depth;
     int pixel_shift; /* bits that a sample loses before it joins a pixel's sum */
-    int unused_int[3];
+    int bound_shift; /* likewise its bound */
+    int unused_int[2];
 } View;
 
 #define HD_ASSERT_SIZE(type, reals, ints)                                                          \
@@ -289,6 +292,10 @@ enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };
 typedef struct ALIGNED_16 {
     uint64 mirrored, transmitted, shadow_tests, clamps;
 } RayCounts;
+
+/* A contribution is cut to the first; so no ray of weight 1 adds more than the other, which is that
+   of each level of the deepest tree. After exposure. */
+enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMIT * 1001 };
 
 /* What is summed up for each pixel, and comes of it as floats: red, green, blue; of surveyed scenes
    also a bound of what was left out, after exposure, and a number that tells what the samples'

@@ -116,8 +116,11 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
-        for (int part = HD_RADIANCE_SUMS; SURVEYED(header) && part < HD_SURVEY_SUMS; part++)
-            pixel[part] += saturated(sums[(uint64)part * (uint64)sum_stride + (uint64)i]);
+        if (SURVEYED(header)) {
+            GLOBAL const fixed64 *survey = sums + HD_RADIANCE_SUMS * (uint64)sum_stride + (uint64)i;
+            pixel[HD_RADIANCE_SUMS] += shifted_bound(view, survey[0]);
+            pixel[HD_RADIANCE_SUMS + 1] += survey[sum_stride];
+        }
         left--;
         if (left == 0) {
             left = per_pixel;

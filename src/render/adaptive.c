@@ -359,7 +359,7 @@ static void fill_pixels(void *context, int first, int end) {
         const float *rgb = pixel->mean;
         float least = rgb[0] < rgb[1] ? rgb[0] : rgb[1];
         double darkest = (double)(least < rgb[2] ? least : rgb[2]);
-        r->steps[i] = hd_error_budget_steps(&r->surveyor.budget, (double)pixel->bound, darkest);
+        r->steps[i] = hd_missing_steps(r->curve, (double)pixel->bound, darkest);
         memcpy(filling->frame->rgb + 3 * (size_t)i, rgb, sizeof pixel->mean);
     }
 }

@@ -36,16 +36,14 @@ HdErrorBudget hd_error_budget(HdCurve curve) {
                                   : (HdErrorBudget){1.0 / 255.0, 0.0};
 }
 
-static double of_one_step(const HdErrorBudget *budget, double radiance) {
-    return budget->floor + budget->slope * (radiance > 0.0 ? radiance : 0.0);
-}
-
 double hd_error_budget_radiance(const HdErrorBudget *budget, double steps, double radiance) {
-    return steps * of_one_step(budget, radiance);
+    return steps * (budget->floor + budget->slope * (radiance > 0.0 ? radiance : 0.0));
 }
 
-double hd_error_budget_steps(const HdErrorBudget *budget, double missing, double radiance) {
-    return missing / of_one_step(budget, radiance);
+/* Curves grow slower the brighter it is. */
+double hd_missing_steps(HdCurve curve, double missing, double radiance) {
+    return 255.0 * (hd_curve_to_display(curve, radiance + missing) -
+                    hd_curve_to_display(curve, radiance));
 }
 
 void hd_surveyor_free(HdSurveyor *surveyor) {

@@ -25,8 +25,9 @@ HdErrorBudget hd_error_budget(HdCurve curve);
    has `radiance`, after exposure. */
 double hd_error_budget_radiance(const HdErrorBudget *budget, double steps, double radiance);
 
-/* The way back: by how many steps at most the picture is off where `missing` is missing. */
-double hd_error_budget_steps(const HdErrorBudget *budget, double missing, double radiance);
+/* By how many steps of 255 at most the picture is off where no more than `missing` is missing from
+   any channel of such a pixel. */
+double hd_missing_steps(HdCurve curve, double missing, double radiance);
 
 /* Samples of a pixel that follow each other in the set: their means. */
 typedef struct HdSurvey {

@@ -125,12 +125,21 @@ static double bound_of_channel(double last, double own, double without_end) {
     return endless_too < all_levels ? endless_too : all_levels;
 }
 
-HdVec3 hd_radiance_bound(const HdScene *scene) {
+static Bounding bound_surfaces(const HdScene *scene) {
     Bounding bounding = {.light = hd_light_bound(scene)};
+    visit_materials(scene, bound_material, &bounding);
+    return bounding;
+}
+
+HdVec3 hd_surface_bound(const HdScene *scene) {
+    return hd_scale(bound_surfaces(scene).own, MARGIN);
+}
+
+HdVec3 hd_radiance_bound(const HdScene *scene) {
+    Bounding bounding = bound_surfaces(scene);
     HdVec3 last = scene->background;
     for (int s = 0; s < scene->solid_count; s++)
         last = greater3(last, disc_bound(&scene->solids[s]));
-    visit_materials(scene, bound_material, &bounding);
     return hd_scale((HdVec3){bound_of_channel(last.x, bounding.own.x, bounding.endless.x),
                              bound_of_channel(last.y, bounding.own.y, bounding.endless.y),
                              bound_of_channel(last.z, bounding.own.z, bounding.endless.z)},

@@ -9,6 +9,9 @@
 /* The intensities of all lights, added up: no point gets more light. */
 HdVec3 hd_light_bound(const HdScene *scene);
 
+/* No surface shows more by itself: lit by all lights, as near and as upright as can be. */
+HdVec3 hd_surface_bound(const HdScene *scene);
+
 /* No ray sees more radiance, however deep its tree of rays, up to HD_MAX_DEPTH. A surface that
    shows at most s by itself and sends on a share q of what its rays see shows at most s / (1 - q)
    where all that it sees does likewise, unless background or discs show more; and never more than

@@ -656,7 +656,7 @@ static Ends ends_below(real bound_cutoff) {
     Ends ends = {.sample = empty_sample()};
     ends.header.surveyed = 1;
     ends.header.exposure = R(2.0);
-    ends.view.to_fixed = R(65536.0);
+    ends.view.bound_to_fixed = R(16384.0);
     ends.view.depth = 5;
     ends.view.bound_cutoff = bound_cutoff;
     ends.alive = ~eq_int(lane_numbers(), splat_int(DEAD_LANE));
