@@ -40,8 +40,8 @@ FN vreal greatest_component(Vec3 a) {
 /* Adds to the bound of what was left out, in the lanes of `m`; rounded up. No ray adds more than
    HD_RADIANCE_LIMIT. */
 FN void add_to_bound(SCENE_PARAMETERS Sample *sample, vmask m, vreal bound) {
-    vreal ceiling = multiply_add(lesser(bound, splat((real)HD_RADIANCE_LIMIT)), splat(view->bound_to_fixed),
-                                 splat(R(1.0)));
+    vreal ceiling = multiply_add(lesser(bound, splat((real)HD_RADIANCE_LIMIT)),
+                                 splat(view->bound_to_fixed), splat(R(1.0)));
     sample->bound += truncate_to_fix(pick(m, ceiling, splat(R(0.0))));
 }
 

@@ -194,9 +194,9 @@ typedef struct ALIGNED_16 {
     real forward[3], cutoff;
     real right[3], to_fixed;  /* 2^(fraction bits of a sample) */
     real down[3], from_fixed; /* a pixel's sum times this is the sum of its samples' radiance */
-    real bound_cutoff; /* of surveyed scenes: rays and lights that cannot add more than this to a
-                          sample, after exposure, are left out; 0: none are */
-    real bound_to_fixed;   /* 2^(fraction bits of a sample's bound) */
+    real bound_cutoff;   /* of surveyed scenes: rays and lights that cannot add more than this to a
+                            sample, after exposure, are left out; 0: none are */
+    real bound_to_fixed; /* 2^(fraction bits of a sample's bound) */
     real bound_from_fixed; /* a pixel's sum times this is the sum of its samples' bounds */
     real unused;
     int width, height;

@@ -10,6 +10,7 @@
 #include "input/check.h"
 #include "input/load.h"
 #include "render/survey.h"
+#include "scene/contact.h"
 #include "scene/triangulate/scene.h"
 #include "system/interrupt.h"
 
@@ -182,6 +183,7 @@ HdStatus hd_apply_geometry(HdScene *scene, const HdOptions *options, HdError *er
     scene->accel = options->accel;
     if (options->geometry == HD_GEOMETRY_SOLIDS && options->divisions > 0)
         return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
+    hd_scene_part_contacts(scene);
     if (options->geometry == HD_GEOMETRY_SOLIDS)
         return HD_OK;
     return hd_scene_triangulate(scene, DISC_SIDES, divisions, error);

@@ -2,10 +2,12 @@
 #include "input/notes.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "image/file_kind.h"
 #include "scene/camera.h"
+#include "scene/contact.h"
 
 /* Degrees. Every angle in radians is less. */
 static const double narrow_field_of_view = 5.0;
@@ -86,6 +88,61 @@ static void note_eye_below_floor(const HdScene *scene, HdProblems *notes) {
         hd_problem(notes, "camera.eye is below the floor in frame 0");
 }
 
+/* Pairs of one kind, of which the first one is named. */
+typedef struct Pairs {
+    int count, solid;
+    char other[32];
+} Pairs;
+
+static void count_pair(Pairs *pairs, int solid, const char *what, int other) {
+    if (pairs->count++ > 0)
+        return;
+    pairs->solid = solid;
+    snprintf(pairs->other, sizeof pairs->other, "%s", what);
+    if (other >= 0)
+        snprintf(pairs->other, sizeof pairs->other, "%s[%d]", what, other);
+}
+
+static void count_contact(HdContact contact, int solid, const char *what, int other,
+                          Pairs *touching, Pairs *overlapping) {
+    if (hd_contact_coincides(contact))
+        count_pair(touching, solid, what, other);
+    if (contact == HD_CONTACT_OVERLAPS || contact == HD_CONTACT_SHARES)
+        count_pair(overlapping, solid, what, other);
+}
+
+/* ", the first of 3 such pairs" */
+static const char *others_of(const Pairs *pairs, char out[48]) {
+    snprintf(out, 48, ", the first of %d such pairs", pairs->count);
+    return pairs->count > 1 ? out : "";
+}
+
+static void note_contacts(const HdScene *scene, HdProblems *notes) {
+    Pairs touching = {0}, overlapping = {0};
+    char others[48];
+    for (int i = 0; i < scene->solid_count; i++) {
+        const HdSolid *solid = &scene->solids[i];
+        for (int j = 0; j < i; j++)
+            count_contact(hd_solids_contact(&scene->solids[j], solid), i, "solids", j, &touching,
+                          &overlapping);
+        if (scene->floor.present)
+            count_contact(hd_floor_contact(solid, &scene->floor), i, "the floor", -1, &touching,
+                          &overlapping);
+        for (int j = 0; j < scene->light_count; j++)
+            count_contact(hd_light_contact(solid, scene->lights[j].position), i, "lights", j,
+                          &touching, &overlapping);
+    }
+    if (touching.count > 0)
+        hd_problem(
+            notes,
+            "solids[%d] touches %s%s: it is drawn smaller by a millionth or so, lest rounding "
+            "decide which is in front",
+            touching.solid, touching.other, others_of(&touching, others));
+    if (overlapping.count > 0)
+        hd_problem(notes, "solids[%d] overlaps %s%s: each has all of its faces there",
+                   overlapping.solid, overlapping.other, others_of(&overlapping, others));
+}
+
 void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     if (!gives_light(scene))
         hd_problem(notes, "every picture is black: there is no light, no ambient material, no disc "
@@ -96,6 +153,7 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     note_eye_below_floor(scene, notes);
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);
+    note_contacts(scene, notes);
 }
 
 void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems) {

@@ -42,8 +42,8 @@ double hd_error_budget_radiance(const HdErrorBudget *budget, double steps, doubl
 
 /* Curves grow slower the brighter it is. */
 double hd_missing_steps(HdCurve curve, double missing, double radiance) {
-    return 255.0 * (hd_curve_to_display(curve, radiance + missing) -
-                    hd_curve_to_display(curve, radiance));
+    return 255.0 *
+           (hd_curve_to_display(curve, radiance + missing) - hd_curve_to_display(curve, radiance));
 }
 
 void hd_surveyor_free(HdSurveyor *surveyor) {

@@ -114,34 +114,59 @@ static bool try_edges(Pair *pair) {
     return true;
 }
 
-static double overlap(const Body *a, const Body *b) {
-    static const double touch = 1e-9;
-    static const double rounding = 1e-15;
-    const double extent = hd_length(a->centre) + a->radius + hd_length(b->centre) + b->radius;
+static double depth_of(const Body *a, const Body *b, double least) {
     Pair pair = {.a = a,
                  .b = b,
                  .offset = hd_sub(b->centre, a->centre),
-                 .touch = touch * fmin(a->radius, b->radius) + rounding * extent,
+                 .touch = least,
                  .depth = (double)INFINITY};
     const bool deep =
         try_normals(&pair, &a->normals) && try_normals(&pair, &b->normals) && try_edges(&pair);
-    return deep ? pair.depth : 0.0;
+    return deep ? pair.depth : least;
+}
+
+static bool are_far_apart(const HdSolid *solid, HdVec3 centre, double radius, double least) {
+    return hd_length(hd_sub(solid->centre, centre)) >= solid->circumradius + radius - least;
+}
+
+double hd_solid_depth(const HdSolid *a, const HdSolid *b, double least) {
+    Body body_a, body_b;
+    if (are_far_apart(a, b->centre, b->circumradius, least))
+        return least;
+    body_of_solid(&body_a, a);
+    body_of_solid(&body_b, b);
+    return depth_of(&body_a, &body_b, least);
+}
+
+double hd_floor_depth(const HdSolid *solid, const HdFloor *floor, double least) {
+    Body body_a, body_b;
+    body_of_floor(&body_b, floor);
+    if (are_far_apart(solid, body_b.centre, body_b.radius, least))
+        return least;
+    body_of_solid(&body_a, solid);
+    return depth_of(&body_a, &body_b, least);
+}
+
+/* What counts as touching still. */
+static double touch_of(HdVec3 centre_a, double radius_a, HdVec3 centre_b, double radius_b) {
+    static const double touch = 1e-9;
+    static const double rounding = 1e-15;
+    const double extent = hd_length(centre_a) + radius_a + hd_length(centre_b) + radius_b;
+    return touch * fmin(radius_a, radius_b) + rounding * extent;
+}
+
+static double overlap_of(double depth, double touch) {
+    return depth > touch ? depth : 0.0;
 }
 
 double hd_solid_overlap(const HdSolid *a, const HdSolid *b) {
-    Body body_a, body_b;
-    if (hd_length(hd_sub(a->centre, b->centre)) >= a->circumradius + b->circumradius)
-        return 0.0;
-    body_of_solid(&body_a, a);
-    body_of_solid(&body_b, b);
-    return overlap(&body_a, &body_b);
+    const double touch = touch_of(a->centre, a->circumradius, b->centre, b->circumradius);
+    return overlap_of(hd_solid_depth(a, b, touch), touch);
 }
 
 double hd_floor_overlap(const HdSolid *solid, const HdFloor *floor) {
-    Body body_a, body_b;
-    body_of_floor(&body_b, floor);
-    if (hd_length(hd_sub(solid->centre, body_b.centre)) >= solid->circumradius + body_b.radius)
-        return 0.0;
-    body_of_solid(&body_a, solid);
-    return overlap(&body_a, &body_b);
+    Body body;
+    body_of_floor(&body, floor);
+    const double touch = touch_of(solid->centre, solid->circumradius, body.centre, body.radius);
+    return overlap_of(hd_floor_depth(solid, floor, touch), touch);
 }

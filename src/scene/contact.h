@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* Solids that touch: each other, the floor or a light. Where faces coincide, rounding alone would
+   say which of them a ray meets first. */
+#ifndef HD_SCENE_CONTACT_H
+#define HD_SCENE_CONTACT_H
+
+#include "scene/scene.h"
+
+typedef enum HdContact {
+    HD_CONTACT_NONE,
+    HD_CONTACT_TOUCHES,  /* without lying in each other */
+    HD_CONTACT_OVERLAPS, /* no faces coincide */
+    HD_CONTACT_SHARES    /* they overlap, and faces, or parts of them, coincide */
+} HdContact;
+
+/* How two solids, and a solid and the floor, lie to each other. What is nearer than 2^-21 of their
+   radii and of the distance of their centres counts as the same place. */
+HdContact hd_solids_contact(const HdSolid *a, const HdSolid *b);
+HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor);
+/* A light may touch a solid, and nothing else. */
+HdContact hd_light_contact(const HdSolid *solid, HdVec3 light);
+
+/* Whether anything of the two is in the same place. */
+bool hd_contact_coincides(HdContact contact);
+
+/* Draws apart what touches, of a valid scene: solids shrink about their centres, so that faces that
+   coincided have a gap of at least 2^-21 of what is said above, some 5e-7, which no picture shows.
+   The order of the scene decides: each solid shrinks by as many steps of 2^-20 as it takes to
+   differ from the floor, which does not move, from lights on its faces, and from earlier solids. A
+   solid that would shrink by more than a 1024th stays as it is. */
+void hd_scene_part_contacts(HdScene *scene);
+
+#endif
