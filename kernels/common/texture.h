@@ -92,7 +92,7 @@ FN vreal repeat(vreal u, int texels) {
     vreal at = multiply_add(part, whole, splat(R(-0.5)));
     at = pick(lt(at, zero), at + whole, at);
     /* Lanes that are off may hold anything. */
-    return lesser(greater(at, zero), whole - splat(R(0.5)));
+    return lesser(greater(at, zero), whole);
 }
 
 /* The same of a texture that ends. */
@@ -112,7 +112,9 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
         x = repeat(u, picture->width);
         y = repeat(v, picture->height);
     }
-    vint column = to_int(x), row = to_int(y);
+    /* Rounding may have put a coordinate at the end, where the first texel follows the last one. */
+    vint column = least_int(to_int(x), splat_int(picture->width - 1));
+    vint row = least_int(to_int(y), splat_int(picture->height - 1));
     int stride = picture->width + 1;
     vint place = row * stride + column + picture->first_texel;
     return blend_texels(texels, place, place + stride, x - to_real(column), y - to_real(row));

@@ -30,12 +30,14 @@ static void fill_triangles(const HdBuilder *builder, const HdMesh *mesh, const H
     }
 }
 
+/* A triangle that lacks one of its corners' has none. */
 static void fill_corners(int *out, const HdMesh *mesh, int32_t (*const corners)[3], int first) {
-    for (int i = 0; i < mesh->triangle_count; i++)
-        for (int k = 0; k < 3; k++) {
-            int32_t corner = corners[triangle_in_order(mesh, i)][k];
-            *out++ = corner < 0 ? -1 : first + corner;
-        }
+    for (int i = 0; i < mesh->triangle_count; i++) {
+        const int32_t *corner = corners[triangle_in_order(mesh, i)];
+        bool is_whole = corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0;
+        for (int k = 0; k < 3; k++)
+            *out++ = is_whole ? first + corner[k] : -1;
+    }
 }
 
 static void fill_normals_and_uvs(const HdBuilder *builder, const HdMesh *mesh,

@@ -631,6 +631,12 @@ static void pictures_repeat_or_end(void **state) {
     CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(11000.0), 1.0);
     c = sample_picture(&repeats, texels, splat(R(1.0)), splat(R(0.25))); /* between 3 and 0 */
     CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(15000.0), 1.0);
+    c = sample_picture(&repeats, texels, splat(R(1.0625)), splat(R(0.25))); /* nearer to 0 */
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(7500.0), 1.0);
+    c = sample_picture(&repeats, texels, splat(R(0.125)), splat(R(1.125)));
+    CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(250.0), 1.0);
+    c = sample_picture(&repeats, texels, splat(R(0.125) - R(1e-9)), splat(R(0.25) - R(1e-9)));
+    CLOSE(lane_real(&c.x, 0), 0.0);
     c = sample_picture(&repeats, texels, splat(R(0.125)), splat(R(0.0)));
     CLOSE(lane_real(&c.x, 0) * R(65535.0) / R(500.0), 1.0);
     c = sample_picture(&ends, texels, splat(R(1.0)), splat(R(1.0)));
