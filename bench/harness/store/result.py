@@ -54,7 +54,7 @@ def read(file, bench):
 
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
         "bounds", "accuracy", "stability")
-KEPT = ("date", "bounds", "accuracy", "stability")  # what goes on with the measurements
+KEPT = ("date", "bounds", "accuracy", "stability", "promise")  # what goes on with the measurements
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
 IDENTITY = ("part", "series", "x", "device", "scene", "options", "frames", "output", "warm_up", "scale", "cold")
@@ -90,7 +90,7 @@ def merge(old, new, entries, parts, order):
         known = {identity(entry): entry for entry in old["measurements"]}
         entries = [known.get(identity(entry), entry) for entry in entries]
         entries += [entry for entry in old["measurements"] if entry["part"] not in parts]
-        new.update({key: old[key] for key in KEPT})
+        new.update({key: old[key] for key in KEPT if key in old})
         new["machine"] = {**old["machine"], "name": new["machine"]["name"] or old["machine"]["name"]}
     new["machine"]["name"] = new["machine"]["name"] or new["machine"]["cpu"]
     before = old or {"parts": [], "done": [], "left_out": {}, "failed": {}}
