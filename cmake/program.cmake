@@ -19,7 +19,7 @@ add_library(hedron_program STATIC
     src/cli/options.c
     src/cli/progress.c
     src/cli/rendering.c
-    src/cli/notes.c
+    src/cli/console.c
     src/cli/statistics.c)
 target_include_directories(hedron_program SYSTEM PUBLIC ${JANSSON_INCLUDE_DIR})
 target_link_libraries(hedron_program PUBLIC hedron_scene_file ${JANSSON_LIBRARY})

@@ -3,136 +3,119 @@
 #include "choice/fastest_device.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "choice/launch.h"
+#include "choice/record.h"
 #include "device/loss.h"
-#include "system/cache_folder.h"
 
-enum { MAX_COMPARED = 16, KEY_LENGTH = 1 << 14, WHY_LENGTH = 1024, NOTE_LENGTH = 2048 };
+enum { MAX_COMPARED = 16, DEVICES_LENGTH = 1 << 14 };
 
 static const char record_kind[] = "choice";
 
 typedef struct Choosing {
-    const HdAutoChoice *choice;
+    HdCandidates *candidates;
     int compared;
     double seconds[MAX_COMPARED]; /* for the same picture; infinite: it failed */
-    bool failed[MAX_COMPARED];
-    int best;             /* -1: none yet */
-    HdRenderer *renderer; /* of the best, where it was measured */
-    char *why, *note;
+    int best;                     /* -1: none yet; open where it was measured */
 } Choosing;
+
+static bool is_faster(const Choosing *choosing, int index) {
+    return isfinite(choosing->seconds[index]) &&
+           (choosing->best < 0 || choosing->seconds[index] < choosing->seconds[choosing->best]);
+}
 
 /* ---- the record of an earlier measurement ---- */
 
-static void write_key(const Choosing *choosing, char key[KEY_LENGTH]) {
-    const HdAutoChoice *choice = choosing->choice;
-    hd_job_kind(choice->job->scene, choice->options, key, KEY_LENGTH);
-    size_t length = strlen(key);
-    for (int i = 0; i < choosing->compared && length < KEY_LENGTH; i++) {
-        const HdDevice *device = &choice->candidates[i];
-        length +=
-            (size_t)snprintf(key + length, KEY_LENGTH - length, "%s %d %s (%s)\n",
-                             device->backend->name, device->index, device->name, device->driver);
+static void write_devices(const Choosing *choosing, char text[DEVICES_LENGTH]) {
+    int length = 0;
+    for (int i = 0; i < choosing->compared && length < DEVICES_LENGTH; i++) {
+        const HdDevice *device = &choosing->candidates->list[i].device;
+        length += snprintf(text + length, (size_t)(DEVICES_LENGTH - length), "%s %d %s (%s)\n",
+                           device->backend->name, device->index, device->name, device->driver);
     }
 }
 
 static void write_record(const Choosing *choosing) {
-    char key[KEY_LENGTH], text[MAX_COMPARED * 32] = "";
+    const HdDeviceWish *wish = &choosing->candidates->wish;
+    char devices[DEVICES_LENGTH], text[MAX_COMPARED * 32] = "";
     size_t length = 0;
     HdError ignored; /* next time it is measured again */
-    write_key(choosing, key);
     for (int i = 0; i < choosing->compared && length < sizeof text; i++)
         length += (size_t)snprintf(text + length, sizeof text - length, "%.9f\n",
-                                   choosing->failed[i] ? -1.0 : choosing->seconds[i]);
-    hd_cache_put_text(record_kind, key, text, &ignored);
-}
-
-static void find_best(Choosing *choosing) {
-    choosing->best = -1;
-    for (int i = 0; i < choosing->compared; i++)
-        if (!choosing->failed[i] &&
-            (choosing->best < 0 || choosing->seconds[i] < choosing->seconds[choosing->best]))
-            choosing->best = i;
+                                   isfinite(choosing->seconds[i]) ? choosing->seconds[i] : -1.0);
+    write_devices(choosing, devices);
+    hd_record_put(record_kind, wish->job->scene, wish->options, devices, text, &ignored);
 }
 
 /* False where there is no record, or one that makes no sense. */
 static bool read_record(Choosing *choosing) {
-    char key[KEY_LENGTH], text[MAX_COMPARED * 32];
-    HdError ignored;
-    write_key(choosing, key);
-    if (hd_cache_get_text(record_kind, key, text, sizeof text, &ignored) != HD_OK)
+    const HdDeviceWish *wish = &choosing->candidates->wish;
+    char devices[DEVICES_LENGTH], text[MAX_COMPARED * 32];
+    write_devices(choosing, devices);
+    if (!hd_record_get(record_kind, wish->job->scene, wish->options, devices, text, sizeof text))
         return false;
     char *line = text, *end = text;
     for (int i = 0; i < choosing->compared; i++, line = end) {
-        choosing->seconds[i] = strtod(line, &end);
-        if (end == line || !isfinite(choosing->seconds[i]))
+        double seconds = strtod(line, &end);
+        if (end == line || !isfinite(seconds))
             return false;
-        choosing->failed[i] = choosing->seconds[i] <= 0.0;
+        choosing->seconds[i] = seconds > 0.0 ? seconds : (double)INFINITY;
+        if (is_faster(choosing, i))
+            choosing->best = i;
     }
-    find_best(choosing);
     return choosing->best >= 0;
 }
 
 /* ---- reasons ---- */
 
 static void explain_speed(const Choosing *choosing, const char *when) {
-    const HdAutoChoice *choice = choosing->choice;
-    int length = snprintf(choosing->why, WHY_LENGTH, "the fastest of %d on this kind of scene%s",
+    const HdTeamDevice *list = choosing->candidates->list;
+    char *why = choosing->candidates->why;
+    const int room = sizeof choosing->candidates->why;
+    int length = snprintf(why, (size_t)room, "the fastest of %d on this kind of scene%s",
                           choosing->compared, when);
-    for (int i = 0; i < choosing->compared && length < WHY_LENGTH; i++)
-        if (i != choosing->best && !choosing->failed[i])
-            length += snprintf(choosing->why + length, (size_t)(WHY_LENGTH - length),
-                               ", %.3g ms against %.3g ms (%s %d)",
-                               1e3 * choosing->seconds[choosing->best], 1e3 * choosing->seconds[i],
-                               choice->candidates[i].backend->name, choice->candidates[i].index);
+    for (int i = 0; i < choosing->compared && length < room; i++)
+        if (i != choosing->best && isfinite(choosing->seconds[i]))
+            length +=
+                snprintf(why + length, (size_t)(room - length), ", %.3g ms against %.3g ms (%s %d)",
+                         1e3 * choosing->seconds[choosing->best], 1e3 * choosing->seconds[i],
+                         list[i].device.backend->name, list[i].device.index);
 }
 
-static void note_failure(const Choosing *choosing, const char *message) {
-    size_t length = strlen(choosing->note);
-    snprintf(choosing->note + length, NOTE_LENGTH - length, "%s%.600s", length > 0 ? "; " : "",
-             message);
+static void note_failure(HdCandidates *candidates, const char *message) {
+    size_t length = strlen(candidates->note);
+    snprintf(candidates->note + length, sizeof candidates->note - length, "%s%.600s",
+             length > 0 ? "; " : "", message);
 }
 
 /* ---- measuring ---- */
 
 /* So small a picture that plain C renders it in a tenth of a second. */
-static double share_to_measure(const HdAutoChoice *choice) {
+static double share_to_measure(const HdCandidates *candidates) {
     const double seconds = 0.1;
-    return choice->frame_seconds > seconds ? seconds / choice->frame_seconds : 1.0;
+    return candidates->frame_seconds > seconds ? seconds / candidates->frame_seconds : 1.0;
 }
 
-static HdStatus open_trial(HdRenderer **renderer, const HdAutoChoice *choice, int index,
-                           HdError *error) {
-    const HdDevice *device = &choice->candidates[index];
-    HdRenderOptions options =
-        hd_launch_remembered_options(device, choice->options, choice->job->scene);
-    return hd_trial_open(renderer, device, &options, choice->job, error);
-}
-
-/* The first of two frames warms up. */
+/* The first of two frames warms up. The fastest so far stays open. */
 static HdStatus measure_one(Choosing *choosing, int index, HdError *error) {
-    const HdAutoChoice *choice = choosing->choice;
-    HdRenderer *renderer = NULL;
+    HdCandidates *candidates = choosing->candidates;
+    const HdDeviceWish *wish = &candidates->wish;
+    HdTeamDevice *member = &candidates->list[index];
     HdTrialTime time;
-    HdStatus status = open_trial(&renderer, choice, index, error);
+    HdStatus status = hd_launch_open(member, wish->options, wish->job, true, error);
     if (status == HD_OK)
-        status = hd_trial_measure(renderer, choice->options->precision, choice->job,
-                                  share_to_measure(choice), 2, &time, error);
-    choosing->failed[index] = status != HD_OK;
-    if (status == HD_OK)
-        choosing->seconds[index] = time.seconds;
-    int before = choosing->best;
-    if (status == HD_OK && (before < 0 || choosing->seconds[index] < choosing->seconds[before])) {
-        HdRenderer *slower = choosing->renderer;
-        choosing->renderer = renderer;
+        status = hd_trial_measure(member->renderer, wish->options->precision, wish->job,
+                                  share_to_measure(candidates), 2, &time, error);
+    choosing->seconds[index] = status == HD_OK ? time.seconds : (double)INFINITY;
+    int slower = index;
+    if (is_faster(choosing, index)) {
+        slower = choosing->best;
         choosing->best = index;
-        renderer = slower;
     }
-    hd_renderer_close(renderer);
+    if (slower >= 0)
+        hd_launch_close(&candidates->list[slower]);
     return status;
 }
 
@@ -144,7 +127,7 @@ static HdStatus measure_all(Choosing *choosing, HdError *error) {
         if (status == HD_INTERRUPTED || status == HD_BAD_INPUT)
             return status;
         if (status != HD_OK)
-            note_failure(choosing, error->message);
+            note_failure(choosing->candidates, error->message);
         bool is_passing = status == HD_FAILED || (status != HD_OK && hd_is_loss(error));
         is_lasting = is_lasting && !is_passing;
     }
@@ -160,14 +143,14 @@ static HdStatus measure_all(Choosing *choosing, HdError *error) {
 
 static int find_plain_c(const Choosing *choosing) {
     for (int i = 0; i < choosing->compared; i++)
-        if (choosing->choice->candidates[i].backend->needs_no_driver)
+        if (choosing->candidates->list[i].device.backend->needs_no_driver)
             return i;
     return -1;
 }
 
 static HdStatus choose(Choosing *choosing, HdError *error) {
-    const HdAutoChoice *choice = choosing->choice;
-    double seconds = choice->frame_seconds * choice->job->frame_count;
+    HdCandidates *candidates = choosing->candidates;
+    double seconds = candidates->frame_seconds * candidates->wish.job->frame_count;
     if (choosing->compared < 2)
         return HD_OK;
     if (read_record(choosing)) {
@@ -179,57 +162,45 @@ static HdStatus choose(Choosing *choosing, HdError *error) {
         return measure_all(choosing, error);
     choosing->best = find_plain_c(choosing);
     if (choosing->best >= 0)
-        snprintf(choosing->why, WHY_LENGTH,
+        snprintf(candidates->why, sizeof candidates->why,
                  "it needs about %.2g s, too little to measure other devices for", seconds);
     return HD_OK;
 }
 
-/* Kernels that are compiled for the scene must prove themselves first; those compiled ahead get it
-   when it is rendered. */
-static HdStatus open_candidate(Choosing *choosing, int index, HdError *error) {
-    const HdAutoChoice *choice = choosing->choice;
-    const HdDevice *device = &choice->candidates[index];
-    if (device->backend->kernels == NULL)
-        return hd_launch_open(&choosing->renderer, device, choice->options, choice->job->scene,
-                              error);
-    return open_trial(&choosing->renderer, choice, index, error);
-}
-
-/* The candidate, else those that follow it, else those before it. */
+/* The best, else those that follow it, else those before it. Kernels that are compiled for the
+   scene must prove themselves first; those compiled ahead get it when it is rendered. */
 static HdStatus open_next(Choosing *choosing, HdError *error) {
-    const HdAutoChoice *choice = choosing->choice;
-    int first = choosing->best >= 0 ? choosing->best : 0;
+    HdCandidates *candidates = choosing->candidates;
+    const HdDeviceWish *wish = &candidates->wish;
+    const int first = choosing->best >= 0 ? choosing->best : 0;
+    const int tries = candidates->is_free ? candidates->count : 1;
     HdStatus status = HD_UNAVAILABLE;
-    for (int i = 0; status == HD_UNAVAILABLE && i < choice->count; i++) {
-        choosing->best = (first + i) % choice->count;
-        status = open_candidate(choosing, choosing->best, error);
+    for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {
+        choosing->best = (first + i) % candidates->count;
+        HdTeamDevice *member = &candidates->list[choosing->best];
+        bool is_proven = candidates->is_free && member->device.backend->kernels != NULL;
+        status = hd_launch_open(member, wish->options, wish->job, is_proven, error);
         if (status == HD_UNAVAILABLE)
-            note_failure(choosing, error->message);
-        if (status == HD_UNAVAILABLE || i > 0)
-            snprintf(choosing->why, WHY_LENGTH, "the next after one that cannot be used");
+            note_failure(candidates, error->message);
+        if (i > 0 && candidates->compared > 0)
+            snprintf(candidates->why, sizeof candidates->why,
+                     "the next after one that cannot be used");
     }
     return status;
 }
 
-HdStatus hd_auto_open(HdRenderer **renderer, HdDevice *device, const HdAutoChoice *choice,
-                      char why[1024], char note[2048], HdError *error) {
+HdStatus hd_fastest_open(HdCandidates *candidates, HdTeamDevice *opened, HdError *error) {
     Choosing choosing = {
-        .choice = choice,
-        .compared = choice->measured < MAX_COMPARED ? choice->measured : MAX_COMPARED,
+        .candidates = candidates,
+        .compared = candidates->compared < MAX_COMPARED ? candidates->compared : MAX_COMPARED,
         .best = -1,
-        .why = why,
-        .note = note,
     };
-    why[0] = note[0] = '\0';
-    *renderer = NULL;
     HdStatus status = choose(&choosing, error);
-    if (status == HD_OK && choosing.renderer == NULL)
+    if (status == HD_OK && (choosing.best < 0 || candidates->list[choosing.best].renderer == NULL))
         status = open_next(&choosing, error);
-    if (status != HD_OK) {
-        hd_renderer_close(choosing.renderer);
-        return status;
-    }
-    *renderer = choosing.renderer;
-    *device = choice->candidates[choosing.best];
-    return HD_OK;
+    if (status == HD_OK)
+        *opened = candidates->list[choosing.best];
+    else if (choosing.best >= 0)
+        hd_launch_close(&candidates->list[choosing.best]);
+    return status;
 }

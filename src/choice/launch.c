@@ -4,11 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "choice/trial.h"
+#include "choice/record.h"
 #include "device/pipeline.h"
-#include "system/cache_folder.h"
 
-enum { KEY_LENGTH = HD_JOB_KIND_LENGTH + 640, RECORD_LENGTH = 96 };
+enum { DEVICE_LENGTH = 640, RECORD_LENGTH = 96 };
 
 static const char record_kind[] = "launch";
 static const char record_form[] = "pipeline %d, lanes %d, block %d, grid %d, registers %d\n";
@@ -57,21 +56,18 @@ void hd_launch_describe(const HdLaunch *launch, char *text, int capacity) {
 }
 
 /* Devices of one name and driver are alike, whatever their numbers. */
-static void write_key(char key[KEY_LENGTH], const HdDevice *device, const HdRenderOptions *options,
-                      const HdScene *scene) {
-    hd_job_kind(scene, options, key, KEY_LENGTH);
-    size_t length = strlen(key);
-    snprintf(key + length, KEY_LENGTH - length, "%s %s (%s)\n", device->backend->name, device->name,
+static void write_device(const HdDevice *device, char text[DEVICE_LENGTH]) {
+    snprintf(text, DEVICE_LENGTH, "%s %s (%s)\n", device->backend->name, device->name,
              device->driver);
 }
 
 HdStatus hd_launch_remember(const HdDevice *device, const HdRenderOptions *options,
                             const HdScene *scene, const HdLaunch *launch, HdError *error) {
-    char key[KEY_LENGTH], text[RECORD_LENGTH];
-    write_key(key, device, options, scene);
+    char devices[DEVICE_LENGTH], text[RECORD_LENGTH];
+    write_device(device, devices);
     snprintf(text, sizeof text, record_form, (int)launch->pipeline, launch->lanes, launch->block,
              launch->grid, launch->registers);
-    return hd_cache_put_text(record_kind, key, text, error);
+    return hd_record_put(record_kind, scene, options, devices, text, error);
 }
 
 static bool keeps(int given, int chosen) {
@@ -103,29 +99,28 @@ static bool makes_sense(const HdLaunch *launch, const HdDevice *device,
 
 bool hd_launch_recall(HdLaunch *launch, const HdDevice *device, const HdRenderOptions *options,
                       const HdScene *scene) {
-    char key[KEY_LENGTH], text[RECORD_LENGTH];
+    char devices[DEVICE_LENGTH], text[RECORD_LENGTH];
     HdLaunch found;
-    HdError ignored;
     *launch = hd_launch_of(options);
-    write_key(key, device, options, scene);
-    if (hd_cache_get_text(record_kind, key, text, sizeof text, &ignored) != HD_OK ||
+    write_device(device, devices);
+    if (!hd_record_get(record_kind, scene, options, devices, text, sizeof text) ||
         !parse(&found, text) || !makes_sense(&found, device, options))
         return false;
     *launch = found;
     return true;
 }
 
-HdRenderOptions hd_launch_remembered_options(const HdDevice *device, const HdRenderOptions *options,
-                                             const HdScene *scene) {
-    HdLaunch launch;
-    hd_launch_recall(&launch, device, options, scene);
-    HdRenderOptions changed = hd_launch_options(options, &launch);
-    changed.pipeline = hd_choose_pipeline(device, &changed, scene);
-    return changed;
+HdStatus hd_launch_open(HdTeamDevice *member, const HdRenderOptions *options, const HdJob *job,
+                        bool gets_scene, HdError *error) {
+    const HdDevice *device = &member->device;
+    member->is_tuned = hd_launch_recall(&member->launch, device, options, job->scene);
+    HdRenderOptions changed = hd_launch_options(options, &member->launch);
+    changed.pipeline = hd_choose_pipeline(device, &changed, job->scene);
+    return gets_scene ? hd_trial_open(&member->renderer, device, &changed, job, error)
+                      : hd_renderer_open(&member->renderer, device, &changed, error);
 }
 
-HdStatus hd_launch_open(HdRenderer **renderer, const HdDevice *device,
-                        const HdRenderOptions *options, const HdScene *scene, HdError *error) {
-    HdRenderOptions remembered = hd_launch_remembered_options(device, options, scene);
-    return hd_renderer_open(renderer, device, &remembered, error);
+void hd_launch_close(HdTeamDevice *member) {
+    hd_renderer_close(member->renderer);
+    member->renderer = NULL;
 }

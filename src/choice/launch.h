@@ -5,8 +5,7 @@
 
 #include <stdbool.h>
 
-#include "device/renderer.h"
-#include "scene/scene.h"
+#include "choice/trial.h"
 
 /* As in HdRenderOptions: 0 and HD_PIPELINE_AUTO stand for what suits the device. */
 typedef struct HdLaunch {
@@ -24,8 +23,8 @@ HdRenderOptions hd_launch_options(const HdRenderOptions *options, const HdLaunch
    chosen. */
 void hd_launch_describe(const HdLaunch *launch, char *text, int capacity);
 
-/* Stores the choice in the cache folder (cache_folder.h) for later jobs of this kind (trial.h)
-   on such a device, with the same driver, that leave the same open. Errors as hd_cache_put. */
+/* Remembers the choice (record.h) for later jobs alike on such a device, with the same driver, that
+   leave the same open. */
 HdStatus hd_launch_remember(const HdDevice *device, const HdRenderOptions *options,
                             const HdScene *scene, const HdLaunch *launch, HdError *error);
 
@@ -34,12 +33,20 @@ HdStatus hd_launch_remember(const HdDevice *device, const HdRenderOptions *optio
 bool hd_launch_recall(HdLaunch *launch, const HdDevice *device, const HdRenderOptions *options,
                       const HdScene *scene);
 
-/* The options with what is remembered for them, if anything is. */
-HdRenderOptions hd_launch_remembered_options(const HdDevice *device, const HdRenderOptions *options,
-                                             const HdScene *scene);
+/* A device that renders, or that may. */
+typedef struct HdTeamDevice {
+    HdDevice device;
+    HdRenderer *renderer; /* owned; NULL: it is not open */
+    HdLaunch launch;      /* of an open device: what it was opened with */
+    bool is_tuned;        /* that was remembered */
+} HdTeamDevice;
 
-/* hd_renderer_open with these options. */
-HdStatus hd_launch_open(HdRenderer **renderer, const HdDevice *device,
-                        const HdRenderOptions *options, const HdScene *scene, HdError *error);
+/* Opens a device with these options, and with what is remembered for them, if anything is; with
+   `gets_scene` the job's scene is on it then. */
+HdStatus hd_launch_open(HdTeamDevice *member, const HdRenderOptions *options, const HdJob *job,
+                        bool gets_scene, HdError *error);
+
+/* A device that is not open may be closed. */
+void hd_launch_close(HdTeamDevice *member);
 
 #endif

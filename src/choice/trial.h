@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Short measurements on the user's own scene, a smaller picture of its first frame, and for which
-   jobs they are remembered. */
+/* Short measurements on the user's own scene, a smaller picture of its first frame. */
 #ifndef HD_CHOICE_TRIAL_H
 #define HD_CHOICE_TRIAL_H
 
@@ -13,14 +12,6 @@ typedef struct HdJob {
     int first_frame;
     int frame_count;
 } HdJob;
-
-enum { HD_JOB_KIND_LENGTH = 512 };
-
-/* Writes lines of text that are the same for jobs whose measurements serve each other: those of the
-   same version of the program, with the same options, whose scenes have as many planes, triangles,
-   instances, lights, lights that no distance ends and samples, and are as deep, rounded to powers
-   of two, a floor or none, and deep trees or not. `capacity` is at least HD_JOB_KIND_LENGTH. */
-void hd_job_kind(const HdScene *scene, const HdRenderOptions *options, char *text, int capacity);
 
 /* A renderer on which the job's scene is. */
 HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,

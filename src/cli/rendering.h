@@ -3,7 +3,7 @@
 #ifndef HD_CLI_RENDERING_H
 #define HD_CLI_RENDERING_H
 
-#include "choice/one_device.h"
+#include "choice/candidates.h"
 #include "cli/options.h"
 #include "input/scene_file.h"
 #include "render/sequence.h"

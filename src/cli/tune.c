@@ -2,7 +2,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "choice/one_device.h"
+#include "choice/devices.h"
 #include "choice/tuning.h"
 #include "cli/commands.h"
 #include "cli/load_scene.h"
@@ -106,20 +106,20 @@ static HdStatus print_json(const Run *run, HdError *error) {
 
 /* The device that 'hedron render' would take. */
 static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
-    const HdOptions *options = run->options;
-    HdRenderer *renderer;
-    HdDeviceReason reason;
-    HdDeviceWish wish = {
-        .backend = options->backend,
-        .device = options->device,
+    static HdDeviceTeam team;
+    const HdDeviceWish wish = {
+        .backend = run->options->backend,
+        .device = run->options->device,
+        .is_for_one = true,
         .options = &run->render,
         .job = job,
     };
-    HdStatus status = hd_open_device(&renderer, &run->device, &wish, &reason, error);
+    HdStatus status = hd_open_devices(&team, &wish, error);
     if (status != HD_OK)
         return status;
-    hd_renderer_close(renderer);
-    snprintf(run->note, sizeof run->note, "%s", reason.note);
+    run->device = team.list[0].device;
+    snprintf(run->note, sizeof run->note, "%s", team.note);
+    hd_close_devices(&team);
     return HD_OK;
 }
 

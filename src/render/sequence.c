@@ -7,9 +7,12 @@
 
 #include "choice/trial.h"
 #include "render/tracer.h"
-#include "render/upload.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
+
+/* One for each count of lanes. */
+#define COUNTED(lanes) +1
+enum { MOST_TABLES = 0 HD_LANE_COUNTS(COUNTED) };
 
 typedef struct Run Run;
 
@@ -23,11 +26,13 @@ typedef struct Member {
 
 struct Run {
     const HdSequence *sequence;
-    HdSceneUpload upload;
     HdTurns turns; /* its mutex is taken after the store's, never before it */
     HdTracerJob job;
     Member members[HD_MOST_TRACERS];
     pthread_mutex_t mutex; /* of what follows */
+    HdSceneTables tables[MOST_TABLES];
+    int table_count;
+    int waiting; /* renderers that have not got the scene */
     int alive;
     HdStatus status;
     HdError error;
@@ -35,10 +40,47 @@ struct Run {
 
 /* ---- the scene on a device ---- */
 
+static HdRenderer *renderer_of(const Run *run, int number) {
+    return run->sequence->team->list[number].renderer;
+}
+
+/* The scene is compiled once for all renderers of the same lanes. */
+static HdStatus find_tables(Run *run, int lanes, const HdSceneTables **found, HdError *error) {
+    for (int i = 0; i < run->table_count; i++)
+        if (run->tables[i].lanes == lanes) {
+            *found = &run->tables[i];
+            return HD_OK;
+        }
+    HdSceneTables *tables = &run->tables[run->table_count];
+    HdStatus status =
+        hd_compile_scene(tables, run->sequence->scene, run->sequence->precision, lanes, error);
+    run->table_count += status == HD_OK;
+    *found = tables;
+    return status;
+}
+
+static void free_tables(Run *run) {
+    for (; run->table_count > 0; run->table_count--)
+        hd_scene_tables_free(&run->tables[run->table_count - 1]);
+}
+
+/* The tables are freed after the last renderer. */
 static HdStatus upload(Run *run, int number, HdError *error) {
     const HdSequence *sequence = run->sequence;
-    return hd_scene_upload(&run->upload, sequence->renderers[number], number, sequence->uploaded,
-                           sequence->context, error);
+    HdRenderer *renderer = renderer_of(run, number);
+    const HdSceneTables *tables;
+    pthread_mutex_lock(&run->mutex);
+    HdStatus status = find_tables(run, hd_renderer_lanes(renderer), &tables, error);
+    pthread_mutex_unlock(&run->mutex);
+    if (status == HD_OK)
+        status = hd_renderer_upload(renderer, tables, error);
+    pthread_mutex_lock(&run->mutex);
+    if (status == HD_OK)
+        sequence->uploaded(sequence->context, number, tables);
+    if (--run->waiting == 0)
+        free_tables(run);
+    pthread_mutex_unlock(&run->mutex);
+    return status;
 }
 
 static bool has_gpu(const HdTurns *turns) {
@@ -61,8 +103,8 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status = hd_trial_estimate_on(sequence->renderers[number], sequence->precision, &job,
-                                           0.0, &seconds, error);
+    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), sequence->precision, &job, 0.0,
+                                           &seconds, error);
     if (status != HD_OK)
         return status;
     hd_turns_estimate(&run->turns, number, seconds);
@@ -72,7 +114,7 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
 
 /* Several devices get the scene while frames are traced; one alone has it already. */
 static HdStatus prepare(Run *run, int number, HdError *error) {
-    HdStatus status = run->sequence->renderer_count > 1 ? upload(run, number, error) : HD_OK;
+    HdStatus status = run->sequence->team->count > 1 ? upload(run, number, error) : HD_OK;
     return status == HD_OK ? estimate_pace(run, number, error) : status;
 }
 
@@ -99,7 +141,7 @@ static void leave(const Member *member, HdStatus status, const HdError *error,
                   bool is_fault_of_device) {
     Run *run = member->run;
     pthread_mutex_lock(&run->mutex);
-    if (status != HD_OK && is_fault_of_device && run->sequence->renderer_count > 1)
+    if (status != HD_OK && is_fault_of_device && run->sequence->team->count > 1)
         drop_device(run, member->number, status, error);
     else if (status != HD_OK)
         end_run(run, status, error);
@@ -120,8 +162,8 @@ static void *trace(void *argument) {
     HdStatus status = prepare(run, member->number, &error);
     bool is_fault_of_device = status != HD_INTERRUPTED;
     if (status == HD_OK)
-        status = hd_trace_frames(&run->job, run->sequence->renderers[member->number],
-                                 member->number, &is_fault_of_device, &error);
+        status = hd_trace_frames(&run->job, renderer_of(run, member->number), member->number,
+                                 &is_fault_of_device, &error);
     leave(member, status, &error, is_fault_of_device);
     return NULL;
 }
@@ -139,7 +181,7 @@ static void start_member(Member *member) {
 
 /* One alone needs no thread of its own. */
 static HdStatus trace_all(Run *run, HdError *error) {
-    const int count = run->sequence->renderer_count;
+    const int count = run->sequence->team->count;
     for (int i = 0; i < count; i++) {
         run->members[i] = (Member){.run = run, .number = i};
         if (count > 1)
@@ -162,14 +204,12 @@ static void begin_devices(Run *run) {
     run->job.turns = &run->turns;
     pthread_mutex_init(&run->mutex, NULL);
     pthread_mutex_init(&run->turns.mutex, NULL);
-    for (int i = 0; i < sequence->renderer_count; i++)
-        run->turns.list[i].is_cpu = hd_renderer_device(sequence->renderers[i])->is_cpu;
-    hd_scene_upload_start(&run->upload, sequence->scene, sequence->precision,
-                          sequence->renderer_count);
+    for (int i = 0; i < sequence->team->count; i++)
+        run->turns.list[i].is_cpu = sequence->team->list[i].device.is_cpu;
 }
 
 static void end_devices(Run *run) {
-    hd_scene_upload_end(&run->upload);
+    free_tables(run);
     pthread_mutex_destroy(&run->turns.mutex);
     pthread_mutex_destroy(&run->mutex);
 }
@@ -181,7 +221,7 @@ static HdStatus start_store(Run *run, HdError *error) {
         .resume = sequence->resume,
         .width = sequence->scene->width,
         .height = sequence->scene->height,
-        .tracers = sequence->renderer_count > 0 ? sequence->renderer_count : 1,
+        .tracers = sequence->team->count > 0 ? sequence->team->count : 1,
         .start = run->job.start,
         .stored = sequence->stored,
         .context = sequence->context,
@@ -201,12 +241,13 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
                 .precision = sequence->precision,
                 .wish = sequence->outputs->wish,
                 .start = hd_monotonic_seconds()},
-        .turns = {.count = sequence->renderer_count},
-        .alive = sequence->renderer_count,
+        .turns = {.count = sequence->team->count},
+        .waiting = sequence->team->count,
+        .alive = sequence->team->count,
     };
     begin_devices(&run);
     hd_known_folders_forget(); /* what was there before another sequence may rightly be gone */
-    HdStatus status = sequence->renderer_count == 1 ? upload(&run, 0, error) : HD_OK;
+    HdStatus status = sequence->team->count == 1 ? upload(&run, 0, error) : HD_OK;
     if (status == HD_OK)
         status = start_store(&run, error);
     if (status == HD_OK)

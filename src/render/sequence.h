@@ -3,7 +3,7 @@
 #ifndef HD_RENDER_SEQUENCE_H
 #define HD_RENDER_SEQUENCE_H
 
-#include "device/renderer.h"
+#include "choice/devices.h"
 #include "output/frame_store.h"
 #include "scene/scene.h"
 
@@ -11,14 +11,14 @@ typedef struct HdSequence {
     const HdScene *scene;
     const HdResume *resume; /* which frames there are, and which of them are finished */
     HdPrecision precision;
-    const HdOutputPlan *outputs;  /* settled */
-    HdRenderer *const *renderers; /* open */
-    int renderer_count;           /* 1 to HD_MOST_TRACERS; may be 0 where nothing is missing */
-    /* Called once the scene is on a renderer, before its first frame. With several renderers both
-       this and the next function are called on other threads. */
-    void (*uploaded)(void *context, int renderer, const HdSceneTables *tables);
+    const HdOutputPlan *outputs; /* settled */
+    const HdDeviceTeam *team;    /* open; may be empty where nothing is missing */
+    /* Called once the scene is on the renderer of that number, before its first frame, for one
+       renderer at a time. With several both this and the next function are called on other threads.
+     */
+    void (*uploaded)(void *context, int number, const HdSceneTables *tables);
     /* One of several renderers failed: others make its frames. */
-    void (*dropped)(void *context, int renderer, const HdError *error);
+    void (*dropped)(void *context, int number, const HdError *error);
     /* Called after each frame is stored, in their order, but on another thread, while later frames
        are rendered. Must return HD_OK to go on. */
     HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);

@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "choice/fastest_device.h"
 
-#include "choice/trial.h"
+#include "choice/record.h"
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
 #include "test_folder.h"
@@ -13,11 +13,8 @@ static HdError error;
 static HdRenderOptions options;
 static HdScene scene;
 static HdJob job;
-static HdDevice candidates[2];
-static HdAutoChoice choice;
-static HdRenderer *renderer;
+static HdCandidates candidates;
 static HdDevice chosen;
-static char why[1024], note[2048];
 
 static int begin(void **state) {
     (void)state;
@@ -28,14 +25,13 @@ static int begin(void **state) {
     if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
         return 1;
     job = (HdJob){.scene = &scene, .frame_count = 100};
-    candidates[FAKE] = fake_device();
-    hd_backend_enumerate(&hd_backend_c, &candidates[C], 1, &count, &error);
-    choice = (HdAutoChoice){.candidates = candidates,
-                            .count = 2,
-                            .measured = 2,
-                            .options = &options,
-                            .job = &job,
-                            .frame_seconds = 1.0};
+    candidates = (HdCandidates){.wish = {.options = &options, .job = &job},
+                                .count = 2,
+                                .is_free = true,
+                                .compared = 2,
+                                .frame_seconds = 1.0};
+    candidates.list[FAKE].device = fake_device();
+    hd_backend_enumerate(&hd_backend_c, &candidates.list[C].device, 1, &count, &error);
     return 0;
 }
 
@@ -47,35 +43,41 @@ static int end(void **state) {
 }
 
 static HdStatus open_it(void) {
-    HdStatus status = hd_auto_open(&renderer, &chosen, &choice, why, note, &error);
-    if (status == HD_OK)
-        assert_non_null(renderer);
-    hd_renderer_close(renderer);
+    HdTeamDevice opened;
+    candidates.why[0] = candidates.note[0] = '\0';
+    HdStatus status = hd_fastest_open(&candidates, &opened, &error);
+    if (status != HD_OK)
+        return status;
+    assert_non_null(opened.renderer);
+    chosen = opened.device;
+    hd_launch_close(&opened);
+    for (int i = 0; i < candidates.count; i++)
+        candidates.list[i].renderer = NULL;
     return status;
 }
 
 static void expect_chosen(const HdBackend *backend, const char *reason) {
     assert_int_equal(open_it(), HD_OK);
     assert_ptr_equal(chosen.backend, backend);
-    expect_contains(why, reason);
+    expect_contains(candidates.why, reason);
 }
 
 static void the_fastest_is_taken_and_remembered(void **state) {
     (void)state;
     fake.slow_milliseconds = 400;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
-    expect_contains(why, " ms (fake 0)");
+    expect_contains(candidates.why, " ms (fake 0)");
     assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
     fake.opened = fake.rendered = 0;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, measured earlier, ");
     assert_int_equal(fake.opened + fake.rendered, 0);
-    assert_string_equal(note, "");
+    assert_string_equal(candidates.note, "");
 }
 
 static void order_decides_nothing(void **state) {
     (void)state;
-    candidates[1] = candidates[0];
-    candidates[1].index = 1;
+    candidates.list[1] = candidates.list[0];
+    candidates.list[1].device.index = 1;
     fake.slow_milliseconds = 400;
     for (fake.slow_index = 0; fake.slow_index < 2; fake.slow_index++) {
         expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
@@ -108,7 +110,8 @@ static void scenes_and_devices_of_another_kind_are_measured(void **state) {
     expect_measured(true);
     options.block = 64;
     expect_measured(true);
-    snprintf(candidates[FAKE].driver, sizeof candidates[FAKE].driver, "driver 8");
+    snprintf(candidates.list[FAKE].device.driver, sizeof candidates.list[FAKE].device.driver,
+             "driver 8");
     expect_measured(true);
     expect_measured(false);
 }
@@ -116,16 +119,16 @@ static void scenes_and_devices_of_another_kind_are_measured(void **state) {
 /* Whatever else is the same. */
 static void meshes_of_another_size_are_another_kind(void **state) {
     (void)state;
-    char texts[3][HD_JOB_KIND_LENGTH];
+    char text[16];
     HdScene meshes;
     assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
-    for (int i = 0; i < 3; i++) {
-        hd_job_kind(&meshes, &options, texts[i], HD_JOB_KIND_LENGTH);
-        meshes.meshes[0].triangle_count += i == 0 ? 1 : 1000;
-    }
+    assert_int_equal(hd_record_put("test", &meshes, &options, "", "known", &error), HD_OK);
+    meshes.meshes[0].triangle_count += 1;
+    assert_true(hd_record_get("test", &meshes, &options, "", text, sizeof text));
+    assert_string_equal(text, "known");
+    meshes.meshes[0].triangle_count += 1000;
+    assert_false(hd_record_get("test", &meshes, &options, "", text, sizeof text));
     hd_scene_free(&meshes);
-    assert_string_equal(texts[0], texts[1]);
-    assert_string_not_equal(texts[1], texts[2]);
 }
 
 static void a_job_too_short_is_not_measured(void **state) {
@@ -133,7 +136,7 @@ static void a_job_too_short_is_not_measured(void **state) {
     job.frame_count = 1;
     expect_chosen(&hd_backend_c, "it needs about 1 s, too little to measure");
     assert_int_equal(fake.opened, 0);
-    choice.measured = 1; /* only GPUs are wanted */
+    candidates.compared = 1; /* only GPUs are wanted */
     expect_chosen(&fake_backend, "");
 }
 
@@ -141,22 +144,22 @@ static void what_computes_wrongly_is_passed_over(void **state) {
     (void)state;
     fake.renders_wrongly = true;
     expect_chosen(&hd_backend_c, "the fastest of 2");
-    expect_contains(note, "fake: Fake 1000 (driver 7) computes wrongly");
+    expect_contains(candidates.note, "fake: Fake 1000 (driver 7) computes wrongly");
     fake.opened = 0;
     expect_chosen(&hd_backend_c, "measured earlier");
     assert_int_equal(fake.opened, 0);
-    choice.measured = 1;
+    candidates.compared = 1;
     expect_chosen(&hd_backend_c, "the next after one that cannot be used");
-    expect_contains(note, "computes wrongly");
+    expect_contains(candidates.note, "computes wrongly");
 }
 
 static void what_is_missing_is_passed_over(void **state) {
     (void)state;
     fake.is_missing = true;
     expect_chosen(&hd_backend_c, "the fastest of 2");
-    expect_contains(note, "fake: it is missing");
-    choice.count = 1;
-    choice.measured = 1;
+    expect_contains(candidates.note, "fake: it is missing");
+    candidates.count = 1;
+    candidates.compared = 1;
     assert_int_equal(open_it(), HD_UNAVAILABLE);
     expect_contains(error.message, "fake: it is missing");
 }
@@ -166,7 +169,7 @@ static void what_fails_at_work_is_tried_again(void **state) {
     fake.fails = true;
     for (int i = 1; i <= 2; i++) {
         expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
-        expect_contains(note, "fake: it fails");
+        expect_contains(candidates.note, "fake: it fails");
         assert_int_equal(fake.opened, i);
     }
 }

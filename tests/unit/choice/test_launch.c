@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "choice/tuning.h"
 
-#include "choice/trial.h"
+#include "choice/record.h"
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"
@@ -234,7 +234,7 @@ static void a_choice_is_remembered(void **state) {
     remember();
     assert_true(recall(&launch));
     assert_memory_equal(&launch, &choice, sizeof launch);
-    HdRenderOptions used = hd_launch_remembered_options(&device, &options, &scene);
+    HdRenderOptions used = hd_launch_options(&options, &launch);
     assert_int_equal(used.pipeline, choice.pipeline);
     assert_int_equal(used.block, choice.block);
     assert_int_equal(used.grid, choice.grid);
@@ -278,8 +278,9 @@ static void options_of_a_run_win(void **state) {
     (void)state;
     remember();
     options.pipeline = HD_PIPELINE_MEGA;
-    assert_false(is_recalled());
-    assert_int_equal(hd_launch_remembered_options(&device, &options, &scene).block, 0);
+    HdLaunch launch;
+    assert_false(recall(&launch));
+    assert_int_equal(launch.block, 0);
     options.pipeline = HD_PIPELINE_AUTO;
     options.block = 128;
     assert_false(is_recalled());
@@ -311,10 +312,9 @@ static void nonsense_is_ignored(void **state) {
 }
 
 static void write_text(const char *text) {
-    char key[HD_JOB_KIND_LENGTH + 640];
-    hd_job_kind(&scene, &options, key, HD_JOB_KIND_LENGTH);
-    strcat(key, "fake Fake 1000 (driver 7)\n");
-    assert_int_equal(hd_cache_put_text("launch", key, text, &error), HD_OK);
+    assert_int_equal(
+        hd_record_put("launch", &scene, &options, "fake Fake 1000 (driver 7)\n", text, &error),
+        HD_OK);
 }
 
 static void other_texts_are_ignored(void **state) {
@@ -361,14 +361,18 @@ static bool note_pipeline(const HdRenderOptions *asked) {
 
 static void what_is_remembered_is_opened(void **state) {
     (void)state;
+    HdTeamDevice opened = {.device = device};
     HdRenderer *renderer;
     fake.refuses = note_pipeline;
-    assert_int_equal(hd_launch_open(&renderer, &device, &options, &scene, &error), HD_OK);
-    hd_renderer_close(renderer);
+    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
+    hd_launch_close(&opened);
+    assert_false(opened.is_tuned);
     assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
     remember();
-    assert_int_equal(hd_launch_open(&renderer, &device, &options, &scene, &error), HD_OK);
-    hd_renderer_close(renderer);
+    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
+    hd_launch_close(&opened);
+    assert_true(opened.is_tuned);
+    assert_memory_equal(&opened.launch, &choice, sizeof choice);
     assert_int_equal(opened_pipeline, HD_PIPELINE_WAVEFRONT);
     /* To measure a candidate, though, is to measure that one. */
     assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);

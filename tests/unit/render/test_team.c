@@ -124,13 +124,12 @@ static HdStatus render(const char *output, int count) {
                                  .frames_per_second = 30};
     HdOutputPlan plan;
     HdResume resume;
-    HdRenderer *renderers[DEVICES];
+    HdDeviceTeam team = {.count = count};
     HdSequence sequence = {
         .scene = &scene,
         .resume = &resume,
         .outputs = &plan,
-        .renderers = renderers,
-        .renderer_count = count,
+        .team = &team,
         .uploaded = note_uploaded,
         .dropped = note_dropped,
         .stored = note_stored,
@@ -138,17 +137,18 @@ static HdStatus render(const char *output, int count) {
     assert_int_equal(hd_outputs_settle(&plan, &output, 1, &style, frames.count, &error), HD_OK);
     assert_int_equal(hd_resume_find(&resume, &plan, &frames, &error), HD_OK);
     for (int i = 0; i < count; i++) {
-        HdDevice device = fake_device();
-        device.index = i;
-        device.is_cpu = i == the_cpu;
-        assert_int_equal(hd_renderer_open(&renderers[i], &device, &options, &error), HD_OK);
+        HdTeamDevice *member = &team.list[i];
+        member->device = fake_device();
+        member->device.index = i;
+        member->device.is_cpu = i == the_cpu;
+        assert_int_equal(hd_renderer_open(&member->renderer, &member->device, &options, &error),
+                         HD_OK);
     }
     threads_allowed = threads_for_sequence;
     HdStatus status = hd_sequence_render(&sequence, &error);
     threads_left = threads_allowed;
     threads_allowed = -1;
-    for (int i = 0; i < count; i++)
-        hd_renderer_close(renderers[i]);
+    hd_close_devices(&team);
     hd_resume_free(&resume);
     return status;
 }

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* From what the user asked for to the devices that can do it. */
+#ifndef HD_CHOICE_CANDIDATES_H
+#define HD_CHOICE_CANDIDATES_H
+
+#include "choice/launch.h"
+
+typedef enum HdDeviceKind {
+    HD_WANT_ANY,   /* a GPU or plain C, whichever is faster */
+    HD_PREFER_GPU, /* a GPU, else any backend's CPU, which is worth a note */
+    HD_ONLY_CPU    /* only a CPU will do: plain C, unless a backend is named */
+} HdDeviceKind;
+
+typedef struct HdDeviceWish {
+    const char *backend; /* NULL: any */
+    const char *device; /* number within the backend, BACKEND:NUMBER or part of a name; NULL: any */
+    HdDeviceKind kind;
+    bool is_for_one;                /* several devices will not do */
+    const HdRenderOptions *options; /* what it must be able to do */
+    const HdJob *job;               /* what it is to be the fastest at */
+} HdDeviceWish;
+
+enum { HD_MAX_CANDIDATES = 32 };
+
+typedef struct HdCandidates {
+    HdDeviceWish wish;                    /* for one device; BACKEND:NUMBER taken apart */
+    HdTeamDevice list[HD_MAX_CANDIDATES]; /* the best first, as far as is known without measuring;
+                                             not open */
+    int count;
+    bool is_free;         /* nobody named one: another may take the place of one that fails */
+    int compared;         /* so many, from the first on, are worth measuring; less than 2: none */
+    double frame_seconds; /* of plain C, estimated, where several are compared */
+    char reasons[4096];   /* why backends and devices were passed over */
+    char why[1024];       /* why the one that is taken; "": it is the first */
+    char note[2048];      /* what failed; "": nothing did */
+} HdCandidates;
+
+/* A job that plain C does in less is not worth waking another device for. */
+#define HD_AUTO_SMALL_SECONDS 0.25
+
+/* Finds the devices that can do what the wish's options ask: GPUs come before CPUs, then backends
+   in the order of hd_backends, then the device with the most compute units times clock. CPUs of
+   other backends than plain C are among them only where a GPU is preferred, or where their backend
+   or a device is named. Where any will do, a job that plain C does in less than
+   HD_AUTO_SMALL_SECONDS is its own: no driver is asked then. HD_UNAVAILABLE with every reason where
+   there are none; HD_BAD_INPUT where the device's backend is another than the wish's. */
+HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error);
+
+#endif
