@@ -17,7 +17,6 @@ add_library(hedron_program STATIC
     src/cli/command_line.c
     src/cli/option_values.c
     src/cli/options.c
-    src/cli/progress.c
     src/cli/rendering.c
     src/cli/console.c
     src/cli/statistics.c)

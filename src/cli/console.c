@@ -4,24 +4,137 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/text.h"
 #include "device/kernel_source.h"
 #include "system/interrupt.h"
+#include "system/machine.h"
 #include "system/warnings.h"
 
-/* ---- before anything is done ---- */
+enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
 
-static void note_meshes(const HdScene *scene) {
+/* ---- progress ---- */
+
+void hd_progress_time(double seconds, char text[32]) {
+    const double most = MAX_HOURS * 3600.0;
+    long whole = (long)((seconds < most ? seconds : most) + 0.5);
+    if (whole < 3600)
+        snprintf(text, 32, "%ld:%02ld", whole / 60, whole % 60);
+    else
+        snprintf(text, 32, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+void hd_progress_line(int done, int total, double elapsed_seconds, char text[128]) {
+    char time[32];
+    double rate = elapsed_seconds > 0.0 ? done / elapsed_seconds : 0.0;
+    bool is_end = done == total;
+    if (done == 0) {
+        snprintf(text, 128, "0/%d frames", total);
+        return;
+    }
+    hd_progress_time(is_end ? elapsed_seconds : rate > 0.0 ? (total - done) / rate : 0.0, time);
+    snprintf(text, 128, "%d/%d frames, %.2f frames/s, %s %s", done, total, rate, time,
+             is_end ? "in all" : "left");
+}
+
+void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]) {
+    char bar[BAR_WIDTH + 1];
+    int filled = (int)((long long)done * BAR_WIDTH / total);
+    bool has_room = BAR_WIDTH + 3 + (int)strlen(line) <= columns;
+    memset(bar, '.', BAR_WIDTH);
+    memset(bar, '#', (size_t)filled);
+    bar[BAR_WIDTH] = '\0';
+    if (has_room)
+        snprintf(text, 160, "[%s] %s", bar, line);
+    else
+        snprintf(text, 160, "%.*s", columns, line);
+}
+
+static int terminal_columns(void) {
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        return size.ws_col;
+    return USUAL_COLUMNS;
+}
+
+static void draw(const char *text) {
+    fprintf(stderr, "\r%s\033[K", text);
+    fflush(stderr);
+}
+
+void hd_console_clear(const HdConsole *console) {
+    if (console->form == HD_PROGRESS_BAR)
+        fprintf(stderr, "\r\033[K");
+}
+
+/* Redraws the bar, or writes a line if the last one is long enough ago. */
+static void update(HdConsole *console) {
+    char line[128], bar[160];
+    double now = hd_monotonic_seconds();
+    bool redraws = console->form == HD_PROGRESS_BAR || console->form == HD_PROGRESS_LINES;
+    if (!redraws || !hd_wait_to_write(STDERR_FILENO))
+        return;
+    hd_progress_line(console->rendered, console->total, now - console->start_seconds, line);
+    if (console->form == HD_PROGRESS_BAR) {
+        /* In the last column some terminals begin a new line. */
+        hd_progress_bar(console->rendered, console->total, line, terminal_columns() - 1, bar);
+        draw(bar);
+    } else if (console->rendered < console->total &&
+               now - console->line_seconds >= SECONDS_BETWEEN_LINES) {
+        fprintf(stderr, "%s\n", line);
+        console->line_seconds = now;
+    }
+}
+
+/* After all frames: a last plain line, with the rays of all of them for each second. */
+static void tell_rate(const HdConsole *console) {
+    char line[128];
+    double elapsed = hd_monotonic_seconds() - console->start_seconds;
+    if (console->form != HD_PROGRESS_LINES)
+        return;
+    hd_progress_line(console->total, console->total, elapsed, line);
+    fprintf(stderr, "%s, %.2f M rays/s\n", line,
+            elapsed > 0.0 ? 1e-6 * (double)console->rays / elapsed : 0.0);
+}
+
+/* ---- the begin ---- */
+
+/* A bar on a terminal that can redraw a line. Elsewhere plain lines where they are wanted. */
+static HdProgressForm choose_form(const HdOptions *options, bool wants_lines) {
+    const char *terminal = getenv("TERM");
+    bool can_redraw = terminal != NULL && strcmp(terminal, "dumb") != 0;
+    if (options->tells_frames)
+        return HD_PROGRESS_FRAMES;
+    if (options->quiet)
+        return HD_PROGRESS_NONE;
+    if (can_redraw && isatty(STDERR_FILENO))
+        return HD_PROGRESS_BAR;
+    return wants_lines ? HD_PROGRESS_LINES : HD_PROGRESS_NONE;
+}
+
+void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_lines) {
+    *console = (HdConsole){
+        .verbose = options->verbose,
+        .quiet = options->quiet,
+        .form = choose_form(options, wants_lines),
+        .mutex = PTHREAD_MUTEX_INITIALIZER,
+    };
+}
+
+static void note_meshes(const HdScene *scene, int64_t triangles) {
     int64_t dropped = 0;
+    if (scene->mesh_count == 0)
+        return;
     for (int i = 0; i < scene->mesh_count; i++)
         dropped += scene->meshes[i].degenerate_count;
     fprintf(stderr,
             "meshes    %d with %" PRId64 " triangles, and %" PRId64
             " without an area left out; in %d place%s, %d texture%s\n",
-            scene->mesh_count, hd_scene_triangle_count(scene), dropped, scene->instance_count,
+            scene->mesh_count, triangles, dropped, scene->instance_count,
             hd_plural(scene->instance_count), scene->picture_count,
             hd_plural(scene->picture_count));
 }
@@ -43,6 +156,8 @@ static void note_accuracy(const HdScene *scene) {
 
 static void note_scene(const char *name, const HdScene *scene) {
     const int lights = hd_scene_light_count(scene);
+    const int64_t triangles = hd_scene_triangle_count(scene);
+    const bool is_surveyed = hd_scene_is_surveyed(scene);
     fprintf(stderr,
             "scene     %s: %d solid%s, %s floor, %d light%s, %d frame%s of %d x %d pixels, %d x %d "
             "samples, depth %d\n",
@@ -50,9 +165,8 @@ static void note_scene(const char *name, const HdScene *scene) {
             scene->floor.present ? "a" : "no", lights, hd_plural(lights), scene->frame_count,
             hd_plural(scene->frame_count), scene->width, scene->height, scene->samples_per_side,
             scene->samples_per_side, scene->depth);
-    if (scene->mesh_count > 0)
-        note_meshes(scene);
-    if (hd_scene_is_surveyed(scene))
+    note_meshes(scene, triangles);
+    if (is_surveyed)
         note_accuracy(scene);
 }
 
@@ -65,36 +179,28 @@ static void note_outputs(const HdOutputPlan *plan, int frame_count) {
             plan->style.picture.curve == HD_CURVE_SRGB ? "sRGB" : "linear");
 }
 
-void hd_console_tell_run(const char *name, const HdScene *scene, const HdOutputPlan *plan,
-                         int frame_count) {
+void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
+                         const HdOutputPlan *plan, int frame_count) {
+    if (!console->verbose)
+        return;
     note_scene(name, scene);
     note_outputs(plan, frame_count);
 }
 
-void hd_console_start(HdConsole *console, const HdOptions *options, bool wants_lines,
-                      const HdResume *resume) {
-    HdProgressForm form = HD_PROGRESS_NONE;
-    if (resume->finished_count > 0 && !options->quiet)
+void hd_console_start(HdConsole *console, const HdResume *resume) {
+    if (resume->finished_count > 0 && !console->quiet)
         fprintf(stderr, "hedron: %d of %d frames were finished already\n", resume->finished_count,
                 resume->all->count);
-    if (options->tells_frames)
-        form = HD_PROGRESS_FRAMES;
-    else if (!options->quiet)
-        form = hd_progress_form(wants_lines);
-    *console = (HdConsole){
-        .verbose = options->verbose,
-        .quiet = options->quiet,
-        .progress = hd_progress_start(form, form == HD_PROGRESS_FRAMES ? resume->all->count
-                                                                       : resume->missing.count),
-        .mutex = PTHREAD_MUTEX_INITIALIZER,
-    };
+    console->total =
+        console->form == HD_PROGRESS_FRAMES ? resume->all->count : resume->missing.count;
+    console->start_seconds = console->line_seconds = hd_monotonic_seconds();
 }
 
 /* ---- devices ---- */
 
 void hd_console_prepare(const HdConsole *console, const char *what) {
-    if (!console->verbose)
-        hd_progress_prepare(&console->progress, what);
+    if (!console->verbose && console->form == HD_PROGRESS_BAR)
+        draw(what);
 }
 
 static void note_device(const HdTeamDevice *opened, const char *why) {
@@ -109,9 +215,6 @@ static void note_device(const HdTeamDevice *opened, const char *why) {
 }
 
 void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team) {
-    hd_progress_end(&console->progress);
-    if (team == NULL)
-        return;
     if (team->note[0] != '\0' && !console->quiet)
         fprintf(stderr, "hedron: %s\n", team->note);
     for (int i = 0; i < team->count && console->verbose; i++)
@@ -144,17 +247,17 @@ void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, cons
                             const HdSceneTables *tables) {
     pthread_mutex_lock(&console->mutex);
     if (console->verbose) {
-        hd_progress_end(&console->progress);
+        hd_console_clear(console);
         note_renderer(renderer, line, tables);
     }
     tell_fallbacks(console);
-    hd_progress_update(&console->progress, console->rendered);
+    update(console);
     pthread_mutex_unlock(&console->mutex);
 }
 
 void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why) {
     pthread_mutex_lock(&console->mutex);
-    hd_progress_end(&console->progress);
+    hd_console_clear(console);
     fprintf(stderr,
             "hedron: %s:%d (%s) failed, so other devices trace its frames from here on: %s\n",
             device->backend->name, device->index, device->name, why);
@@ -173,17 +276,19 @@ static void count_frame(HdConsole *console, const HdFrame *frame) {
 /* Programs are told of every frame, people of those that were rendered. */
 void hd_console_tell_frame(HdConsole *console, const HdStoredFrame *stored) {
     pthread_mutex_lock(&console->mutex);
-    hd_progress_tell_frame(&console->progress, stored->number, stored->done);
+    if (console->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
+        fprintf(stderr, "hedron: frame %d stored, %d of %d\n", stored->number, stored->done,
+                console->total);
     if (!stored->was_finished)
         count_frame(console, stored->frame);
-    hd_progress_update(&console->progress, console->rendered);
+    update(console);
     pthread_mutex_unlock(&console->mutex);
 }
 
 void hd_console_announce_interrupt(const HdConsole *console) {
     if (console->quiet || !isatty(STDERR_FILENO))
         return;
-    hd_interrupt_announce(console->progress.form == HD_PROGRESS_BAR
+    hd_interrupt_announce(console->form == HD_PROGRESS_BAR
                               ? "\r\033[Khedron: stopping; press Ctrl-C again to stop now\n"
                               : "hedron: stopping; press Ctrl-C again to stop now\n");
 }
@@ -211,10 +316,10 @@ static void tell_missing(const HdConsole *console, const HdScene *scene) {
 void hd_console_end(const HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
                     const char (*lines)[HD_RENDERER_LINE], HdStatus status) {
     hd_interrupt_announce(NULL);
-    hd_progress_end(&console->progress);
+    hd_console_clear(console);
     tell_fallbacks(console);
     if (status == HD_OK && team->count > 0)
-        hd_progress_tell_end(&console->progress, console->rays);
+        tell_rate(console);
     if (console->verbose)
         note_changes(team, lines);
     if (status == HD_OK && !console->quiet)

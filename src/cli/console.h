@@ -8,37 +8,51 @@
 
 #include "choice/devices.h"
 #include "cli/options.h"
-#include "cli/progress.h"
 #include "output/frame_store.h"
 
 enum { HD_RENDERER_LINE = 512 };
 
+typedef enum HdProgressForm {
+    HD_PROGRESS_NONE,
+    HD_PROGRESS_BAR,   /* on a terminal */
+    HD_PROGRESS_LINES, /* a line every few seconds */
+    HD_PROGRESS_FRAMES /* a line for each frame, and nothing else, which programs read */
+} HdProgressForm;
+
 typedef struct HdConsole {
     bool verbose, quiet;
-    HdProgress progress;
+    HdProgressForm form;
+    int total; /* frames that are counted */
+    double start_seconds;
     pthread_mutex_t mutex; /* of standard error while frames are rendered, and of what follows */
+    double line_seconds;   /* when the last plain line was written */
     int rendered;          /* frames so far */
     uint64_t rays;         /* of all frames so far */
     double missing;        /* steps of 255 at most, of the worst frame so far */
 } HdConsole;
 
+/* `wants_lines`: progress in plain lines where standard error is no terminal. There is nothing to
+   close. */
+void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_lines);
+
 /* Before anything is done. `name` is the scene's, for people. */
-void hd_console_tell_run(const char *name, const HdScene *scene, const HdOutputPlan *plan,
-                         int frame_count);
+void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
+                         const HdOutputPlan *plan, int frame_count);
 
-/* Tells how many frames are finished already, and begins to count. `wants_lines`: progress in plain
-   lines where standard error is no terminal. */
-void hd_console_start(HdConsole *console, const HdOptions *options, bool wants_lines,
-                      const HdResume *resume);
+/* Tells how many frames are finished already, and begins to count. */
+void hd_console_start(HdConsole *console, const HdResume *resume);
 
-/* Before the first frame: what the user waits for. */
+/* Before the first frame: shows what the user waits for, where there is a bar. */
 void hd_console_prepare(const HdConsole *console, const char *what);
 
-/* Devices were chosen, or could not be: `team` is NULL. */
+/* Takes the bar away, so that a message can be written. */
+void hd_console_clear(const HdConsole *console);
+
 void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team);
 
 /* On any thread: a renderer got the scene and says `line` of itself (hd_renderer_describe); a
-   device is left out of the rest of the run; a frame is stored. */
+   device is left out of the rest of the run; a frame is stored. Of the last there is a line of its
+   own where programs read it, "hedron: frame 17 stored, 3 of 40", as docs/farm.md promises. */
 void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
                             const HdSceneTables *tables);
 void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char *why);
@@ -51,5 +65,17 @@ void hd_console_announce_interrupt(const HdConsole *console);
    it got the scene, "" where it did not: its first frame may have changed that. */
 void hd_console_end(const HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
                     const char (*lines)[HD_RENDERER_LINE], HdStatus status);
+
+/* ---- texts ---- */
+
+/* "[####....] line", no wider than `columns`: a line that leaves no room for the bar stands alone,
+   and is cut where it is too long itself. */
+void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]);
+
+/* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
+void hd_progress_time(double seconds, char text[32]);
+
+/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all". */
+void hd_progress_line(int done, int total, double elapsed_seconds, char text[128]);
 
 #endif

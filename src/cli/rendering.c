@@ -72,10 +72,12 @@ static HdStatus open_devices(Run *run, HdError *error) {
     hd_scene_drop_survey(&plain);
     hd_console_prepare(&run->console, "preparing the device");
     HdStatus status = hd_open_devices(&run->team, &wish, error);
-    hd_console_tell_devices(&run->console, status == HD_OK ? &run->team : NULL);
+    hd_console_clear(&run->console);
     if (status == HD_INTERRUPTED)
         return hd_fail(error, status, "interrupted after %d of %d frames",
                        run->resume.first_missing, run->resume.all->count);
+    if (status == HD_OK)
+        hd_console_tell_devices(&run->console, &run->team);
     return status;
 }
 
@@ -103,9 +105,10 @@ static HdStatus render_all(Run *run, HdError *error) {
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_missing(Run *run, HdError *error) {
     HdError ignored;
+    hd_console_start(&run->console, &run->resume);
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
-        status = hd_statistics_open(&run->statistics, run->options->statistics, error);
+        status = hd_statistics_open(&run->statistics, error);
     if (status == HD_OK)
         status = render_all(run, error);
     if (run->statistics.stream != NULL) {
@@ -133,20 +136,18 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
     const char *scene = options->operand_count > 0 ? options->operands[0] : NULL;
     HdStatus status = HD_OK;
     if (options->statistics != NULL)
-        status = hd_statistics_check(options->statistics, scene, rendering->outputs,
-                                     rendering->frames->frames[0], error);
+        status = hd_statistics_settle(&run.statistics, options->statistics, scene,
+                                      rendering->outputs, rendering->frames->frames[0], error);
     if (status != HD_OK)
         return status;
-    if (options->verbose)
-        hd_console_tell_run(rendering->name, &rendering->file->scene, rendering->outputs,
-                            rendering->frames->count);
+    hd_console_open(&run.console, options, rendering->tells_progress);
+    hd_console_tell_run(&run.console, rendering->name, &rendering->file->scene, rendering->outputs,
+                        rendering->frames->count);
     hd_stale_files_remove(rendering->outputs, rendering->frames);
     mark_outputs(rendering, &options->render);
     status = hd_resume_find(&run.resume, rendering->outputs, rendering->frames, error);
-    if (status != HD_OK)
-        return status;
-    hd_console_start(&run.console, options, rendering->tells_progress, &run.resume);
-    status = render_missing(&run, error);
+    if (status == HD_OK)
+        status = render_missing(&run, error);
     hd_resume_free(&run.resume);
     return status;
 }

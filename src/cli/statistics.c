@@ -23,13 +23,13 @@ static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
                    strerror(errno));
 }
 
-static HdStatus check_begin(const char *path, const char *name, HdError *error) {
+static HdStatus check_begin(const char *file, const char *path, HdError *error) {
     static const char expected[] = "{\"frame\"";
     char begin[sizeof expected - 1] = "";
     struct stat found;
-    if (stat(path, &found) != 0 || !S_ISREG(found.st_mode))
+    if (stat(file, &found) != 0 || !S_ISREG(found.st_mode))
         return HD_OK;
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = fopen(file, "rb");
     if (stream == NULL)
         return HD_OK;
     size_t count = fread(begin, 1, sizeof begin, stream);
@@ -38,15 +38,18 @@ static HdStatus check_begin(const char *path, const char *name, HdError *error) 
         return hd_fail(error, HD_BAD_INPUT,
                        "--stats is '%s', which has other JSON in it, expected a new file or one "
                        "with statistics",
-                       name);
+                       path);
     return HD_OK;
 }
 
-HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutputPlan *plan,
-                             int frame_number, HdError *error) {
-    char file[HD_MAX_PATH], output[HD_MAX_PATH];
-    if (strcmp(path, "-") == 0)
+HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
+                              const HdOutputPlan *plan, int frame_number, HdError *error) {
+    char *file = statistics->name, output[HD_MAX_PATH];
+    *statistics = (HdStatistics){.is_standard_output = strcmp(path, "-") == 0};
+    if (statistics->is_standard_output) {
+        snprintf(file, HD_MAX_PATH, "standard output");
         return HD_OK;
+    }
     HdStatus status = hd_path_expand_home(path, file, error);
     if (status == HD_OK && scene != NULL && hd_path_is_same(file, scene))
         return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is the scene", path);
@@ -73,16 +76,12 @@ static HdStatus open_file(HdStatistics *statistics, HdError *error) {
     return status;
 }
 
-HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error) {
-    memset(statistics, 0, sizeof *statistics);
-    if (strcmp(path, "-") == 0) {
-        snprintf(statistics->name, sizeof statistics->name, "standard output");
+HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
+    if (statistics->is_standard_output) {
         statistics->stream = stdout;
         return HD_OK;
     }
-    HdStatus status = hd_path_expand_home(path, statistics->name, error);
-    if (status == HD_OK)
-        status = hd_path_make_parents(statistics->name, error);
+    HdStatus status = hd_path_make_parents(statistics->name, error);
     return status == HD_OK ? open_file(statistics, error) : status;
 }
 
@@ -160,7 +159,7 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
 }
 
 HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error) {
-    if (statistics->stream == stdout)
+    if (statistics->is_standard_output)
         return HD_OK;
     errno = 0;
     return fclose(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);

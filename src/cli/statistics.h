@@ -19,17 +19,19 @@ typedef struct HdRunFacts {
 } HdRunFacts;
 
 typedef struct HdStatistics {
-    FILE *stream;
-    char name[HD_MAX_PATH]; /* for messages */
+    FILE *stream;           /* NULL: it is not open */
+    char name[HD_MAX_PATH]; /* of the file, or for messages */
+    bool is_standard_output;
 } HdStatistics;
 
-/* Refuses a file that the run reads or writes otherwise, and one that begins as JSON but not as
-   statistics do: where FILE is forgotten, a scene comes next. Nothing is opened for writing. */
-HdStatus hd_statistics_check(const char *path, const char *scene, const HdOutputPlan *plan,
-                             int frame_number, HdError *error);
+/* "-" is standard output. Refuses a file that the run reads or writes otherwise, and one that
+   begins as JSON but not as statistics do: where FILE is forgotten, a scene comes next. Nothing is
+   opened. `scene` may be NULL. */
+HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
+                              const HdOutputPlan *plan, int frame_number, HdError *error);
 
-/* Opens a file anew, "-" being standard output; makes missing folders. */
-HdStatus hd_statistics_open(HdStatistics *statistics, const char *path, HdError *error);
+/* Begins the file anew; makes missing folders. */
+HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error);
 
 /* Writes and flushes one line. Numbers have a decimal point in every locale. */
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,

@@ -2,11 +2,10 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "choice/devices.h"
 #include "choice/tuning.h"
 #include "cli/commands.h"
+#include "cli/console.h"
 #include "cli/load_scene.h"
-#include "cli/progress.h"
 #include "device/pipeline.h"
 #include "input/json/json_device_text.h"
 #include "scene/frame_list.h"
@@ -132,12 +131,13 @@ static HdStatus remember(Run *run, HdError *error) {
 }
 
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
-    HdProgress progress = hd_progress_start(hd_progress_form(false), 1);
-    hd_progress_prepare(&progress, "measuring");
+    HdConsole console;
+    hd_console_open(&console, run->options, false);
+    hd_console_prepare(&console, "measuring");
     HdStatus status = choose_device(run, job, error);
     if (status == HD_OK)
         status = hd_tune(&run->tuning, &run->device, &run->render, job, error);
-    hd_progress_end(&progress);
+    hd_console_clear(&console);
     if (run->note[0] != '\0')
         fprintf(stderr, "hedron: %s\n", run->note);
     if (status == HD_INTERRUPTED)

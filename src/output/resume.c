@@ -59,14 +59,9 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     *resume = (HdResume){.all = frames};
     resume->missing.frames = malloc(count * sizeof *resume->missing.frames);
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
-    if (resume->missing.frames == NULL || resume->is_finished == NULL) {
-        hd_resume_free(resume);
+    if (resume->missing.frames == NULL || resume->is_finished == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
-    }
-    HdStatus status = look_at_frames(resume, plan, error);
-    if (status != HD_OK)
-        hd_resume_free(resume);
-    return status;
+    return look_at_frames(resume, plan, error);
 }
 
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error) {

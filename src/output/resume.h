@@ -20,8 +20,8 @@ typedef struct HdResume {
 } HdResume;
 
 /* Looks at the pictures of a settled plan. No frame counts as finished where the plan does not
-   resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). On failure there
-   is nothing to free. */
+   resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). To be freed in
+   any case. */
 HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFrameList *frames,
                         HdError *error);
 

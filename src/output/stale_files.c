@@ -16,6 +16,11 @@ typedef struct Search {
     char folder[HD_MAX_PATH]; /* with its last slash; empty: the current one */
 } Search;
 
+static bool find_file(const Search *search, int frame, char path[HD_MAX_PATH]) {
+    HdError ignored;
+    return hd_output_file(search->output, frame, path, &ignored) == HD_OK;
+}
+
 /* Returns the length of the folder, its slash included. */
 static size_t folder_length(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -29,9 +34,8 @@ static bool is_in_folder(const Search *search, const char *path) {
 
 static bool is_of_frame(const Search *search, const char *entry, int frame) {
     char path[HD_MAX_PATH];
-    HdError ignored;
-    return hd_output_file(search->output, frame, path, &ignored) == HD_OK &&
-           is_in_folder(search, path) && hd_temporary_belongs(entry, path + strlen(search->folder));
+    return find_file(search, frame, path) && is_in_folder(search, path) &&
+           hd_temporary_belongs(entry, path + strlen(search->folder));
 }
 
 static bool is_of_run(const Search *search, const char *entry) {
@@ -62,11 +66,8 @@ static void search_folder(const Search *search) {
 static void search_output(const HdOutput *output, const HdFrameList *frames) {
     Search search = {.output = output, .frames = frames};
     char path[HD_MAX_PATH];
-    HdError ignored;
     for (int i = 0; i < frames->count; i++) {
-        if (hd_output_file(output, frames->frames[i], path, &ignored) != HD_OK)
-            continue;
-        if (i > 0 && is_in_folder(&search, path))
+        if (!find_file(&search, frames->frames[i], path) || (i > 0 && is_in_folder(&search, path)))
             continue;
         const size_t length = folder_length(path);
         memcpy(search.folder, path, length);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "cli/progress.h"
+#include "cli/console.h"
 #include "expect.h"
 
 static void check_time(double seconds, const char *expected) {
