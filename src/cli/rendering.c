@@ -105,7 +105,6 @@ static HdStatus render_all(Run *run, HdError *error) {
 /* A device that cannot be used leaves the statistics of an earlier run alone. */
 static HdStatus render_missing(Run *run, HdError *error) {
     HdError ignored;
-    hd_console_start(&run->console, &run->resume);
     HdStatus status = run->resume.missing.count > 0 ? open_devices(run, error) : HD_OK;
     if (status == HD_OK && run->options->statistics != NULL)
         status = hd_statistics_open(&run->statistics, error);
@@ -146,8 +145,10 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
     hd_stale_files_remove(rendering->outputs, rendering->frames);
     mark_outputs(rendering, &options->render);
     status = hd_resume_find(&run.resume, rendering->outputs, rendering->frames, error);
-    if (status == HD_OK)
+    if (status == HD_OK) {
+        hd_console_start(&run.console, &run.resume);
         status = render_missing(&run, error);
+    }
     hd_resume_free(&run.resume);
     return status;
 }

@@ -17,11 +17,6 @@ static void add_integer(uint64_t *hash, int value) {
     add(hash, &value, sizeof value);
 }
 
-static void add_vector(uint64_t *hash, HdVec3 vector) {
-    const double parts[3] = {vector.x, vector.y, vector.z};
-    add(hash, parts, sizeof parts);
-}
-
 /* That there is none differs from an empty one. */
 static void add_array(uint64_t *hash, const void *array, int count, size_t size) {
     add_integer(hash, array != NULL);
@@ -30,7 +25,22 @@ static void add_array(uint64_t *hash, const void *array, int count, size_t size)
         *hash = hd_hash_words(*hash, array, (size_t)count * size);
 }
 
-/* What files hold, and the command line changed */
+/* As it would be written: the scene, and what its meshes' files say about materials and places. */
+static void add_objects(uint64_t *hash, const HdSceneFile *file) {
+    const HdObjectType *entry_type = hd_field(&hd_scene_fields, "meshes")->object;
+    const HdScene *scene = &file->scene;
+    *hash = hd_object_hash(*hash, &hd_scene_fields, file);
+    for (int i = 0; i < scene->mesh_count; i++)
+        for (int k = 0; k < scene->meshes[i].material_count; k++)
+            *hash =
+                hd_object_hash(*hash, &hd_material_fields, &scene->meshes[i].materials[k].material);
+    for (int i = 0; i < scene->instance_count; i++) {
+        const HdMeshEntry entry = {.instance = scene->instances[i]};
+        *hash = hd_object_hash(*hash, entry_type, &entry);
+    }
+}
+
+/* What files hold besides */
 
 static void add_texture(uint64_t *hash, const HdTexture *texture) {
     add_integer(hash, texture->width);
@@ -38,15 +48,12 @@ static void add_texture(uint64_t *hash, const HdTexture *texture) {
               (size_t)texture->width * 3 * sizeof *texture->texels);
 }
 
-static void add_mesh_materials(uint64_t *hash, const HdMesh *mesh) {
-    for (int i = 0; i < mesh->material_count; i++) {
-        const HdMeshMaterial *material = &mesh->materials[i];
-        *hash = hd_object_hash(*hash, &hd_material_fields, &material->material);
-        add_vector(hash, material->emission);
-        add_integer(hash, material->picture);
-        add_integer(hash, material->passes_as);
-        add_integer(hash, material->is_opaque_to_shadows);
-    }
+static void add_mesh_material(uint64_t *hash, const HdMeshMaterial *material) {
+    const double emission[3] = {material->emission.x, material->emission.y, material->emission.z};
+    add(hash, emission, sizeof emission);
+    add_integer(hash, material->picture);
+    add_integer(hash, material->passes_as);
+    add_integer(hash, material->is_opaque_to_shadows);
 }
 
 /* The hierarchy follows from the rest. */
@@ -61,14 +68,8 @@ static void add_mesh(uint64_t *hash, const HdMesh *mesh) {
     add_array(hash, mesh->material_of, triangles, sizeof *mesh->material_of);
     add_array(hash, mesh->group_of, triangles, sizeof *mesh->group_of);
     add_integer(hash, mesh->material_count);
-    add_mesh_materials(hash, mesh);
-}
-
-static void add_instance(uint64_t *hash, const HdInstance *instance) {
-    const HdObjectType *type = hd_field(&hd_scene_fields, "meshes")->object;
-    const HdMeshEntry entry = {.instance = *instance};
-    add_integer(hash, instance->mesh);
-    *hash = hd_object_hash(*hash, type, &entry);
+    for (int i = 0; i < mesh->material_count; i++)
+        add_mesh_material(hash, &mesh->materials[i]);
 }
 
 static void add_content(uint64_t *hash, const HdScene *scene) {
@@ -83,8 +84,10 @@ static void add_content(uint64_t *hash, const HdScene *scene) {
         add_mesh(hash, &scene->meshes[i]);
     add_integer(hash, scene->instance_count);
     for (int i = 0; i < scene->instance_count; i++)
-        add_instance(hash, &scene->instances[i]);
+        add_integer(hash, scene->instances[i].mesh);
 }
+
+/* What the command line changed */
 
 static void add_options(uint64_t *hash, const HdScene *scene) {
     add_integer(hash, scene->crop.whole_width);
@@ -98,7 +101,7 @@ static void add_options(uint64_t *hash, const HdScene *scene) {
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style) {
     uint64_t hash = hd_hash_bytes(HD_HASH_START, hd_sources_hash, strlen(hd_sources_hash));
-    hash = hd_object_hash(hash, &hd_scene_fields, file);
+    add_objects(&hash, file);
     add_content(&hash, &file->scene);
     add_options(&hash, &file->scene);
     add_integer(&hash, (int)precision);
