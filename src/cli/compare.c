@@ -7,7 +7,6 @@
 
 #include "cli/commands.h"
 #include "image/difference.h"
-#include "image/file_kind.h"
 #include "image/heat_map.h"
 #include "image/row_reader.h"
 #include "input/json/json_device_text.h"
@@ -29,7 +28,6 @@ typedef struct Comparison {
     HdPictureFigures figures;
 } Comparison;
 
-static const char *const formats[] = {"PNG", "PFM"}; /* by HdPictureFormat */
 static const char *const channel_names[] = {"red", "green", "blue"};
 
 /* ---- text ---- */
@@ -37,7 +35,7 @@ static const char *const channel_names[] = {"red", "green", "blue"};
 static void print_picture(const Comparison *comparison, int i) {
     const HdPictureFacts *facts = &comparison->facts[i];
     printf("%-7s %s: %s, %d bits, %d x %d pixels\n", i == 0 ? "first" : "second",
-           comparison->names[i], formats[facts->format], facts->bits, facts->width, facts->height);
+           comparison->names[i], facts->format->name, facts->bits, facts->width, facts->height);
 }
 
 static void print_figures(const char *name, const char *unit, double display, double linear) {
@@ -122,7 +120,7 @@ static json_t *describe_figures(const HdDifferenceFigures *figures) {
 static json_t *describe_picture(const Comparison *comparison, int i) {
     const HdPictureFacts *facts = &comparison->facts[i];
     return json_pack("{s:o, s:s, s:i, s:I}", "file", hd_json_device_text(comparison->names[i]),
-                     "format", formats[facts->format], "bits", facts->bits, "not_finite",
+                     "format", facts->format->name, "bits", facts->bits, "not_finite",
                      (json_int_t)comparison->figures.not_finite[i]);
 }
 
@@ -154,7 +152,7 @@ static HdStatus check_sizes(const Comparison *comparison, HdError *error) {
 /* PFM is on no curve, and shown on the one that most pictures are on. */
 static HdStatus choose_curve(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
-    const bool is_png[] = {facts[0].format == HD_PICTURE_PNG, facts[1].format == HD_PICTURE_PNG};
+    const bool is_png[] = {facts[0].format == &hd_format_png, facts[1].format == &hd_format_png};
     if (comparison->options->curve >= 0)
         comparison->curve = (HdCurve)comparison->options->curve;
     else if (is_png[0] && is_png[1] && facts[0].curve != facts[1].curve)
@@ -200,7 +198,7 @@ static HdStatus open_map(Comparison *comparison, HdError *error) {
 static HdStatus start(Comparison *comparison, HdError *error) {
     const HdPictureFacts *facts = comparison->facts;
     const size_t width = (size_t)facts[0].width;
-    const bool clamps = facts[0].format == HD_PICTURE_PNG || facts[1].format == HD_PICTURE_PNG;
+    const bool clamps = facts[0].format == &hd_format_png || facts[1].format == &hd_format_png;
     HdStatus status = hd_difference_create(&comparison->difference, clamps, error);
     for (int i = 0; i < PICTURES && status == HD_OK; i++) {
         comparison->rows[i] = malloc(width * 3 * sizeof *comparison->rows[i]);

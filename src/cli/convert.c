@@ -7,7 +7,6 @@
 
 #include "cli/commands.h"
 #include "cli/load_scene.h"
-#include "image/file_kind.h"
 #include "input/builtin.h"
 #include "input/write.h"
 #include "system/atomic_file.h"
@@ -31,8 +30,8 @@ static HdStatus keep_texture(HdSceneFile *file, const char *output, HdError *err
 static HdStatus keep_output(HdSceneFile *file, HdError *error) {
     static const char ending[] = ".data";
     char *path = file->output.path;
-    const HdOutputKind kind = hd_output_kind(path);
-    if (kind != HD_OUTPUT_UNKNOWN && !hd_output_is_film(kind))
+    const HdFormat *format = hd_format_of(path);
+    if (format != NULL && !hd_format_is_film(format))
         return HD_OK;
     if (strlen(path) + sizeof ending > HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT, "the output path has %zu bytes, too many for %s",

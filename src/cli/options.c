@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "device/pipeline.h"
-#include "image/file_kind.h"
 #include "input/classic.h"
 #include "output/outputs.h"
 
@@ -24,7 +23,7 @@ static const char modes[] = "--gpu, --cpu and --default";
 static const char loudness[] = "--verbose and --quiet";
 
 static HdStatus check_diff(const char *text, const char *option, HdError *error) {
-    if (hd_output_kind(text) == HD_OUTPUT_PNG)
+    if (hd_format_of(text) == &hd_format_png)
         return HD_OK;
     return hd_fail(error, HD_BAD_INPUT, "%s is '%s', expected a name that ends in .png", option,
                    text);

@@ -123,7 +123,7 @@ static HdStatus render_missing(Run *run, HdError *error) {
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
 static void mark_outputs(const HdRendering *rendering, const HdRenderOptions *render) {
     HdOutputPlan *outputs = rendering->outputs;
-    if (render->math == HD_MATH_STRICT && outputs->has_png)
+    if (render->math == HD_MATH_STRICT && outputs->can_mark)
         hd_outputs_mark(
             outputs,
             hd_run_fingerprint(rendering->file, render->precision, &outputs->style.picture),

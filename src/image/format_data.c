@@ -2,7 +2,7 @@
 /* The data format: int32 width, int32 height, then r g b a, little endian. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/picture_formats.h"
+#include "image/format.h"
 
 #include <errno.h>
 #include <stdbool.h>
@@ -43,12 +43,13 @@ static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t
     return good;
 }
 
-HdStatus hd_image_data_write(const HdFrame *frame, HdCurve curve, FILE *stream, const char *path,
-                             HdError *error) {
+static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
+                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
+    (void)fingerprint; /* there is no place for a mark */
     uint8_t *row = malloc((size_t)frame->width * 4);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
-    bool good = write_all(frame, curve, stream, row);
+    bool good = write_all(frame, style->curve, stream, row);
     int reason = errno;
     free(row);
     if (!good)
@@ -108,8 +109,8 @@ static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const ch
                    format);
 }
 
-HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                              const char *name, HdCurve curve, HdError *error) {
+static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                       const char *name, HdCurve curve, HdError *error) {
     HdStatus status = check_head(bytes, size, name, error);
     if (status != HD_OK)
         return refuse_foreign(bytes, size, name, error);
@@ -126,3 +127,11 @@ HdStatus hd_image_data_decode(HdTexture *texture, const unsigned char *bytes, si
             texture->texels[i * 3 + c] = decoded[rgba[i * 4 + c]];
     return HD_OK;
 }
+
+/* Its 8 bits are made of any style. */
+const HdFormat hd_format_data = {
+    .name = "the data format",
+    .write = write,
+    .most_encoded_bits = 16,
+    .decode = decode,
+};

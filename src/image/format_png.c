@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/picture_formats.h"
+#include "image/format.h"
 #include "image/png.h"
 
 enum { SIZE_OFFSET = 16, SIZE_END = 24 };
@@ -34,8 +34,8 @@ static void take_off_curve(HdTexture *texture, HdCurve curve, int bits) {
         texture->texels[i] = decoded[texture->texels[i] >> 8];
 }
 
-HdStatus hd_image_png_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                             const char *name, HdCurve curve, HdError *error) {
+static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                       const char *name, HdCurve curve, HdError *error) {
     const HdPngSource source = {.bytes = bytes, .size = size};
     HdPngReader *reader = NULL;
     HdPngFacts facts;
@@ -74,8 +74,8 @@ static HdStatus load_rows(HdFrame *frame, HdPngReader *reader, const char *name,
     return status;
 }
 
-HdStatus hd_image_png_load(HdFrame *frame, const unsigned char *bytes, size_t size,
-                           const char *name, HdError *error) {
+static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
+                     HdError *error) {
     const HdPngSource source = {.bytes = bytes, .size = size};
     HdPngReader *reader;
     HdPngFacts facts;
@@ -129,9 +129,8 @@ static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPi
     return status;
 }
 
-HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style,
-                            const uint64_t *fingerprint, FILE *stream, const char *path,
-                            HdError *error) {
+static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
+                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
     const HdPngFacts facts = {.width = frame->width,
                               .height = frame->height,
                               .bits = style->bits,
@@ -149,3 +148,11 @@ HdStatus hd_image_png_write(const HdFrame *frame, const HdPictureStyle *style,
     free(row);
     return status;
 }
+
+const HdFormat hd_format_png = {
+    .name = "PNG",
+    .write = write,
+    .most_encoded_bits = 8,
+    .load = load,
+    .decode = decode,
+};

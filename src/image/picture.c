@@ -3,9 +3,6 @@
 
 #include <stdlib.h>
 
-#include "image/file_kind.h"
-#include "image/pfm.h"
-#include "image/picture_formats.h"
 #include "image/png.h"
 #include "system/file_bytes.h"
 
@@ -43,27 +40,18 @@ void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image) {
                          image->rgba);
 }
 
-static HdStatus check_picture(const HdFrame *frame, const char *path, HdError *error) {
-    if (hd_name_is_film(path))
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
+                            const HdPictureStyle *style, const uint64_t *fingerprint,
+                            const char *path, HdError *error) {
+    if (format->write == NULL)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s as a picture: its ending is that of a film", path);
-    return check_size(frame->width, frame->height, error);
-}
-
-HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
-                            const uint64_t *fingerprint, const char *path, HdError *error) {
-    HdOutputKind kind = hd_output_kind(path);
-    HdStatus status = check_picture(frame, path, error);
+    HdStatus status = check_size(frame->width, frame->height, error);
     if (status == HD_OK)
         status = hd_atomic_file_open(file, path, error);
     if (status != HD_OK)
         return status;
-    if (kind == HD_OUTPUT_PNG)
-        status = hd_image_png_write(frame, style, fingerprint, file->stream, path, error);
-    else if (kind == HD_OUTPUT_PFM)
-        status = hd_pfm_write(frame, file->stream, path, error);
-    else
-        status = hd_image_data_write(frame, style->curve, file->stream, path, error);
+    status = format->write(frame, style, fingerprint, file->stream, path, error);
     if (status != HD_OK)
         hd_atomic_file_discard(file);
     return status;
@@ -71,17 +59,18 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPi
 
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error) {
+    const HdFormat *format = hd_format_of(path);
     HdAtomicFile file;
-    HdStatus status = hd_picture_prepare(&file, frame, style, NULL, path, error);
+    HdStatus status = hd_picture_prepare(&file, frame, format != NULL ? format : &hd_format_data,
+                                         style, NULL, path, error);
     return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
 }
 
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
-    HdStatus status = hd_image_is_png(bytes, size)
-                          ? hd_image_png_decode(texture, bytes, size, name, curve, error)
-                          : hd_image_data_decode(texture, bytes, size, name, curve, error);
+    const HdFormat *format = hd_image_is_png(bytes, size) ? &hd_format_png : &hd_format_data;
+    HdStatus status = format->decode(texture, bytes, size, name, curve, error);
     if (status != HD_OK)
         hd_texture_clear(texture);
     return status;

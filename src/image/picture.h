@@ -3,15 +3,9 @@
 #ifndef HD_IMAGE_PICTURE_H
 #define HD_IMAGE_PICTURE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include "base/error.h"
 #include "base/limits.h"
-#include "image/curve.h"
-#include "image/frame.h"
-#include "image/output_style.h"
-#include "image/texture.h"
+#include "image/format.h"
 #include "system/atomic_file.h"
 
 /* Eight bits a channel, row by row from the top: r, g, b, a. */
@@ -27,21 +21,20 @@ void hd_image8_free(HdImage8 *image);
 /* As hd_curve_encode8; alpha 255. `image` has the frame's size. */
 void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
 
-/* Writes a frame in the format of the path's ending (hd_output_kind): PNG, PFM, or else the data
-   format; a film's ending is an error. It is written under a temporary name beside `path` that is
-   then renamed; missing folders are made. On failure nothing is left behind under either name, and
-   a file that was there before is untouched. The data format: int32 width, int32 height, then r g b
-   a, 8 bits each, little endian. PNG: RGB, with an sRGB chunk
-   where the values are on that curve. PFM: float, little endian, rows from the bottom. A frame that
-   is encoded already must be so on the style's curve; only what has 8 bits can be made of it. */
+/* Writes a frame as a picture, under a temporary name beside `path`, for hd_atomic_file_commit or
+   hd_atomic_file_discard to end; missing folders are made. A film's format is an error. The data
+   format: int32 width, int32 height, then r g b a, 8 bits each, little endian. PNG: RGB, with an
+   sRGB chunk where the values are on that curve. PFM: float, little endian, rows from the bottom. A
+   frame that is encoded already must be so on the style's curve; only what has 8 bits can be made
+   of it. Formats that bear marks get that of `fingerprint` (mark.h); NULL: none. On failure nothing
+   is left of `file`, and a file that was there before is untouched. */
+HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
+                            const HdPictureStyle *style, const uint64_t *fingerprint,
+                            const char *path, HdError *error);
+
+/* The same in the format of the path's ending, or else the data format, and with the renaming. */
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
-
-/* The same without the renaming, for hd_atomic_file_commit or hd_atomic_file_discard to end. A PNG
-   gets the mark of `fingerprint` (mark.h); NULL: none. On failure nothing is left of
-   `file`. */
-HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdPictureStyle *style,
-                            const uint64_t *fingerprint, const char *path, HdError *error);
 
 /* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
    values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */

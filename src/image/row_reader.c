@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/pfm.h"
+#include "image/format_pfm.h"
 #include "image/png.h"
 
 enum { CODES = 65536 };
@@ -58,7 +58,7 @@ static HdStatus open_png(HdPictureReader *reader, HdError *error) {
                        "%s is an interlaced PNG, expected one whose rows follow each other",
                        reader->path);
     reader->facts = (HdPictureFacts){
-        .format = HD_PICTURE_PNG,
+        .format = &hd_format_png,
         .width = facts.width,
         .height = facts.height,
         .bits = facts.bits,
@@ -70,7 +70,7 @@ static HdStatus open_png(HdPictureReader *reader, HdError *error) {
 static HdStatus open_pfm(HdPictureReader *reader, HdError *error) {
     const HdStatus status = hd_pfm_open(&reader->pfm, reader->file, reader->path, error);
     reader->facts = (HdPictureFacts){
-        .format = HD_PICTURE_PFM,
+        .format = &hd_format_pfm,
         .width = reader->pfm.width,
         .height = reader->pfm.height,
         .bits = 32,

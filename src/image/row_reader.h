@@ -5,16 +5,14 @@
 #define HD_IMAGE_ROW_READER_H
 
 #include "base/error.h"
-#include "image/curve.h"
+#include "image/format.h"
 #include "image/picture_value.h"
 
-typedef enum HdPictureFormat { HD_PICTURE_PNG, HD_PICTURE_PFM } HdPictureFormat;
-
 typedef struct HdPictureFacts {
-    HdPictureFormat format;
+    const HdFormat *format; /* PNG or PFM */
     int width, height;
     int bits;      /* of a channel: 8 or 16, in PFM 32 */
-    HdCurve curve; /* of PNG: sRGB where a chunk says so, else linear, as hd_picture_write has it;
+    HdCurve curve; /* of PNG: sRGB where a chunk says so, else linear, as it is written;
                       of PFM: linear */
 } HdPictureFacts;
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/file_kind.h"
+#include "image/format.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
 
@@ -158,7 +158,7 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
 
 void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems) {
     const char *path = file->output.path;
-    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_name_is_film(path) ||
+    if (path[0] == '\0' || file->scene.frame_count == 1 || hd_format_is_film(hd_format_of(path)) ||
         hd_pattern_has_number(path))
         return;
     hd_problem(problems,

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "image/file_kind.h"
+#include "image/format.h"
 #include "input/builtin.h"
 #include "input/changes.h"
 
@@ -240,21 +240,21 @@ bool hd_check_file_name(HdSceneReport *report, const json_t *value) {
 void hd_check_output_path(HdSceneReport *report, const char *path) {
     char quoted[HD_WORDS_SIZE];
     HdError error;
-    const HdOutputKind kind = hd_output_kind(path);
+    const HdFormat *format = hd_format_of(path);
     hd_quoted(path, quoted);
     if (path[0] == '\0')
         return;
-    if (kind == HD_OUTPUT_UNKNOWN)
+    if (format == NULL)
         hd_report(report,
                   "is %s, expected the name of a film (" HD_FILM_ENDINGS
                   ") or of a picture (" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (hd_output_is_film(kind) && hd_pattern_has_number(path))
+    else if (hd_format_is_film(format) && hd_pattern_has_number(path))
         hd_report(report,
                   "is %s, expected a film without a number (%%d or #) in its name, or pictures "
                   "(" HD_PICTURE_ENDINGS ")",
                   quoted);
-    else if (!hd_output_is_film(kind) && strpbrk(path, "%#") != NULL &&
+    else if (!hd_format_is_film(format) && strpbrk(path, "%#") != NULL &&
              hd_pattern_check(path, &error) != HD_OK)
         hd_report(report, "cannot be used: %s", error.message);
 }

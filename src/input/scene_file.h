@@ -8,7 +8,7 @@
 
 #include "base/problems.h"
 #include "image/curve.h"
-#include "image/output_style.h"
+#include "image/format.h"
 #include "scene/scene.h"
 #include "system/path.h"
 

@@ -107,7 +107,8 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
     char path[HD_MAX_PATH];
     HdStatus status = hd_output_file(&outputs->list[index], number, path, error);
     if (status == HD_OK)
-        status = hd_picture_prepare(file, &place->frame, &outputs->style.picture,
+        status = hd_picture_prepare(file, &place->frame, outputs->list[index].format,
+                                    &outputs->style.picture,
                                     outputs->is_marked ? &fingerprint : NULL, path, error);
     if (status != HD_OK)
         file->stream = NULL;

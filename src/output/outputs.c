@@ -5,7 +5,7 @@
 #include <string.h>
 
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error) {
-    if (hd_output_kind(name) == HD_OUTPUT_UNKNOWN)
+    if (hd_format_of(name) == NULL)
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is '%.4000s', expected the name of a film (" HD_FILM_ENDINGS
                        ") or of a picture (" HD_PICTURE_ENDINGS ")",
@@ -14,12 +14,12 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
 }
 
 static HdStatus settle_output(HdOutput *output, const char *name, int frame_count, HdError *error) {
-    const HdOutputKind kind = hd_output_kind(name);
+    const HdFormat *format = hd_format_of(name);
     char file[HD_MAX_PATH];
     *output = (HdOutput){
         .name = name,
-        .kind = kind,
-        .is_film = hd_output_is_film(kind),
+        .format = format != NULL ? format : &hd_format_data,
+        .is_film = hd_format_is_film(format),
         .is_numbered = hd_pattern_has_number(name),
     };
     if (output->is_film && output->is_numbered)
@@ -72,20 +72,18 @@ static HdStatus check_different(const HdOutput *output, const HdOutput *other, i
                    other->name, output->name);
 }
 
-static bool needs_radiance(const HdOutput *output, int bits) {
-    return output->kind == HD_OUTPUT_PFM || (output->kind == HD_OUTPUT_PNG && bits > 8);
-}
-
-/* Pictures other than numbered PNG must be rendered anyway, and films cannot be made of 16 bits. */
+/* Pictures must be rendered anyway but numbered ones with marks, and films cannot be made of 16
+   bits. */
 static void sum_up(HdOutputPlan *plan) {
     const int bits = plan->style.picture.bits;
     int sequences = 0;
     for (int i = 0; i < plan->count; i++) {
         const HdOutput *output = &plan->list[i];
         plan->film_count += output->is_film;
-        plan->has_png |= output->kind == HD_OUTPUT_PNG;
-        plan->wish.radiance |= needs_radiance(output, bits);
-        sequences += output->kind == HD_OUTPUT_PNG && output->is_numbered;
+        const bool can_mark = output->format->load != NULL;
+        plan->can_mark |= can_mark;
+        plan->wish.radiance |= !output->is_film && bits > output->format->most_encoded_bits;
+        sequences += can_mark && output->is_numbered;
     }
     plan->can_resume = sequences > 0 && sequences + plan->film_count == plan->count &&
                        (plan->film_count == 0 || bits == 8);
@@ -104,12 +102,13 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
         for (int j = 0; j < i && status == HD_OK; j++)
             status = check_different(&plan->list[i], &plan->list[j], frame_count, error);
     }
-    sum_up(plan);
+    if (status == HD_OK)
+        sum_up(plan);
     return status;
 }
 
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
-    plan->is_marked = plan->has_png;
+    plan->is_marked = plan->can_mark;
     plan->fingerprint = fingerprint;
     plan->resumes = resumes && plan->can_resume;
 }

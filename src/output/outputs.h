@@ -9,14 +9,12 @@
 
 #include "base/error.h"
 #include "base/limits.h"
-#include "image/file_kind.h"
-#include "image/frame.h"
-#include "image/output_style.h"
+#include "image/format.h"
 #include "system/path.h"
 
 typedef struct HdOutput {
     const char *name; /* of a film or a picture, or a sequence's pattern; as people wrote it */
-    HdOutputKind kind;
+    const HdFormat *format;
     bool is_film;
     bool is_numbered; /* a picture for each frame */
 } HdOutput;
@@ -27,24 +25,25 @@ typedef struct HdOutputPlan {
     int film_count;
     HdOutputStyle style;
     HdFrameWish wish;     /* what a frame must hold for all of them */
-    bool has_png;         /* some are PNG pictures */
+    bool can_mark;        /* some are pictures of a format that bears marks (mark.h) */
     bool can_resume;      /* frames can be finished before the run (resume.h), once marked */
-    bool is_marked;       /* PNG pictures get a mark (picture_mark.h) */
-    uint64_t fingerprint; /* of the run (frame_fingerprint.h), where they do */
+    bool is_marked;       /* those pictures get a mark */
+    uint64_t fingerprint; /* of the run (fingerprint.h), where they do */
     bool resumes;         /* frames whose marked pictures are there are finished */
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */
 HdStatus hd_output_check_name(const char *name, const char *option, HdError *error);
 
-/* Finds out what each of the names, 1 to HD_MAX_OUTPUTS, stands for; they must live on.
+/* Finds out what each of the names, 1 to HD_MAX_OUTPUTS, stands for; they must live on. An ending
+   that is of no format stands for the data format, as in the classic mode.
    HD_BAD_INPUT where one does not suit the number of frames, or is there twice, whatever the
    spelling. The plan is not marked. */
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error);
 
-/* Has the plan's PNG pictures marked with the fingerprint of the run; with `resumes` those that are
-   there are kept, where that can be. */
+/* Has the plan's pictures marked with the fingerprint of the run, where they can be; with `resumes`
+   those that are there are kept, where that can be. */
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);
 
 /* The name that an output has for one frame, as people wrote it, and the file that it stands for.

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "image/mark.h"
-#include "image/picture_formats.h"
 #include "system/file_bytes.h"
 #include "system/interrupt.h"
 
@@ -72,7 +71,7 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
         output++;
     HdStatus status = HD_FAILED;
     if (read_whole(plan, output, number, &bytes, &size))
-        status = hd_image_png_load(frame, bytes, size, output->name, error);
+        status = output->format->load(frame, bytes, size, output->name, error);
     else
         hd_fail(error, HD_FAILED,
                 "frame %d of %s was finished, but has changed since or cannot be read: start the "

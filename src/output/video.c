@@ -9,7 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "image/file_kind.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
 #include "system/interrupt.h"
@@ -29,7 +28,7 @@ static HdStatus check_settings(const char *path, int width, int height, int fram
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
                        path, width, height, HD_MAX_IMAGE_SIDE);
-    if (!hd_name_is_film(path))
+    if (!hd_format_is_film(hd_format_of(path)))
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
     if (frames_per_second < 1)
@@ -39,37 +38,7 @@ static HdStatus check_settings(const char *path, int width, int height, int fram
     return HD_OK;
 }
 
-/* What FFmpeg is told about the file, by the film's kind. */
-/* clang-format off */
-static const char *const mp4_arguments[] = {
-    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
-    "-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p",
-    "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-    "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL};
-
-/* Every frame is a key frame, so that players can jump to it. The container is given no random
-   number, so that the same frames make the same bytes. */
-static const char *const mkv_arguments[] = {
-    "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb",
-    "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "pc",
-    "-fflags", "+bitexact", "-f", "matroska", NULL};
-
-/* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
-static const char *const sliced_arguments[] = {
-    "-level", "3", "-slices", "16", "-slicecrc", "1", NULL};
-static const char *const whole_arguments[] = {"-level", "1", NULL};
-
-/* A palette for each frame: one for all would keep every frame in memory until the last. The ordered
-   dither keeps still what does not move, and compresses well. */
-static const char gif_filters[] =
-    "split[seen][painted];"
-    "[seen]palettegen=stats_mode=single:reserve_transparent=0[palette];"
-    "[painted][palette]paletteuse=new=1:dither=bayer:bayer_scale=4";
-static const char *const gif_arguments[] = {
-    "-filter_complex", gif_filters, "-loop", "0", "-f", "gif", NULL};
-/* clang-format on */
-
-enum { MAX_ARGUMENTS = 64, MIN_SLICED_SIDE = 64 };
+enum { MAX_ARGUMENTS = 64 };
 
 typedef struct Arguments {
     size_t count;
@@ -79,19 +48,6 @@ typedef struct Arguments {
 static void append(Arguments *arguments, const char *const *words) {
     while (*words != NULL && arguments->count < MAX_ARGUMENTS)
         arguments->words[arguments->count++] = *words++;
-}
-
-static void append_kind(Arguments *arguments, const HdVideo *video) {
-    HdOutputKind kind = hd_output_kind(video->path);
-    if (kind == HD_OUTPUT_MP4) {
-        append(arguments, mp4_arguments);
-    } else if (kind == HD_OUTPUT_GIF) {
-        append(arguments, gif_arguments);
-    } else {
-        bool sliced = video->width >= MIN_SLICED_SIDE && video->height >= MIN_SLICED_SIDE;
-        append(arguments, sliced ? sliced_arguments : whole_arguments);
-        append(arguments, mkv_arguments);
-    }
 }
 
 /* "file:" keeps FFmpeg from reading a protocol or an option into the name. */
@@ -110,7 +66,7 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_
     const char *const end[] = {target, NULL};
     Arguments arguments = {0};
     append(&arguments, start);
-    append_kind(&arguments, video);
+    append(&arguments, hd_format_of(video->path)->film_arguments(video->width, video->height));
     append(&arguments, end);
     return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
 }

@@ -9,7 +9,7 @@
 typedef struct HdVideo HdVideo;
 
 /* Finds FFmpeg ("ffmpeg" and "ffprobe" in PATH), makes missing folders, and starts FFmpeg without a
-   shell, writing to a temporary name beside `path`. The path's ending (hd_output_kind) must be a
+   shell, writing to a temporary name beside `path`. The path's ending (hd_format_of) must be a
    film's and tells what is made: MP4, H.264, yuv420p, BT.709, an odd width or height padded by one
    pixel; MKV, FFV1, the frames' RGB without loss; GIF, a palette for each frame, ordered dither,
    repeating for ever, times rounded to centiseconds. Frames are 8-bit RGBA of one size, alpha 255.

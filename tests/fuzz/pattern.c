@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "image/file_kind.h"
+#include "image/format.h"
 #include "system/path.h"
 
 static void check_name(const char *name, const char *pattern) {
@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_expect(is_pattern != HD_OK, "a name that is a pattern too");
     }
     if (hd_path_expand_home(pattern, home, &error) == HD_OK)
-        hd_output_kind(home);
+        hd_format_of(home);
     free(pattern);
     return 0;
 }

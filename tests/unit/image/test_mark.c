@@ -28,8 +28,9 @@ static void write_picture(const uint64_t *fingerprint, int bits) {
     assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
     for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
         frame.rgb[i] = (float)(i % 251) / 251.0f;
-    assert_int_equal(hd_picture_prepare(&file, &frame, &style, fingerprint, "a.png", &error),
-                     HD_OK);
+    assert_int_equal(
+        hd_picture_prepare(&file, &frame, &hd_format_png, &style, fingerprint, "a.png", &error),
+        HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
     hd_frame_free(&frame);
     free(bytes);

@@ -44,7 +44,7 @@ static void png_has_the_codes_of_the_file(void **state) {
             hd_curve_encode16(style.curve, frame.rgb, VALUES, codes);
             hd_curve_encode8(style.curve, frame.rgb, VALUES, bytes);
             const HdPictureFacts facts = read_picture("a.png", style.curve, values);
-            assert_int_equal(facts.format, HD_PICTURE_PNG);
+            assert_ptr_equal(facts.format, &hd_format_png);
             assert_int_equal(facts.curve, curve);
             assert_int_equal(facts.bits, bits);
             assert_int_equal(facts.width, WIDTH);
@@ -71,7 +71,7 @@ static void pfm_has_the_values_of_the_frame(void **state) {
     assert_int_equal(hd_picture_write(&frame, &style, "a.pfm", &error), HD_OK);
     for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
         const HdPictureFacts facts = read_picture("a.pfm", (HdCurve)curve, values);
-        assert_int_equal(facts.format, HD_PICTURE_PFM);
+        assert_ptr_equal(facts.format, &hd_format_pfm);
         assert_int_equal(facts.width, WIDTH);
         assert_int_equal(facts.height, HEIGHT);
         for (int i = 1; i < VALUES; i++) {

@@ -46,6 +46,7 @@ static void outputs_suit_the_number_of_frames(void **state) {
 static void every_output_is_checked(void **state) {
     (void)state;
     check_refused("a.mp4", "b.png", 2, "'b.png'");
+    check_refused("a.png", "b.mp4", 2, "'a.png'");
     check_refused("a.png", "a.png", 1, "twice");
 }
 
@@ -67,14 +68,14 @@ static void a_plan_says_what_frames_must_hold(void **state) {
     assert_int_equal(settle(&plan, "a_%d.png", "b.MKV", 8, 2), HD_OK);
     assert_true(plan.list[0].is_numbered && !plan.list[0].is_film);
     assert_true(plan.list[1].is_film && !plan.list[1].is_numbered);
-    assert_int_equal(plan.list[1].kind, HD_OUTPUT_MKV);
+    assert_ptr_equal(plan.list[1].format, &hd_format_mkv);
     assert_int_equal(plan.film_count, 1);
-    assert_true(plan.has_png && plan.can_resume && !plan.wish.radiance && !plan.is_marked);
+    assert_true(plan.can_mark && plan.can_resume && !plan.wish.radiance && !plan.is_marked);
     assert_int_equal(plan.wish.curve, HD_CURVE_LINEAR);
     assert_int_equal(settle(&plan, "a_%d.png", NULL, 16, 2), HD_OK);
     assert_true(plan.wish.radiance && plan.can_resume);
     assert_int_equal(settle(&plan, "a_%d.pfm", NULL, 8, 2), HD_OK);
-    assert_true(plan.wish.radiance && !plan.can_resume && !plan.has_png);
+    assert_true(plan.wish.radiance && !plan.can_resume && !plan.can_mark);
 }
 
 static void only_what_can_be_resumed_is(void **state) {

@@ -47,8 +47,9 @@ static void write_frame(const HdOutputPlan *plan, int index, int number) {
     HdAtomicFile file;
     HdFrame frame = make_frame(number);
     assert_int_equal(hd_output_file(&plan->list[index], number, path, &error), HD_OK);
-    assert_int_equal(
-        hd_picture_prepare(&file, &frame, &plan->style.picture, &fingerprint, path, &error), HD_OK);
+    assert_int_equal(hd_picture_prepare(&file, &frame, plan->list[index].format,
+                                        &plan->style.picture, &fingerprint, path, &error),
+                     HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
     hd_frame_free(&frame);
 }

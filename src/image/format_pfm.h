@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* PFM in colour: three lines of text, then r g b in float, row by row from the bottom. */
-#ifndef HD_IMAGE_PFM_H
-#define HD_IMAGE_PFM_H
+/* Reading PFM in colour: three lines of text, then r g b in float, row by row from the bottom. */
+#ifndef HD_IMAGE_FORMAT_PFM_H
+#define HD_IMAGE_FORMAT_PFM_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
 #include "base/error.h"
-#include "image/frame.h"
 
 /* A file that is being read. */
 typedef struct HdPfmRows {
@@ -24,8 +23,5 @@ HdStatus hd_pfm_open(HdPfmRows *rows, FILE *file, const char *path, HdError *err
 
 /* The next row from the top: 3 values for each pixel. */
 HdStatus hd_pfm_next_row(HdPfmRows *rows, float *values, HdError *error);
-
-/* Writes the radiance of a frame, little endian; `path` is for messages. */
-HdStatus hd_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error);
 
 #endif

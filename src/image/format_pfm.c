@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/pfm.h"
+#include "image/format_pfm.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -9,6 +9,7 @@
 #include <sys/types.h>
 
 #include "base/limits.h"
+#include "image/format.h"
 
 static HdStatus fail_head(const char *path, HdError *error) {
     return hd_fail(error, HD_BAD_INPUT,
@@ -98,7 +99,10 @@ static bool write_all(const HdFrame *frame, FILE *stream, unsigned char *row) {
     return good;
 }
 
-HdStatus hd_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdError *error) {
+static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
+                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
+    (void)style;       /* radiance is on no curve */
+    (void)fingerprint; /* there is no place for a mark */
     unsigned char *row = malloc((size_t)frame->width * 12);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
@@ -109,3 +113,5 @@ HdStatus hd_pfm_write(const HdFrame *frame, FILE *stream, const char *path, HdEr
         return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
     return HD_OK;
 }
+
+const HdFormat hd_format_pfm = {.name = "PFM", .write = write, .most_encoded_bits = 0};

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+#include "image/format.h"
+
+#include "system/path.h"
+
+#define ROW(name) {"." #name, &hd_format_##name},
+
+static const struct Row {
+    const char *ending;
+    const HdFormat *format;
+} rows[] = {HD_FILM_FORMATS(ROW, ROW, ROW) HD_PICTURE_FORMATS(ROW, ROW, ROW)};
+
+const HdFormat *hd_format_of(const char *path) {
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (hd_path_has_ending(path, rows[i].ending))
+            return rows[i].format;
+    return NULL;
+}
+
+bool hd_format_is_film(const HdFormat *format) {
+    return format != NULL && format->film_arguments != NULL;
+}

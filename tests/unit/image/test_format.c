@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+#include "expect.h"
+#include "image/format.h"
+
+static void the_ending_tells_the_format(void **state) {
+    (void)state;
+    const struct {
+        const char *path;
+        const HdFormat *format;
+        bool is_film;
+    } outputs[] = {{"a.data", &hd_format_data, false},
+                   {"a.png", &hd_format_png, false},
+                   {"a/b.PnG", &hd_format_png, false},
+                   {"a.pfm", &hd_format_pfm, false},
+                   {"a.mp4", &hd_format_mp4, true},
+                   {"out/a.MKV", &hd_format_mkv, true},
+                   {"a.gif", &hd_format_gif, true},
+                   {"a.png.data", &hd_format_data, false},
+                   {".gif", &hd_format_gif, true},
+                   {"a.mp4.png", &hd_format_png, false},
+                   {"png", NULL, false},
+                   {"apng", NULL, false},
+                   {"", NULL, false},
+                   {"a.mp4/b", NULL, false},
+                   {"a.png ", NULL, false},
+                   {"a.jpg", NULL, false},
+                   {"a.mp4.tmp", NULL, false}};
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++) {
+        assert_ptr_equal(hd_format_of(outputs[i].path), outputs[i].format);
+        assert_int_equal(hd_format_is_film(outputs[i].format), outputs[i].is_film);
+    }
+}
+
+/* Counts the formats of a list such as ".mp4, .mkv or .gif"; each is a film, or none is. */
+static int count_formats(const char *list, bool are_films) {
+    char words[64];
+    int count = 0;
+    assert_true(strlen(list) < sizeof words);
+    memcpy(words, list, strlen(list) + 1);
+    for (char *word = strtok(words, ", "); word != NULL; word = strtok(NULL, ", "))
+        if (strcmp(word, "or") != 0) {
+            const HdFormat *format = hd_format_of(word);
+            assert_non_null(format);
+            assert_int_equal(hd_format_is_film(format), are_films);
+            assert_int_equal(format->write == NULL, are_films);
+            count++;
+        }
+    return count;
+}
+
+#define COUNTED(name) +1
+
+static void the_lists_name_every_format(void **state) {
+    (void)state;
+    assert_string_equal(HD_FILM_ENDINGS, ".mp4, .mkv or .gif");
+    assert_int_equal(count_formats(HD_FILM_ENDINGS, true),
+                     HD_FILM_FORMATS(COUNTED, COUNTED, COUNTED));
+    assert_int_equal(count_formats(HD_PICTURE_ENDINGS, false),
+                     HD_PICTURE_FORMATS(COUNTED, COUNTED, COUNTED));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_ending_tells_the_format),
+        cmocka_unit_test(the_lists_name_every_format),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
