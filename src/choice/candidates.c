@@ -131,11 +131,16 @@ static int count_compared(const HdCandidates *candidates) {
     return count;
 }
 
+/* How long plain C takes for a frame. */
+static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error) {
+    const HdDeviceWish *wish = &candidates->wish;
+    return hd_trial_estimate(wish->options, wish->job, enough, &candidates->frame_seconds, error);
+}
+
 /* Plain C is asked how long it takes before any driver is: drivers take their time to start. */
 static HdStatus estimate_any(HdCandidates *candidates, HdError *error) {
     HdDeviceWish *wish = &candidates->wish;
-    HdStatus status = hd_trial_estimate(wish->options, wish->job, HD_AUTO_SMALL_SECONDS,
-                                        &candidates->frame_seconds, error);
+    HdStatus status = estimate(candidates, HD_AUTO_SMALL_SECONDS, error);
     double seconds = candidates->frame_seconds * wish->job->frame_count;
     if (status != HD_OK || seconds > HD_AUTO_SMALL_SECONDS)
         return status;
@@ -169,7 +174,6 @@ HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, 
     if (candidates->is_free)
         candidates->compared = count_compared(candidates);
     if (candidates->compared > 1 && wish->kind == HD_PREFER_GPU)
-        status =
-            hd_trial_estimate(wish->options, wish->job, 0.0, &candidates->frame_seconds, error);
+        status = estimate(candidates, 0.0, error);
     return status;
 }

@@ -144,9 +144,9 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
 /* Fails with HD_INTERRUPTED alone: what else cannot be opened is left out. */
 static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device, const HdDeviceWish *wish,
                            HdError *error) {
-    const char *obstacle = hd_device_obstacle(device, wish->options);
+    const HdRenderOptions own = options_of(team, device, wish->options);
+    const char *obstacle = hd_device_obstacle(device, &own);
     if (obstacle == NULL) {
-        HdRenderOptions own = options_of(team, device, wish->options);
         HdTeamDevice *member = &team->list[team->count];
         *member = (HdTeamDevice){.device = *device};
         HdStatus status = hd_launch_open(member, &own, wish->job, false, error);

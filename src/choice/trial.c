@@ -5,24 +5,18 @@
 
 #include "system/machine.h"
 
-static HdStatus upload(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                       HdError *error) {
-    HdSceneTables tables;
-    HdStatus status =
-        hd_compile_scene(&tables, job->scene, precision, hd_renderer_lanes(renderer), error);
-    if (status != HD_OK)
-        return status;
-    status = hd_renderer_upload(renderer, &tables, error);
-    hd_scene_tables_free(&tables);
-    return status;
-}
-
 HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error) {
+    HdSceneTables tables;
     HdStatus status = hd_renderer_open(renderer, device, options, error);
     if (status != HD_OK)
         return status;
-    status = upload(*renderer, options->precision, job, error);
+    status = hd_compile_scene(&tables, job->scene, options->precision, hd_renderer_lanes(*renderer),
+                              error);
+    if (status == HD_OK) {
+        status = hd_renderer_upload(*renderer, &tables, error);
+        hd_scene_tables_free(&tables);
+    }
     if (status != HD_OK) {
         hd_renderer_close(*renderer);
         *renderer = NULL;

@@ -187,6 +187,11 @@ void hd_console_tell_run(const HdConsole *console, const char *name, const HdSce
     note_outputs(plan, frame_count);
 }
 
+void hd_console_prepare(const HdConsole *console, const char *what) {
+    if (!console->verbose && console->form == HD_PROGRESS_BAR)
+        draw(what);
+}
+
 void hd_console_start(HdConsole *console, const HdResume *resume) {
     if (resume->finished_count > 0 && !console->quiet)
         fprintf(stderr, "hedron: %d of %d frames were finished already\n", resume->finished_count,
@@ -194,14 +199,11 @@ void hd_console_start(HdConsole *console, const HdResume *resume) {
     console->total =
         console->form == HD_PROGRESS_FRAMES ? resume->all->count : resume->missing.count;
     console->start_seconds = console->line_seconds = hd_monotonic_seconds();
+    if (resume->missing.count > 0)
+        hd_console_prepare(console, "preparing the device");
 }
 
 /* ---- devices ---- */
-
-void hd_console_prepare(const HdConsole *console, const char *what) {
-    if (!console->verbose && console->form == HD_PROGRESS_BAR)
-        draw(what);
-}
 
 static void note_device(const HdTeamDevice *opened, const char *why) {
     const HdDevice *device = &opened->device;

@@ -39,7 +39,8 @@ void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_li
 void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
                          const HdOutputPlan *plan, int frame_count);
 
-/* Tells how many frames are finished already, and begins to count. */
+/* Tells how many frames are finished already, and begins to count those that a device must be
+   prepared for. */
 void hd_console_start(HdConsole *console, const HdResume *resume);
 
 /* Before the first frame: shows what the user waits for, where there is a bar. */

@@ -70,7 +70,6 @@ static HdStatus open_devices(Run *run, HdError *error) {
     };
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
     hd_scene_drop_survey(&plain);
-    hd_console_prepare(&run->console, "preparing the device");
     HdStatus status = hd_open_devices(&run->team, &wish, error);
     hd_console_clear(&run->console);
     if (status == HD_INTERRUPTED)
