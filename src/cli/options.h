@@ -23,40 +23,18 @@ typedef struct HdOptionCrop {
 } HdOptionCrop;
 
 /* What the command line said. Where an option is not given, its member is 0, false or NULL, or what
-   is told here. */
+   its row says (`unset`). */
 typedef struct HdOptions {
     HdCommand command;
     HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
     char **operands;        /* what is no option, in order; at the front of main's arguments */
     int operand_count;
-    bool gpu, cpu, prints_default; /* of the classic mode, at most one; none is as `gpu` */
-    int variant;                   /* HD_CLASSIC_DEFAULT_VARIANT if not given */
-    const char *outputs[HD_MAX_OUTPUTS];
-    int output_count;
-    const char *changes[HD_MAX_CHANGES]; /* "PATH=VALUE" each */
-    int change_count;
-    const char *backend; /* NULL: also auto */
-    const char *device;  /* number or part of a name */
-    const char *frames;
-    const char *statistics; /* a file, "-": standard output */
-    bool again;             /* finished frames are rendered again */
-    bool verbose, quiet;    /* not both */
-    bool tells_frames;      /* a line of progress for each frame */
-    bool json;              /* of 'devices', 'tune' and 'compare' */
-    bool schema;            /* of 'check' */
     HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
-    HdGeometry geometry;
-    int divisions;
-    HdAccel accel;
-    HdOptionSize size;
-    int samples, depth;       /* depth -1: not given */
-    double cutoff, max_error; /* cutoff -1: not given */
-    int sampling;             /* an HdSampling; -1: not given */
-    bool reference;
-    HdOptionCrop crop;
-    const char *diff;  /* a PNG file */
-    double fail_above; /* steps of 255; -1: not given */
-    int curve;         /* an HdCurve; -1: not given */
+#define ROW(...)
+#define OPTION(member, ...) member;
+#include "cli/option_table.h"
+#undef ROW
+#undef OPTION
 } HdOptions;
 
 /* What is behind an option, and the member that it sets. */

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/* The options of the command line, and what each sets. Included twice, so without a guard: by
+   options.h for the members of HdOptions, by options.c for the rows of HdOptionSpec.
+   OPTION(MEMBER, ROW...): an option with a member of its own. ROW(...): one that sets another
+   option's, a member of HdOptions.render, or none. */
+
+OPTION(bool gpu, "--gpu", NULL, NULL, "trace on the GPU (this is the default of the classic mode)",
+       HD_COMMAND_CLASSIC, FLAG(gpu), .only_one_of = modes)
+OPTION(bool cpu, "--cpu", NULL, NULL, "trace on the CPU only", HD_COMMAND_CLASSIC, FLAG(cpu),
+       .only_one_of = modes)
+OPTION(bool prints_default, "--default", NULL, NULL,
+       "print the most colourful configuration in the input format, and exit", HD_COMMAND_CLASSIC,
+       FLAG(prints_default), .only_one_of = modes)
+OPTION(int variant, "--variant", NULL, "1..10",
+       "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
+       HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(variant, 1, HD_CLASSIC_VARIANTS),
+       .unset = HD_CLASSIC_DEFAULT_VARIANT)
+OPTION(const char *outputs[HD_MAX_OUTPUTS];
+       int output_count, "--output", "-o", "OUT",
+       "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
+       TEXTS(HD_OPTION_TEXTS, outputs, output_count, HD_MAX_OUTPUTS), .check = hd_output_check_name,
+       .expected = "the name of a file", .takes_file = true)
+ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
+    HD_COMMAND_CONVERT, TEXTS(HD_OPTION_TEXTS, outputs, output_count, 1),
+    .expected = "the name of a file", .takes_file = true)
+OPTION(const char *changes[HD_MAX_CHANGES];
+       int change_count, "--set", NULL, "PATH=VALUE",
+       "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
+       HD_COMMAND_RENDER | HD_COMMAND_TUNE,
+       TEXTS(HD_OPTION_CHANGES, changes, change_count, HD_MAX_CHANGES),
+       .expected = "PATH=VALUE such as camera.field_of_view=40")
+OPTION(const char *frames, "--frames", NULL, "LIST", "render these frames only, for example 0-9,20",
+       MEASURING, TEXT(frames, NULL))
+OPTION(
+    bool again, "--again", NULL, NULL,
+    "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
+    "the same pixels, are left as they are",
+    HD_COMMAND_RENDER, FLAG(again))
+OPTION(HdOptionSize size, "--size", NULL, "WxH", "size of the picture in pixels", MEASURING,
+       .type = HD_OPTION_SIZE, AT(size),
+       .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535")
+OPTION(int samples, "--samples", NULL, "N", "N x N samples for each pixel", MEASURING,
+       INTEGER(samples, 1, HD_MAX_SAMPLES_PER_SIDE))
+OPTION(int depth, "--depth", NULL, "N", "how often a ray may be mirrored or pass a face", MEASURING,
+       INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1)
+OPTION(double cutoff, "--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)",
+       MEASURING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1)
+OPTION(
+    int sampling, "--aa", NULL, "NAME",
+    "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
+    "an estimate and no promise (default grid)",
+    RENDERING, CHOICE(sampling, "grid", "adaptive"), .unset = -1)
+OPTION(
+    double max_error, "--max-error", NULL, "E",
+    "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
+    "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
+    "sampling aims at",
+    RENDERING, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR))
+OPTION(bool reference, "--reference", NULL, NULL,
+       "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
+       "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
+       HD_COMMAND_RENDER, FLAG(reference))
+OPTION(HdOptionCrop crop, "--crop", NULL, "WxH+X+Y",
+       "render only so many pixels from column X and row Y on", HD_COMMAND_RENDER,
+       .type = HD_OPTION_CROP, AT(crop), .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200")
+OPTION(const char *backend, "--backend", NULL, "NAME",
+       "auto, c, opencl or cuda (default auto: the best one found)", MEASURING,
+       ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda"))
+OPTION(const char *device, "--device", NULL, "DEVICE",
+       "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
+       "several that share the frames: all, or a list such as cuda:0,cuda:1,c:0",
+       RENDERING, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
+ROW("--device", NULL, "DEVICE",
+    "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
+    HD_COMMAND_TUNE, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
+ROW("--lanes", NULL, "N",
+    "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
+    MEASURING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
+ROW("--threads", NULL, "N", "threads of the C backend (default: one for each core)", MEASURING,
+    INTEGER(render.threads, 1, HD_MAX_THREADS))
+ROW("--pipeline", NULL, "NAME",
+    "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
+    "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
+    "and scene)",
+    MEASURING, .type = HD_OPTION_CHOICE, AT(render.pipeline), .choices = hd_pipeline_names)
+ROW("--block", NULL, "N",
+    "threads of a GPU's work group, a multiple of 32 (default: what suits it)", MEASURING,
+    INTEGER(render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP)
+ROW("--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: what suits it)",
+    MEASURING, INTEGER(render.grid, 1, HD_MAX_GRID))
+OPTION(HdGeometry geometry, "--geometry", NULL, "NAME",
+       "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
+       "gives nearly the same picture (default solids)",
+       MEASURING, CHOICE(geometry, "solids", "triangles"))
+OPTION(int divisions, "--divisions", NULL, "N",
+       "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
+       "(default 1)",
+       MEASURING, INTEGER(divisions, 1, HD_MAX_DIVISIONS))
+OPTION(HdAccel accel, "--accel", NULL, "NAME",
+       "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
+       "(default auto: brute for a handful)",
+       MEASURING, CHOICE(accel, "auto", "brute", "bvh"))
+ROW("--precision", NULL, "P", "float or double (default float)", MEASURING,
+    CHOICE(render.precision, "float", "double"))
+ROW("--math", NULL, "M",
+    "strict: the same bytes everywhere; fast: the device's own (default strict)", MEASURING,
+    CHOICE(render.math, "strict", "fast"))
+OPTION(const char *statistics, "--stats", NULL, "FILE",
+       "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
+       "which then has nothing else",
+       RENDERING, TEXT(statistics, "a file or -"), .takes_file = true)
+OPTION(bool verbose, "--verbose", NULL, NULL, "tell what was chosen and why", RENDERING,
+       FLAG(verbose), .only_one_of = loudness)
+OPTION(bool quiet, "--quiet", NULL, NULL, "no progress and no notes; errors only", RENDERING,
+       FLAG(quiet), .only_one_of = loudness)
+OPTION(
+    bool tells_frames, "--frame-lines", NULL, NULL,
+    "progress for programs: a line on standard error for each frame that is stored; with --quiet "
+    "nothing else",
+    HD_COMMAND_RENDER, FLAG(tells_frames))
+OPTION(bool schema, "--schema", NULL, NULL, "print the JSON Schema of scene files, and exit",
+       HD_COMMAND_CHECK, FLAG(schema))
+OPTION(bool json, "--json", NULL, NULL, "print the list as JSON",
+       HD_COMMAND_DEVICES | HD_COMMAND_TUNE, FLAG(json))
+ROW("--json", NULL, NULL, "print the figures as JSON", HD_COMMAND_COMPARE, FLAG(json))
+OPTION(const char *diff, "--diff", NULL, "OUT.png", "write a heat map of the display error",
+       HD_COMMAND_COMPARE, TEXT(diff, NULL), .check = check_diff, .takes_file = true)
+OPTION(double fail_above, "--fail-above", NULL, "X",
+       "end with exit code 1 if the largest display error is above X steps of 255",
+       HD_COMMAND_COMPARE, REAL(fail_above, 0.0, HD_MAX_ERROR), .unset = -1)
+OPTION(int curve, "--curve", NULL, "NAME",
+       "the curve that PNG pictures are on and display values are put on: linear or srgb, whatever "
+       "the files say",
+       HD_COMMAND_COMPARE, .type = HD_OPTION_CHOICE, AT(curve), .choices = hd_curve_names,
+       .unset = -1)
+ROW("--help", "-h", NULL, "print this help", EVERYTHING, COMMAND(HD_COMMAND_HELP))
+ROW("--version", "-V", NULL, "print the version", RENDERING, COMMAND(HD_COMMAND_VERSION))
