@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/load_scene.h"
+#include "image/formats.h"
 #include "input/builtin.h"
 #include "input/write.h"
 #include "system/atomic_file.h"

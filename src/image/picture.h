@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/limits.h"
-#include "image/format.h"
+#include "image/formats.h"
 #include "system/atomic_file.h"
 
 /* Eight bits a channel, row by row from the top: r, g, b, a. */

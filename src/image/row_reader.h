@@ -5,7 +5,7 @@
 #define HD_IMAGE_ROW_READER_H
 
 #include "base/error.h"
-#include "image/format.h"
+#include "image/formats.h"
 #include "image/picture_value.h"
 
 typedef struct HdPictureFacts {

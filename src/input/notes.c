@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/format.h"
+#include "image/formats.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
 

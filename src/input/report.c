@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "image/format.h"
+#include "image/formats.h"
 #include "input/builtin.h"
 #include "input/changes.h"
 

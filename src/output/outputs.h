@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/limits.h"
-#include "image/format.h"
+#include "image/formats.h"
 #include "system/path.h"
 
 typedef struct HdOutput {

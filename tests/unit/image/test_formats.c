@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "expect.h"
-#include "image/format.h"
+#include "image/formats.h"
 
 static void the_ending_tells_the_format(void **state) {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "image/format.h"
+#include "image/formats.h"
 
 #include "system/path.h"
 
