@@ -14,8 +14,8 @@ typedef struct Run {
     const HdOptions *options;
     HdRenderOptions render; /* as for the scene */
     const HdScene *scene;   /* of about the same work, not surveyed */
-    HdDevice device;
-    char note[4096]; /* about the choice of the device, worth telling; "": nothing is */
+    HdDeviceTeam team;      /* closed before anything is measured */
+    const HdDevice *device; /* the only one of the team */
     HdTuning tuning;
     const char *obstacle; /* why nothing is remembered; NULL: the best is */
 } Run;
@@ -27,7 +27,7 @@ static double ratio(const HdTuning *tuning, int index) {
 }
 
 static void print_heading(const Run *run) {
-    const HdDevice *device = &run->device;
+    const HdDevice *device = run->device;
     printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options), device->backend->name,
            device->index, device->name, device->driver);
     printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
@@ -88,7 +88,7 @@ static json_t *describe_candidates(const HdTuning *tuning) {
 }
 
 static HdStatus print_json(const Run *run, HdError *error) {
-    const HdDevice *device = &run->device;
+    const HdDevice *device = run->device;
     const HdTuning *tuning = &run->tuning;
     json_t *root = json_pack(
         "{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}", "scene",
@@ -103,9 +103,16 @@ static HdStatus print_json(const Run *run, HdError *error) {
 
 /* ---- the command ---- */
 
-/* The device that 'hedron render' would take. */
-static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
-    static HdDeviceTeam team;
+/* Without a folder there is nothing to be done; a folder that fails is an error. */
+static HdStatus remember(Run *run, HdError *error) {
+    HdStatus status = hd_launch_remember(run->device, &run->render, run->scene,
+                                         &run->tuning.candidates[run->tuning.best].launch, error);
+    run->obstacle = status == HD_OK ? NULL : error->message;
+    return status == HD_UNAVAILABLE ? HD_OK : status;
+}
+
+/* On the device that 'hedron render' would take. */
+static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     const HdDeviceWish wish = {
         .backend = run->options->backend,
         .device = run->options->device,
@@ -113,33 +120,16 @@ static HdStatus choose_device(Run *run, const HdJob *job, HdError *error) {
         .options = &run->render,
         .job = job,
     };
-    HdStatus status = hd_open_devices(&team, &wish, error);
-    if (status != HD_OK)
-        return status;
-    run->device = team.list[0].device;
-    snprintf(run->note, sizeof run->note, "%s", team.note);
-    hd_close_devices(&team);
-    return HD_OK;
-}
-
-/* Without a folder there is nothing to be done; a folder that fails is an error. */
-static HdStatus remember(Run *run, HdError *error) {
-    HdStatus status = hd_launch_remember(&run->device, &run->render, run->scene,
-                                         &run->tuning.candidates[run->tuning.best].launch, error);
-    run->obstacle = status == HD_OK ? NULL : error->message;
-    return status == HD_UNAVAILABLE ? HD_OK : status;
-}
-
-static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     HdConsole console;
     hd_console_open(&console, run->options, false);
     hd_console_prepare(&console, "measuring");
-    HdStatus status = choose_device(run, job, error);
+    HdStatus status = hd_open_devices(&run->team, &wish, error);
+    hd_close_devices(&run->team);
     if (status == HD_OK)
-        status = hd_tune(&run->tuning, &run->device, &run->render, job, error);
+        status = hd_tune(&run->tuning, run->device, &run->render, job, error);
     hd_console_clear(&console);
-    if (run->note[0] != '\0')
-        fprintf(stderr, "hedron: %s\n", run->note);
+    if (run->team.note[0] != '\0')
+        fprintf(stderr, "hedron: %s\n", run->team.note);
     if (status == HD_INTERRUPTED)
         hd_fail(error, status, "interrupted; nothing is remembered");
     return status;
@@ -165,7 +155,7 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     HdStatus status = hd_read_scene(&file, options, error);
     if (status != HD_OK)
         return status;
-    run = (Run){.options = options, .scene = &file.scene};
+    run = (Run){.options = options, .scene = &file.scene, .device = &run.team.list[0].device};
     run.render = options->render;
     run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
     hd_scene_drop_survey(&file.scene);
