@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a format is that frames are stored in. Each is defined in a file format_NAME.c, those of films
-   in one. */
+/* What a format is that frames are stored in. Each is defined in a file format_NAME.c, those of
+   films in one. */
 #ifndef HD_IMAGE_FORMAT_H
 #define HD_IMAGE_FORMAT_H
 

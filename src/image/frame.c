@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/limits.h"
 
 HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error) {
     return hd_frame_create_with(frame, width, height, HD_RADIANCE_FLOATS, error);
@@ -22,8 +23,33 @@ HdStatus hd_frame_create_with(HdFrame *frame, int width, int height, int floats,
     return HD_OK;
 }
 
+HdStatus hd_frame_check_size(const HdFrame *frame, HdError *error) {
+    if (frame->width < 1 || frame->width > HD_MAX_IMAGE_SIDE || frame->height < 1 ||
+        frame->height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "a picture of %d x %d pixels, expected 1..%d each",
+                       frame->width, frame->height, HD_MAX_IMAGE_SIDE);
+    return HD_OK;
+}
+
+HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error) {
+    HdStatus status = hd_frame_check_size(frame, error);
+    if (status != HD_OK)
+        return status;
+    frame->rgba = calloc((size_t)frame->width * (size_t)frame->height, 4);
+    if (frame->rgba == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture of %d x %d pixels",
+                       frame->width, frame->height);
+    return HD_OK;
+}
+
+void hd_frame_encode(const HdFrame *frame, HdCurve curve) {
+    hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)frame->height,
+                         frame->rgba);
+}
+
 void hd_frame_free(HdFrame *frame) {
     free(frame->rgb);
+    free(frame->rgba);
     memset(frame, 0, sizeof *frame);
 }
 

@@ -24,8 +24,8 @@ typedef struct HdFrame {
     float *rgb;      /* owned; width * height * floats, row by row from the top; radiance times
                         exposure; of surveyed scenes also a bound of what was left out, and a number
                         below 2^24 that tells what the pixel's samples see */
-    uint8_t *rgba;   /* not owned; room for width * height * 4: r, g, b and an alpha of 255, as
-                        hd_curve_encode8 makes them; NULL: radiance must be wished for */
+    uint8_t *rgba;   /* owned; width * height * 4: r, g, b and an alpha of 255, as hd_curve_encode8
+                        makes them; NULL: radiance must be wished for */
     bool is_encoded; /* the device filled `rgba`, and `rgb` is worth nothing; otherwise it filled
                         `rgb` and left `rgba` alone */
     uint64_t primary_rays, mirrored_rays, transmitted_rays; /* closest-hit searches */
@@ -48,6 +48,16 @@ HdStatus hd_frame_create(HdFrame *frame, int width, int height, HdError *error);
 /* The same for so many floats of a pixel. */
 HdStatus hd_frame_create_with(HdFrame *frame, int width, int height, int floats, HdError *error);
 
+/* Fails where a side is not in 1..65535, as no picture may have it. */
+HdStatus hd_frame_check_size(const HdFrame *frame, HdError *error);
+
+/* Gives a frame of such a size `rgba`. */
+HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error);
+
+/* Fills `rgba` from the radiance of a frame of HD_RADIANCE_FLOATS. */
+void hd_frame_encode(const HdFrame *frame, HdCurve curve);
+
+/* A frame that is free may be freed. */
 void hd_frame_free(HdFrame *frame);
 
 /* Sets the frame's counts to the sums of those of its parts; every sample has one primary ray. */

@@ -9,44 +9,13 @@
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
-static HdStatus check_size(int width, int height, HdError *error) {
-    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
-        return hd_fail(error, HD_BAD_INPUT, "a picture of %d x %d pixels, expected 1..%d each",
-                       width, height, HD_MAX_IMAGE_SIDE);
-    return HD_OK;
-}
-
-HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error) {
-    *image = (HdImage8){0};
-    HdStatus status = check_size(width, height, error);
-    if (status != HD_OK)
-        return status;
-    image->rgba = calloc((size_t)width * (size_t)height, 4);
-    if (image->rgba == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a picture of %d x %d pixels",
-                       width, height);
-    image->width = width;
-    image->height = height;
-    return HD_OK;
-}
-
-void hd_image8_free(HdImage8 *image) {
-    free(image->rgba);
-    *image = (HdImage8){0};
-}
-
-void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image) {
-    hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)frame->height,
-                         image->rgba);
-}
-
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
                             const HdPictureStyle *style, const uint64_t *fingerprint,
                             const char *path, HdError *error) {
     if (format->write == NULL)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s as a picture: its ending is that of a film", path);
-    HdStatus status = check_size(frame->width, frame->height, error);
+    HdStatus status = hd_frame_check_size(frame, error);
     if (status == HD_OK)
         status = hd_atomic_file_open(file, path, error);
     if (status != HD_OK)

@@ -8,19 +8,6 @@
 #include "image/formats.h"
 #include "system/atomic_file.h"
 
-/* Eight bits a channel, row by row from the top: r, g, b, a. */
-typedef struct HdImage8 {
-    int width, height;
-    uint8_t *rgba; /* owned; width * height * 4 */
-} HdImage8;
-
-/* Allocates a picture of width * height; 1..65535 each. */
-HdStatus hd_image8_create(HdImage8 *image, int width, int height, HdError *error);
-void hd_image8_free(HdImage8 *image);
-
-/* As hd_curve_encode8; alpha 255. `image` has the frame's size. */
-void hd_frame_to_image8(const HdFrame *frame, HdCurve curve, HdImage8 *image);
-
 /* Writes a frame as a picture, under a temporary name beside `path`, for hd_atomic_file_commit or
    hd_atomic_file_discard to end; missing folders are made. A film's format is an error. The data
    format: int32 width, int32 height, then r g b a, 8 bits each, little endian. PNG: RGB, with an

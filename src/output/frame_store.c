@@ -25,8 +25,7 @@ static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for
 /* A frame on its way into the outputs. One thread at a time works on it, but films take it side by
    side. */
 typedef struct Place {
-    HdFrame frame;
-    HdImage8 image; /* what films get, and room for what a device encodes; empty: nobody needs it */
+    HdFrame frame;                      /* with `rgba` where films get it, or a device may encode */
     HdAtomicFile files[HD_MAX_OUTPUTS]; /* stream NULL: not written, or published */
     int tracer;
     HdFrameTimes times;
@@ -83,7 +82,7 @@ static HdStatus convert(void *context, int item, HdError *error) {
     if (place->frame.is_encoded)
         return HD_OK;
     place->times.convert = begin(store);
-    hd_frame_to_image8(&place->frame, outputs->style.picture.curve, &place->image);
+    hd_frame_encode(&place->frame, outputs->style.picture.curve);
     end(store, &place->times.convert);
     return HD_OK;
 }
@@ -94,7 +93,7 @@ static HdStatus add_to_film(void *context, int item, HdError *error) {
     Place *place = place_of(film->store, item);
     HdSpan *span = &place->films[film->index];
     *span = begin(film->store);
-    HdStatus status = hd_video_add(film->video, &place->image, error);
+    HdStatus status = hd_video_add(film->video, &place->frame, error);
     end(film->store, span);
     return status;
 }
@@ -299,8 +298,7 @@ static HdStatus open_films(HdFrameStore *store, HdError *error) {
 static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
     HdStatus status = hd_frame_create(&place->frame, plan->width, plan->height, error);
     if (status == HD_OK && has_image(plan->outputs))
-        status = hd_image8_create(&place->image, plan->width, plan->height, error);
-    place->frame.rgba = place->image.rgba;
+        status = hd_frame_add_rgba(&place->frame, error);
     return status;
 }
 
@@ -322,7 +320,6 @@ static void free_places(HdFrameStore *store) {
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
             if (place->files[k].stream != NULL)
                 hd_atomic_file_discard(&place->files[k]);
-        hd_image8_free(&place->image);
         hd_frame_free(&place->frame);
     }
     free(store->places);

@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/limits.h"
+#include "image/formats.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
 #include "system/interrupt.h"
@@ -164,7 +166,7 @@ static HdStatus fail_early(HdVideo *video, HdError *error) {
     return HD_FAILED;
 }
 
-HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error) {
+HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
     if (frame->width != video->width || frame->height != video->height)
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels for the film %s, expected %d x %d", frame->width,

@@ -4,7 +4,7 @@
 #define HD_OUTPUT_VIDEO_H
 
 #include "base/error.h"
-#include "image/picture.h"
+#include "image/frame.h"
 
 typedef struct HdVideo HdVideo;
 
@@ -17,9 +17,9 @@ typedef struct HdVideo HdVideo;
 HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
                        int frames_per_second, HdError *error);
 
-/* Hands over one frame; blocks while FFmpeg is busy. An FFmpeg that ended early is an error that
-   quotes the end of what it said, never a signal. */
-HdStatus hd_video_add(HdVideo *video, const HdImage8 *frame, HdError *error);
+/* Hands over `rgba` of one frame; blocks while FFmpeg is busy. An FFmpeg that ended early is an
+   error that quotes the end of what it said, never a signal. */
+HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error);
 
 /* Ends the film: waits for FFmpeg, checks its exit code, counts the frames of the file with ffprobe
    against the frames added, renames the file to its final name. Frees `video` in every case; on

@@ -20,7 +20,6 @@ static const HdFrameWish wishes[ROUNDS] = {
 typedef struct Views {
     HdFrameTables tables[VIEWS];
     HdFrame alone[VIEWS];
-    HdImage8 image;
 } Views;
 
 static void build(HdScene *scene, HdCamera *camera) {
@@ -39,11 +38,11 @@ static void open_views(Views *views, const Target *target) {
         if (hd_compile_frame(&views->tables[i], &scene, &camera, target->precision, &error) !=
             HD_OK)
             fail(frame_name, &error);
+        if (hd_frame_add_rgba(&views->alone[i], &error) != HD_OK)
+            fail(frame_name, &error);
         camera.right = hd_scale(camera.right, -1.0);
         camera.up = hd_scale(camera.up, -1.0);
     }
-    if (hd_image8_create(&views->image, scene.width, scene.height, &error) != HD_OK)
-        fail(frame_name, &error);
     hd_scene_free(&scene);
 }
 
@@ -52,35 +51,30 @@ static void close_views(Views *views) {
         hd_frame_tables_free(&views->tables[i]);
         hd_frame_free(&views->alone[i]);
     }
-    hd_image8_free(&views->image);
 }
 
 /* Of a frame that arrived as wished for. */
-static bool is_same(Views *views, int round, HdFrame *frame) {
+static bool is_same(const Views *views, int round, HdFrame *frame) {
     const HdFrame *alone = &views->alone[round % VIEWS];
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     if (!frame->is_encoded)
         return hd_frame_hash(frame) == hd_frame_hash(alone);
-    hd_frame_to_image8(alone, wishes[round].curve, &views->image);
-    return !wishes[round].radiance && memcmp(frame->rgba, views->image.rgba, 4 * pixels) == 0 &&
+    hd_frame_encode(alone, wishes[round].curve);
+    return !wishes[round].radiance && memcmp(frame->rgba, alone->rgba, 4 * pixels) == 0 &&
            hd_frame_rays(frame) == hd_frame_rays(alone) &&
            frame->shadow_tests == alone->shadow_tests && frame->clamps == alone->clamps;
 }
 
 static bool collect(Views *views, HdRenderer *renderer, int round) {
     HdFrame frame;
-    HdImage8 image;
     HdError error;
-    int width = views->image.width, height = views->image.height;
-    if (hd_frame_create(&frame, width, height, &error) != HD_OK ||
-        hd_image8_create(&image, width, height, &error) != HD_OK)
+    if (hd_frame_create(&frame, views->alone[0].width, views->alone[0].height, &error) != HD_OK ||
+        hd_frame_add_rgba(&frame, &error) != HD_OK)
         fail(frame_name, &error);
-    frame.rgba = image.rgba;
     if (hd_renderer_collect(renderer, &frame, &error) != HD_OK)
         fail(frame_name, &error);
     bool same = is_same(views, round, &frame);
     hd_frame_free(&frame);
-    hd_image8_free(&image);
     return same;
 }
 

@@ -60,36 +60,35 @@ static HdTexture pass_through(const HdFrame *frame, const HdPictureStyle *style,
 static void sizes_are_checked(void **state) {
     (void)state;
     const int wrong[][2] = {{0, 1}, {1, 0}, {-1, 1}, {65536, 1}, {1, 65536}};
-    HdImage8 image;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         HdError error = {0};
-        assert_int_equal(hd_image8_create(&image, wrong[i][0], wrong[i][1], &error), HD_BAD_INPUT);
-        assert_null(image.rgba);
+        HdFrame frame = {.width = wrong[i][0], .height = wrong[i][1]};
+        assert_int_equal(hd_frame_add_rgba(&frame, &error), HD_BAD_INPUT);
+        assert_null(frame.rgba);
         expect_contains(error.message, "1..65535");
     }
     HdError error = {0};
-    assert_int_equal(hd_image8_create(&image, 65535, 1, &error), HD_OK);
-    hd_image8_free(&image);
-    assert_null(image.rgba);
-    hd_image8_free(&image);
+    HdFrame frame = {.width = 65535, .height = 1};
+    assert_int_equal(hd_frame_add_rgba(&frame, &error), HD_OK);
+    hd_frame_free(&frame);
+    assert_null(frame.rgba);
+    hd_frame_free(&frame);
 }
 
 static void frames_become_bytes(void **state) {
     (void)state;
     HdError error = {0};
     HdFrame frame = make_frame(301, 3);
-    HdImage8 image;
-    assert_int_equal(hd_image8_create(&image, 301, 3, &error), HD_OK);
+    assert_int_equal(hd_frame_add_rgba(&frame, &error), HD_OK);
     for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
         uint8_t expected[3];
-        hd_frame_to_image8(&frame, (HdCurve)curve, &image);
+        hd_frame_encode(&frame, (HdCurve)curve);
         for (size_t i = 0; i < 301 * 3; i++) {
             hd_curve_encode8((HdCurve)curve, frame.rgb + 3 * i, 3, expected);
-            assert_memory_equal(image.rgba + 4 * i, expected, 3);
-            assert_int_equal(image.rgba[4 * i + 3], 255);
+            assert_memory_equal(frame.rgba + 4 * i, expected, 3);
+            assert_int_equal(frame.rgba[4 * i + 3], 255);
         }
     }
-    hd_image8_free(&image);
     hd_frame_free(&frame);
 }
 

@@ -77,10 +77,10 @@ static void fake(const char *name, const char *script) {
     free(search);
 }
 
-static HdImage8 make_frame(int width, int height, const uint8_t colour[4]) {
+static HdFrame make_frame(int width, int height, const uint8_t colour[4]) {
     HdError error = {0};
-    HdImage8 frame;
-    assert_int_equal(hd_image8_create(&frame, width, height, &error), HD_OK);
+    HdFrame frame = {.width = width, .height = height};
+    assert_int_equal(hd_frame_add_rgba(&frame, &error), HD_OK);
     for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
         memcpy(frame.rgba + i * 4, colour, 4);
     return frame;
@@ -95,10 +95,10 @@ static HdStatus make_film(const char *path, int width, int height, int frames, H
     assert_true((status == HD_OK) == (video != NULL));
     if (status != HD_OK)
         return status;
-    HdImage8 frame = make_frame(width, height, RED);
+    HdFrame frame = make_frame(width, height, RED);
     for (int i = 0; i < frames && status == HD_OK; i++)
         status = hd_video_add(video, &frame, error);
-    hd_image8_free(&frame);
+    hd_frame_free(&frame);
     if (status == HD_OK)
         return hd_video_close(video, error);
     hd_video_abort(video);
@@ -149,7 +149,7 @@ static void odd_sizes_are_padded(void **state) {
 }
 
 /* Makes a film of these frames, which are of one size. */
-static void film_frames(const char *path, const HdImage8 *frames, int count, int rate) {
+static void film_frames(const char *path, const HdFrame *frames, int count, int rate) {
     HdError error = {0};
     HdVideo *video = NULL;
     HdStatus status = hd_video_open(&video, path, frames[0].width, frames[0].height, rate, &error);
@@ -181,12 +181,12 @@ static const uint8_t flat_colours[FLAT_COLOURS][4] = {
 
 /* A frame for each colour. */
 static void film_colours(const char *path) {
-    HdImage8 frames[FLAT_COLOURS];
+    HdFrame frames[FLAT_COLOURS];
     for (int i = 0; i < FLAT_COLOURS; i++)
         frames[i] = make_frame(FLAT_SIDE, FLAT_SIDE, flat_colours[i]);
     film_frames(path, frames, FLAT_COLOURS, 25);
     for (int i = 0; i < FLAT_COLOURS; i++)
-        hd_image8_free(&frames[i]);
+        hd_frame_free(&frames[i]);
 }
 
 /* ITU-R BT.709 with luma from 16 to 235 and chroma from 16 to 240. BT.601 gives red a luma of 81
@@ -228,7 +228,7 @@ static void colours_come_back(void **state) {
 
 enum { NOISE_FRAMES = 5 };
 
-static void make_noise(HdImage8 frames[NOISE_FRAMES], int width, int height) {
+static void make_noise(HdFrame frames[NOISE_FRAMES], int width, int height) {
     uint32_t seed = 1;
     for (int i = 0; i < NOISE_FRAMES; i++) {
         frames[i] = make_frame(width, height, RED);
@@ -238,9 +238,9 @@ static void make_noise(HdImage8 frames[NOISE_FRAMES], int width, int height) {
     }
 }
 
-static void free_frames(HdImage8 frames[NOISE_FRAMES]) {
+static void free_frames(HdFrame frames[NOISE_FRAMES]) {
     for (int i = 0; i < NOISE_FRAMES; i++)
-        hd_image8_free(&frames[i]);
+        hd_frame_free(&frames[i]);
 }
 
 static void mkv_files_are_tagged(void **state) {
@@ -260,7 +260,7 @@ static void mkv_loses_nothing(void **state) {
     static uint8_t rgba[NOISE_FRAMES * 63 * 200 * 4];
     need_ffmpeg();
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        HdImage8 frames[NOISE_FRAMES];
+        HdFrame frames[NOISE_FRAMES];
         size_t size = (size_t)(sizes[s][0] * sizes[s][1] * 4);
         make_noise(frames, sizes[s][0], sizes[s][1]);
         film_frames("out/film.mkv", frames, NOISE_FRAMES, 30);
@@ -300,7 +300,7 @@ static void gif_keeps_the_time(void **state) {
         int rate;
         const char *durations;
     } films[] = {{25, "4\n4\n4\n4\n4\n"}, {30, "3\n4\n3\n3\n3\n"}, {100, "1\n1\n1\n1\n1\n"}};
-    HdImage8 frames[NOISE_FRAMES];
+    HdFrame frames[NOISE_FRAMES];
     need_ffmpeg();
     make_noise(frames, 33, 17);
     for (size_t i = 0; i < sizeof films / sizeof *films; i++) {
@@ -316,7 +316,7 @@ static void gif_keeps_the_time(void **state) {
 static void gif_is_close_to_the_frame(void **state) {
     (void)state;
     enum { SIDE = 128 };
-    HdImage8 frame = make_frame(SIDE, SIDE, RED);
+    HdFrame frame = make_frame(SIDE, SIDE, RED);
     static uint8_t rgba[SIDE * SIDE * 4];
     double sum = 0.0;
     need_ffmpeg();
@@ -330,7 +330,7 @@ static void gif_is_close_to_the_frame(void **state) {
     for (int i = 0; i < SIDE * SIDE * 4; i++)
         sum += abs(rgba[i] - frame.rgba[i]);
     expect_near(sum / (SIDE * SIDE * 3), 0.0, 4.0);
-    hd_image8_free(&frame);
+    hd_frame_free(&frame);
 }
 
 static void names_reach_ffmpeg_unchanged(void **state) {
@@ -367,7 +367,7 @@ static void aborted_films_leave_nothing(void **state) {
     (void)state;
     HdError error = {0};
     HdVideo *video;
-    HdImage8 frame = make_frame(640, 480, RED);
+    HdFrame frame = make_frame(640, 480, RED);
     need_ffmpeg();
     write_file("out/film.mp4", "older", 0666);
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
@@ -376,22 +376,22 @@ static void aborted_films_leave_nothing(void **state) {
     hd_video_abort(video);
     assert_int_equal(count_entries("out"), 1);
     check_output("cat out/film.mp4", "older");
-    hd_image8_free(&frame);
+    hd_frame_free(&frame);
 }
 
 static void frames_of_another_size_are_refused(void **state) {
     (void)state;
     HdError error = {0};
     HdVideo *video;
-    HdImage8 right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
+    HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
     need_ffmpeg();
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, 25, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
     expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
     assert_int_equal(hd_video_close(video, &error), HD_OK);
-    hd_image8_free(&right);
-    hd_image8_free(&wrong);
+    hd_frame_free(&right);
+    hd_frame_free(&wrong);
 }
 
 static void wrong_settings_are_refused(void **state) {
@@ -450,7 +450,7 @@ static void failed_films_take_no_more_frames(void **state) {
     (void)state;
     HdError error = {0};
     HdVideo *video;
-    HdImage8 frame = make_frame(640, 480, RED);
+    HdFrame frame = make_frame(640, 480, RED);
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "exit 1");
     assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
@@ -459,7 +459,7 @@ static void failed_films_take_no_more_frames(void **state) {
     expect_contains(error.message, "takes no more frames");
     assert_int_equal(hd_video_close(video, &error), HD_FAILED);
     assert_int_equal(count_entries("out"), 0);
-    hd_image8_free(&frame);
+    hd_frame_free(&frame);
 }
 
 static void wrong_exit_codes_are_errors(void **state) {
