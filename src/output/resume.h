@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which frames of a run are finished already: those whose pictures are all there, whole, and marked
-   with the fingerprint that they would get (picture_mark.h). */
+   with the fingerprint that they would get (mark.h). */
 #ifndef HD_OUTPUT_RESUME_H
 #define HD_OUTPUT_RESUME_H
 
