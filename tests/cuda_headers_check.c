@@ -12,7 +12,8 @@
     _Static_assert(_Generic(&symbol, member_type : 1, default : 0),                                \
                    #symbol " is not declared as in NVIDIA's header");
 
-#define CHECK_DRIVER(member, symbol, parameters) CHECK(HdCuResult(*) parameters, symbol)
+#define CHECK_DRIVER(function, version, parameters)                                                \
+    CHECK(HdCuResult(*) parameters, function##version)
 HD_CUDA_FUNCTIONS(CHECK_DRIVER)
 
 #define CHECK_NVRTC(type, member, symbol, parameters) CHECK(type(*) parameters, symbol)

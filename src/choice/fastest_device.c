@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "choice/launch.h"
-#include "device/loss.h"
 #include "system/cache_folder.h"
 
 enum { MAX_COMPARED = 16, KEY_LENGTH = 1 << 14, WHY_LENGTH = 1024, NOTE_LENGTH = 2048 };

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "device/pipeline.h"
+#include "device/options.h"
 #include "image/file_kind.h"
 #include "input/classic.h"
 #include "output/outputs.h"

@@ -117,15 +117,12 @@ static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFr
                             HdError *error) {
     FakeRenderer *renderer = state;
     HdStatus status = fake_event(FAKE_SUBMIT, renderer->index, error);
-    return status != HD_OK ? status : hd_backend_c.submit(renderer->c, tables, wish, error);
+    return status != HD_OK ? status
+                           : hd_backend_submit(&hd_backend_c, renderer->c, tables, wish, error);
 }
 
-static void fake_drop(void *state) {
-    FakeRenderer *renderer = state;
-    hd_backend_c.drop(renderer->c);
-}
-
-static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
+static HdStatus fake_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
+                             HdError *error) {
     FakeRenderer *renderer = state;
     const struct timespec pause = {.tv_nsec = 1000000L * fake.slow_milliseconds};
     fake.rendered++;
@@ -133,7 +130,7 @@ static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
         nanosleep(&pause, NULL);
     HdError failure;
     HdStatus event = fake_event(FAKE_COLLECT, renderer->index, &failure);
-    HdStatus status = hd_backend_c.collect(renderer->c, frame, error);
+    HdStatus status = hd_backend_c.collect(renderer->c, tables, frame, error);
     if (event != HD_OK) {
         *error = failure;
         return event;
@@ -182,7 +179,6 @@ static const HdBackend fake_backend = {
     .upload = fake_upload,
     .submit = fake_submit,
     .collect = fake_collect,
-    .drop = fake_drop,
     .kernels = fake_kernels,
     .be_cautious = fake_be_cautious,
     .describe = fake_describe,

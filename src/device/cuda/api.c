@@ -6,14 +6,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/loss.h"
+#include "device/backend.h"
 #include "system/dynamic_library.h"
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *error) {
     static const HdLibrarySymbol symbols[] = {
-#define SYMBOL(member, symbol, parameters) {#symbol, offsetof(HdCudaDriver, member)},
+#define SYMBOL(function, version, parameters)                                                      \
+    {#function #version, offsetof(HdCudaDriver, function)},
         HD_CUDA_FUNCTIONS(SYMBOL)
 #undef SYMBOL
     };
@@ -33,7 +34,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     hd_library_close(library);
     if (status != HD_OK)
         return status;
-    HdCuResult code = driver->init(0);
+    HdCuResult code = driver->cuInit(0);
     if (code != HD_CU_SUCCESS)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the NVIDIA driver does not start: cuInit failed with %s",
@@ -43,7 +44,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
 
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     const char *name = NULL;
-    if (driver->error_name(code, &name) != HD_CU_SUCCESS || !name)
+    if (driver->cuGetErrorName(code, &name) != HD_CU_SUCCESS || !name)
         return "an unknown error";
     return name;
 }
@@ -75,7 +76,7 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
                       HdError *error) {
     const char *text = NULL;
     char what[512];
-    if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
+    if (driver->cuGetErrorString(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
     snprintf(what, sizeof what, "%s failed with %s (%u: %s)", function,
              hd_cuda_error_name(driver, code), code, text);

@@ -49,54 +49,48 @@ enum {
     HD_CU_STREAM_NON_BLOCKING = 1
 };
 
-/* X(member, symbol, parameters); all return HdCuResult. The suffix _v2 belongs to the symbol: the
+/* X(function, version, parameters); all return HdCuResult. The version belongs to the symbol: the
    names without it are older functions with other types. */
 #define HD_CUDA_FUNCTIONS(X)                                                                       \
-    X(init, cuInit, (unsigned int flags))                                                          \
-    X(driver_version, cuDriverGetVersion, (int *version))                                          \
-    X(error_name, cuGetErrorName, (HdCuResult code, const char **text))                            \
-    X(error_string, cuGetErrorString, (HdCuResult code, const char **text))                        \
-    X(device_count, cuDeviceGetCount, (int *count))                                                \
-    X(device_get, cuDeviceGet, (HdCuDevice * device, int index))                                   \
-    X(device_name, cuDeviceGetName, (char *name, int capacity, HdCuDevice device))                 \
-    X(device_attribute, cuDeviceGetAttribute,                                                      \
-      (int *value, HdCuAttribute attribute, HdCuDevice device))                                    \
-    X(context_retain, cuDevicePrimaryCtxRetain, (HdCuContext * context, HdCuDevice device))        \
-    X(context_release, cuDevicePrimaryCtxRelease_v2, (HdCuDevice device))                          \
-    X(context_push, cuCtxPushCurrent_v2, (HdCuContext context))                                    \
-    X(context_pop, cuCtxPopCurrent_v2, (HdCuContext * context))                                    \
-    X(module_load, cuModuleLoadData, (HdCuModule * module, const void *image))                     \
-    X(module_unload, cuModuleUnload, (HdCuModule module))                                          \
-    X(module_function, cuModuleGetFunction,                                                        \
-      (HdCuFunction * function, HdCuModule module, const char *name))                              \
-    X(function_attribute, cuFuncGetAttribute,                                                      \
-      (int *value, HdCuAttribute attribute, HdCuFunction function))                                \
-    X(memory_info, cuMemGetInfo_v2, (size_t * available, size_t * total))                          \
-    X(memory_alloc, cuMemAlloc_v2, (HdCuPointer * pointer, size_t bytes))                          \
-    X(memory_free, cuMemFree_v2, (HdCuPointer pointer))                                            \
-    X(host_alloc, cuMemHostAlloc, (void **data, size_t bytes, unsigned int flags))                 \
-    X(host_free, cuMemFreeHost, (void *data))                                                      \
-    X(copy_to_device_async, cuMemcpyHtoDAsync_v2,                                                  \
-      (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream))                         \
-    X(copy_to_host_async, cuMemcpyDtoHAsync_v2,                                                    \
-      (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))                               \
-    X(context_synchronize, cuCtxSynchronize, (void))                                               \
-    X(stream_create, cuStreamCreate, (HdCuStream * stream, unsigned int flags))                    \
-    X(stream_synchronize, cuStreamSynchronize, (HdCuStream stream))                                \
-    X(stream_wait_event, cuStreamWaitEvent,                                                        \
-      (HdCuStream stream, HdCuEvent event, unsigned int flags))                                    \
-    X(stream_destroy, cuStreamDestroy_v2, (HdCuStream stream))                                     \
-    X(launch, cuLaunchKernel,                                                                      \
+    X(cuInit, , (unsigned int flags))                                                              \
+    X(cuDriverGetVersion, , (int *version))                                                        \
+    X(cuGetErrorName, , (HdCuResult code, const char **text))                                      \
+    X(cuGetErrorString, , (HdCuResult code, const char **text))                                    \
+    X(cuDeviceGetCount, , (int *count))                                                            \
+    X(cuDeviceGet, , (HdCuDevice * device, int index))                                             \
+    X(cuDeviceGetName, , (char *name, int capacity, HdCuDevice device))                            \
+    X(cuDeviceGetAttribute, , (int *value, HdCuAttribute attribute, HdCuDevice device))            \
+    X(cuDevicePrimaryCtxRetain, , (HdCuContext * context, HdCuDevice device))                      \
+    X(cuDevicePrimaryCtxRelease, _v2, (HdCuDevice device))                                         \
+    X(cuCtxPushCurrent, _v2, (HdCuContext context))                                                \
+    X(cuCtxPopCurrent, _v2, (HdCuContext * context))                                               \
+    X(cuModuleLoadData, , (HdCuModule * module, const void *image))                                \
+    X(cuModuleUnload, , (HdCuModule module))                                                       \
+    X(cuModuleGetFunction, , (HdCuFunction * function, HdCuModule module, const char *name))       \
+    X(cuFuncGetAttribute, , (int *value, HdCuAttribute attribute, HdCuFunction function))          \
+    X(cuMemGetInfo, _v2, (size_t * available, size_t * total))                                     \
+    X(cuMemAlloc, _v2, (HdCuPointer * pointer, size_t bytes))                                      \
+    X(cuMemFree, _v2, (HdCuPointer pointer))                                                       \
+    X(cuMemHostAlloc, , (void **data, size_t bytes, unsigned int flags))                           \
+    X(cuMemFreeHost, , (void *data))                                                               \
+    X(cuMemcpyHtoDAsync, _v2, (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream)) \
+    X(cuMemcpyDtoHAsync, _v2, (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))       \
+    X(cuCtxSynchronize, , (void))                                                                  \
+    X(cuStreamCreate, , (HdCuStream * stream, unsigned int flags))                                 \
+    X(cuStreamSynchronize, , (HdCuStream stream))                                                  \
+    X(cuStreamWaitEvent, , (HdCuStream stream, HdCuEvent event, unsigned int flags))               \
+    X(cuStreamDestroy, _v2, (HdCuStream stream))                                                   \
+    X(cuLaunchKernel, ,                                                                            \
       (HdCuFunction function, unsigned int grid_x, unsigned int grid_y, unsigned int grid_z,       \
        unsigned int block_x, unsigned int block_y, unsigned int block_z,                           \
        unsigned int shared_bytes, HdCuStream stream, void **arguments, void **extra))              \
-    X(event_create, cuEventCreate, (HdCuEvent * event, unsigned int flags))                        \
-    X(event_record, cuEventRecord, (HdCuEvent event, HdCuStream stream))                           \
-    X(event_synchronize, cuEventSynchronize, (HdCuEvent event))                                    \
-    X(event_elapsed, cuEventElapsedTime, (float *milliseconds, HdCuEvent start, HdCuEvent end))    \
-    X(event_destroy, cuEventDestroy_v2, (HdCuEvent event))
+    X(cuEventCreate, , (HdCuEvent * event, unsigned int flags))                                    \
+    X(cuEventRecord, , (HdCuEvent event, HdCuStream stream))                                       \
+    X(cuEventSynchronize, , (HdCuEvent event))                                                     \
+    X(cuEventElapsedTime, , (float *milliseconds, HdCuEvent start, HdCuEvent end))                 \
+    X(cuEventDestroy, _v2, (HdCuEvent event))
 
-#define HD_CUDA_MEMBER(member, symbol, parameters) HdCuResult(*member) parameters;
+#define HD_CUDA_MEMBER(function, version, parameters) HdCuResult(*function) parameters;
 typedef struct HdCudaDriver {
     HD_CUDA_FUNCTIONS(HD_CUDA_MEMBER)
 } HdCudaDriver;

@@ -8,7 +8,6 @@
 #include "device/gpu/flight.h"
 #include "device/gpu/program.h"
 #include "device/gpu/wave_queue.h"
-#include "device/pipeline.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
@@ -270,7 +269,7 @@ static int sample_parts(int samples, int group_size) {
 
 /* CPUs drive no display: there a frame is one launch. */
 static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
-    int left = items, samples = flight->samples, group_size = renderer->program.group_size;
+    int left = items, samples = flight->of->samples, group_size = renderer->program.group_size;
     int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
     int per_group = group_size / parts;
     Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
@@ -387,7 +386,7 @@ static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items,
                            .size = &renderer->flights.size};
     HdWaveFrame frame = {
         .items = items,
-        .samples_per_item = flight->samples,
+        .samples_per_item = flight->of->samples,
         .depth = renderer->depth,
         .grain = renderer->program.group_size,
     };
@@ -440,7 +439,7 @@ static HdStatus write_thresholds(Renderer *renderer, HdCurve curve, HdError *err
 
 static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, HdError *error) {
     const Encode own = {.pixels = &flight->pixels,
-                        .count = flight->width * flight->height,
+                        .count = flight->of->width * flight->of->height,
                         .thresholds = &renderer->thresholds,
                         .image = &flight->image};
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
@@ -530,8 +529,10 @@ HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWi
     return status;
 }
 
-HdStatus hd_gpu_collect(void *state, HdFrame *frame, HdError *error) {
+/* Flights end in the order of their frames. */
+HdStatus hd_gpu_collect(void *state, const HdFrameTables *tables, HdFrame *frame, HdError *error) {
     Renderer *renderer = state;
+    (void)tables;
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
@@ -578,7 +579,7 @@ void hd_gpu_describe(const void *state, char *text, int capacity) {
     const HdGpu *gpu = &renderer->gpu;
     const HdGpuProgram *program = &renderer->program;
     int length = gpu->driver->describe(gpu->handle, &program->shape, program->group_size,
-                                       hd_pipeline_name(renderer->pipeline), program->cache.maker,
+                                       hd_pipeline_names[renderer->pipeline], program->cache.maker,
                                        text, capacity);
     if (renderer->queue.is_cut && length > 0 && length < capacity)
         hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);

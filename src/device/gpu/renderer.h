@@ -19,7 +19,8 @@ HdStatus hd_gpu_open(const HdGpuDriver *driver, const HdDevice *device,
 HdStatus hd_gpu_upload(void *renderer, const HdSceneTables *tables, HdError *error);
 HdStatus hd_gpu_submit(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
                        HdError *error);
-HdStatus hd_gpu_collect(void *renderer, HdFrame *frame, HdError *error);
+HdStatus hd_gpu_collect(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+                        HdError *error);
 double hd_gpu_longest_launch(const void *renderer);
 void hd_gpu_drop(void *renderer);
 HdKernelCache *hd_gpu_kernels(void *renderer);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/text.h"
 #include "device/gpu/renderer.h"
 #include "device/opencl/devices.h"
 
@@ -149,18 +150,14 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
     const Device *device = state;
     const char *cautious = device->is.nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
-    char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
+    const char *math = shape->math == HD_MATH_FAST ? "-cl-fast-relaxed-math"
+                                                   : "-cl-fp32-correctly-rounded-divide-sqrt";
+    char defines[HD_KERNEL_DEFINES_SIZE], limit[40] = "";
     hd_kernel_defines(shape, defines);
-    int length = snprintf(text, capacity, "-cl-std=CL1.2 %s",
-                          shape->math == HD_MATH_FAST ? "-cl-fast-relaxed-math"
-                                                      : "-cl-fp32-correctly-rounded-divide-sqrt");
-    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        length += snprintf(text + length, capacity - (size_t)length, " %s", defines[i]);
     if (shape->register_limit > 0)
-        length += snprintf(text + length, capacity - (size_t)length, " -cl-nv-maxrregcount=%d",
-                           shape->register_limit);
-    if (shape->is_cautious)
-        snprintf(text + length, capacity - (size_t)length, "%s", cautious);
+        snprintf(limit, sizeof limit, " -cl-nv-maxrregcount=%d", shape->register_limit);
+    snprintf(text, capacity, "-cl-std=CL1.2 %s%s%s%s", math, defines, limit,
+             shape->is_cautious ? cautious : "");
 }
 
 /* Tells what the device's name and driver do not, such as which LLVM PoCL has. */
@@ -352,9 +349,9 @@ static int describe(const void *state, const HdKernelShape *shape, int group_siz
     return snprintf(
         text, (size_t)capacity,
         "%d lane%s of %s, work groups of %d, %d pixel%s for each work item, %d compute units, %s",
-        shape->lanes, shape->lanes == 1 ? "" : "s",
+        shape->lanes, hd_plural(shape->lanes),
         shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", group_size,
-        shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s", device->is.compute_units,
+        shape->pixels_per_item, hd_plural(shape->pixels_per_item), device->is.compute_units,
         pipeline);
 }
 
