@@ -219,15 +219,19 @@ static void c_describe(const void *renderer, char *text, int capacity) {
              hd_pipeline_names[c->pipeline]);
 }
 
-const HdBackend hd_backend_c = {
-    .name = "c",
-    .needs_no_driver = true,
-    .uses_host_threads = true,
-    .enumerate = c_enumerate,
+static const HdRendererFunctions functions = {
     .open = c_open,
     .upload = c_upload,
     .collect = c_collect,
     .lanes = c_lanes,
     .describe = c_describe,
     .close = c_close,
+};
+
+const HdBackend hd_backend_c = {
+    .name = "c",
+    .needs_no_driver = true,
+    .uses_host_threads = true,
+    .functions = &functions,
+    .enumerate = c_enumerate,
 };

@@ -188,7 +188,7 @@ static HdStatus choose(Choosing *choosing, HdError *error) {
 static HdStatus open_candidate(Choosing *choosing, int index, HdError *error) {
     const HdAutoChoice *choice = choosing->choice;
     const HdDevice *device = &choice->candidates[index];
-    if (device->backend->kernels == NULL)
+    if (device->backend->functions->kernels == NULL)
         return hd_launch_open(&choosing->renderer, device, choice->options, choice->job->scene,
                               error);
     return open_trial(&choosing->renderer, choice, index, error);

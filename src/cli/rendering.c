@@ -179,7 +179,7 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    if (run->team.count > 0 && run->team.devices[0].backend->kernels != NULL &&
+    if (run->team.count > 0 && run->team.devices[0].backend->functions->kernels != NULL &&
         !run->options->verbose)
         hd_progress_prepare(&run->progress, "building kernels");
     announce_interrupt(run);

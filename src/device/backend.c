@@ -13,14 +13,16 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
 
 HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            const HdFrameWish *wish, HdError *error) {
-    return backend->submit != NULL ? backend->submit(renderer, tables, wish, error) : HD_OK;
+    return backend->functions->submit != NULL
+               ? backend->functions->submit(renderer, tables, wish, error)
+               : HD_OK;
 }
 
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error) {
     static const HdFrameWish radiance = {.radiance = true};
     HdStatus status = hd_backend_submit(backend, renderer, tables, &radiance, error);
-    return status == HD_OK ? backend->collect(renderer, tables, frame, error) : status;
+    return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
 }
 
 /* ---- what suits a device ---- */

@@ -38,19 +38,10 @@ typedef struct HdDevice {
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
-/* A backend. Arguments are checked before a function is called (renderer.c); "must" marks what the
-   callers rely on. Renderers are opaque to everybody else. Messages do not name the backend: who
-   calls it adds its name. */
-struct HdBackend {
-    const char *name;       /* as on the command line */
-    bool needs_no_driver;   /* it is there on every machine, and starts at once */
-    bool uses_host_threads; /* works with the program's own threads (HdRenderOptions) */
-
-    /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
-       filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
-       which library or driver is missing. */
-    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
-
+/* What a backend's renderers do. Arguments are checked before a function is called (renderer.c);
+   "must" marks what the callers rely on. Renderers are opaque to everybody else. Messages do not
+   name the backend: who calls it adds its name. */
+typedef struct HdRendererFunctions {
     /* Opens one device that can do what the options ask (hd_device_obstacle); their pipeline is not
        HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE where the device or its driver cannot be used
        after all. */
@@ -84,16 +75,11 @@ struct HdBackend {
        function as with `submit`. */
     void (*drop)(void *renderer);
 
-    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
-       where they are compiled ahead. */
+    /* The kernels that uploads compile, and what the last one did to have them (kernel_cache.h).
+       NULL instead of a function where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
-    /* What the last upload compiled computes wrongly: the next uploads must compile with little
-       optimisation (HdKernelShape). False where they do so already. NULL instead of a function as
-       above. */
-    bool (*be_cautious)(void *renderer);
-
-    /* The lanes of the kernels' bundles. NULL instead of a function: one. */
+    /* The lanes of such kernels' bundles; NULL instead of a function where `kernels` tells. */
     int (*lanes)(const void *renderer);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
@@ -101,6 +87,19 @@ struct HdBackend {
 
     /* No frame is under way. */
     void (*close)(void *renderer);
+} HdRendererFunctions;
+
+struct HdBackend {
+    const char *name;       /* as on the command line */
+    bool needs_no_driver;   /* it is there on every machine, and starts at once */
+    bool uses_host_threads; /* works with the program's own threads (HdRenderOptions) */
+    const HdRendererFunctions *functions;
+    const void *driver; /* what tells functions that several backends share one from another */
+
+    /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
+       filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
+       which library or driver is missing. */
+    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 
 enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };

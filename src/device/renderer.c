@@ -58,7 +58,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     opened->device = *device;
     opened->options = *options;
     opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
-    status = opened->backend->open(device, &opened->options, &opened->state, error);
+    status = opened->backend->functions->open(device, &opened->options, &opened->state, error);
     if (status != HD_OK) {
         free(opened);
         return name_backend(device->backend, status, error);
@@ -87,7 +87,9 @@ static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precisio
 }
 
 static HdKernelCache *kernels_of(const HdRenderer *renderer) {
-    return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
+    return renderer->backend->functions->kernels != NULL
+               ? renderer->backend->functions->kernels(renderer->state)
+               : NULL;
 }
 
 /* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
@@ -96,9 +98,9 @@ static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables 
     const HdBackend *backend = renderer->backend;
     HdError later;
     bool is_wrong;
-    if (!backend->be_cautious(renderer->state))
+    if (!hd_kernel_shape_be_cautious(&kernels_of(renderer)->shape))
         return HD_UNAVAILABLE;
-    HdStatus status = backend->upload(renderer->state, tables, &later);
+    HdStatus status = backend->functions->upload(renderer->state, tables, &later);
     if (status == HD_OK)
         status =
             hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, &later);
@@ -122,7 +124,7 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
         if (is_wrong)
             status = test_cautious_kernels(renderer, tables, error);
         if (status == HD_OK)
-            status = backend->upload(renderer->state, tables, error);
+            status = backend->functions->upload(renderer->state, tables, error);
     }
     if (status == HD_OK)
         hd_kernel_cache_accept(kernels);
@@ -155,7 +157,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     if (status != HD_OK)
         return status;
     renderer->has_scene = false;
-    status = renderer->backend->upload(renderer->state, tables, error);
+    status = renderer->backend->functions->upload(renderer->state, tables, error);
     if (status == HD_OK)
         status = test_new_kernels(renderer, tables, error);
     renderer->has_scene = status == HD_OK;
@@ -220,8 +222,9 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
 
 static void note_longest_launch(HdRenderer *renderer) {
     const HdBackend *backend = renderer->backend;
-    double seconds =
-        backend->longest_launch != NULL ? backend->longest_launch(renderer->state) : -1.0;
+    double seconds = backend->functions->longest_launch != NULL
+                         ? backend->functions->longest_launch(renderer->state)
+                         : -1.0;
     if (seconds > renderer->longest_launch)
         renderer->longest_launch = seconds;
 }
@@ -239,7 +242,7 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     HdStatus status = check_room(frame, tables, renderer->flights[0].wants_radiance, error);
     if (status != HD_OK)
         return status;
-    status = renderer->backend->collect(renderer->state, tables, frame, error);
+    status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
     if (status == HD_OK)
         note_longest_launch(renderer);
     renderer->in_flight--;
@@ -253,8 +256,8 @@ bool hd_renderer_has_failed(const HdRenderer *renderer) {
 }
 
 void hd_renderer_drop(HdRenderer *renderer) {
-    if (renderer->in_flight > 0 && renderer->backend->drop != NULL)
-        renderer->backend->drop(renderer->state);
+    if (renderer->in_flight > 0 && renderer->backend->functions->drop != NULL)
+        renderer->backend->functions->drop(renderer->state);
     renderer->in_flight = 0;
 }
 
@@ -276,15 +279,16 @@ const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {
-    const HdBackend *backend = renderer->backend;
-    return backend->lanes != NULL ? backend->lanes(renderer->state) : 1;
+    const HdKernelCache *kernels = kernels_of(renderer);
+    return kernels != NULL ? kernels->shape.lanes
+                           : renderer->backend->functions->lanes(renderer->state);
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
     if (capacity < 1)
         return;
     text[0] = '\0';
-    renderer->backend->describe(renderer->state, text, capacity);
+    renderer->backend->functions->describe(renderer->state, text, capacity);
 }
 
 const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
@@ -296,6 +300,6 @@ void hd_renderer_close(HdRenderer *renderer) {
     if (!renderer)
         return;
     hd_renderer_drop(renderer);
-    renderer->backend->close(renderer->state);
+    renderer->backend->functions->close(renderer->state);
     free(renderer);
 }

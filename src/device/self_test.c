@@ -103,7 +103,7 @@ static HdStatus render(const HdBackend *backend, void *renderer, const HdScene *
         return status;
     status = hd_frame_create_with(&image, scene->width, scene->height, view.floats, error);
     if (status == HD_OK) {
-        status = backend->upload(renderer, &tables, error);
+        status = backend->functions->upload(renderer, &tables, error);
         if (status == HD_OK)
             status = hd_backend_render(backend, renderer, &view, &image, error);
         keep_radiance(&image);

@@ -62,8 +62,7 @@ enum {
     X(cuDeviceGetAttribute, , (int *value, HdCuAttribute attribute, HdCuDevice device))            \
     X(cuDevicePrimaryCtxRetain, , (HdCuContext * context, HdCuDevice device))                      \
     X(cuDevicePrimaryCtxRelease, _v2, (HdCuDevice device))                                         \
-    X(cuCtxPushCurrent, _v2, (HdCuContext context))                                                \
-    X(cuCtxPopCurrent, _v2, (HdCuContext * context))                                               \
+    X(cuCtxSetCurrent, , (HdCuContext context))                                                    \
     X(cuModuleLoadData, , (HdCuModule * module, const void *image))                                \
     X(cuModuleUnload, , (HdCuModule module))                                                       \
     X(cuModuleGetFunction, , (HdCuFunction * function, HdCuModule module, const char *name))       \

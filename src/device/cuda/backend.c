@@ -111,17 +111,10 @@ typedef struct Device {
     int registers, local_bytes; /* of the tracing kernel */
 } Device;
 
-/* The device's own context, which others in this process may share. Other threads may have made
-   another one current, so that it is pushed for every function of the renderer. */
+/* The device's own context, which others in this process may share. */
 static HdStatus enter(void *state, HdError *error) {
     const Device *device = state;
-    return CALL(device->driver, cuCtxPushCurrent, (device->context), error);
-}
-
-static void leave(void *state) {
-    const Device *device = state;
-    HdCuContext popped;
-    device->driver.cuCtxPopCurrent(&popped);
+    return CALL(device->driver, cuCtxSetCurrent, (device->context), error);
 }
 
 static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error) {
@@ -137,7 +130,6 @@ static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error
     if (status == HD_OK)
         status = CALL(device->driver, cuMemGetInfo, (&available, &total), error);
     facts->memory = total;
-    leave(device);
     return status;
 }
 
@@ -149,7 +141,6 @@ static void destroy_streams(Device *device) {
         device->driver.cuStreamDestroy(device->copies);
     if (device->stream)
         device->driver.cuStreamDestroy(device->stream);
-    leave(device);
 }
 
 static void close_device(void *state) {
@@ -452,7 +443,6 @@ static const HdGpuDriver driver = {
     .open = open_device,
     .close = close_device,
     .enter = enter,
-    .leave = leave,
     .allocate = allocate,
     .release = release,
     .write = write_memory,
@@ -475,10 +465,5 @@ static const HdGpuDriver driver = {
     .describe = describe,
 };
 
-static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
-                          HdError *error) {
-    return hd_gpu_open(&driver, device, options, renderer, error);
-}
-
 const HdBackend hd_backend_cuda = {
-    .name = "cuda", .enumerate = cuda_enumerate, .open = cuda_open, HD_GPU_FUNCTIONS};
+    .name = "cuda", .functions = &hd_gpu_functions, .driver = &driver, .enumerate = cuda_enumerate};

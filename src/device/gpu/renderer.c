@@ -18,10 +18,8 @@ enum { WORKERS_PER_UNIT = 8, CPU_QUEUE_BYTES = 512 << 10 };
 typedef struct Renderer {
     HdGpu gpu;
     HdDevice device;
-    HdPipeline pipeline;
+    HdRenderOptions options;
     bool has_groups; /* of threads that work together, as GPUs have them */
-    int grid;        /* groups, as asked for; 0: what suits the device */
-    int launch_work; /* of a launch; 0: by measurement */
     int depth;       /* of the scene */
     HdGpuProgram program;
     HdGpuMemory scene[HD_SCENE_TABLE_COUNT];
@@ -38,12 +36,6 @@ static HdStatus enter(const Renderer *renderer, HdError *error) {
     return gpu->driver->enter != NULL ? gpu->driver->enter(gpu->handle, error) : HD_OK;
 }
 
-static void leave(const Renderer *renderer) {
-    const HdGpu *gpu = &renderer->gpu;
-    if (gpu->driver->leave != NULL)
-        gpu->driver->leave(gpu->handle);
-}
-
 /* ---- open and close ---- */
 
 /* As many lanes as a register has, within what the kernels are written for. */
@@ -53,9 +45,10 @@ static int natural_lanes(int native_width) {
     return native_width >= 8 ? 8 : 4;
 }
 
-static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
+static void choose_shape(Renderer *renderer) {
     const HdGpu *gpu = &renderer->gpu;
-    HdKernelShape *shape = &renderer->program.shape;
+    const HdRenderOptions *options = &renderer->options;
+    HdKernelShape *shape = &renderer->program.cache.shape;
     bool has_groups = renderer->has_groups;
     int lanes = has_groups ? 1 : natural_lanes(gpu->facts.native_lanes[options->precision]);
     int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
@@ -74,22 +67,22 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 
-static void choose_launches(Renderer *renderer, const HdRenderOptions *options) {
-    size_t budget =
-        renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
-    renderer->pipeline = options->pipeline;
-    renderer->grid = options->grid;
-    renderer->launch_work = options->test.launch_work;
-    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes : budget;
+/* For each worker. */
+static size_t queue_bytes(const Renderer *renderer) {
+    if (renderer->options.test.queue_bytes > 0)
+        return renderer->options.test.queue_bytes;
+    return renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
 }
 
-HdStatus hd_gpu_open(const HdGpuDriver *driver, const HdDevice *device,
-                     const HdRenderOptions *options, void **state, HdError *error) {
+static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
+                         HdError *error) {
+    const HdGpuDriver *driver = device->backend->driver;
     Renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     HdGpu *gpu = &renderer->gpu;
     renderer->device = *device;
+    renderer->options = *options;
     *gpu = (HdGpu){.driver = driver, .name = renderer->device.name};
     HdStatus status = driver->open(&gpu->handle, device, &gpu->facts, error);
     if (status != HD_OK) {
@@ -98,8 +91,8 @@ HdStatus hd_gpu_open(const HdGpuDriver *driver, const HdDevice *device,
     }
     hd_kernel_cache_begin(&renderer->program.cache, device);
     renderer->has_groups = !device->is_cpu || options->test.groups;
-    choose_shape(renderer, options);
-    choose_launches(renderer, options);
+    choose_shape(renderer);
+    renderer->queue.bytes = queue_bytes(renderer);
     *state = renderer;
     return HD_OK;
 }
@@ -117,13 +110,11 @@ static void release_all(Renderer *renderer) {
     gpu->driver->unload(gpu->handle);
 }
 
-void hd_gpu_close(void *state) {
+static void gpu_close(void *state) {
     Renderer *renderer = state;
     HdError ignored;
-    if (enter(renderer, &ignored) == HD_OK) {
+    if (enter(renderer, &ignored) == HD_OK)
         release_all(renderer);
-        leave(renderer);
-    }
     renderer->gpu.driver->close(renderer->gpu.handle);
     free(renderer);
 }
@@ -160,20 +151,17 @@ static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError 
     return status == HD_OK ? finished : status;
 }
 
-HdStatus hd_gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
+static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     const double longest =
         renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
     renderer->depth = tables->depth;
-    renderer->flights.size = renderer->launch_work > 0
-                                 ? hd_launch_size_fixed(renderer->launch_work)
+    const int work = renderer->options.test.launch_work;
+    renderer->flights.size = work > 0
+                                 ? hd_launch_size_fixed(work)
                                  : hd_launch_size_start(renderer->device.compute_units, longest);
     HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = upload(renderer, tables, error);
-    leave(renderer);
-    return status;
+    return status == HD_OK ? upload(renderer, tables, error) : status;
 }
 
 /* ---- arguments of kernels ---- */
@@ -236,8 +224,8 @@ static HdGpuLaunch tracing_of(const Renderer *renderer) {
 /* As many groups as the items need, but no more than the grid may have. */
 static int group_count(const Renderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
-    bool is_limited = renderer->has_groups && renderer->grid > 0;
-    return is_limited && groups > renderer->grid ? renderer->grid : groups;
+    bool is_limited = renderer->has_groups && renderer->options.grid > 0;
+    return is_limited && groups > renderer->options.grid ? renderer->options.grid : groups;
 }
 
 static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch, HdGpuMark *mark,
@@ -305,7 +293,7 @@ static Queue queue_of(const Renderer *renderer) {
         .sums = &queue->sums,
         .queue_stride = queue->plan.queue_stride,
         .sum_stride = queue->plan.sum_stride,
-        .compact = renderer->pipeline == HD_PIPELINE_WAVEFRONT,
+        .compact = renderer->options.pipeline == HD_PIPELINE_WAVEFRONT,
     };
 }
 
@@ -410,7 +398,7 @@ static HdStatus trace(Renderer *renderer, HdGpuFlight *flight, int items, int co
                       HdError *error) {
     HdStatus status;
     hd_launch_size_begin_frame(&renderer->flights.size);
-    if (!renderer->program.shape.wavefront)
+    if (!renderer->program.cache.shape.wavefront)
         status = launch_mega(renderer, flight, items, error);
     else if (renderer->has_groups)
         status = launch_waves(renderer, flight, items, count_slots, error);
@@ -454,7 +442,7 @@ static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, H
 /* ---- frames ---- */
 
 static HdStatus reserve_queue(Renderer *renderer, int items, int samples, HdError *error) {
-    const HdKernelShape *shape = &renderer->program.shape;
+    const HdKernelShape *shape = &renderer->program.cache.shape;
     int per_item = shape->pixels_per_item * samples;
     bool has_groups = renderer->has_groups;
     HdWaveNeeds needs = {
@@ -488,13 +476,15 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
 static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
                              HdCurve curve, HdError *error) {
     const HdGpuProgram *program = &renderer->program;
-    int items = hd_kernel_item_count(tables->width, tables->height, program->shape.pixels_per_item);
+    int items =
+        hd_kernel_item_count(tables->width, tables->height, program->cache.shape.pixels_per_item);
     int count_slots = items;
     HdStatus status = HD_OK;
-    if (program->shape.wavefront)
+    if (program->cache.shape.wavefront)
         status = reserve_queue(renderer, items, tables->samples, error);
-    if (program->shape.wavefront && renderer->has_groups)
-        count_slots = hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->grid);
+    if (program->cache.shape.wavefront && renderer->has_groups)
+        count_slots =
+            hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
     if (status == HD_OK)
         status = write_frame(renderer, flight, tables, error);
     if (status == HD_OK)
@@ -509,8 +499,8 @@ static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFr
 }
 
 /* CPUs have no bus to cross, and the host's conversion is as fast. */
-HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
-                       HdError *error) {
+static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+                           HdError *error) {
     Renderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
     HdGpuFlight *flight;
@@ -525,62 +515,60 @@ HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWi
         status = hd_gpu_flight_send(&renderer->flights, flight, gpu, error);
     if (status != HD_OK) /* the next frame takes the flight's memory */
         gpu->driver->drain(gpu->handle);
-    leave(renderer);
     return status;
 }
 
 /* Flights end in the order of their frames. */
-HdStatus hd_gpu_collect(void *state, const HdFrameTables *tables, HdFrame *frame, HdError *error) {
+static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
     Renderer *renderer = state;
     (void)tables;
     HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error);
-    leave(renderer);
-    return status;
+    return status == HD_OK ? hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error)
+                           : status;
 }
 
 /* What the launches on a CPU take does no harm. */
-double hd_gpu_longest_launch(const void *state) {
+static double gpu_longest_launch(const void *state) {
     const Renderer *renderer = state;
     return renderer->has_groups ? renderer->flights.longest_launch : -1.0;
 }
 
-void hd_gpu_drop(void *state) {
+static void gpu_drop(void *state) {
     Renderer *renderer = state;
     HdError ignored;
     if (enter(renderer, &ignored) != HD_OK)
         return;
     renderer->gpu.driver->drain(renderer->gpu.handle);
     renderer->flights.count = 0;
-    leave(renderer);
 }
 
 /* ---- what was chosen ---- */
 
-HdKernelCache *hd_gpu_kernels(void *state) {
+static HdKernelCache *gpu_kernels(void *state) {
     Renderer *renderer = state;
     return &renderer->program.cache;
 }
 
-bool hd_gpu_be_cautious(void *state) {
-    Renderer *renderer = state;
-    return hd_kernel_shape_be_cautious(&renderer->program.shape);
-}
-
-int hd_gpu_lanes(const void *state) {
-    const Renderer *renderer = state;
-    return renderer->program.shape.lanes;
-}
-
-void hd_gpu_describe(const void *state, char *text, int capacity) {
+static void gpu_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
     const HdGpuProgram *program = &renderer->program;
-    int length = gpu->driver->describe(gpu->handle, &program->shape, program->group_size,
-                                       hd_pipeline_names[renderer->pipeline], program->cache.maker,
-                                       text, capacity);
+    int length = gpu->driver->describe(gpu->handle, &program->cache.shape, program->group_size,
+                                       hd_pipeline_names[renderer->options.pipeline],
+                                       program->cache.maker, text, capacity);
     if (renderer->queue.is_cut && length > 0 && length < capacity)
         hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
 }
+
+const HdRendererFunctions hd_gpu_functions = {
+    .open = gpu_open,
+    .upload = gpu_upload,
+    .submit = gpu_submit,
+    .collect = gpu_collect,
+    .longest_launch = gpu_longest_launch,
+    .drop = gpu_drop,
+    .kernels = gpu_kernels,
+    .describe = gpu_describe,
+    .close = gpu_close,
+};

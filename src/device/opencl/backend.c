@@ -385,10 +385,7 @@ static const HdGpuDriver driver = {
     .describe = describe,
 };
 
-static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
-                            HdError *error) {
-    return hd_gpu_open(&driver, device, options, renderer, error);
-}
-
-const HdBackend hd_backend_opencl = {
-    .name = "opencl", .enumerate = hd_opencl_enumerate, .open = opencl_open, HD_GPU_FUNCTIONS};
+const HdBackend hd_backend_opencl = {.name = "opencl",
+                                     .functions = &hd_gpu_functions,
+                                     .driver = &driver,
+                                     .enumerate = hd_opencl_enumerate};
