@@ -155,7 +155,8 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
         .samples_at_once = HD_WAVE_BUNDLE,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
-    size_t each = padded(plan.real_bytes) + padded(plan.int_bytes) + padded(plan.sum_bytes);
+    size_t ints = padded(plan.bytes[0]), sums = ints + padded(plan.bytes[1]);
+    size_t each = sums + padded(plan.bytes[2]);
     HdStatus status = reserve_queues(c, each * (size_t)c->threads, error);
     if (status != HD_OK)
         return status;
@@ -163,8 +164,8 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     for (int i = 0; i < c->threads; i++, memory += each) {
         HdCpuQueue *queue = &c->queues[i];
         queue->reals = memory;
-        queue->ints = (int *)(void *)(memory + padded(plan.real_bytes));
-        queue->sums = (int64_t *)(void *)((char *)queue->ints + padded(plan.int_bytes));
+        queue->ints = (int *)(void *)(memory + ints);
+        queue->sums = (int64_t *)(void *)(memory + sums);
         queue->queue_stride = plan.queue_stride;
         queue->sum_stride = plan.sum_stride;
     }

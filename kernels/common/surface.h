@@ -154,13 +154,13 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
     /* A floor has no inner side: which way its normal looks is of no account. */
     set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
-    if (floor_map->texture_width > 0) {
+    if (floor_map->picture >= 0) {
         vreal s, t;
         if (floor_map->is_parallelogram)
             parallelogram_coordinates(floor_map, surface->point, &s, &t);
         else
             floor_coordinates(floor_map, surface->point, &s, &t);
-        Vec3 texel = sample_texture(floor_map, texels, s, t);
+        Vec3 texel = sample_picture(pictures + floor_map->picture, texels, s, t);
         LaneMaterial *material = &surface->material;
         material->colour = vec3_pick(m, vec3_mul(material->colour, texel), material->colour);
     }

@@ -58,9 +58,9 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     HdWavePlan plan;
     plan.sum_stride = batch_samples(needs, ray_bytes);
     plan.queue_stride = spread_stride(queue_places(needs, plan.sum_stride, ray_bytes));
-    plan.real_bytes = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
-    plan.int_bytes = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
-    plan.sum_bytes = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
+    plan.bytes[0] = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
+    plan.bytes[1] = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
+    plan.bytes[2] = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
     return plan;
 }
 

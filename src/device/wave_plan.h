@@ -23,10 +23,13 @@ typedef struct HdWaveNeeds {
     int samples_at_once; /* a batch has whole multiples of this; divides `samples` */
 } HdWaveNeeds;
 
+/* Of the rays' reals, their integers, and the samples' sums. */
+enum { HD_WAVE_BUFFERS = 3 };
+
 typedef struct HdWavePlan {
     int queue_stride; /* rays that the queue has room for */
     int sum_stride;   /* samples of a batch */
-    size_t real_bytes, int_bytes, sum_bytes;
+    size_t bytes[HD_WAVE_BUFFERS];
 } HdWavePlan;
 
 /* What a device with that much memory should give to its queue: an eighth, at most a GiB. */

@@ -151,14 +151,11 @@ static void close_device(void *state) {
     }
     hd_nvrtc_close(&device->nvrtc);
     hd_cuda_code_free(&device->code);
-    free(device);
 }
 
-static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
-    Device *device = calloc(1, sizeof *device);
+static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
+    Device *device = state;
     HdCuContext context = NULL;
-    if (!device)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     device->is = *is;
     HdStatus status = hd_cuda_load_driver(&device->driver, error);
     if (status == HD_OK)
@@ -171,7 +168,6 @@ static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts,
     }
     if (status != HD_OK)
         close_device(device);
-    *state = device;
     return status;
 }
 
@@ -438,6 +434,7 @@ static int describe(const void *state, const HdKernelShape *shape, int group_siz
 static const HdGpuDriver driver = {
     .groups = "blocks",
     .group_size = BLOCK_THREADS,
+    .bytes = sizeof(Device),
     .source = hd_cuda_source,
     .source_size = &hd_cuda_source_size,
     .open = open_device,

@@ -68,7 +68,10 @@ typedef struct HdGpuDriver {
     const unsigned char *source;
     const size_t *source_size;
 
-    HdStatus (*open)(void **gpu, const HdDevice *device, HdGpuFacts *facts, HdError *error);
+    size_t
+        bytes; /* of an open device, which the functions get as `gpu`; zeroed before it is opened */
+    /* On failure there is nothing to close. */
+    HdStatus (*open)(void *gpu, const HdDevice *device, HdGpuFacts *facts, HdError *error);
     void (*close)(void *gpu);
 
     /* Before all calls but open and close, on a thread that may have worked on another GPU. NULL:

@@ -77,14 +77,14 @@ static size_t queue_bytes(const Renderer *renderer) {
 static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
                          HdError *error) {
     const HdGpuDriver *driver = device->backend->driver;
-    Renderer *renderer = calloc(1, sizeof *renderer);
+    Renderer *renderer = calloc(1, sizeof *renderer + driver->bytes);
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     HdGpu *gpu = &renderer->gpu;
     renderer->device = *device;
     renderer->options = *options;
-    *gpu = (HdGpu){.driver = driver, .name = renderer->device.name};
-    HdStatus status = driver->open(&gpu->handle, device, &gpu->facts, error);
+    *gpu = (HdGpu){.driver = driver, .handle = renderer + 1, .name = renderer->device.name};
+    HdStatus status = driver->open(gpu->handle, &renderer->device, &gpu->facts, error);
     if (status != HD_OK) {
         free(renderer);
         return status;
@@ -153,13 +153,12 @@ static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError 
 
 static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
-    const double longest =
-        renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
-    renderer->depth = tables->depth;
+    const HdDevice *device = &renderer->device;
+    const double longest = device->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
     const int work = renderer->options.test.launch_work;
-    renderer->flights.size = work > 0
-                                 ? hd_launch_size_fixed(work)
-                                 : hd_launch_size_start(renderer->device.compute_units, longest);
+    renderer->depth = tables->depth;
+    renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)
+                                      : hd_launch_size_start(device->compute_units, longest);
     HdStatus status = enter(renderer, error);
     return status == HD_OK ? upload(renderer, tables, error) : status;
 }
@@ -288,9 +287,9 @@ static int worker_count(const Renderer *renderer, int items) {
 static Queue queue_of(const Renderer *renderer) {
     const HdGpuWaveQueue *queue = &renderer->queue;
     return (Queue){
-        .ray_reals = &queue->reals,
-        .ray_ints = &queue->ints,
-        .sums = &queue->sums,
+        .ray_reals = &queue->buffers[0],
+        .ray_ints = &queue->buffers[1],
+        .sums = &queue->buffers[2],
         .queue_stride = queue->plan.queue_stride,
         .sum_stride = queue->plan.sum_stride,
         .compact = renderer->options.pipeline == HD_PIPELINE_WAVEFRONT,
@@ -352,7 +351,7 @@ static HdStatus store_batch(void *context, int first_item, int item_count, HdErr
     const StoreBatch own = {
         .header = &renderer->scene[HD_TABLE_header],
         .view = &renderer->frame[HD_TABLE_view],
-        .sums = &renderer->queue.sums,
+        .sums = queue_of(renderer).sums,
         .sum_stride = renderer->queue.plan.sum_stride,
         .first_item = first_item,
         .item_count = item_count,

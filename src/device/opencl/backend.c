@@ -34,7 +34,6 @@ static void close_device(void *state) {
         clReleaseCommandQueue(device->queue);
     if (device->context)
         clReleaseContext(device->context);
-    free(device);
 }
 
 static HdStatus create_queues(Device *device, HdError *error) {
@@ -51,10 +50,8 @@ static HdStatus create_queues(Device *device, HdError *error) {
     return device->copies ? HD_OK : hd_opencl_fail(error, "clCreateCommandQueue", code);
 }
 
-static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
-    Device *device = calloc(1, sizeof *device);
-    if (!device)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
+    Device *device = state;
     device->is = *is;
     HdStatus status = hd_opencl_find(&device->id, is->index, facts, error);
     device->at_once = facts->at_once;
@@ -62,7 +59,6 @@ static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts,
         status = create_queues(device, error);
     if (status != HD_OK)
         close_device(device);
-    *state = device;
     return status;
 }
 
@@ -358,6 +354,7 @@ static int describe(const void *state, const HdKernelShape *shape, int group_siz
 static const HdGpuDriver driver = {
     .groups = "work groups",
     .group_size = GPU_GROUP_SIZE,
+    .bytes = sizeof(Device),
     .counts_host_memory = true,
     .source = hd_opencl_source,
     .source_size = &hd_opencl_source_size,

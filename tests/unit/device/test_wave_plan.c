@@ -100,7 +100,7 @@ static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t
         .samples_at_once = frame->samples_per_item,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
-    assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    assert_true(plan.bytes[0] >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
     HdLaunchSize size = hd_launch_size_fixed(launch_rays);
     Account account = {.plan = &plan, .frame = frame, .children = children};
     account.waits = calloc((size_t)plan.queue_stride, 1);
@@ -191,7 +191,7 @@ static void plans_keep_to_their_budget(void **state) {
                                  .samples = hd_wave_samples(1 << 22, 16),
                                  .samples_at_once = 16};
             HdWavePlan plan = hd_wave_plan(&needs);
-            size_t used = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+            size_t used = plan.bytes[0] + plan.bytes[1] + plan.bytes[2];
             assert_true(used < bytes + 10000);
             assert_true(used > bytes / 2);
             assert_int_equal(plan.sum_stride % 16, 0);
@@ -204,13 +204,13 @@ static void a_refused_queue_is_halved(void **state) {
     (void)state;
     HdWaveNeeds needs = {
         .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
-    size_t before = hd_wave_plan(&needs).real_bytes;
+    size_t before = hd_wave_plan(&needs).bytes[0];
     static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         assert_true(hd_wave_halve(&needs));
         assert_int_equal(needs.bytes, expected[i]);
-        assert_true(hd_wave_plan(&needs).real_bytes < before);
-        before = hd_wave_plan(&needs).real_bytes;
+        assert_true(hd_wave_plan(&needs).bytes[0] < before);
+        before = hd_wave_plan(&needs).bytes[0];
     }
     assert_false(hd_wave_halve(&needs));
     assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
