@@ -88,10 +88,10 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     }
     vreal right = to_real((x * n + column) * 2 + view->first_column);
     vreal down = to_real((y * n + row) * 2 + view->first_row);
-    Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
-    Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
+    Vec3 axis = vec3_of(view->down);
+    Vec3 sum = vec3_of(view->forward);
     sum = vec3_scale_add(axis, down, sum);
-    axis = vec3_splat(view->right[0], view->right[1], view->right[2]);
+    axis = vec3_of(view->right);
     *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
     return alive;
 }

@@ -15,8 +15,8 @@ FN vreal clamp_unit(vreal a) {
    map's determinant, k1 + 2 k2 t, has the sign of the orientation. Of the two ways to write a root
    the one that adds numbers of equal sign is taken, which also covers k2 = 0. */
 FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
-    Vec3 axis_a = vec3_splat(map->axis_a[0], map->axis_a[1], map->axis_a[2]);
-    Vec3 axis_b = vec3_splat(map->axis_b[0], map->axis_b[1], map->axis_b[2]);
+    Vec3 axis_a = vec3_of(map->axis_a);
+    Vec3 axis_b = vec3_of(map->axis_b);
     vreal ha = vec3_dot(axis_a, point) - splat(map->origin[0]);
     vreal hb = vec3_dot(axis_b, point) - splat(map->origin[1]);
     vreal ea = splat(map->e[0]), eb = splat(map->e[1]);
@@ -36,8 +36,8 @@ FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vrea
 }
 
 FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
-    Vec3 axis_s = vec3_splat(map->axis_s[0], map->axis_s[1], map->axis_s[2]);
-    Vec3 axis_t = vec3_splat(map->axis_t[0], map->axis_t[1], map->axis_t[2]);
+    Vec3 axis_s = vec3_of(map->axis_s);
+    Vec3 axis_t = vec3_of(map->axis_t);
     *s = clamp_unit(vec3_dot(axis_s, point) + splat(map->start[0]));
     *t = clamp_unit(vec3_dot(axis_t, point) + splat(map->start[1]));
 }

@@ -9,8 +9,6 @@
 #include "device/backend.h"
 #include "system/dynamic_library.h"
 
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
 static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *error) {
     static const HdLibrarySymbol symbols[] = {
 #define SYMBOL(function, version, parameters)                                                      \
@@ -18,7 +16,8 @@ static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *err
         HD_CUDA_FUNCTIONS(SYMBOL)
 #undef SYMBOL
     };
-    const char *missing = hd_library_load(library, symbols, COUNT(symbols), driver);
+    const char *missing =
+        hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, driver);
     if (missing)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the NVIDIA driver is too old: libcuda.so.1 has no function %s", missing);
@@ -49,23 +48,14 @@ const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     return name;
 }
 
-/* After these no call of this program succeeds on the device. A device that another program has for
-   itself alone is unavailable from the begin. */
+/* A device that another program has for itself alone is unavailable from the begin. */
 static bool is_lost(const char *function, HdCuResult code) {
     switch (code) {
     case HD_CU_ERROR_DEVICE_UNAVAILABLE:
         return strcmp(function, "cuDevicePrimaryCtxRetain") != 0;
-    case HD_CU_ERROR_ECC_UNCORRECTABLE:
-    case HD_CU_ERROR_NVLINK_UNCORRECTABLE:
-    case HD_CU_ERROR_ILLEGAL_ADDRESS:
-    case HD_CU_ERROR_LAUNCH_TIMEOUT:
-    case HD_CU_ERROR_CONTEXT_IS_DESTROYED:
-    case HD_CU_ERROR_HARDWARE_STACK_ERROR:
-    case HD_CU_ERROR_ILLEGAL_INSTRUCTION:
-    case HD_CU_ERROR_MISALIGNED_ADDRESS:
-    case HD_CU_ERROR_INVALID_ADDRESS_SPACE:
-    case HD_CU_ERROR_INVALID_PC:
-    case HD_CU_ERROR_LAUNCH_FAILED:
+#define CASE(name, number) case HD_CU_ERROR_##name:
+        HD_CUDA_LOSSES(CASE)
+#undef CASE
         return true;
     default:
         return false;
@@ -82,13 +72,4 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
              hd_cuda_error_name(driver, code), code, text);
     return is_lost(function, code) ? hd_fail_lost(error, what)
                                    : hd_fail(error, HD_FAILED, "%s", what);
-}
-
-const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {
-    static const HdLibrarySymbol symbols[] = {
-#define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
-        HD_NVRTC_FUNCTIONS(SYMBOL)
-#undef SYMBOL
-    };
-    return hd_library_load(library, symbols, COUNT(symbols), functions);
 }

@@ -21,21 +21,28 @@ typedef struct CUfunc_st *HdCuFunction;
 typedef struct CUstream_st *HdCuStream;
 typedef struct CUevent_st *HdCuEvent;
 
+/* X(name, number): errors after which no call of this program succeeds on the device. */
+#define HD_CUDA_LOSSES(X)                                                                          \
+    X(ECC_UNCORRECTABLE, 214)                                                                      \
+    X(NVLINK_UNCORRECTABLE, 220)                                                                   \
+    X(ILLEGAL_ADDRESS, 700)                                                                        \
+    X(LAUNCH_TIMEOUT, 702)                                                                         \
+    X(CONTEXT_IS_DESTROYED, 709)                                                                   \
+    X(HARDWARE_STACK_ERROR, 714)                                                                   \
+    X(ILLEGAL_INSTRUCTION, 715)                                                                    \
+    X(MISALIGNED_ADDRESS, 716)                                                                     \
+    X(INVALID_ADDRESS_SPACE, 717)                                                                  \
+    X(INVALID_PC, 718)                                                                             \
+    X(LAUNCH_FAILED, 719)
+
+#define HD_CUDA_ERROR(name, number) HD_CU_ERROR_##name = (number),
+enum { HD_CUDA_LOSSES(HD_CUDA_ERROR) };
+#undef HD_CUDA_ERROR
+
 enum {
     HD_CU_SUCCESS = 0,
     HD_CU_ERROR_OUT_OF_MEMORY = 2,
     HD_CU_ERROR_DEVICE_UNAVAILABLE = 46,
-    HD_CU_ERROR_ECC_UNCORRECTABLE = 214,
-    HD_CU_ERROR_NVLINK_UNCORRECTABLE = 220,
-    HD_CU_ERROR_ILLEGAL_ADDRESS = 700,
-    HD_CU_ERROR_LAUNCH_TIMEOUT = 702,
-    HD_CU_ERROR_CONTEXT_IS_DESTROYED = 709,
-    HD_CU_ERROR_HARDWARE_STACK_ERROR = 714,
-    HD_CU_ERROR_ILLEGAL_INSTRUCTION = 715,
-    HD_CU_ERROR_MISALIGNED_ADDRESS = 716,
-    HD_CU_ERROR_INVALID_ADDRESS_SPACE = 717,
-    HD_CU_ERROR_INVALID_PC = 718,
-    HD_CU_ERROR_LAUNCH_FAILED = 719,
     HD_CU_DEVICE_CLOCK_KHZ = 13,
     HD_CU_DEVICE_MULTIPROCESSOR_COUNT = 16,
     HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT = 17,
@@ -134,8 +141,5 @@ typedef struct HdNvrtcFunctions {
     HD_NVRTC_FUNCTIONS(HD_NVRTC_MEMBER)
 } HdNvrtcFunctions;
 #undef HD_NVRTC_MEMBER
-
-/* Returns the first symbol that the library lacks, or NULL. */
-const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library);
 
 #endif

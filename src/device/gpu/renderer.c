@@ -308,16 +308,8 @@ static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, int item
     return hd_gpu_flight_launch(flight, &renderer->gpu, &launch, 0.0, error);
 }
 
-typedef struct WaveLaunches {
-    Renderer *renderer;
-    HdGpuFlight *flight;
-    int groups; /* at most */
-} WaveLaunches;
-
-static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
-    const WaveLaunches *launches = context;
-    Renderer *renderer = launches->renderer;
-    HdGpuFlight *flight = launches->flight;
+static HdStatus trace_step(Renderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
+                           int most_groups, unsigned *taken, HdError *error) {
     int group_size = renderer->program.group_size;
     const Queue queue = queue_of(renderer);
     const TraceTake own = {
@@ -335,8 +327,8 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
-    if (step->is_first || launch.groups > launches->groups)
-        launch.groups = launches->groups;
+    if (step->is_first || launch.groups > most_groups)
+        launch.groups = most_groups;
     HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
     if (status == HD_OK)
         status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
@@ -345,40 +337,45 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     return status;
 }
 
-static HdStatus store_batch(void *context, int first_item, int item_count, HdError *error) {
-    const WaveLaunches *launches = context;
-    const Renderer *renderer = launches->renderer;
+static HdStatus store_batch(const Renderer *renderer, const HdGpuFlight *flight,
+                            const HdWaveStep *step, HdError *error) {
     const StoreBatch own = {
         .header = &renderer->scene[HD_TABLE_header],
         .view = &renderer->frame[HD_TABLE_view],
         .sums = queue_of(renderer).sums,
         .sum_stride = renderer->queue.plan.sum_stride,
-        .first_item = first_item,
-        .item_count = item_count,
-        .pixels = &launches->flight->pixels,
+        .first_item = step->first_item,
+        .item_count = step->item_count,
+        .pixels = &flight->pixels,
     };
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_STORE);
     add_store_batch(&launch, &own);
-    launch.groups = group_count(renderer, item_count, launch.group_size);
+    launch.groups = group_count(renderer, step->item_count, launch.group_size);
     return queue_launch(renderer, &launch, NULL, error);
 }
 
 /* The wavefront of devices with groups of threads. */
-static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int groups,
+static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int most_groups,
                              HdError *error) {
-    WaveLaunches launches = {renderer, flight, groups};
-    HdWaveDevice device = {.context = &launches,
-                           .trace = trace_step,
-                           .store = store_batch,
-                           .size = &renderer->flights.size};
-    HdWaveFrame frame = {
+    HdWaveRun run = {
+        .plan = &renderer->queue.plan,
         .items = items,
         .samples_per_item = flight->of->samples,
         .depth = renderer->depth,
         .grain = renderer->program.group_size,
     };
+    const HdWaveStep *step = &run.step;
+    unsigned taken = 0;
     HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
-    return status == HD_OK ? hd_wave_run(&renderer->queue.plan, &frame, &device, error) : status;
+    while (status == HD_OK) {
+        status = hd_wave_next(&run, taken, &renderer->flights.size, error);
+        if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
+            return status;
+        status = step->action == HD_WAVE_STORES
+                     ? store_batch(renderer, flight, step, error)
+                     : trace_step(renderer, flight, step, most_groups, &taken, error);
+    }
+    return status;
 }
 
 static HdStatus launch_sum(Renderer *renderer, HdGpuFlight *flight, int count_slots,
