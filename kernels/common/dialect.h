@@ -33,10 +33,10 @@
    bits_of(a), from_bits(b)       a vreal as integers and back, bit for bit
    splat_bits(x)                  the same integer in every lane
    lowest_bit(u), count_bits(u)   number of the lowest set bit, not for 0; how many are set
-   load_reals(p), load_ints(p)    as many consecutive numbers as there are lanes, wherever they
-   begin gather_reals(p)                likewise of a private array add_shared(p, x) with
-   HD_GROUP_SIZE: adds to a fixed64 that all groups share take_shared(p, n)              likewise:
-   adds to a counter, returns what it was
+   load_reals(p), load_ints(p)    as many consecutive numbers as there are lanes, from anywhere
+   gather_reals(p)                likewise of a private array
+   add_shared(p, x)               with HD_GROUP_SIZE: adds to a fixed64 that all groups share
+   take_shared(p, n)              likewise: adds to a counter, returns what it was
 
    What follows here may have a better form where registers are known: such a dialect defines it
    itself, and HD_OWN_..., which this file asks. Both forms have the same bits. */

@@ -35,7 +35,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_light_sides] = lights * objects,
         [HD_TABLE_object_offsets] = objects * objects,
         [HD_TABLE_floor_map] = 1,
-        [HD_TABLE_texels] = 2 * builder->texels,
+        [HD_TABLE_texels] = 2 * builder->texels + 4, /* kernels read four words at a time */
         [HD_TABLE_instances] = instances,
         [HD_TABLE_triangles] = sizes->triangles,
         [HD_TABLE_mesh_nodes] = sizes->nodes,
@@ -44,7 +44,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_top_items] = builder->top.node_count > 0 ? instances : 0,
         [HD_TABLE_skins] = sizes->skins,
         [HD_TABLE_mesh_normals] = sizes->normals,
-        [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* kernels read four at a time */
+        [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* likewise */
         [HD_TABLE_mesh_uvs] = sizes->uvs,
         [HD_TABLE_corner_uvs] = sizes->corner_uvs + 1,
         [HD_TABLE_pictures] = (size_t)builder->picture_count,
