@@ -18,10 +18,10 @@ static const uint64_t hashes[HD_SELF_TEST_FRAMES][2][2][2] = {
                             {{0xcb3e76d8233c38a1, 0x493807fe4e186eae},
                              {0xc7762e262fcbfb9e, 0xa870879512629fb4}}},
     [HD_SELF_TEST_FLOOR] = {{{0x58d0366f784664e9}}, {{0x7fec99e0bbfce896}}},
-    [HD_SELF_TEST_MESH] = {{{0x95a0162d30bc0853, 0x488d9bc96fa6efe2},
-                            {0x276a388e625bd696, 0x352fd69c103f1858}},
-                           {{0x2ea394852fba7df0, 0x40940231115d73ba},
-                            {0xdeaba96c4276c3ad, 0x5dc4df7957b098ea}}},
+    [HD_SELF_TEST_MESH] = {{{0xb33677956f251625, 0x79574cb4504e4959},
+                            {0x657e9d9cf1195fae, 0x388253a461ccf48d}},
+                           {{0x5d1a4b1da7fa3fdc, 0x532de987a64c8261},
+                            {0x107fbb5865e3fb9d, 0xe504dd55ccdb216d}}},
 };
 
 static uint64_t expected_hash(HdSelfTestFrame frame, HdPrecision precision, bool refracts,
