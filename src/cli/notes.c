@@ -80,7 +80,8 @@ void hd_note_renderer(const HdDevice *device, const char *renderer, const char *
     hd_note_renderer_line(renderer);
     hd_kernel_needs_describe(&needs, line, sizeof line);
     fprintf(stderr, "kernels   %d planes; %s\n", tables->plane_count,
-            device->backend->functions->kernels == NULL ? "compiled ahead, for scenes of any size" : line);
+            device->backend->functions->kernels == NULL ? "compiled ahead, for scenes of any size"
+                                                        : line);
     if (kernels[0] != '\0')
         fprintf(stderr, "build     %s\n", kernels);
 }
