@@ -5,8 +5,8 @@
     compare_scenes.py HEDRON FIRST_SEED COUNT
 
 What belongs to a seed stays in the current folder: SEED.json, the files that it names, and the pictures
-SEED.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top, and ends with
-1 where more than a few pixels of all scenes do.
+SEED.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top. Ends
+with 1 where more than a few pixels of all scenes differ.
 """
 import array
 import json

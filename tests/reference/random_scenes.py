@@ -76,7 +76,8 @@ class Maker:
         if self.chance(0.6):
             keys |= {"intensity": self.number(0.02, 0.2), **self.falloff(), "per_edge": 1}
         if self.chance(0.8):
-            keys |= {"disc_radius": self.number(0.04, 0.3) * radius, "disc_radiance": self.number(0, 3)}
+            keys["disc_radius"] = self.dice.choice([0.05, 0.15, 0.5]) * radius
+            keys["disc_radiance"] = self.number(0, 3)
         return keys
 
     def solid(self, centre, radius, refracts, lights):
@@ -132,7 +133,7 @@ class Maker:
                       self.words("Ns", [self.number(1, 90)])]
             lines += [f"illum {self.dice.choice([1, 2, 3, 4, 6, 7])}"] * self.chance(0.9)
             lines += [self.words("Ke", self.colour(0))] * self.chance(0.3)
-        if self.chance(0.6):
+        if self.chance(0.8):
             size = self.texture(f"{self.name}-mesh.data")
             lines += [f"map_Kd {self.name}-mesh.data"]
         lines += [self.words(self.dice.choice(["d", "Tr"]), [self.number(0.3, 0.9)])] * self.chance(0.7)
@@ -166,7 +167,7 @@ class Maker:
         keys = {"file": f"{self.name}.obj", "position": centre, "rotation": self.point(180),
                 "scale": self.dice.choice([0.8, [0.7, 1, 0.5]]), "crease": self.dice.choice([20, 60, 180]),
                 "normals": self.dice.choice(["file", "flat", "smooth"])}
-        if self.chance(0.3):
+        if self.chance(0.5):
             keys["material"] = self.material(self.dice.choice([1, 1.4]))
         return keys
 

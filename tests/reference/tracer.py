@@ -310,7 +310,8 @@ class Triangle:
         self.ab, self.ac = minus(b, self.a), minus(c, self.a)
         self.normal = unit(cross(self.ab, self.ac))
         self.normals = normals
-        self.coordinates = [corner[1] for corner in corners]
+        own = [corner[1] for corner in corners]
+        self.coordinates = [place or (0.0, 1.0) for place in own] if any(own) else None
         self.material, self.texture, self.emission = look
 
     def crossing(self, origin, direction):
@@ -343,7 +344,7 @@ class Triangle:
         """As of a solid."""
         found = Surface(point, self.shading_normal(direction, side, shares), self, side, self.material)
         found.emission = self.emission
-        if self.texture and None not in self.coordinates:
+        if self.texture and self.coordinates:
             s, t = blend(shares, self.coordinates)
             found.colour = product(found.colour, self.texture.at(s, 1 - t))
         return found
