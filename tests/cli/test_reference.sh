@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
-run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 1 20
+run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 7 20
 cat "$logs/stdout"
 if ((code != 0)); then
     fail "the tracer has other pixels"

@@ -127,7 +127,7 @@ class Maker:
         """The size of the texture, or (1, 1), of a material library that is made."""
         size, lines = (1, 1), []
         for material in ("paint", "glass"):
-            black = material == "glass" and self.chance(0.2)
+            black = material == "glass" and self.chance(0.4)
             lines += [f"newmtl {material}", self.words("Kd", [0, 0, 0] if black else self.colour()),
                       self.words("Ka", self.colour(0)), self.words("Ks", self.colour(0)),
                       self.words("Ns", [self.number(1, 90)])]
@@ -182,7 +182,7 @@ class Maker:
             path = {law: self.number(0, 2) for law in laws}
             path |= {"r0": 6, "z0": 2.5, "phi0": self.number(0, 6), "phi_frequency": self.dice.choice([1, 2])}
             keys |= {"frames": 10, "eye": path}
-        elif self.chance(0.2):
+        elif self.chance(0.4):
             keys |= self.dice.choice([{"eye": [0, 0, 5], "target": [0, 0, 0]},
                                       {"eye": [1, 0.5, 6], "target": [1, 0.5, 0]},
                                       {"eye": {"z0": 6, "phi0": 2}, "target": {"phi_frequency": 1}}])
