@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growth.h"
+#include "base/text.h"
 #include "cpu/instruction_set.h"
-#include "cpu/kernel.h"
 #include "device/kernel_source.h"
-#include "device/pipeline.h"
 #include "device/renderer.h"
 #include "device/wave_plan.h"
 #include "kernels/host/shared.h"
@@ -31,8 +31,6 @@ typedef struct CRenderer {
     HdSceneTables scene; /* our own copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
-    const HdFrameTables *waiting[HD_FRAMES_IN_FLIGHT]; /* submitted frames, the oldest first */
-    int waiting_count;
 } CRenderer;
 
 static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
@@ -123,15 +121,10 @@ static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *e
 }
 
 static HdStatus reserve_counts(CRenderer *c, int items, HdError *error) {
-    if (items <= c->item_capacity)
-        return HD_OK;
-    free(c->counts);
-    c->item_capacity = 0;
-    c->counts = calloc((size_t)items, sizeof *c->counts);
-    if (c->counts == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for %d work items", items);
-    c->item_capacity = items;
-    return HD_OK;
+    c->counts = hd_reserved(c->counts, sizeof *c->counts, items, &c->item_capacity);
+    return c->counts != NULL
+               ? HD_OK
+               : hd_fail(error, HD_FAILED, "out of memory: no room for %d work items", items);
 }
 
 static HdStatus reserve_queues(CRenderer *c, size_t bytes, HdError *error) {
@@ -162,7 +155,8 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
         .samples_at_once = HD_WAVE_BUNDLE,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
-    size_t each = padded(plan.real_bytes) + padded(plan.int_bytes) + padded(plan.sum_bytes);
+    size_t ints = padded(plan.bytes[0]), sums = ints + padded(plan.bytes[1]);
+    size_t each = sums + padded(plan.bytes[2]);
     HdStatus status = reserve_queues(c, each * (size_t)c->threads, error);
     if (status != HD_OK)
         return status;
@@ -170,9 +164,8 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
     for (int i = 0; i < c->threads; i++, memory += each) {
         HdCpuQueue *queue = &c->queues[i];
         queue->reals = memory;
-        queue->ints = (int *)(void *)(memory + padded(plan.real_bytes));
-        queue->sums =
-            (int64_t *)(void *)(memory + padded(plan.real_bytes) + padded(plan.int_bytes));
+        queue->ints = (int *)(void *)(memory + ints);
+        queue->sums = (int64_t *)(void *)(memory + sums);
         queue->queue_stride = plan.queue_stride;
         queue->sum_stride = plan.sum_stride;
     }
@@ -196,32 +189,9 @@ static bool is_interrupted(void) {
     return hd_interrupt_signal() != 0;
 }
 
-/* Nothing works by itself here: a frame is rendered when it is collected. */
-static HdStatus c_submit(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
-                         HdError *error) {
+static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+                          HdError *error) {
     CRenderer *c = renderer;
-    (void)wish;
-    (void)error;
-    c->waiting[c->waiting_count++] = tables;
-    return HD_OK;
-}
-
-static const HdFrameTables *take_oldest(CRenderer *c) {
-    const HdFrameTables *oldest = c->waiting[0];
-    c->waiting_count--;
-    for (int i = 0; i < c->waiting_count; i++)
-        c->waiting[i] = c->waiting[i + 1];
-    return oldest;
-}
-
-static void c_drop(void *renderer) {
-    CRenderer *c = renderer;
-    c->waiting_count = 0;
-}
-
-static HdStatus c_collect(void *renderer, HdFrame *frame, HdError *error) {
-    CRenderer *c = renderer;
-    const HdFrameTables *tables = take_oldest(c);
     int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
     HdStatus status = reserve_counts(c, items, error);
     if (status == HD_OK && c->queues != NULL)
@@ -246,21 +216,23 @@ static int c_lanes(const void *renderer) {
 static void c_describe(const void *renderer, char *text, int capacity) {
     const CRenderer *c = renderer;
     snprintf(text, (size_t)capacity, "%d lanes, %s, %d thread%s, %s", c->build->lanes,
-             c->build->instruction_set, c->threads, c->threads == 1 ? "" : "s",
-             hd_pipeline_name(c->pipeline));
+             c->build->instruction_set, c->threads, hd_plural(c->threads),
+             hd_pipeline_names[c->pipeline]);
 }
+
+static const HdRendererFunctions functions = {
+    .open = c_open,
+    .upload = c_upload,
+    .collect = c_collect,
+    .lanes = c_lanes,
+    .describe = c_describe,
+    .close = c_close,
+};
 
 const HdBackend hd_backend_c = {
     .name = "c",
     .needs_no_driver = true,
     .uses_host_threads = true,
+    .functions = &functions,
     .enumerate = c_enumerate,
-    .open = c_open,
-    .upload = c_upload,
-    .submit = c_submit,
-    .collect = c_collect,
-    .drop = c_drop,
-    .lanes = c_lanes,
-    .describe = c_describe,
-    .close = c_close,
 };

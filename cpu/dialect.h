@@ -44,20 +44,8 @@ FN vreal square_root(vreal a) {
 
 #include "cpu/bundles.h"
 
-typedef vint vmask;
+#include "kernels/common/wide_masks.h"
 
-FN vmask lt(vreal a, vreal b) {
-    return a < b;
-}
-FN vmask le(vreal a, vreal b) {
-    return a <= b;
-}
-FN vmask eq_int(vint a, vint b) {
-    return a == b;
-}
-FN vmask lt_int(vint a, vint b) {
-    return a < b;
-}
 FN vreal pick(vmask m, vreal a, vreal b) {
     return (vreal)((m & (vmask)a) | (~m & (vmask)b));
 }
@@ -101,6 +89,7 @@ FN int lowest_bit(uint bits) {
 FN int count_bits(uint bits) {
     return __builtin_popcount(bits);
 }
+#define HD_OWN_PREFETCH
 FN void prefetch_bytes(const char *from, int count) {
     enum { CACHE_LINE = 64 };
     for (int i = 0; i < count; i += CACHE_LINE)

@@ -4,7 +4,7 @@
 #define HD_CPU_INSTRUCTION_SET_H
 
 #include "cpu/kernel.h"
-#include "device/renderer.h"
+#include "device/options.h"
 
 typedef struct HdCpuBuild {
     const char *instruction_set; /* "avx512", "avx2" or "generic" */

@@ -2,7 +2,6 @@
 /* Entry point for plain C, named by HD_KERNEL_NAME. */
 #include "cpu/kernel.h"
 
-#include "cpu/dialect.h"
 #include "cpu/kernel_tables.h"
 #include "kernels/common/wavefront.h"
 
@@ -28,9 +27,8 @@ FN_APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, i
 HdCpuKernel HD_KERNEL_NAME;
 
 void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const HdCpuQueue *queue,
-                    float *pixels, HdRayCounts *counts) {
-    RayCounts counted = queue == NULL ? render_by_trees(scene, frame, item, pixels)
+                    float *pixels, void *counts) {
+    ((RayCounts *)counts)[item] = queue == NULL
+                                      ? render_by_trees(scene, frame, item, pixels)
                                       : render_by_waves(scene, frame, item, queue, pixels);
-    counts[item] =
-        (HdRayCounts){counted.mirrored, counted.transmitted, counted.shadow_tests, counted.clamps};
 }

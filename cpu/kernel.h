@@ -4,7 +4,8 @@
 #ifndef HD_CPU_KERNEL_H
 #define HD_CPU_KERNEL_H
 
-#include "image/frame.h"
+#include <stdint.h>
+
 #include "tables/table.h"
 
 /* The queue that a thread works off its rays with (kernels/common/wavefront.h). */
@@ -16,9 +17,10 @@ typedef struct HdCpuQueue {
     int compact;
 } HdCpuQueue;
 
-/* Renders one work item: its pixels, and counts[item]. Without a queue (NULL) a bundle follows its
-   whole tree of rays, with one the tree is traced level by level. */
+/* Renders one work item: its pixels, and number `item` of `counts`, which are HdRayCounts. Without
+   a queue (NULL) a bundle follows its whole tree of rays, with one the tree is traced level by
+   level. */
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
-                         const HdCpuQueue *queue, float *pixels, HdRayCounts *counts);
+                         const HdCpuQueue *queue, float *pixels, void *counts);
 
 #endif

@@ -46,10 +46,10 @@ struct NoLookup {
 };
 
 struct OwnLookup {
-    const FloorMap *map;
+    const Picture *form;
     const uint *texels;
     __device__ float3 operator()(float2 place) const {
-        Vec3 colour = sample_texture(map, texels, place.x, place.y);
+        Vec3 colour = sample_picture(form, texels, place.x, place.y);
         return make_float3(colour.x, colour.y, colour.z);
     }
 };
@@ -185,27 +185,29 @@ template <typename Texel> struct Texture {
 struct Forms {
     uchar4 *picture;
     uint *texels;
-    FloorMap *map;
+    Picture *form;
 };
 
 static Forms make_own_forms(const std::vector<uchar4> &picture) {
     Forms forms;
-    FloorMap map = {};
+    Picture form = {};
     std::vector<uint> texels;
-    for (const uchar4 &each : picture) {
-        texels.push_back(each.x * 257u | each.y * 257u << 16);
-        texels.push_back(each.z * 257u);
-    }
-    texels.resize(texels.size() + 2); /* one more after the last */
-    map.texture_width = map.texture_height = SIDE;
+    for (int row = 0; row <= SIDE; row++)
+        for (int column = 0; column <= SIDE; column++) {
+            const uchar4 &each = picture[row % SIDE * SIDE + column % SIDE];
+            texels.push_back(each.x * 257u | each.y * 257u << 16);
+            texels.push_back(each.z * 257u);
+        }
+    form.width = form.height = SIDE;
+    form.is_clamped = 1;
     forms.picture = device_memory<uchar4>(picture.size());
     forms.texels = device_memory<uint>(texels.size());
-    forms.map = device_memory<FloorMap>(1);
+    forms.form = device_memory<Picture>(1);
     CHECK(cudaMemcpy(forms.picture, picture.data(), picture.size() * sizeof(uchar4),
                      cudaMemcpyHostToDevice));
     CHECK(cudaMemcpy(forms.texels, texels.data(), texels.size() * sizeof(uint),
                      cudaMemcpyHostToDevice));
-    CHECK(cudaMemcpy(forms.map, &map, sizeof map, cudaMemcpyHostToDevice));
+    CHECK(cudaMemcpy(forms.form, &form, sizeof form, cudaMemcpyHostToDevice));
     return forms;
 }
 
@@ -244,7 +246,7 @@ struct TestImage {
     ~TestImage() {
         CHECK(cudaFree(own.picture));
         CHECK(cudaFree(own.texels));
-        CHECK(cudaFree(own.map));
+        CHECK(cudaFree(own.form));
     }
 };
 
@@ -260,8 +262,8 @@ static void study(const char *name, Lookup in_noise, const TestImage &noise, Loo
 
 static void study_all() {
     TestImage noise(false), smooth(true);
-    study("own", OwnLookup{noise.own.map, noise.own.texels}, noise,
-          OwnLookup{smooth.own.map, smooth.own.texels}, smooth);
+    study("own", OwnLookup{noise.own.form, noise.own.texels}, noise,
+          OwnLookup{smooth.own.form, smooth.own.texels}, smooth);
     study("hardware_8_bits", HardwareLookup{noise.bytes.object}, noise,
           HardwareLookup{smooth.bytes.object}, smooth);
     study("hardware_16_bits", HardwareLookup{noise.shorts.object}, noise,

@@ -33,11 +33,10 @@
    bits_of(a), from_bits(b)       a vreal as integers and back, bit for bit
    splat_bits(x)                  the same integer in every lane
    lowest_bit(u), count_bits(u)   number of the lowest set bit, not for 0; how many are set
-   load_reals(p), load_ints(p)    as many consecutive numbers as there are lanes, wherever they
-   begin gather_reals(p)                likewise of a private array prefetch_bytes(p, count) asks
-   for memory that is needed soon, where a processor can be asked add_shared(p, x) with
-   HD_GROUP_SIZE: adds to a fixed64 that all groups share take_shared(p, n)              likewise:
-   adds to a counter, returns what it was
+   load_reals(p), load_ints(p)    as many consecutive numbers as there are lanes, from anywhere
+   gather_reals(p)                likewise of a private array
+   add_shared(p, x)               with HD_GROUP_SIZE: adds to a fixed64 that all groups share
+   take_shared(p, n)              likewise: adds to a counter, returns what it was
 
    What follows here may have a better form where registers are known: such a dialect defines it
    itself, and HD_OWN_..., which this file asks. Both forms have the same bits. */
@@ -175,6 +174,14 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
    last one. */
 FN FourReals load_rows(GLOBAL const real *from, int stride, int count) {
     return fetch_four_reals(from, least_int(lane_numbers(), splat_int(count - 1)) * stride);
+}
+#endif
+
+/* Asks for memory that is needed soon, where a processor can be asked. */
+#ifndef HD_OWN_PREFETCH
+FN void prefetch_bytes(GLOBAL const char *from, int count) {
+    (void)from;
+    (void)count;
 }
 #endif
 

@@ -107,7 +107,7 @@ FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const rea
         passes = pick(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
     }
     Vec3 filtered = vec3_scale(*transmittance, passes);
-    filtered = vec3_mul(filtered, vec3_splat(face->colour[0], face->colour[1], face->colour[2]));
+    filtered = vec3_mul(filtered, vec3_of(face->colour));
     *transmittance = vec3_pick(crossing, filtered, *transmittance);
 }
 
@@ -207,7 +207,7 @@ FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int comm
 
 /* The light's intensity at a squared distance. */
 FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
-    Vec3 intensity = vec3_splat(light->intensity[0], light->intensity[1], light->intensity[2]);
+    Vec3 intensity = vec3_of(light->intensity);
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
     vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
     if (light->falloff_ends) {

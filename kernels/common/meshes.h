@@ -37,7 +37,7 @@ FN Vec3 transform_normal(const GLOBAL real (*rows)[3], Vec3 n) {
 /* Where rays begin, in the instance's own coordinates: those that left it, as exactly as they did.
  */
 FN Vec3 origin_in_mesh(GLOBAL const Instance *instance, Vec3 origin, vmask own, Vec3 own_origin) {
-    Vec3 start = vec3_splat(instance->start[0], instance->start[1], instance->start[2]);
+    Vec3 start = vec3_of(instance->start);
     return transform_vector(instance->to_mesh, vec3_pick(own, own_origin, vec3_sub(origin, start)));
 }
 

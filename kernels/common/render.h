@@ -88,10 +88,10 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     }
     vreal right = to_real((x * n + column) * 2 + view->first_column);
     vreal down = to_real((y * n + row) * 2 + view->first_row);
-    Vec3 axis = vec3_splat(view->down[0], view->down[1], view->down[2]);
-    Vec3 sum = vec3_splat(view->forward[0], view->forward[1], view->forward[2]);
+    Vec3 axis = vec3_of(view->down);
+    Vec3 sum = vec3_of(view->forward);
     sum = vec3_scale_add(axis, down, sum);
-    axis = vec3_splat(view->right[0], view->right[1], view->right[2]);
+    axis = vec3_of(view->right);
     *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
     return alive;
 }
@@ -117,11 +117,33 @@ typedef struct {
     RayCounts counts;
 } Gathered;
 
+FN RayCounts no_counts(void) {
+    RayCounts counts;
+    counts.mirrored = counts.transmitted = counts.shadow_tests = counts.clamps = 0;
+    return counts;
+}
+
+/* What a sample counted in one lane. */
+FN RayCounts counts_of_lane(const Sample *sample, int lane) {
+    RayCounts counts;
+    counts.mirrored = (uint64)lane_int(&sample->mirrored, lane);
+    counts.transmitted = (uint64)lane_int(&sample->transmitted, lane);
+    counts.shadow_tests = (uint64)lane_int(&sample->shadow_tests, lane);
+    counts.clamps = (uint64)lane_int(&sample->clamps, lane);
+    return counts;
+}
+
+FN void add_counts(RayCounts *sum, RayCounts more) {
+    sum->mirrored += more.mirrored;
+    sum->transmitted += more.transmitted;
+    sum->shadow_tests += more.shadow_tests;
+    sum->clamps += more.clamps;
+}
+
 FN void clear_gathered(Gathered *gathered) {
     for (int i = 0; i < HD_PIXELS_PER_ITEM * PIXEL_SUMS; i++)
         gathered->sums[i] = 0;
-    gathered->counts.mirrored = gathered->counts.transmitted = 0;
-    gathered->counts.shadow_tests = gathered->counts.clamps = 0;
+    gathered->counts = no_counts();
 }
 
 /* `first` is the number of the first lane's sample within the item. */
@@ -137,10 +159,7 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
             sums[HD_RADIANCE_SUMS] += shifted_bound(view, lane_fix(&sample->bound, lane));
             sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
         }
-        gathered->counts.mirrored += (uint64)lane_int(&sample->mirrored, lane);
-        gathered->counts.transmitted += (uint64)lane_int(&sample->transmitted, lane);
-        gathered->counts.shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
-        gathered->counts.clamps += (uint64)lane_int(&sample->clamps, lane);
+        add_counts(&gathered->counts, counts_of_lane(sample, lane));
         left--;
         if (left == 0) {
             left = per_pixel;
@@ -251,17 +270,10 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
 /* Adds up every `workers`-th count from number `worker` on. */
 FN void sum_counts(GLOBAL const RayCounts *counts, int count, int worker, int workers,
                    GLOBAL RayCounts *sums) {
-    uint64 mirrored = 0, transmitted = 0, shadow_tests = 0, clamps = 0;
-    for (int i = worker; i < count; i += workers) {
-        mirrored += counts[i].mirrored;
-        transmitted += counts[i].transmitted;
-        shadow_tests += counts[i].shadow_tests;
-        clamps += counts[i].clamps;
-    }
-    sums[worker].mirrored = mirrored;
-    sums[worker].transmitted = transmitted;
-    sums[worker].shadow_tests = shadow_tests;
-    sums[worker].clamps = clamps;
+    RayCounts sum = no_counts();
+    for (int i = worker; i < count; i += workers)
+        add_counts(&sum, counts[i]);
+    sums[worker] = sum;
 }
 
 #endif

@@ -105,9 +105,9 @@ typedef struct ALIGNED_16 {
     real origin[2], e[2];
     real f[2], g[2];
     real orientation, unused2[3]; /* +1 or -1: the sign of the map's determinant */
-    int texture_width, texture_height;
+    int picture;                  /* -1: none */
     int is_parallelogram;
-    int unused_int;
+    int unused_int[2];
 } FloorMap;
 
 /* A mesh in its place. A mesh has coordinates of its own, in which its box's longest side runs from
@@ -173,7 +173,7 @@ enum {
     HD_DARK_OCTAVES = 40 << HD_OCTAVE_BITS
 };
 
-/* A texture of meshes: repeated without end, or its border's texels continued outwards. */
+/* A texture: repeated without end, or its border's texels continued outwards. */
 typedef struct ALIGNED_16 {
     int first_texel, width, height, is_clamped;
 } Picture;
@@ -248,8 +248,7 @@ HD_ASSERT_SIZE(View, 16, 12);
     /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \
-    /* two words each: r | g << 16, b; row by row, and one more after the last; the floor's        \
-       first */                                                                                    \
+    /* of pictures, two words each: r | g << 16, b; row by row, with one more column and row */    \
     X(uint, texels)                                                                                \
     X(Instance, instances)                                                                         \
     /* of all meshes, in the order of the leaves */                                                \

@@ -44,9 +44,8 @@ FN LaneMaterial no_material(void) {
 /* `entering` tells the lanes that meet the outer side. */
 FN LaneMaterial splat_material(GLOBAL const Material *material, vmask entering) {
     LaneMaterial all;
-    all.colour = vec3_splat(material->colour[0], material->colour[1], material->colour[2]);
-    all.mirror_tint =
-        vec3_splat(material->mirror_tint[0], material->mirror_tint[1], material->mirror_tint[2]);
+    all.colour = vec3_of(material->colour);
+    all.mirror_tint = vec3_of(material->mirror_tint);
     all.ambient = splat(material->ambient);
     all.diffuse = splat(material->diffuse);
     all.specular = splat(material->specular);
@@ -85,8 +84,8 @@ FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
 FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point) {
     real count = (real)solid->lights_per_edge;
     real spacing = R(2.0) * solid->edge_half_length / count;
-    Vec3 direction = vec3_splat(edge->direction[0], edge->direction[1], edge->direction[2]);
-    Vec3 middle = vec3_splat(edge->middle[0], edge->middle[1], edge->middle[2]);
+    Vec3 direction = vec3_of(edge->direction);
+    Vec3 middle = vec3_of(edge->middle);
     Vec3 offset = vec3_sub(point, middle);
     vreal along = vec3_dot(offset, direction);
     vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
@@ -104,8 +103,7 @@ FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m
     for (int e = solid->first_edge; e < solid->first_edge + solid->edge_count; e++) {
         GLOBAL const Edge *edge = edges + e;
         vmask disc = m & on_disc(solid, edge, surface->point);
-        Vec3 radiance =
-            vec3_splat(edge->disc_radiance[0], edge->disc_radiance[1], edge->disc_radiance[2]);
+        Vec3 radiance = vec3_of(edge->disc_radiance);
         surface->emission = vec3_pick(disc, radiance, surface->emission);
         surface->part = pick_int(disc, hit->face * PARTS_OF_FACE + (FIRST_DISC + e), surface->part);
         shown = shown | disc;
@@ -154,13 +152,13 @@ FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
         m, vec3_scale(normal, pick(hit->entering, splat(R(1.0)), splat(R(-1.0)))), surface->normal);
     /* A floor has no inner side: which way its normal looks is of no account. */
     set_material(surface, m, splat_material(materials + floor->face_material, mask_all()));
-    if (floor_map->texture_width > 0) {
+    if (floor_map->picture >= 0) {
         vreal s, t;
         if (floor_map->is_parallelogram)
             parallelogram_coordinates(floor_map, surface->point, &s, &t);
         else
             floor_coordinates(floor_map, surface->point, &s, &t);
-        Vec3 texel = sample_texture(floor_map, texels, s, t);
+        Vec3 texel = sample_picture(pictures + floor_map->picture, texels, s, t);
         LaneMaterial *material = &surface->material;
         material->colour = vec3_pick(m, vec3_mul(material->colour, texel), material->colour);
     }
@@ -192,14 +190,10 @@ FN Vec3 smooth_normal(SCENE_PARAMETERS GLOBAL const Instance *instance, vint tri
         return flat;
     GLOBAL const real *table = (GLOBAL const real *)mesh_normals;
     Vec3 sum = vec3_zero();
-    vreal shares[3];
-    shares[0] = crossing->a;
-    shares[1] = crossing->b;
-    shares[2] = crossing->c;
     for (int i = 0; i < 3; i++) {
         vint place = pick_int(has, corner.word[i], splat_int(0)) * NORMAL_STRIDE;
         FourReals n = fetch_four_reals(table, place);
-        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), shares[i], sum);
+        sum = vec3_scale_add(vec3(n.number[0], n.number[1], n.number[2]), crossing->share[i], sum);
     }
     vreal towards = pick(entering, splat(R(1.0)), splat(R(-1.0)));
     Vec3 smooth = vec3_scale(direction_of(transform_normal(instance->to_mesh, sum)), towards);
@@ -221,15 +215,11 @@ FN Vec3 colour_of_picture(SCENE_PARAMETERS GLOBAL const Instance *instance, GLOB
     vmask has = ~lt_int(corner.word[0], splat_int(0));
     GLOBAL const real *table = (GLOBAL const real *)mesh_uvs;
     vreal u = splat(R(0.0)), v = splat(R(0.0));
-    vreal shares[3];
-    shares[0] = crossing->a;
-    shares[1] = crossing->b;
-    shares[2] = crossing->c;
     for (int i = 0; i < 3; i++) {
         vint place = pick_int(has, corner.word[i], splat_int(0)) * UV_STRIDE;
         FourReals at = fetch_four_reals(table, place);
-        u = multiply_add(at.number[0], shares[i], u);
-        v = multiply_add(at.number[1], shares[i], v);
+        u = multiply_add(at.number[0], crossing->share[i], u);
+        v = multiply_add(at.number[1], crossing->share[i], v);
     }
     return vec3_pick(has, sample_picture(pictures + skin->picture, texels, u, v), white);
 }
@@ -248,9 +238,7 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
                      colour_of_picture(SCENE_ARGUMENTS instance, skin, triangle->number, crossing));
         set_material(surface, same, material);
         surface->part = pick_int(same, splat_int(number), surface->part);
-        surface->emission =
-            vec3_pick(same, vec3_splat(skin->emission[0], skin->emission[1], skin->emission[2]),
-                      surface->emission);
+        surface->emission = vec3_pick(same, vec3_of(skin->emission), surface->emission);
     }
 }
 
@@ -283,13 +271,10 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
     /* An eighth of the contact distance is as much as a point is off. */
     vreal wanted = square_root(area * (instance->contact_squared * R(0.015625))) * reciprocal(down);
     /* How fast the corners' shares change. */
-    vreal inverse = reciprocal(area), rate[3], share[3];
+    vreal inverse = reciprocal(area), rate[3], *share = crossing->share;
     rate[1] = vec3_dot(way, vec3_cross(vec3_sub(triangle->c, triangle->a), normal)) * inverse;
     rate[2] = vec3_dot(way, vec3_cross(normal, vec3_sub(triangle->b, triangle->a))) * inverse;
     rate[0] = -(rate[1] + rate[2]);
-    share[0] = crossing->a;
-    share[1] = crossing->b;
-    share[2] = crossing->c;
     vreal ahead = most, behind = most;               /* to the edges, in units of `way` */
     vreal middle_ahead = most, middle_behind = most; /* the same from the middle */
     vreal third = splat(R(0.33333333333333333));
@@ -311,9 +296,6 @@ FN void step_back(GLOBAL const Instance *instance, const TriangleLanes *triangle
         vreal moved = multiply_add(inwards, third - share[i], share[i]);
         share[i] = pick(flat, multiply_add(-back, rate[i], moved), share[i]);
     }
-    crossing->a = share[0];
-    crossing->b = share[1];
-    crossing->c = share[2];
 }
 
 /* Where rays leave a triangle that they met; `normal` is its own, as long as twice its area. Within
@@ -325,7 +307,7 @@ FN Vec3 point_of_departure(GLOBAL const Instance *instance, const TriangleLanes 
     Vec3 from_b_to_c = vec3_sub(triangle->c, triangle->b);
     vreal least = splat(instance->contact_squared * R(0.25));
     vreal area = greater(vec3_dot(normal, normal), splat(LEAST_AREA * LEAST_AREA)); /* squared */
-    vreal a = crossing->a, b = crossing->b, c = crossing->c;
+    vreal a = crossing->share[0], b = crossing->share[1], c = crossing->share[2];
     vreal margin_a = vec3_dot(from_b_to_c, from_b_to_c) * least;
     vreal margin_b = vec3_dot(to_c, to_c) * least, margin_c = vec3_dot(to_b, to_b) * least;
     vmask near_edge =

@@ -15,8 +15,8 @@ FN vreal clamp_unit(vreal a) {
    map's determinant, k1 + 2 k2 t, has the sign of the orientation. Of the two ways to write a root
    the one that adds numbers of equal sign is taken, which also covers k2 = 0. */
 FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
-    Vec3 axis_a = vec3_splat(map->axis_a[0], map->axis_a[1], map->axis_a[2]);
-    Vec3 axis_b = vec3_splat(map->axis_b[0], map->axis_b[1], map->axis_b[2]);
+    Vec3 axis_a = vec3_of(map->axis_a);
+    Vec3 axis_b = vec3_of(map->axis_b);
     vreal ha = vec3_dot(axis_a, point) - splat(map->origin[0]);
     vreal hb = vec3_dot(axis_b, point) - splat(map->origin[1]);
     vreal ea = splat(map->e[0]), eb = splat(map->e[1]);
@@ -36,8 +36,8 @@ FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vrea
 }
 
 FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
-    Vec3 axis_s = vec3_splat(map->axis_s[0], map->axis_s[1], map->axis_s[2]);
-    Vec3 axis_t = vec3_splat(map->axis_t[0], map->axis_t[1], map->axis_t[2]);
+    Vec3 axis_s = vec3_of(map->axis_s);
+    Vec3 axis_t = vec3_of(map->axis_t);
     *s = clamp_unit(vec3_dot(axis_s, point) + splat(map->start[0]));
     *t = clamp_unit(vec3_dot(axis_t, point) + splat(map->start[1]));
 }
@@ -70,21 +70,6 @@ FN Vec3 blend_texels(GLOBAL const uint *texels, vint upper, vint lower, vreal ac
                 blend(above.z, below.z, down) * scale);
 }
 
-/* Bilinear between texel centres, the border's texels continued outwards. */
-FN Vec3 sample_texture(GLOBAL const FloorMap *map, GLOBAL const uint *texels, vreal s, vreal t) {
-    int width = map->texture_width, height = map->texture_height;
-    vreal zero = splat(R(0.0)), last_row = splat((real)(height - 1));
-    vreal x = multiply_add(s, splat((real)width), splat(R(-0.5)));
-    vreal y = multiply_add(t, splat((real)height), splat(R(-0.5)));
-    x = lesser(greater(x, zero), splat((real)(width - 1)));
-    y = lesser(greater(y, zero), last_row);
-    vint column = to_int(x), row = to_int(y);
-    vreal across = x - to_real(column), down = y - to_real(row);
-    /* In the last column and row the weight is 0: any second texel will do. */
-    vint below = pick_int(lt(to_real(row), last_row), row + 1, row);
-    return blend_texels(texels, row * width + column, below * width + column, across, down);
-}
-
 /* A coordinate of a texture that repeats, in texels from the middle of the first one on. */
 FN vreal repeat(vreal u, int texels) {
     vreal part = u - to_real(to_int(u)), zero = splat(R(0.0)), whole = splat((real)texels);
@@ -101,8 +86,8 @@ FN vreal stay_within(vreal u, int texels) {
     return lesser(greater(at, splat(R(0.0))), splat((real)(texels - 1)));
 }
 
-/* Behind the last column and row of a picture there is room for another: its first ones where it
-   repeats, anything where it does not. */
+/* Bilinear between texel centres. Behind the last column and row of a picture there is room for
+   another: its first ones where it repeats, anything where it does not. */
 FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels, vreal u, vreal v) {
     vreal x, y;
     if (picture->is_clamped) {

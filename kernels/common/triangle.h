@@ -150,8 +150,8 @@ FN vreal double_area(Corner a, Corner b) {
 /* Where a ray crosses a triangle. */
 typedef struct {
     vreal t;
-    vreal slack;   /* two crossings at an edge that are less than this apart may be at one place */
-    vreal a, b, c; /* shares of the corners in the point, in all 1 */
+    vreal slack;    /* two crossings at an edge that are less than this apart may be at one place */
+    vreal share[3]; /* of the corners in the point, in all 1 */
     vmask entering;
 } TriangleCrossing;
 
@@ -186,7 +186,7 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     Vec3 from_a = vec3_sub(a, frame->origin), from_b = vec3_sub(b, frame->origin);
     Vec3 from_c = vec3_sub(c, frame->origin);
     crossing->t = crossing->slack = splat(R(0.0));
-    crossing->a = crossing->b = crossing->c = splat(R(0.0));
+    crossing->share[0] = crossing->share[1] = crossing->share[2] = splat(R(0.0));
     crossing->entering = mask_none();
     Corner at_a = project_corner(frame, from_a), at_b = project_corner(frame, from_b);
     Corner at_c = project_corner(frame, from_c);
@@ -209,11 +209,12 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     area_a = pick(too_small, splat(R(1.0)), area_a);
     area = pick(too_small, splat(R(1.0)), area);
     vreal inverse = times_sign_of(reciprocal(absolute(area)), area);
-    crossing->a = area_a * inverse;
-    crossing->b = area_b * inverse;
-    crossing->c = area_c * inverse;
-    vreal depth = multiply_add(crossing->a, from_a.z,
-                               multiply_add(crossing->b, from_b.z, crossing->c * from_c.z));
+    crossing->share[0] = area_a * inverse;
+    crossing->share[1] = area_b * inverse;
+    crossing->share[2] = area_c * inverse;
+    const vreal *share = crossing->share;
+    vreal depth =
+        multiply_add(share[0], from_a.z, multiply_add(share[1], from_b.z, share[2] * from_c.z));
     /* Counterclockwise about the axis is met from outside by rays that run against it. */
     crossing->entering = (left & frame->backward) | (right & ~frame->backward);
     crossing->t = depth * frame->forward;

@@ -21,6 +21,10 @@ FN Vec3 vec3(vreal x, vreal y, vreal z) {
 FN Vec3 vec3_splat(real x, real y, real z) {
     return vec3(splat(x), splat(y), splat(z));
 }
+/* Of three numbers of a table. */
+FN Vec3 vec3_of(GLOBAL const real *row) {
+    return vec3_splat(row[0], row[1], row[2]);
+}
 FN Vec3 vec3_zero(void) {
     return vec3_splat(R(0.0), R(0.0), R(0.0));
 }

@@ -131,15 +131,6 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
 
 /* ---- one thread with a queue of its own ---- */
 
-FN void add_counts(const Sample *sample, RayCounts *counts) {
-    for (int lane = 0; lane < HD_LANES; lane++) {
-        counts->mirrored += (uint64)lane_int(&sample->mirrored, lane);
-        counts->transmitted += (uint64)lane_int(&sample->transmitted, lane);
-        counts->shadow_tests += (uint64)lane_int(&sample->shadow_tests, lane);
-        counts->clamps += (uint64)lane_int(&sample->clamps, lane);
-    }
-}
-
 FN void add_vector_counts(const Sample *sample, Sample *sum) {
     sum->mirrored = sum->mirrored + sample->mirrored;
     sum->transmitted = sum->transmitted + sample->transmitted;
@@ -202,7 +193,8 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror,
                                  MESHES(header), SURVEYED(header), numbers);
     }
-    add_counts(&sum, counts);
+    for (int lane = 0; lane < HD_LANES; lane++)
+        add_counts(counts, counts_of_lane(&sum, lane));
 }
 
 /* Traces the samples [first, first + batch) of an item. */
@@ -281,15 +273,6 @@ FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 va
     return value;
 }
 
-/* The ray that is number `number` of its batch, as level 0 has it. */
-FN Ray first_ray(SAMPLE_PARAMETERS int first_item, int number) {
-    int per_item = HD_PIXELS_PER_ITEM * view->samples;
-    Vec3 direction;
-    vmask alive = sample_directions(SAMPLE_ARGUMENTS first_item + number / per_item,
-                                    number % per_item, &direction);
-    return eye_ray(direction, alive);
-}
-
 /* Appends what goes on from the group's rays, the mirrored ones first. All of its threads must call
    this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
    counted, packed. */
@@ -331,8 +314,8 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
                             int group_index, int group_count, int thread, int thread_count,
                             LOCAL uint64 *room, LOCAL uint *place, GLOBAL uint *taken,
                             GLOBAL RayCounts *counts) {
-    RayCounts sum;
-    sum.mirrored = sum.transmitted = sum.shadow_tests = sum.clamps = 0;
+    RayCounts sum = no_counts();
+    int per_item = HD_PIXELS_PER_ITEM * view->samples;
     for (int start = group_index * thread_count; start < count;
          start += group_count * thread_count) {
         int i = start + thread;
@@ -341,7 +324,8 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         Ray ray, mirror, through;
         mirror.alive = through.alive = ray.alive = mask_none();
         if (i < count)
-            ray = level == 0 ? first_ray(SAMPLE_ARGUMENTS first_item, first + i)
+            ray = level == 0 ? first_rays(SAMPLE_ARGUMENTS first_item + (first + i) / per_item,
+                                          (first + i) % per_item, 1)
                              : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES(header),
                                          SURVEYED(header), &number);
         if (any_lane(ray.alive)) {
@@ -361,12 +345,8 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
     }
     if (thread > 0)
         return;
-    if (!is_first_launch) {
-        sum.mirrored += counts[group_index].mirrored;
-        sum.transmitted += counts[group_index].transmitted;
-        sum.shadow_tests += counts[group_index].shadow_tests;
-        sum.clamps += counts[group_index].clamps;
-    }
+    if (!is_first_launch)
+        add_counts(&sum, counts[group_index]);
     counts[group_index] = sum;
 }
 

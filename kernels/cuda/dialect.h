@@ -50,10 +50,6 @@ FN int lowest_bit(uint bits) {
 FN int count_bits(uint bits) {
     return __popc(bits);
 }
-FN void prefetch_bytes(GLOBAL const char *from, int count) {
-    (void)from;
-    (void)count;
-}
 
 #if HD_GROUP_SIZE
 FN void add_shared(fixed64 *sum, fixed64 amount) {

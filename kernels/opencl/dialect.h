@@ -49,9 +49,10 @@ typedef int real_bits;
 #define HD_CONVERT_INT  HD_WIDE(convert_int)
 #define HD_CONVERT_REAL HD_WIDE(convert_float)
 #endif
-typedef vint vmask;
 typedef vint vbits;
 typedef HD_WIDE(long) vfix;
+
+#include "../common/wide_masks.h"
 
 FN vreal splat(real a) {
     return (vreal)(a);
@@ -61,18 +62,6 @@ FN vbits splat_bits(real_bits a) {
 }
 FN vint splat_int(int a) {
     return (vint)(a);
-}
-FN vmask lt(vreal a, vreal b) {
-    return a < b;
-}
-FN vmask le(vreal a, vreal b) {
-    return a <= b;
-}
-FN vmask eq_int(vint a, vint b) {
-    return a == b;
-}
-FN vmask lt_int(vint a, vint b) {
-    return a < b;
 }
 FN vreal pick(vmask m, vreal a, vreal b) {
     return select(b, a, m);
@@ -156,10 +145,6 @@ FN int lowest_bit(uint bits) {
 }
 FN int count_bits(uint bits) {
     return (int)popcount(bits);
-}
-FN void prefetch_bytes(GLOBAL const char *from, int count) {
-    (void)from;
-    (void)count;
 }
 
 #if HD_GROUP_SIZE

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "choice/record.h"
-#include "device/loss.h"
 
 enum { MAX_COMPARED = 16, DEVICES_LENGTH = 1 << 14 };
 
@@ -178,7 +177,7 @@ static HdStatus open_next(Choosing *choosing, HdError *error) {
     for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {
         choosing->best = (first + i) % candidates->count;
         HdTeamDevice *member = &candidates->list[choosing->best];
-        bool is_proven = candidates->is_free && member->device.backend->kernels != NULL;
+        bool is_proven = candidates->is_free && member->device.backend->functions->kernels != NULL;
         status = hd_launch_open(member, wish->options, wish->job, is_proven, error);
         if (status == HD_UNAVAILABLE)
             note_failure(candidates, error->message);

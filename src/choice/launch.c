@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "choice/record.h"
-#include "device/pipeline.h"
 
 enum { DEVICE_LENGTH = 640, RECORD_LENGTH = 96 };
 
@@ -44,7 +43,7 @@ void hd_launch_describe(const HdLaunch *launch, char *text, int capacity) {
     };
     size_t room = (size_t)capacity;
     snprintf(text, room, "%s",
-             launch->pipeline != HD_PIPELINE_AUTO ? hd_pipeline_name(launch->pipeline) : "");
+             launch->pipeline != HD_PIPELINE_AUTO ? hd_pipeline_names[launch->pipeline] : "");
     for (int i = 0; i < 4; i++) {
         size_t length = strlen(text);
         if (parts[i].value > 0)

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "device/pipeline.h"
-
 /* A candidate must be that much faster than the best so far, so that noise decides nothing. */
 #define CLEARLY_FASTER 0.98
 

@@ -231,7 +231,7 @@ static void note_renderer(const HdRenderer *renderer, const char *line,
     fprintf(stderr, "renderer  %s\n", line);
     hd_kernel_needs_describe(&needs, built_for, sizeof built_for);
     fprintf(stderr, "kernels   %d planes; %s\n", tables->plane_count,
-            hd_renderer_device(renderer)->backend->kernels == NULL
+            hd_renderer_device(renderer)->backend->functions->kernels == NULL
                 ? "compiled ahead, for scenes of any size"
                 : built_for);
     if (kernels[0] != '\0')

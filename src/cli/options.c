@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 
-#include "device/pipeline.h"
 #include "input/classic.h"
 #include "output/outputs.h"
 

@@ -93,7 +93,7 @@ static HdStatus render_all(Run *run, HdError *error) {
         .stored = frame_stored,
         .context = run,
     };
-    if (run->team.count > 0 && run->team.list[0].device.backend->kernels != NULL)
+    if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
         hd_console_prepare(&run->console, "building kernels");
     hd_console_announce_interrupt(&run->console);
     HdStatus status = hd_sequence_render(&sequence, error);

@@ -6,7 +6,6 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/load_scene.h"
-#include "device/pipeline.h"
 #include "input/json/json_device_text.h"
 #include "scene/frame_list.h"
 
@@ -69,7 +68,7 @@ static json_t *describe_candidate(const HdTuning *tuning, int index) {
     const HdLaunch *launch = &candidate->launch;
     bool works = candidate->failure[0] == '\0';
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "pipeline",
-                     hd_pipeline_name(launch->pipeline), "lanes", number_or_null(launch->lanes),
+                     hd_pipeline_names[launch->pipeline], "lanes", number_or_null(launch->lanes),
                      "block", number_or_null(launch->block), "grid", number_or_null(launch->grid),
                      "registers", number_or_null(launch->registers), "ms",
                      works ? json_real(1e3 * candidate->seconds) : json_null(), "ratio",

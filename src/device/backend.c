@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "device/backend.h"
 
+#include <string.h>
+
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error) {
     HdStatus status = backend->enumerate(devices, capacity, count, error);
@@ -9,9 +11,70 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
     return status;
 }
 
+HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           const HdFrameWish *wish, HdError *error) {
+    return backend->functions->submit != NULL
+               ? backend->functions->submit(renderer, tables, wish, error)
+               : HD_OK;
+}
+
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error) {
     static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = backend->submit(renderer, tables, &radiance, error);
-    return status == HD_OK ? backend->collect(renderer, frame, error) : status;
+    HdStatus status = hd_backend_submit(backend, renderer, tables, &radiance, error);
+    return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
+}
+
+/* ---- what suits a device ---- */
+
+const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
+    if (device->unusable[0] != '\0')
+        return device->unusable;
+    if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
+        return device->not_strict;
+    if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
+        return "the device has no double precision";
+    bool has_groups = !device->is_cpu || options->test.groups;
+    if (options->lanes > 1 && has_groups)
+        return "several lanes need a CPU";
+    if (device->most_lanes > 0 && options->lanes > device->most_lanes)
+        return "the processor has no registers for so many lanes";
+    if (has_groups && !device->has_wide_atomics &&
+        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
+        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
+    return NULL;
+}
+
+/* So many lights that no distance ends: from here on full bundles are worth the way through a
+ * queue. */
+enum { MANY_LIGHTS = 100 };
+
+bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *options) {
+    return options->has_deep_trees && device->has_timeout && !device->is_cpu;
+}
+
+HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
+                              const HdScene *scene) {
+    if (options->pipeline != HD_PIPELINE_AUTO)
+        return options->pipeline;
+    bool has_many = scene != NULL && hd_scene_endless_light_count(scene) >= MANY_LIGHTS;
+    bool is_wavefront =
+        device->is_cpu ? has_many
+                       : hd_megakernel_is_too_long(device, options) && device->has_wide_atomics;
+    return is_wavefront ? HD_PIPELINE_WAVEFRONT : HD_PIPELINE_MEGA;
+}
+
+/* ---- loss ---- */
+
+static const char sentence[] =
+    "the device is lost to this program (reset, stopped by the system after too long a kernel, out "
+    "of order or taken away); the system's log may tell why, and --device and --backend choose "
+    "another";
+
+HdStatus hd_fail_lost(HdError *error, const char *what) {
+    return hd_fail(error, HD_UNAVAILABLE, "%s: %s", what, sentence);
+}
+
+bool hd_is_loss(const HdError *error) {
+    return error->status == HD_UNAVAILABLE && strstr(error->message, sentence) != NULL;
 }

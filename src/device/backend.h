@@ -38,19 +38,10 @@ typedef struct HdDevice {
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
-/* A backend. Arguments are checked before a function is called (renderer.c); "must" marks what the
-   callers rely on. Renderers are opaque to everybody else. Messages do not name the backend: who
-   calls it adds its name. */
-struct HdBackend {
-    const char *name;       /* as on the command line */
-    bool needs_no_driver;   /* it is there on every machine, and starts at once */
-    bool uses_host_threads; /* works with the program's own threads (HdRenderOptions) */
-
-    /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
-       filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
-       which library or driver is missing. */
-    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
-
+/* What a backend's renderers do. Arguments are checked before a function is called (renderer.c);
+   "must" marks what the callers rely on. Renderers are opaque to everybody else. Messages do not
+   name the backend: who calls it adds its name. */
+typedef struct HdRendererFunctions {
     /* Opens one device that can do what the options ask (hd_device_obstacle); their pipeline is not
        HD_PIPELINE_AUTO. Must fail with HD_UNAVAILABLE where the device or its driver cannot be used
        after all. */
@@ -62,34 +53,33 @@ struct HdBackend {
     HdStatus (*upload)(void *renderer, const HdSceneTables *tables, HdError *error);
 
     /* Begins a frame of the uploaded scene; fewer than HD_FRAMES_IN_FLIGHT are under way. The
-       tables live until the frame is collected or dropped. A device that works by itself should be
-       given all there is to do, and not be waited for. On failure, also HD_INTERRUPTED as below,
-       the tables are no longer used, and the earlier frames are still under way. */
+       tables live until the frame is collected or dropped. The device should be given all there is
+       to do, and not be waited for. On failure, also HD_INTERRUPTED as below, the tables are no
+       longer used, and the earlier frames are still under way. NULL instead of a function where
+       nothing works by itself: a frame is rendered when it is collected. */
     HdStatus (*submit)(void *renderer, const HdFrameTables *tables, const HdFrameWish *wish,
                        HdError *error);
 
-    /* Waits for the oldest frame under way, which is so no longer in any case: fills every pixel as
-       wished for at its submission, is_encoded, the counts and trace_seconds of `frame`.
-       HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth nothing. */
-    HdStatus (*collect)(void *renderer, HdFrame *frame, HdError *error);
+    /* Waits for the oldest frame under way, that of `tables`, which is so no longer in any case:
+       fills every pixel as wished for at its submission, is_encoded, the counts and trace_seconds
+       of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth
+       nothing. */
+    HdStatus (*collect)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+                        HdError *error);
 
     /* The seconds of the longest launch of the frame collected last; negative: not known. NULL
        instead of a function where the device drives no display. */
     double (*longest_launch)(const void *renderer);
 
-    /* Waits until the device is done with all frames under way, and forgets them. */
+    /* Waits until the device is done with all frames under way, and forgets them. NULL instead of a
+       function as with `submit`. */
     void (*drop)(void *renderer);
 
-    /* What the last upload did to have its kernels (kernel_cache.h). NULL instead of a function
-       where they are compiled ahead. */
+    /* The kernels that uploads compile, and what the last one did to have them (kernel_cache.h).
+       NULL instead of a function where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
 
-    /* What the last upload compiled computes wrongly: the next uploads must compile with little
-       optimisation (HdKernelShape). False where they do so already. NULL instead of a function as
-       above. */
-    bool (*be_cautious)(void *renderer);
-
-    /* The lanes of the kernels' bundles. NULL instead of a function: one. */
+    /* The lanes of such kernels' bundles; NULL instead of a function where `kernels` tells. */
     int (*lanes)(const void *renderer);
 
     /* One line for people about what was chosen (lanes, threads, instruction set, registers). */
@@ -97,6 +87,19 @@ struct HdBackend {
 
     /* No frame is under way. */
     void (*close)(void *renderer);
+} HdRendererFunctions;
+
+struct HdBackend {
+    const char *name;       /* as on the command line */
+    bool needs_no_driver;   /* it is there on every machine, and starts at once */
+    bool uses_host_threads; /* works with the program's own threads (HdRenderOptions) */
+    const HdRendererFunctions *functions;
+    const void *driver; /* what tells functions that several backends share one from another */
+
+    /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
+       filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
+       which library or driver is missing. */
+    HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 
 enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
@@ -115,9 +118,39 @@ const HdBackend *hd_backend_always_there(void);
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error);
 
+/* Calls `submit`, if there is any. */
+HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
+                           const HdFrameWish *wish, HdError *error);
+
 /* Submits a frame to a backend's own renderer and collects its radiance. The arguments were
    checked, and no other frame is under way. */
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error);
+
+/* ---- what suits a device ---- */
+
+/* Why the device cannot do what the options ask (strict arithmetic, double precision, several
+   lanes, a wavefront), in words; NULL: it can. The words live as long as the device. */
+const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options);
+
+/* What `options` come to on that device: never HD_PIPELINE_AUTO. Where they leave the choice, a CPU
+   takes the wavefront for a scene whose shading has most of the time (docs/performance.md), a GPU
+   with 64-bit atomics whose driver may end long kernels for deep trees (docs/backends.md,
+   Launches), and otherwise the megakernel is taken. `scene` may be NULL: not known. */
+HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
+                              const HdScene *scene);
+
+/* Whether the megakernel could keep that device, which may be drawing a display, for too long: it
+   traces a whole tree in one launch, which nothing can cut. */
+bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *options);
+
+/* ---- devices that were there and are lost to the program ---- */
+
+/* Fails with HD_UNAVAILABLE: `what` failed, since the device is lost; the message adds what to do.
+ */
+HdStatus hd_fail_lost(HdError *error, const char *what);
+
+/* True for an error of the above, which is passing: another time the device may be there again. */
+bool hd_is_loss(const HdError *error);
 
 #endif

@@ -87,13 +87,13 @@ static void note_found(HdKernelCache *cache) {
 
 /* ---- finding and keeping ---- */
 
-bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, const void *source,
-                          size_t source_size, const char *options, const char *driver,
-                          unsigned char **binary, size_t *size) {
+bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
+                          const char *options, const char *driver, unsigned char **binary,
+                          size_t *size) {
     HdError error;
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
-    hd_self_test_stamp(shape, cache->stamp, sizeof cache->stamp);
+    hd_self_test_stamp(&cache->shape, cache->stamp, sizeof cache->stamp);
     int length =
         snprintf(cache->key, sizeof cache->key,
                  "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
@@ -124,17 +124,15 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
     add_note(cache, reason);
 }
 
-void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
-                              HdKernelReader *read, const void *context, const char *maker,
-                              double seconds) {
+void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
+                              const char *maker, double seconds) {
     char text[160];
     snprintf(cache->maker, sizeof cache->maker, "%s%s", maker,
-             shape->is_cautious ? " optimising little (fully, it computes wrongly)" : "");
+             cache->shape.is_cautious ? " optimising little (fully, it computes wrongly)" : "");
     snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
              maker[0] != '\0' ? " by " : "", cache->maker);
     add_note(cache, text);
     cache->is_untested = true;
-    cache->is_cautious = shape->is_cautious;
     cache->read = read;
     cache->context = context;
 }
@@ -145,7 +143,7 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
         return;
     cache->is_untested = false;
     add_note(cache, cache->stamp);
-    if (cache->is_cautious) {
+    if (cache->shape.is_cautious) {
         add_note(cache, "not cached");
         return;
     }

@@ -20,12 +20,12 @@ typedef unsigned char *HdKernelReader(const void *context, size_t *size);
 struct HdKernelCache {
     const char *backend;
     char device[640];               /* name and driver, a part of every key */
+    HdKernelShape shape;            /* of the kernels; the renderer's to set */
     char key[HD_KERNEL_KEY_LENGTH]; /* of the kernels in use */
     char stamp[160];                /* what their entry says of their test */
     char maker[80];                 /* what compiled them; "": nobody knows */
     char note[1024];                /* where they came from, for people; "": there are none yet */
     bool is_untested;               /* compiled anew and not yet accepted */
-    bool is_cautious;               /* optimised little (HdKernelShape), and not kept */
     HdKernelReader *read;           /* until they are accepted, */
     const void *context;            /* with this */
 };
@@ -36,18 +36,17 @@ void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to
    free. Otherwise the caller compiles. */
-bool hd_kernel_cache_find(HdKernelCache *cache, const HdKernelShape *shape, const void *source,
-                          size_t source_size, const char *options, const char *driver,
-                          unsigned char **binary, size_t *size);
+bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
+                          const char *options, const char *driver, unsigned char **binary,
+                          size_t *size);
 
 /* What was found is of no use: the driver refuses it, and the reason. The caller compiles. */
 void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason);
 
-/* The kernels of `shape`, which were not found, are compiled, by `maker`. They are read once they
-   are accepted: a driver may have more to hand out when they have run. */
-void hd_kernel_cache_compiled(HdKernelCache *cache, const HdKernelShape *shape,
-                              HdKernelReader *read, const void *context, const char *maker,
-                              double seconds);
+/* The kernels, which were not found, are compiled, by `maker`. They are read once they are
+   accepted: a driver may have more to hand out when they have run. */
+void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
+                              const char *maker, double seconds);
 
 /* The compiled kernels are in order: stores them, if that can be. Those that are optimised little
    are not: a driver may optimise what it loads, and a newer compiler may need no caution. */

@@ -7,12 +7,11 @@
 
 #include "kernels/host/shared.h"
 
-void hd_kernel_defines(const HdKernelShape *shape,
-                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]) {
+void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_SIZE]) {
     const struct {
         const char *name;
         int value;
-    } list[HD_KERNEL_DEFINE_COUNT] = {
+    } list[] = {
         {"HD_LANES", shape->lanes},
         {"HD_DOUBLE", shape->precision == HD_PRECISION_DOUBLE},
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
@@ -28,8 +27,10 @@ void hd_kernel_defines(const HdKernelShape *shape,
         {"HD_SURVEYED", shape->needs.surveyed},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
     };
-    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        snprintf(defines[i], HD_KERNEL_DEFINE_LENGTH, "-D%s=%d", list[i].name, list[i].value);
+    int length = 0;
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        length += snprintf(text + length, HD_KERNEL_DEFINES_SIZE - (size_t)length, " -D%s=%d",
+                           list[i].name, list[i].value);
 }
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {

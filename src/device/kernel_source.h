@@ -42,12 +42,11 @@ typedef struct HdKernelShape {
    all. A block's threads share 65536 registers, so that large blocks get fewer. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
-enum { HD_KERNEL_DEFINE_COUNT = 13, HD_KERNEL_DEFINE_LENGTH = 40 };
+enum { HD_KERNEL_DEFINES_SIZE = 512 };
 
-/* Writes the compiler options "-DHD_LANES=1" and so on, one string each. With strict arithmetic
-   -DHD_STRICT=1 is among them, otherwise -DHD_STRICT=0. */
-void hd_kernel_defines(const HdKernelShape *shape,
-                       char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH]);
+/* Writes the compiler options " -DHD_LANES=1" and so on. With strict arithmetic -DHD_STRICT=1 is
+   among them, otherwise -DHD_STRICT=0. */
+void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_SIZE]);
 
 typedef enum HdKernel {
     HD_KERNEL_TRACE,  /* traces rays */

@@ -32,3 +32,10 @@ HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error)
         return hd_fail(error, HD_BAD_INPUT, "unknown arithmetic %d", (int)options->math);
     return HD_OK;
 }
+
+bool hd_pipeline_is_wavefront(HdPipeline pipeline) {
+    return pipeline == HD_PIPELINE_WAVEFRONT || pipeline == HD_PIPELINE_WAVEFRONT_UNCOMPACTED;
+}
+
+const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1] = {"auto", "mega", "wavefront",
+                                                              "wavefront-uncompacted", NULL};

@@ -55,6 +55,12 @@ typedef struct HdRenderOptions {
     } test;                 /* no option of the command line sets these */
 } HdRenderOptions;
 
+/* True for both kinds of wavefront. */
+bool hd_pipeline_is_wavefront(HdPipeline pipeline);
+
+/* As on the command line, by HdPipeline; NULL ends them. */
+extern const char *const hd_pipeline_names[HD_PIPELINE_COUNT + 1];
+
 /* HD_BAD_INPUT where a number of the options is none that any device can have. */
 HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error);
 

@@ -8,7 +8,6 @@
 
 #include "base/limits.h"
 #include "device/kernel_cache.h"
-#include "device/pipeline.h"
 #include "device/self_test.h"
 #include "kernels/host/shared.h"
 
@@ -22,28 +21,10 @@ struct HdRenderer {
     double longest_launch; /* seconds; negative: none is known */
     int in_flight;
     struct {
-        int width, height, floats;
+        const HdFrameTables *tables;
         bool wants_radiance;
     } flights[HD_FRAMES_IN_FLIGHT]; /* the oldest first */
 };
-
-const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
-    if (device->unusable[0] != '\0')
-        return device->unusable;
-    if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
-        return device->not_strict;
-    if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
-        return "the device has no double precision";
-    bool has_groups = !device->is_cpu || options->test.groups;
-    if (options->lanes > 1 && has_groups)
-        return "several lanes need a CPU";
-    if (device->most_lanes > 0 && options->lanes > device->most_lanes)
-        return "the processor has no registers for so many lanes";
-    if (has_groups && !device->has_wide_atomics &&
-        hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
-        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
-    return NULL;
-}
 
 /* Says which backend failed, if it did. */
 static HdStatus name_backend(const HdBackend *backend, HdStatus status, HdError *error) {
@@ -77,7 +58,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
     opened->device = *device;
     opened->options = *options;
     opened->options.pipeline = hd_choose_pipeline(device, options, NULL);
-    status = opened->backend->open(device, &opened->options, &opened->state, error);
+    status = opened->backend->functions->open(device, &opened->options, &opened->state, error);
     if (status != HD_OK) {
         free(opened);
         return name_backend(device->backend, status, error);
@@ -106,7 +87,9 @@ static HdStatus check_precision(const HdRenderer *renderer, HdPrecision precisio
 }
 
 static HdKernelCache *kernels_of(const HdRenderer *renderer) {
-    return renderer->backend->kernels != NULL ? renderer->backend->kernels(renderer->state) : NULL;
+    return renderer->backend->functions->kernels != NULL
+               ? renderer->backend->functions->kernels(renderer->state)
+               : NULL;
 }
 
 /* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
@@ -115,9 +98,9 @@ static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables 
     const HdBackend *backend = renderer->backend;
     HdError later;
     bool is_wrong;
-    if (!backend->be_cautious(renderer->state))
+    if (!hd_kernel_shape_be_cautious(&kernels_of(renderer)->shape))
         return HD_UNAVAILABLE;
-    HdStatus status = backend->upload(renderer->state, tables, &later);
+    HdStatus status = backend->functions->upload(renderer->state, tables, &later);
     if (status == HD_OK)
         status =
             hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, &later);
@@ -141,7 +124,7 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
         if (is_wrong)
             status = test_cautious_kernels(renderer, tables, error);
         if (status == HD_OK)
-            status = backend->upload(renderer->state, tables, error);
+            status = backend->functions->upload(renderer->state, tables, error);
     }
     if (status == HD_OK)
         hd_kernel_cache_accept(kernels);
@@ -174,7 +157,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     if (status != HD_OK)
         return status;
     renderer->has_scene = false;
-    status = renderer->backend->upload(renderer->state, tables, error);
+    status = renderer->backend->functions->upload(renderer->state, tables, error);
     if (status == HD_OK)
         status = test_new_kernels(renderer, tables, error);
     renderer->has_scene = status == HD_OK;
@@ -207,15 +190,15 @@ static HdStatus check_frame_tables(const HdRenderer *renderer, const HdFrameTabl
     return status == HD_OK ? check_size(tables->width, tables->height, error) : status;
 }
 
-static HdStatus check_room(const HdFrame *frame, int width, int height, int floats,
-                           bool wants_radiance, HdError *error) {
-    if (frame->floats != floats)
+static HdStatus check_room(const HdFrame *frame, const HdFrameTables *tables, bool wants_radiance,
+                           HdError *error) {
+    if (frame->floats != tables->floats)
         return hd_fail(error, HD_BAD_INPUT, "a frame of %d floats a pixel was given for one of %d",
-                       frame->floats, floats);
-    if (!frame->rgb || frame->width != width || frame->height != height)
+                       frame->floats, tables->floats);
+    if (!frame->rgb || frame->width != tables->width || frame->height != tables->height)
         return hd_fail(error, HD_BAD_INPUT,
                        "a frame of %d x %d pixels was given for one of %d x %d", frame->width,
-                       frame->height, width, height);
+                       frame->height, tables->width, tables->height);
     if (!frame->rgba && !wants_radiance)
         return hd_fail(error, HD_BAD_INPUT, "a frame was given that has no room for 8 bits");
     return HD_OK;
@@ -228,21 +211,20 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
         status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
     if (status != HD_OK)
         return status;
-    status = renderer->backend->submit(renderer->state, tables, wish, error);
+    status = hd_backend_submit(renderer->backend, renderer->state, tables, wish, error);
     if (status != HD_OK)
         return note_failure(renderer, status, error);
     int place = renderer->in_flight++;
-    renderer->flights[place].width = tables->width;
-    renderer->flights[place].height = tables->height;
-    renderer->flights[place].floats = tables->floats;
+    renderer->flights[place].tables = tables;
     renderer->flights[place].wants_radiance = wish->radiance;
     return HD_OK;
 }
 
 static void note_longest_launch(HdRenderer *renderer) {
     const HdBackend *backend = renderer->backend;
-    double seconds =
-        backend->longest_launch != NULL ? backend->longest_launch(renderer->state) : -1.0;
+    double seconds = backend->functions->longest_launch != NULL
+                         ? backend->functions->longest_launch(renderer->state)
+                         : -1.0;
     if (seconds > renderer->longest_launch)
         renderer->longest_launch = seconds;
 }
@@ -256,12 +238,11 @@ double hd_renderer_take_longest_launch(HdRenderer *renderer) {
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error) {
     if (renderer->in_flight == 0)
         return hd_fail(error, HD_BAD_INPUT, "a frame was collected and none was under way");
-    HdStatus status =
-        check_room(frame, renderer->flights[0].width, renderer->flights[0].height,
-                   renderer->flights[0].floats, renderer->flights[0].wants_radiance, error);
+    const HdFrameTables *tables = renderer->flights[0].tables;
+    HdStatus status = check_room(frame, tables, renderer->flights[0].wants_radiance, error);
     if (status != HD_OK)
         return status;
-    status = renderer->backend->collect(renderer->state, frame, error);
+    status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
     if (status == HD_OK)
         note_longest_launch(renderer);
     renderer->in_flight--;
@@ -275,24 +256,22 @@ bool hd_renderer_has_failed(const HdRenderer *renderer) {
 }
 
 void hd_renderer_drop(HdRenderer *renderer) {
-    if (renderer->in_flight > 0)
-        renderer->backend->drop(renderer->state);
+    if (renderer->in_flight > 0 && renderer->backend->functions->drop != NULL)
+        renderer->backend->functions->drop(renderer->state);
     renderer->in_flight = 0;
 }
 
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error) {
+    static const HdFrameWish radiance = {.radiance = true};
     HdStatus status = check_frame_tables(renderer, tables, error);
     if (status == HD_OK)
-        status = check_room(frame, tables->width, tables->height, tables->floats, true, error);
+        status = check_room(frame, tables, true, error);
     if (status == HD_OK)
         status = check_in_flight(renderer, 0, "a frame was rendered", error);
-    if (status != HD_OK)
-        return status;
-    status = hd_backend_render(renderer->backend, renderer->state, tables, frame, error);
     if (status == HD_OK)
-        note_longest_launch(renderer);
-    return note_failure(renderer, status, error);
+        status = hd_renderer_submit(renderer, tables, &radiance, error);
+    return status == HD_OK ? hd_renderer_collect(renderer, frame, error) : status;
 }
 
 const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
@@ -300,15 +279,16 @@ const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {
-    const HdBackend *backend = renderer->backend;
-    return backend->lanes != NULL ? backend->lanes(renderer->state) : 1;
+    const HdKernelCache *kernels = kernels_of(renderer);
+    return kernels != NULL ? kernels->shape.lanes
+                           : renderer->backend->functions->lanes(renderer->state);
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {
     if (capacity < 1)
         return;
     text[0] = '\0';
-    renderer->backend->describe(renderer->state, text, capacity);
+    renderer->backend->functions->describe(renderer->state, text, capacity);
 }
 
 const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
@@ -320,6 +300,6 @@ void hd_renderer_close(HdRenderer *renderer) {
     if (!renderer)
         return;
     hd_renderer_drop(renderer);
-    renderer->backend->close(renderer->state);
+    renderer->backend->functions->close(renderer->state);
     free(renderer);
 }

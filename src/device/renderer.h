@@ -7,10 +7,6 @@
 
 #include "device/backend.h"
 
-/* Why the device cannot do what the options ask (strict arithmetic, double precision, several
-   lanes, a wavefront), in words; NULL: it can. The words live as long as the device. */
-const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options);
-
 /* An open device. Messages of the functions below begin with the backend's name where the backend
    failed: "cuda: ...". */
 typedef struct HdRenderer HdRenderer;

@@ -5,8 +5,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "base/limits.h"
-#include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
 
@@ -58,9 +56,9 @@ HdWavePlan hd_wave_plan(const HdWaveNeeds *needs) {
     HdWavePlan plan;
     plan.sum_stride = batch_samples(needs, ray_bytes);
     plan.queue_stride = spread_stride(queue_places(needs, plan.sum_stride, ray_bytes));
-    plan.real_bytes = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
-    plan.int_bytes = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
-    plan.sum_bytes = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
+    plan.bytes[0] = real_size * (WAVE_REALS * (size_t)plan.queue_stride + WAVE_SPARE);
+    plan.bytes[1] = sizeof(int32_t) * (WAVE_INTS * (size_t)plan.queue_stride + WAVE_SPARE);
+    plan.bytes[2] = sizeof(int64_t) * (WAVE_SUMS * (size_t)plan.sum_stride + WAVE_SPARE);
     return plan;
 }
 
@@ -79,47 +77,6 @@ void hd_wave_tell_cut(size_t bytes, char *text, int capacity) {
     snprintf(text, (size_t)capacity, ", the queue cut to %s, for more memory was refused", room);
 }
 
-typedef struct Run {
-    const HdWavePlan *plan;
-    const HdWaveFrame *frame;
-    const HdWaveDevice *device;
-    unsigned taken;
-    bool has_begun;
-} Run;
-
-/* Takes as many rays as there is room for, at most what one launch may have. */
-static WaveTake take_rays(const Run *run, WaveSegment *stack, int *top) {
-    int grain = run->frame->grain;
-    int limit = hd_launch_size_items(run->device->size, stack[*top].waiting, 1, grain);
-    return wave_take(stack, top, run->frame->depth, run->plan->queue_stride, grain, limit);
-}
-
-static HdStatus trace_batch(Run *run, int first_item, int samples, HdError *error) {
-    WaveSegment stack[WAVE_STACK_SIZE(HD_MAX_DEPTH)];
-    int top = -1;
-    wave_put(stack, &top, 0, 0, samples);
-    while (top >= 0) {
-        if (hd_interrupt_signal() != 0)
-            return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
-        WaveTake take = take_rays(run, stack, &top);
-        HdWaveStep step = {
-            .first_item = first_item,
-            .level = take.level,
-            .first = take.first,
-            .count = take.count,
-            .to = take.to,
-            .taken_before = run->taken,
-            .is_first = !run->has_begun,
-        };
-        HdStatus status = run->device->trace(run->device->context, &step, &run->taken, error);
-        if (status != HD_OK)
-            return status;
-        run->has_begun = true;
-        wave_put(stack, &top, take.level + 1, take.to, (int)(run->taken - step.taken_before));
-    }
-    return HD_OK;
-}
-
 int hd_wave_samples(int items, int samples_per_item) {
     int most = MAX_STRIDE / samples_per_item;
     return (items < most ? items : most) * samples_per_item;
@@ -134,16 +91,43 @@ int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid) {
     return groups < most ? groups : most;
 }
 
-HdStatus hd_wave_run(const HdWavePlan *plan, const HdWaveFrame *frame, const HdWaveDevice *device,
-                     HdError *error) {
-    Run run = {.plan = plan, .frame = frame, .device = device};
-    int batch = plan->sum_stride / frame->samples_per_item;
-    HdStatus status = HD_OK;
-    for (int first = 0; status == HD_OK && first < frame->items; first += batch) {
-        int count = frame->items - first < batch ? frame->items - first : batch;
-        status = trace_batch(&run, first, count * frame->samples_per_item, error);
-        if (status == HD_OK)
-            status = device->store(device->context, first, count, error);
-    }
-    return status;
+/* None, where all items had theirs. */
+static void begin_batch(HdWaveRun *run) {
+    HdWaveStep *step = &run->step;
+    step->first_item += step->item_count;
+    int left = run->items - step->first_item, most = run->plan->sum_stride / run->samples_per_item;
+    step->item_count = left < most ? left : most;
+    run->top = -1;
+    wave_put(run->stack, &run->top, 0, 0, step->item_count * run->samples_per_item);
+}
+
+/* As many rays as there is room for, at most what one launch may have. */
+static void take_rays(HdWaveRun *run, const HdLaunchSize *size) {
+    int limit = hd_launch_size_items(size, run->stack[run->top].waiting, 1, run->grain);
+    WaveTake take =
+        wave_take(run->stack, &run->top, run->depth, run->plan->queue_stride, run->grain, limit);
+    run->step.level = take.level;
+    run->step.first = take.first;
+    run->step.count = take.count;
+    run->step.to = take.to;
+}
+
+HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, HdError *error) {
+    HdWaveStep *step = &run->step;
+    step->is_first = step->item_count == 0;
+    if (step->is_first || step->action == HD_WAVE_STORES)
+        begin_batch(run);
+    else
+        wave_put(run->stack, &run->top, step->level + 1, step->to,
+                 (int)(taken - step->taken_before));
+    step->taken_before = taken;
+    step->action = step->item_count == 0 ? HD_WAVE_IS_DONE
+                   : run->top < 0        ? HD_WAVE_STORES
+                                         : HD_WAVE_TRACES;
+    if (step->action != HD_WAVE_TRACES)
+        return HD_OK;
+    if (hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    take_rays(run, size);
+    return HD_OK;
 }

@@ -9,7 +9,9 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "device/launch_size.h"
+#include "kernels/host/shared.h"
 #include "tables/tables.h"
 
 enum { HD_WAVE_BUNDLE = 16 }; /* a multiple of every number of lanes */
@@ -23,10 +25,13 @@ typedef struct HdWaveNeeds {
     int samples_at_once; /* a batch has whole multiples of this; divides `samples` */
 } HdWaveNeeds;
 
+/* Of the rays' reals, their integers, and the samples' sums. */
+enum { HD_WAVE_BUFFERS = 3 };
+
 typedef struct HdWavePlan {
     int queue_stride; /* rays that the queue has room for */
     int sum_stride;   /* samples of a batch */
-    size_t real_bytes, int_bytes, sum_bytes;
+    size_t bytes[HD_WAVE_BUFFERS];
 } HdWavePlan;
 
 /* What a device with that much memory should give to its queue: an eighth, at most a GiB. */
@@ -49,32 +54,34 @@ int hd_wave_samples(int items, int samples_per_item);
    has counts of its own. The first launch of a frame must have them all. */
 int hd_wave_groups(const HdWavePlan *plan, int group_size, int grid);
 
-/* One launch: rays of a level, or samples of a batch for level 0. */
+typedef enum HdWaveAction {
+    HD_WAVE_TRACES, /* a launch: rays of a level, or samples of the batch for level 0 */
+    HD_WAVE_STORES, /* the pixels of the batch, which is finished */
+    HD_WAVE_IS_DONE
+} HdWaveAction;
+
+/* What a device does, one step after the other. */
 typedef struct HdWaveStep {
-    int first_item; /* of the batch */
+    HdWaveAction action;
+    int first_item, item_count; /* of the batch */
     int level, first, count, to;
     unsigned taken_before; /* what the counter of taken places is as yet */
     bool is_first;         /* of the frame */
 } HdWaveStep;
 
-/* How the steps are carried out. Both functions must do so in the order of the calls. */
-typedef struct HdWaveDevice {
-    void *context;
-    /* Traces the step's rays, waits, and tells the counter of taken places in *taken. */
-    HdStatus (*trace)(void *context, const HdWaveStep *step, unsigned *taken, HdError *error);
-    /* Stores the pixels of a finished batch. */
-    HdStatus (*store)(void *context, int first_item, int item_count, HdError *error);
-    const HdLaunchSize *size; /* of the steps, in rays; the device may change it meanwhile */
-} HdWaveDevice;
-
-typedef struct HdWaveFrame {
+/* The way through a frame, a batch at a time; the rest is 0 at first. */
+typedef struct HdWaveRun {
+    const HdWavePlan *plan;
     int items, samples_per_item;
     int depth, grain; /* as the plan was made for */
-} HdWaveFrame;
+    HdWaveStep step;  /* the present one */
+    WaveSegment stack[WAVE_STACK_SIZE(HD_MAX_DEPTH)];
+    int top;
+} HdWaveRun;
 
-/* Traces all items of a frame, a batch at a time; the counter of taken places must be 0 before.
-   HD_INTERRUPTED where a signal came first. */
-HdStatus hd_wave_run(const HdWavePlan *plan, const HdWaveFrame *frame, const HdWaveDevice *device,
-                     HdError *error);
+/* Goes on to the next step, where the counter of taken places has come to `taken`, which is 0
+   before the first one; `size` is that of launches, in rays. HD_INTERRUPTED where a signal came
+   before a launch. */
+HdStatus hd_wave_next(HdWaveRun *run, unsigned taken, const HdLaunchSize *size, HdError *error);
 
 #endif

@@ -28,14 +28,11 @@ typedef struct HdLightSource {
 
 /* Entries of the tables of meshes. */
 typedef struct HdMeshSizes {
-    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, skins, texels;
+    size_t triangles, nodes, wide_nodes, normals, uvs, corner_normals, corner_uvs, skins;
 } HdMeshSizes;
 
-/* Where a mesh's entries begin in the tables. */
 typedef struct HdMeshPlace {
-    int first_triangle, first_node, first_wide;
-    int first_corner_normals, first_corner_uvs; /* -1: it has none */
-    int first_normal, first_uv;
+    HdMeshSizes first; /* where the mesh's entries begin in the tables */
     HdWideHierarchy wide;
 } HdMeshPlace;
 
@@ -54,9 +51,10 @@ typedef struct HdBuilder {
     double mesh_reach;  /* most coordinate of an instance, relative to that centre */
     int node_stack, wide_stack;
     HdHierarchy top; /* over the instances; without nodes where there are few */
-    int first_top_node;
+    size_t first_top_node;
     int first_mesh_material;
-    size_t first_picture_texel;
+    int picture_count; /* the scene's and, after those, the floor's */
+    size_t texels;
     void *table[HD_SCENE_TABLE_COUNT];
 } HdBuilder;
 
@@ -77,8 +75,13 @@ typedef struct HdFloorFrame {
 HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error);
 /* Objects, planes, edges and lights. */
 void hd_builder_count(HdBuilder *builder);
-void hd_builder_place_objects(HdBuilder *builder);
 void hd_builder_list_lights(HdBuilder *builder);
+
+/* Solids, the floor and all meshes together, as far as there are any of them; and where one of
+   these has its centre, in world space. */
+int hd_object_count(const HdScene *scene);
+HdVec3 hd_object_centre(const HdScene *scene, int object);
+const HdTexture *hd_builder_texture(const HdBuilder *builder, int picture);
 
 /* Faces in parallel pairs share an entry of the table of planes. */
 int hd_faces_per_plane(const HdPlatonic *shape);
@@ -116,16 +119,11 @@ static inline Vector hd_as_vector(HdVec3 v) {
     return (Vector){(real)v.x, (real)v.y, (real)v.z, R(0.0)};
 }
 
-/* Of a texture's red, green and blue. */
-static inline void hd_pack_texel(uint out[2], const uint16_t *rgb) {
-    out[0] = (uint)rgb[0] | (uint)rgb[1] << 16;
-    out[1] = rgb[2];
-}
-
 void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables);
 void NAMED(hd_fill_material)(Material *out, const HdMaterial *material);
 void NAMED(hd_fill_solids)(const HdBuilder *builder);
 void NAMED(hd_fill_floor)(const HdBuilder *builder);
+void NAMED(hd_fill_pictures)(const HdBuilder *builder);
 void NAMED(hd_fill_object_offsets)(const HdBuilder *builder);
 void NAMED(hd_fill_meshes)(const HdBuilder *builder);
 /* After the others: from what they stored. */

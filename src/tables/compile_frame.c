@@ -86,17 +86,6 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     }
 }
 
-static HdVec3 centre_of_object(const HdScene *scene, int object) {
-    HdVec3 centre;
-    bool is_solid = scene->geometry == HD_GEOMETRY_SOLIDS;
-    if (is_solid && object < scene->solid_count)
-        return scene->solids[object].centre;
-    if (is_solid && object == scene->solid_count && scene->floor.present)
-        return hd_floor_centre(&scene->floor);
-    hd_box_meshes(scene, &centre);
-    return centre;
-}
-
 /* Entries that fill up the frame's last row are none. */
 static void fill_list(const HdFrameTables *tables, const HdSampleList *list) {
     int *entries = tables->table[HD_TABLE_entries].data;
@@ -111,9 +100,7 @@ static void fill_list(const HdFrameTables *tables, const HdSampleList *list) {
 
 HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
                                  const HdCamera *camera, const HdSampleList *list, HdError *error) {
-    int is_solid = scene->geometry == HD_GEOMETRY_SOLIDS;
-    int object_count =
-        is_solid * (scene->solid_count + scene->floor.present) + (scene->instance_count > 0);
+    int object_count = hd_object_count(scene);
     tables->table_count = HD_FRAME_TABLE_COUNT;
     tables->table[HD_TABLE_view].bytes = sizeof(View);
     tables->table[HD_TABLE_eye_offsets].bytes = (size_t)object_count * sizeof(Vector);
@@ -131,8 +118,7 @@ HdStatus NAMED(hd_compile_frame)(HdFrameTables *tables, const HdScene *scene,
     if (list != NULL)
         fill_list(tables, list);
     Vector *offsets = tables->table[HD_TABLE_eye_offsets].data;
-    for (int object = 0; object < object_count; object++) {
-        offsets[object] = hd_as_vector(hd_sub(camera->eye, centre_of_object(scene, object)));
-    }
+    for (int object = 0; object < object_count; object++)
+        offsets[object] = hd_as_vector(hd_sub(camera->eye, hd_object_centre(scene, object)));
     return HD_OK;
 }

@@ -14,47 +14,44 @@ _Static_assert(HD_FRAME_TABLE_COUNT <= sizeof((HdFrameTables){0}.table) / sizeof
                "HdFrameTables has room for every table");
 _Static_assert(HD_MAX_FACES < 32, "LightSides has a bit for each face");
 
-static void set_bytes(HdSceneTables *tables, int index, size_t count, size_t element) {
-    tables->table[index].bytes = count * element;
-}
-
-static void size_mesh_tables(const HdBuilder *builder, HdSceneTables *tables) {
-    const HdMeshSizes *sizes = &builder->sizes;
-    size_t lanes = (size_t)builder->lanes;
-    set_bytes(tables, HD_TABLE_instances, (size_t)builder->scene->instance_count, sizeof(Instance));
-    set_bytes(tables, HD_TABLE_triangles, sizes->triangles, sizeof(Triangle));
-    set_bytes(tables, HD_TABLE_mesh_nodes, sizes->nodes, sizeof(MeshNode));
-    set_bytes(tables, HD_TABLE_wide_bounds, sizes->wide_nodes * 6 * lanes, sizeof(real));
-    set_bytes(tables, HD_TABLE_wide_children, sizes->wide_nodes * lanes, sizeof(int));
-    if (builder->top.node_count > 0)
-        set_bytes(tables, HD_TABLE_top_items, (size_t)builder->scene->instance_count, sizeof(int));
-    set_bytes(tables, HD_TABLE_skins, sizes->skins, sizeof(Skin));
-    set_bytes(tables, HD_TABLE_mesh_normals, sizes->normals, sizeof(Vector));
-    /* Kernels read four corners at a time. */
-    set_bytes(tables, HD_TABLE_corner_normals, sizes->corner_normals + 1, sizeof(int));
-    set_bytes(tables, HD_TABLE_mesh_uvs, sizes->uvs, sizeof(TextureCoordinates));
-    set_bytes(tables, HD_TABLE_corner_uvs, sizes->corner_uvs + 1, sizeof(int));
-    set_bytes(tables, HD_TABLE_pictures, (size_t)builder->scene->picture_count, sizeof(Picture));
-}
-
+/* Rows of each table. */
 static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
+#define SIZE(type, name) sizeof(type),
+    static const size_t row_bytes[] = {HD_SCENE_TABLES(SIZE)};
+#undef SIZE
+    const HdMeshSizes *sizes = &builder->sizes;
     size_t objects = (size_t)builder->object_count, lights = (size_t)builder->light_count;
-    size_t planes = (size_t)builder->plane_count;
-    set_bytes(tables, HD_TABLE_header, 1, sizeof(Header));
-    set_bytes(tables, HD_TABLE_objects, objects, sizeof(Object));
-    set_bytes(tables, HD_TABLE_planes, planes, sizeof(Plane));
-    set_bytes(tables, HD_TABLE_edges, (size_t)builder->edge_count, sizeof(Edge));
-    set_bytes(tables, HD_TABLE_materials,
-              2 * (size_t)builder->solid_count + 1 + builder->sizes.skins, sizeof(Material));
-    set_bytes(tables, HD_TABLE_lights, lights, sizeof(Light));
-    set_bytes(tables, HD_TABLE_light_offsets, objects * lights, sizeof(Vector));
-    set_bytes(tables, HD_TABLE_light_coordinates, lights * planes, sizeof(real));
-    set_bytes(tables, HD_TABLE_light_sides, lights * objects, sizeof(LightSides));
-    set_bytes(tables, HD_TABLE_object_offsets, objects * objects, sizeof(Vector));
-    set_bytes(tables, HD_TABLE_floor_map, 1, sizeof(FloorMap));
-    set_bytes(tables, HD_TABLE_texels, 2 * builder->first_picture_texel + builder->sizes.texels + 2,
-              sizeof(uint));
-    size_mesh_tables(builder, tables);
+    size_t planes = (size_t)builder->plane_count, lanes = (size_t)builder->lanes;
+    size_t instances = (size_t)builder->scene->instance_count;
+    const size_t rows[HD_SCENE_TABLE_COUNT] = {
+        [HD_TABLE_header] = 1,
+        [HD_TABLE_objects] = objects,
+        [HD_TABLE_planes] = planes,
+        [HD_TABLE_edges] = (size_t)builder->edge_count,
+        [HD_TABLE_materials] = 2 * (size_t)builder->solid_count + 1 + sizes->skins,
+        [HD_TABLE_lights] = lights,
+        [HD_TABLE_light_offsets] = objects * lights,
+        [HD_TABLE_light_coordinates] = lights * planes,
+        [HD_TABLE_light_sides] = lights * objects,
+        [HD_TABLE_object_offsets] = objects * objects,
+        [HD_TABLE_floor_map] = 1,
+        [HD_TABLE_texels] = 2 * builder->texels + 4, /* kernels read four words at a time */
+        [HD_TABLE_instances] = instances,
+        [HD_TABLE_triangles] = sizes->triangles,
+        [HD_TABLE_mesh_nodes] = sizes->nodes,
+        [HD_TABLE_wide_bounds] = sizes->wide_nodes * 6 * lanes,
+        [HD_TABLE_wide_children] = sizes->wide_nodes * lanes,
+        [HD_TABLE_top_items] = builder->top.node_count > 0 ? instances : 0,
+        [HD_TABLE_skins] = sizes->skins,
+        [HD_TABLE_mesh_normals] = sizes->normals,
+        [HD_TABLE_corner_normals] = sizes->corner_normals + 1, /* likewise */
+        [HD_TABLE_mesh_uvs] = sizes->uvs,
+        [HD_TABLE_corner_uvs] = sizes->corner_uvs + 1,
+        [HD_TABLE_pictures] = (size_t)builder->picture_count,
+    };
+    tables->table_count = HD_SCENE_TABLE_COUNT;
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
+        tables->table[i].bytes = rows[i] * row_bytes[i];
 }
 
 static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdError *error) {
@@ -64,7 +61,6 @@ static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdEr
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d lights",
                        builder->light_count);
     size_tables(builder, tables);
-    tables->table_count = HD_SCENE_TABLE_COUNT;
     const HdRoom machine = {.name = "this machine",
                             .advice = "fewer triangles need less",
                             .memory = hd_physical_memory()};
@@ -101,7 +97,6 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
 }
 
 HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, HdError *error) {
-    const HdTexture *texture = &scene->floor.texture;
     HdBuilder builder = {.scene = scene, .lanes = tables->lanes};
     HdStatus status = hd_builder_shape_solids(&builder, error);
     if (status == HD_OK)
@@ -110,15 +105,16 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         hd_builder_count(&builder);
         describe_shape(&builder, tables);
         builder.first_mesh_material = 2 * builder.solid_count + 1;
-        builder.first_picture_texel = (size_t)texture->width * (size_t)texture->height + 1;
         status = allocate_builder(&builder, tables, error);
     }
     if (status == HD_OK) {
-        hd_builder_place_objects(&builder);
+        for (int i = 0; i < builder.object_count; i++)
+            builder.centres[i] = hd_object_centre(scene, i);
         hd_builder_list_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
         NAMED(hd_fill_floor)(&builder);
+        NAMED(hd_fill_pictures)(&builder);
         NAMED(hd_fill_object_offsets)(&builder);
         NAMED(hd_fill_meshes)(&builder);
         NAMED(hd_fill_lights)(&builder);

@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 
-/* Faces in parallel pairs share an entry of the table of planes. */
 int hd_faces_per_plane(const HdPlatonic *shape) {
     return shape->face_count == 4 ? 1 : 2;
 }
@@ -26,13 +25,51 @@ HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error) {
     return HD_OK;
 }
 
+static bool has_solids(const HdScene *scene) {
+    return scene->geometry == HD_GEOMETRY_SOLIDS;
+}
+
+static bool has_floor(const HdScene *scene) {
+    return has_solids(scene) && scene->floor.present;
+}
+
+int hd_object_count(const HdScene *scene) {
+    int solids = has_solids(scene) ? scene->solid_count : 0;
+    return solids + has_floor(scene) + (scene->instance_count > 0);
+}
+
+HdVec3 hd_object_centre(const HdScene *scene, int object) {
+    HdVec3 centre;
+    if (has_solids(scene) && object < scene->solid_count)
+        return scene->solids[object].centre;
+    if (has_floor(scene) && object == scene->solid_count)
+        return hd_floor_centre(&scene->floor);
+    hd_box_meshes(scene, &centre);
+    return centre;
+}
+
+const HdTexture *hd_builder_texture(const HdBuilder *builder, int picture) {
+    const HdScene *scene = builder->scene;
+    return picture < scene->picture_count ? &scene->pictures[picture].texture
+                                          : &scene->floor.texture;
+}
+
+static void count_pictures(HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    builder->picture_count = scene->picture_count;
+    if (builder->has_floor && scene->floor.texture.width > 0)
+        builder->picture_count++;
+    for (int i = 0; i < builder->picture_count; i++) {
+        const HdTexture *texture = hd_builder_texture(builder, i);
+        builder->texels += ((size_t)texture->width + 1) * ((size_t)texture->height + 1);
+    }
+}
+
 void hd_builder_count(HdBuilder *builder) {
     const HdScene *scene = builder->scene;
-    bool is_solid = scene->geometry == HD_GEOMETRY_SOLIDS;
-    builder->solid_count = is_solid ? scene->solid_count : 0;
-    builder->has_floor = is_solid && scene->floor.present;
-    builder->object_count =
-        builder->solid_count + (builder->has_floor ? 1 : 0) + (scene->instance_count > 0 ? 1 : 0);
+    builder->solid_count = has_solids(scene) ? scene->solid_count : 0;
+    builder->has_floor = has_floor(scene);
+    builder->object_count = hd_object_count(scene);
     builder->light_count = scene->light_count;
     for (int s = 0; s < builder->solid_count; s++) {
         builder->plane_count += hd_solid_plane_count(&builder->shapes[s]);
@@ -44,16 +81,7 @@ void hd_builder_count(HdBuilder *builder) {
     }
     if (builder->has_floor)
         builder->plane_count += HD_FLOOR_PLANES;
-}
-
-void hd_builder_place_objects(HdBuilder *builder) {
-    const HdScene *scene = builder->scene;
-    for (int s = 0; s < builder->solid_count; s++)
-        builder->centres[s] = scene->solids[s].centre;
-    if (builder->has_floor)
-        builder->centres[builder->solid_count] = hd_floor_centre(&scene->floor);
-    if (scene->instance_count > 0)
-        builder->centres[builder->object_count - 1] = builder->mesh_centre;
+    count_pictures(builder);
 }
 
 /* ---- lights ---- */

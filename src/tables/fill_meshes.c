@@ -17,7 +17,7 @@ static int triangle_in_order(const HdMesh *mesh, int place) {
 }
 
 static void fill_triangles(const HdBuilder *builder, const HdMesh *mesh, const HdMeshPlace *place) {
-    Triangle *out = (Triangle *)builder->table[HD_TABLE_triangles] + place->first_triangle;
+    Triangle *out = (Triangle *)builder->table[HD_TABLE_triangles] + place->first.triangles;
     for (int i = 0; i < mesh->triangle_count; i++) {
         int number = triangle_in_order(mesh, i);
         const int32_t *corner = mesh->corners[number];
@@ -31,43 +31,46 @@ static void fill_triangles(const HdBuilder *builder, const HdMesh *mesh, const H
 }
 
 /* A triangle that lacks one of its corners' has none. */
-static void fill_corners(int *out, const HdMesh *mesh, int32_t (*const corners)[3], int first) {
+static void fill_corners(int *out, const HdMesh *mesh, int32_t (*const corners)[3], size_t first) {
     for (int i = 0; i < mesh->triangle_count; i++) {
         const int32_t *corner = corners[triangle_in_order(mesh, i)];
         bool is_whole = corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0;
         for (int k = 0; k < 3; k++)
-            *out++ = is_whole ? first + corner[k] : -1;
+            *out++ = is_whole ? (int)first + corner[k] : -1;
     }
 }
 
 static void fill_normals_and_uvs(const HdBuilder *builder, const HdMesh *mesh,
                                  const HdMeshPlace *place) {
-    Vector *normals = (Vector *)builder->table[HD_TABLE_mesh_normals] + place->first_normal;
-    TextureCoordinates *uvs =
-        (TextureCoordinates *)builder->table[HD_TABLE_mesh_uvs] + place->first_uv;
+    const HdMeshSizes *first = &place->first;
+    Vector *normals = (Vector *)builder->table[HD_TABLE_mesh_normals] + first->normals;
+    TextureCoordinates *uvs = (TextureCoordinates *)builder->table[HD_TABLE_mesh_uvs] + first->uvs;
+    int *corner_normals = (int *)builder->table[HD_TABLE_corner_normals] + first->corner_normals;
+    int *corner_uvs = (int *)builder->table[HD_TABLE_corner_uvs] + first->corner_uvs;
     for (int i = 0; i < mesh->normal_count; i++)
         normals[i] = hd_as_vector(hd_normalize(mesh->normals[i]));
     for (int i = 0; i < mesh->uv_count; i++) /* rows of pictures count downwards */
         uvs[i] = (TextureCoordinates){
             (real)mesh->uvs[i][0], (real)(1.0 - mesh->uvs[i][1]), {R(0.0), R(0.0)}};
-    if (place->first_corner_normals >= 0)
-        fill_corners((int *)builder->table[HD_TABLE_corner_normals] + place->first_corner_normals,
-                     mesh, mesh->corner_normals, place->first_normal);
-    if (place->first_corner_uvs >= 0)
-        fill_corners((int *)builder->table[HD_TABLE_corner_uvs] + place->first_corner_uvs, mesh,
-                     mesh->corner_uvs, place->first_uv);
+    if (mesh->normals != NULL)
+        fill_corners(corner_normals, mesh, mesh->corner_normals, first->normals);
+    if (mesh->uvs != NULL)
+        fill_corners(corner_uvs, mesh, mesh->corner_uvs, first->uvs);
 }
 
 /* ---- hierarchies ---- */
 
 /* Leaves count their items from `first_item` on, nodes from `first_node` on. */
-static int move_child(int child, int first_node, int first_item) {
+static int move_child(int child, size_t first_node, size_t first_item) {
     if (child >= 0)
-        return first_node + child;
-    return ~(~child + first_item * (1 << HD_LEAF_ITEM_BITS));
+        return (int)first_node + child;
+    return ~(~child + (int)first_item * (1 << HD_LEAF_ITEM_BITS));
 }
 
-static void fill_nodes(MeshNode *out, const HdHierarchy *tree, int first_node, int first_item) {
+/* `out` is the table. */
+static void fill_nodes(MeshNode *out, const HdHierarchy *tree, size_t first_node,
+                       size_t first_item) {
+    out += first_node;
     for (int i = 0; i < tree->node_count; i++) {
         const HdBuildNode *node = &tree->nodes[i];
         for (int child = 0; child < 2; child++) {
@@ -83,13 +86,13 @@ static void fill_nodes(MeshNode *out, const HdHierarchy *tree, int first_node, i
 
 static void fill_wide_nodes(const HdBuilder *builder, const HdMeshPlace *place) {
     size_t lanes = (size_t)builder->lanes, count = (size_t)place->wide.node_count;
-    size_t first = (size_t)place->first_wide;
+    size_t first = place->first.wide_nodes;
     real *bounds = (real *)builder->table[HD_TABLE_wide_bounds] + first * 6 * lanes;
     int *child = (int *)builder->table[HD_TABLE_wide_children] + first * lanes;
     for (size_t i = 0; i < count * 6 * lanes; i++)
         bounds[i] = (real)place->wide.bounds[i];
     for (size_t i = 0; i < count * lanes; i++)
-        child[i] = move_child(place->wide.child[i], place->first_wide, place->first_triangle);
+        child[i] = move_child(place->wide.child[i], first, place->first.triangles);
 }
 
 /* ---- instances ---- */
@@ -133,15 +136,16 @@ static void fill_instance(const HdBuilder *builder, Instance *out, int number, i
     double contact = contact_distance(to.columns);
     out->contact_squared = (real)(contact * contact);
     const HdMesh *mesh = hd_mesh_of(builder->scene, number);
-    out->root = builder->lanes > 1 ? place->first_wide : place->first_node;
+    const HdMeshSizes *first = &place->first;
+    out->root = (int)(builder->lanes > 1 ? first->wide_nodes : first->nodes);
     if (!hd_has_hierarchy(builder->scene, mesh))
         out->root = -1;
-    out->first_triangle = place->first_triangle;
+    out->first_triangle = (int)first->triangles;
     out->triangle_count = mesh->triangle_count;
     out->first_skin = first_skin;
     out->first_face = first_face;
-    out->first_corner_normals = place->first_corner_normals;
-    out->first_corner_uvs = place->first_corner_uvs;
+    out->first_corner_normals = mesh->normals != NULL ? (int)first->corner_normals : -1;
+    out->first_corner_uvs = mesh->uvs != NULL ? (int)first->corner_uvs : -1;
 }
 
 /* ---- skins ---- */
@@ -213,26 +217,6 @@ static int fill_skins(const HdBuilder *builder, int number, Skin *skins, Materia
     return mesh->material_count;
 }
 
-static void fill_pictures(const HdBuilder *builder) {
-    const HdScene *scene = builder->scene;
-    Picture *out = builder->table[HD_TABLE_pictures];
-    size_t first = builder->first_picture_texel;
-    for (int i = 0; i < scene->picture_count; i++) {
-        const HdTexture *picture = &scene->pictures[i].texture;
-        out[i] =
-            (Picture){(int)first, picture->width, picture->height, scene->pictures[i].is_clamped};
-        uint *words = (uint *)builder->table[HD_TABLE_texels] + 2 * first;
-        for (int row = 0; row <= picture->height; row++)
-            for (int column = 0; column <= picture->width; column++) {
-                size_t place = (size_t)(row % picture->height) * (size_t)picture->width +
-                               (size_t)(column % picture->width);
-                hd_pack_texel(words, picture->texels + 3 * place);
-                words += 2;
-            }
-        first += ((size_t)picture->width + 1) * ((size_t)picture->height + 1);
-    }
-}
-
 /* ---- all of it ---- */
 
 void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
@@ -255,8 +239,7 @@ void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
         if (builder->lanes > 1)
             fill_wide_nodes(builder, place);
         else
-            fill_nodes(nodes + place->first_node, &mesh->tree, place->first_node,
-                       place->first_triangle);
+            fill_nodes(nodes, &mesh->tree, place->first.nodes, place->first.triangles);
     }
     int skin = 0;
     for (int i = 0; i < scene->instance_count; i++) {
@@ -265,10 +248,9 @@ void NAMED(hd_fill_meshes)(const HdBuilder *builder) {
         skin += fill_skins(builder, i, builder->table[HD_TABLE_skins],
                            builder->table[HD_TABLE_materials], skin);
     }
-    fill_pictures(builder);
     if (builder->top.node_count > 0) {
-        header->top_root = builder->first_top_node;
-        fill_nodes(nodes + builder->first_top_node, &builder->top, builder->first_top_node, 0);
+        header->top_root = (int)builder->first_top_node;
+        fill_nodes(nodes, &builder->top, builder->first_top_node, 0);
         memcpy(builder->table[HD_TABLE_top_items], builder->top.order,
                (size_t)scene->instance_count * sizeof(int));
     }

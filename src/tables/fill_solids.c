@@ -180,14 +180,6 @@ static void fill_floor_map(FloorMap *map, const HdFloor *floor, const HdFloorFra
         map->start[0] = (real) - (s_a * a[0] + s_b * b[0]);
         map->start[1] = (real) - (t_a * a[0] + t_b * b[0]);
     }
-    map->texture_width = floor->texture.width;
-    map->texture_height = floor->texture.height;
-}
-
-static void fill_texels(uint *out, const HdTexture *texture) {
-    size_t count = (size_t)texture->width * (size_t)texture->height;
-    for (size_t i = 0; i < count; i++)
-        hd_pack_texel(out + 2 * i, texture->texels + 3 * i);
 }
 
 void NAMED(hd_fill_floor)(const HdBuilder *builder) {
@@ -203,8 +195,35 @@ void NAMED(hd_fill_floor)(const HdBuilder *builder) {
                       &frame);
     NAMED(hd_fill_material)
     ((Material *)builder->table[HD_TABLE_materials] + object->face_material, &floor->material);
-    fill_floor_map(builder->table[HD_TABLE_floor_map], floor, &frame);
-    fill_texels(builder->table[HD_TABLE_texels], &floor->texture);
+    FloorMap *map = builder->table[HD_TABLE_floor_map];
+    fill_floor_map(map, floor, &frame);
+    map->picture = floor->texture.width > 0 ? builder->scene->picture_count : -1;
+}
+
+/* Row by row; the row and the column behind the last ones are the first ones again. */
+static uint *fill_texels(uint *words, const HdTexture *texture) {
+    for (int row = 0; row <= texture->height; row++)
+        for (int column = 0; column <= texture->width; column++) {
+            size_t place = (size_t)(row % texture->height) * (size_t)texture->width +
+                           (size_t)(column % texture->width);
+            const uint16_t *rgb = texture->texels + 3 * place;
+            *words++ = (uint)rgb[0] | (uint)rgb[1] << 16;
+            *words++ = rgb[2];
+        }
+    return words;
+}
+
+void NAMED(hd_fill_pictures)(const HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    Picture *pictures = builder->table[HD_TABLE_pictures];
+    uint *texels = builder->table[HD_TABLE_texels], *words = texels;
+    for (int i = 0; i < builder->picture_count; i++) {
+        const HdTexture *texture = hd_builder_texture(builder, i);
+        bool is_clamped = i == scene->picture_count || scene->pictures[i].is_clamped;
+        int first = (int)((words - texels) / 2);
+        pictures[i] = (Picture){first, texture->width, texture->height, is_clamped};
+        words = fill_texels(words, texture);
+    }
 }
 
 void NAMED(hd_fill_object_offsets)(const HdBuilder *builder) {

@@ -23,7 +23,6 @@ static void rotation_of(const HdInstance *instance, HdVec3 columns[3]) {
     hd_rotate_points(columns, 3, instance->rotation_degrees);
 }
 
-/* In world space. */
 HdPlacement hd_placement_of(const HdScene *scene, int number) {
     const HdInstance *instance = &scene->instances[number];
     const HdMesh *mesh = hd_mesh_of(scene, number);
@@ -51,7 +50,7 @@ static HdVec3 smaller(HdVec3 a, HdVec3 b) {
 }
 
 /* Half the sides of the box about a placed mesh. */
-HdVec3 hd_reach_of(const HdMesh *mesh, const HdPlacement *to) {
+static HdVec3 reach_of(const HdMesh *mesh, const HdPlacement *to) {
     HdVec3 half = hd_scale(hd_sub(mesh->upper, mesh->lower), 0.5 / hd_mesh_half_side(mesh));
     const HdVec3 *c = to->columns;
     return hd_vec3(fabs(c[0].x) * half.x + fabs(c[1].x) * half.y + fabs(c[2].x) * half.z,
@@ -59,12 +58,11 @@ HdVec3 hd_reach_of(const HdMesh *mesh, const HdPlacement *to) {
                    fabs(c[0].z) * half.x + fabs(c[1].z) * half.y + fabs(c[2].z) * half.z);
 }
 
-/* The middle of the box about all instances, in world space; returns half its longest side. */
 double hd_box_meshes(const HdScene *scene, HdVec3 *centre) {
     HdVec3 lower = {0}, upper = {0};
     for (int i = 0; i < scene->instance_count; i++) {
         HdPlacement to = hd_placement_of(scene, i);
-        HdVec3 reach = hd_reach_of(hd_mesh_of(scene, i), &to);
+        HdVec3 reach = reach_of(hd_mesh_of(scene, i), &to);
         lower = i == 0 ? hd_sub(to.start, reach) : smaller(lower, hd_sub(to.start, reach));
         upper = i == 0 ? hd_add(to.start, reach) : larger(upper, hd_add(to.start, reach));
     }
@@ -81,55 +79,52 @@ bool hd_has_hierarchy(const HdScene *scene, const HdMesh *mesh) {
            (scene->accel == HD_ACCEL_AUTO && mesh->triangle_count > FEW_TRIANGLES);
 }
 
-/* Adds up the sizes of all meshes' tables. */
+static int more_of(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* Adds a mesh to the sizes of the tables. */
+static HdStatus add_mesh(HdBuilder *builder, const HdMesh *mesh, HdMeshPlace *place,
+                         HdError *error) {
+    HdMeshSizes *sizes = &builder->sizes;
+    size_t triangles = (size_t)mesh->triangle_count;
+    place->first = *sizes;
+    sizes->triangles += triangles;
+    sizes->corner_normals += mesh->normals != NULL ? 3 * triangles : 0;
+    sizes->corner_uvs += mesh->uvs != NULL ? 3 * triangles : 0;
+    sizes->normals += (size_t)mesh->normal_count;
+    sizes->uvs += (size_t)mesh->uv_count;
+    if (!hd_has_hierarchy(builder->scene, mesh))
+        return HD_OK;
+    builder->node_stack = more_of(mesh->tree.depth, builder->node_stack);
+    if (builder->lanes == 1) {
+        sizes->nodes += (size_t)mesh->tree.node_count;
+        return HD_OK;
+    }
+    HdStatus status = hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error);
+    sizes->wide_nodes += (size_t)place->wide.node_count;
+    builder->wide_stack =
+        more_of((builder->lanes - 1) * place->wide.depth + 1, builder->wide_stack);
+    return status;
+}
+
 static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
     const HdScene *scene = builder->scene;
     HdMeshSizes *sizes = &builder->sizes;
+    HdStatus status = HD_OK;
     builder->places = calloc((size_t)scene->mesh_count + 1, sizeof *builder->places);
     if (builder->places == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d meshes",
                        scene->mesh_count);
-    for (int i = 0; i < scene->mesh_count; i++) {
-        const HdMesh *mesh = &scene->meshes[i];
-        HdMeshPlace *place = &builder->places[i];
-        place->first_triangle = (int)sizes->triangles;
-        place->first_node = (int)sizes->nodes;
-        place->first_wide = (int)sizes->wide_nodes;
-        place->first_normal = (int)sizes->normals;
-        place->first_uv = (int)sizes->uvs;
-        place->first_corner_normals = mesh->normals != NULL ? (int)sizes->corner_normals : -1;
-        place->first_corner_uvs = mesh->uvs != NULL ? (int)sizes->corner_uvs : -1;
-        size_t triangles = (size_t)mesh->triangle_count;
-        sizes->triangles += triangles;
-        sizes->corner_normals += mesh->normals != NULL ? 3 * triangles : 0;
-        sizes->corner_uvs += mesh->uvs != NULL ? 3 * triangles : 0;
-        sizes->normals += (size_t)mesh->normal_count;
-        sizes->uvs += (size_t)mesh->uv_count;
-        if (!hd_has_hierarchy(scene, mesh))
-            continue;
-        builder->node_stack =
-            mesh->tree.depth > builder->node_stack ? mesh->tree.depth : builder->node_stack;
-        if (builder->lanes == 1) {
-            sizes->nodes += (size_t)mesh->tree.node_count;
-            continue;
-        }
-        HdStatus status = hd_hierarchy_widen(&place->wide, &mesh->tree, builder->lanes, error);
-        if (status != HD_OK)
-            return status;
-        sizes->wide_nodes += (size_t)place->wide.node_count;
-        int stack = (builder->lanes - 1) * place->wide.depth + 1;
-        builder->wide_stack = stack > builder->wide_stack ? stack : builder->wide_stack;
-    }
-    if (sizes->triangles > HD_MAX_MESH_TRIANGLES)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the meshes have %zu triangles in all, expected at most %d",
-                       sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
+    for (int i = 0; status == HD_OK && i < scene->mesh_count; i++)
+        status = add_mesh(builder, &scene->meshes[i], &builder->places[i], error);
+    if (status == HD_OK && sizes->triangles > HD_MAX_MESH_TRIANGLES)
+        status = hd_fail(error, HD_BAD_INPUT,
+                         "the meshes have %zu triangles in all, expected at most %d",
+                         sizes->triangles, (int)HD_MAX_MESH_TRIANGLES);
     for (int i = 0; i < scene->instance_count; i++)
         sizes->skins += (size_t)hd_mesh_of(builder->scene, i)->material_count;
-    for (int i = 0; i < scene->picture_count; i++)
-        sizes->texels += 2 * ((size_t)scene->pictures[i].texture.width + 1) *
-                         ((size_t)scene->pictures[i].texture.height + 1);
-    return HD_OK;
+    return status;
 }
 
 /* ---- over the instances ---- */
@@ -138,7 +133,7 @@ static HdStatus count_meshes(HdBuilder *builder, HdError *error) {
 static HdBox box_of_instance(const HdBuilder *builder, int number) {
     HdPlacement to = hd_placement_of(builder->scene, number);
     HdVec3 middle = hd_sub(to.start, builder->mesh_centre);
-    HdVec3 reach = hd_reach_of(hd_mesh_of(builder->scene, number), &to);
+    HdVec3 reach = reach_of(hd_mesh_of(builder->scene, number), &to);
     double low[3] = {middle.x - reach.x, middle.y - reach.y, middle.z - reach.z};
     double high[3] = {middle.x + reach.x, middle.y + reach.y, middle.z + reach.z};
     double slack = 0x1p-20 * builder->mesh_reach;
@@ -171,10 +166,9 @@ static HdStatus build_top(HdBuilder *builder, HdError *error) {
             hd_hierarchy_build(&builder->top, boxes, scene->instance_count, &options, pool, error);
     hd_thread_pool_destroy(pool);
     free(boxes);
-    builder->first_top_node = (int)builder->sizes.nodes;
+    builder->first_top_node = builder->sizes.nodes;
     builder->sizes.nodes += (size_t)builder->top.node_count;
-    if (builder->top.depth + 1 > builder->node_stack)
-        builder->node_stack = builder->top.depth + 1;
+    builder->node_stack = more_of(builder->top.depth + 1, builder->node_stack);
     return status;
 }
 

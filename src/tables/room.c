@@ -56,17 +56,13 @@ HdStatus hd_check_room(const HdSceneTables *tables, const HdRoom *room, HdError 
     return HD_OK;
 }
 
-static HdStatus lack_table(const HdTable *table, const char *what, HdError *error) {
-    char need[HD_BYTE_TEXT_SIZE];
-    hd_byte_text((double)table->bytes, need);
-    return hd_fail(error, HD_FAILED, "out of memory: the %s need %s", what, need);
-}
-
 HdStatus hd_table_allocate(HdTable *table, const char *what, HdError *error) {
+    char need[HD_BYTE_TEXT_SIZE];
     size_t bytes = (table->bytes + 63) / 64 * 64 + 64;
+    hd_byte_text((double)table->bytes, need);
     table->data = hd_large_allocate(bytes);
     if (table->data == NULL)
-        return lack_table(table, what, error);
+        return hd_fail(error, HD_FAILED, "out of memory: the %s need %s", what, need);
     memset(table->data, 0, bytes);
     return HD_OK;
 }

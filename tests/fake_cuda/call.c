@@ -18,7 +18,7 @@ struct CUctx_st {
 };
 
 static struct CUctx_st primary;
-static _Thread_local int pushed; /* how often the primary context was, in this thread */
+static _Thread_local bool is_current; /* the primary context, in this thread */
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
 double fake_number(const char *variable, double otherwise) {
@@ -46,7 +46,7 @@ static bool is_to_fail(const char *function) {
 }
 
 static HdCuResult check_context(const char *function) {
-    if (pushed == 0)
+    if (!is_current)
         return fake_misuse(FAKE_INVALID_CONTEXT, "%s without a current context", function);
     if (primary.retained == 0)
         return fake_misuse(HD_CU_ERROR_CONTEXT_IS_DESTROYED, "%s in a context that is released",
@@ -107,19 +107,10 @@ HdCuResult cuDevicePrimaryCtxRelease_v2(HdCuDevice device) {
     return HD_CU_SUCCESS;
 }
 
-HdCuResult cuCtxPushCurrent_v2(HdCuContext context) {
-    FAKE_CALL_ANYWHERE(cuCtxPushCurrent);
+HdCuResult cuCtxSetCurrent(HdCuContext context) {
+    FAKE_CALL_ANYWHERE(cuCtxSetCurrent);
     if (context != &primary || primary.retained == 0)
-        return fake_misuse(FAKE_INVALID_CONTEXT, "a context is pushed that is none");
-    pushed++;
-    return HD_CU_SUCCESS;
-}
-
-HdCuResult cuCtxPopCurrent_v2(HdCuContext *context) {
-    FAKE_CALL_ANYWHERE(cuCtxPopCurrent);
-    if (pushed == 0)
-        return fake_misuse(FAKE_INVALID_CONTEXT, "a context is popped, but none was pushed");
-    pushed--;
-    *context = &primary;
+        return fake_misuse(FAKE_INVALID_CONTEXT, "a context is made current that is none");
+    is_current = true;
     return HD_CU_SUCCESS;
 }

@@ -14,13 +14,13 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     Vec3 to_b = vec3_sub(b, a), to_c = vec3_sub(c, a), from_a = vec3_sub(frame->origin, a);
     Vec3 p = vec3_cross(direction, to_c), q = vec3_cross(from_a, to_b);
     vreal determinant = vec3_dot(to_b, p), inverse = one / determinant;
-    crossing->b = vec3_dot(from_a, p) * inverse;
-    crossing->c = vec3_dot(direction, q) * inverse;
-    crossing->a = one - crossing->b - crossing->c;
+    crossing->share[1] = vec3_dot(from_a, p) * inverse;
+    crossing->share[2] = vec3_dot(direction, q) * inverse;
+    crossing->share[0] = one - crossing->share[1] - crossing->share[2];
     crossing->t = vec3_dot(to_c, q) * inverse;
     crossing->entering = lt(zero, determinant);
-    vmask crosses =
-        m & le(zero, crossing->b) & le(zero, crossing->c) & le(crossing->b + crossing->c, one);
+    vmask crosses = m & le(zero, crossing->share[1]) & le(zero, crossing->share[2]) &
+                    le(crossing->share[1] + crossing->share[2], one);
     return crosses & keep_in_box(slabs, a, b, c, &crossing->t);
 }
 

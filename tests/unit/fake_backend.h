@@ -37,7 +37,6 @@ static struct {
 typedef struct FakeRenderer {
     void *c;
     HdKernelCache kernels;
-    HdKernelShape shape;
     bool is_built;
     int index;
     HdRenderOptions options;
@@ -65,11 +64,11 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
     assert_non_null(opened);
     opened->index = device->index;
     opened->options = *options;
-    opened->shape.precision = options->precision;
-    opened->shape.math = options->math;
     hd_kernel_cache_begin(&opened->kernels, device);
+    opened->kernels.shape =
+        (HdKernelShape){.lanes = 1, .precision = options->precision, .math = options->math};
     *renderer = opened;
-    return hd_backend_c.open(device, options, &opened->c, error);
+    return hd_backend_c.functions->open(device, options, &opened->c, error);
 }
 
 static unsigned char *fake_read(const void *context, size_t *size) {
@@ -87,8 +86,8 @@ static void fake_build(FakeRenderer *renderer) {
     size_t size;
     const char *options = fake.options != NULL ? fake.options : "";
     renderer->is_built = true;
-    if (hd_kernel_cache_find(&renderer->kernels, &renderer->shape, source, sizeof source, options,
-                             "1", &binary, &size)) {
+    if (hd_kernel_cache_find(&renderer->kernels, source, sizeof source, options, "1", &binary,
+                             &size)) {
         assert_int_equal(size, 4);
         assert_memory_equal(binary, "fake", 4);
         free(binary);
@@ -98,34 +97,30 @@ static void fake_build(FakeRenderer *renderer) {
         hd_kernel_cache_refuse(&renderer->kernels, "it does not like them");
     }
     fake.compiled++;
-    hd_kernel_cache_compiled(&renderer->kernels, &renderer->shape, fake_read, NULL, "nobody",
-                             0.001);
+    hd_kernel_cache_compiled(&renderer->kernels, fake_read, NULL, "nobody", 0.001);
 }
 
 static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *error) {
     FakeRenderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
-    if (!renderer->is_built || !hd_kernel_needs_equal(&needs, &renderer->shape.needs)) {
-        hd_kernel_shape_set_needs(&renderer->shape, &needs);
+    if (!renderer->is_built || !hd_kernel_needs_equal(&needs, &renderer->kernels.shape.needs)) {
+        hd_kernel_shape_set_needs(&renderer->kernels.shape, &needs);
         fake_build(renderer);
     }
     HdStatus status = fake_event(FAKE_UPLOAD, renderer->index, error);
-    return status != HD_OK ? status : hd_backend_c.upload(renderer->c, tables, error);
+    return status != HD_OK ? status : hd_backend_c.functions->upload(renderer->c, tables, error);
 }
 
 static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
                             HdError *error) {
     FakeRenderer *renderer = state;
     HdStatus status = fake_event(FAKE_SUBMIT, renderer->index, error);
-    return status != HD_OK ? status : hd_backend_c.submit(renderer->c, tables, wish, error);
+    return status != HD_OK ? status
+                           : hd_backend_submit(&hd_backend_c, renderer->c, tables, wish, error);
 }
 
-static void fake_drop(void *state) {
-    FakeRenderer *renderer = state;
-    hd_backend_c.drop(renderer->c);
-}
-
-static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
+static HdStatus fake_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
+                             HdError *error) {
     FakeRenderer *renderer = state;
     const struct timespec pause = {.tv_nsec = 1000000L * fake.slow_milliseconds};
     fake.rendered++;
@@ -133,7 +128,7 @@ static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
         nanosleep(&pause, NULL);
     HdError failure;
     HdStatus event = fake_event(FAKE_COLLECT, renderer->index, &failure);
-    HdStatus status = hd_backend_c.collect(renderer->c, frame, error);
+    HdStatus status = hd_backend_c.functions->collect(renderer->c, tables, frame, error);
     if (event != HD_OK) {
         *error = failure;
         return event;
@@ -142,7 +137,7 @@ static HdStatus fake_collect(void *state, HdFrame *frame, HdError *error) {
         return hd_fail(error, HD_FAILED, "it fails");
     if (status == HD_OK && fake.trace_seconds != NULL)
         frame->trace_seconds = fake.trace_seconds(&renderer->options);
-    bool is_careful = fake.is_right_if_cautious && renderer->shape.is_cautious;
+    bool is_careful = fake.is_right_if_cautious && renderer->kernels.shape.is_cautious;
     if (status == HD_OK && fake.renders_wrongly && !is_careful) {
         uint32_t bits;
         float *last = &frame->rgb[(size_t)frame->width * (size_t)frame->height * 3 - 1];
@@ -158,11 +153,6 @@ static HdKernelCache *fake_kernels(void *state) {
     return &renderer->kernels;
 }
 
-static bool fake_be_cautious(void *state) {
-    FakeRenderer *renderer = state;
-    return hd_kernel_shape_be_cautious(&renderer->shape);
-}
-
 static void fake_describe(const void *renderer, char *text, int capacity) {
     (void)renderer;
     (void)capacity;
@@ -171,22 +161,24 @@ static void fake_describe(const void *renderer, char *text, int capacity) {
 
 static void fake_close(void *state) {
     FakeRenderer *renderer = state;
-    hd_backend_c.close(renderer->c);
+    hd_backend_c.functions->close(renderer->c);
     free(renderer);
 }
 
-static const HdBackend fake_backend = {
-    .name = "fake",
-    .enumerate = fake_enumerate,
+static const HdRendererFunctions fake_functions = {
     .open = fake_open,
     .upload = fake_upload,
     .submit = fake_submit,
     .collect = fake_collect,
-    .drop = fake_drop,
     .kernels = fake_kernels,
-    .be_cautious = fake_be_cautious,
     .describe = fake_describe,
     .close = fake_close,
+};
+
+static const HdBackend fake_backend = {
+    .name = "fake",
+    .functions = &fake_functions,
+    .enumerate = fake_enumerate,
 };
 
 static inline HdDevice fake_device(void) {

@@ -214,24 +214,27 @@ static void floor_coordinates_invert_the_map(void **state) {
 static void texels_are_interpolated(void **state) {
     (void)state;
     enum { WIDTH = 3, HEIGHT = 2 };
-    uint texels[(WIDTH * HEIGHT + 1) * 2] = {0};
-    FloorMap map = {.texture_width = WIDTH, .texture_height = HEIGHT};
+    uint texels[(WIDTH + 1) * (HEIGHT + 1) * 2];
+    Picture picture = {.width = WIDTH, .height = HEIGHT, .is_clamped = 1};
+    for (size_t i = 0; i < sizeof texels / sizeof *texels; i++)
+        texels[i] = 0xffffffff; /* what no picture has counts nowhere */
     for (uint i = 0; i < WIDTH * HEIGHT; i++) {
-        texels[2 * i] = i * 10000u | (65535u - i * 10000u) << 16;
-        texels[2 * i + 1] = i * 5000u;
+        uint *texel = texels + 2 * (i / WIDTH * (WIDTH + 1) + i % WIDTH);
+        texel[0] = i * 10000u | (65535u - i * 10000u) << 16;
+        texel[1] = i * 5000u;
     }
     /* texel centres, then half-way between two, then beyond the border's centres */
-    Vec3 c = sample_texture(&map, texels, splat(R(0.5) / R(3.0)), splat(R(0.25)));
+    Vec3 c = sample_picture(&picture, texels, splat(R(0.5) / R(3.0)), splat(R(0.25)));
     CLOSE(lane_real(&c.x, 0), 0.0);
     CLOSE(lane_real(&c.y, 0), 1.0);
-    c = sample_texture(&map, texels, splat(R(2.5) / R(3.0)), splat(R(0.75)));
+    c = sample_picture(&picture, texels, splat(R(2.5) / R(3.0)), splat(R(0.75)));
     CLOSE(lane_real(&c.x, 0), 50000.0 / 65535.0);
     CLOSE(lane_real(&c.z, 0), 25000.0 / 65535.0);
-    c = sample_texture(&map, texels, splat(R(1.0) / R(3.0)), splat(R(0.5)));
+    c = sample_picture(&picture, texels, splat(R(1.0) / R(3.0)), splat(R(0.5)));
     CLOSE(lane_real(&c.x, 0), 20000.0 / 65535.0);
-    c = sample_texture(&map, texels, splat(R(1.0)), splat(R(1.0)));
+    c = sample_picture(&picture, texels, splat(R(1.0)), splat(R(1.0)));
     CLOSE(lane_real(&c.x, 0), 50000.0 / 65535.0);
-    c = sample_texture(&map, texels, splat(R(0.0)), splat(R(0.0)));
+    c = sample_picture(&picture, texels, splat(R(0.0)), splat(R(0.0)));
     CLOSE(lane_real(&c.x, 0), 0.0);
 }
 

@@ -6,18 +6,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/loss.h"
+#include "device/backend.h"
 #include "system/dynamic_library.h"
-
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *error) {
     static const HdLibrarySymbol symbols[] = {
-#define SYMBOL(member, symbol, parameters) {#symbol, offsetof(HdCudaDriver, member)},
+#define SYMBOL(function, version, parameters)                                                      \
+    {#function #version, offsetof(HdCudaDriver, function)},
         HD_CUDA_FUNCTIONS(SYMBOL)
 #undef SYMBOL
     };
-    const char *missing = hd_library_load(library, symbols, COUNT(symbols), driver);
+    const char *missing =
+        hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, driver);
     if (missing)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the NVIDIA driver is too old: libcuda.so.1 has no function %s", missing);
@@ -33,7 +33,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     hd_library_close(library);
     if (status != HD_OK)
         return status;
-    HdCuResult code = driver->init(0);
+    HdCuResult code = driver->cuInit(0);
     if (code != HD_CU_SUCCESS)
         return hd_fail(error, HD_UNAVAILABLE,
                        "the NVIDIA driver does not start: cuInit failed with %s",
@@ -43,28 +43,19 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
 
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {
     const char *name = NULL;
-    if (driver->error_name(code, &name) != HD_CU_SUCCESS || !name)
+    if (driver->cuGetErrorName(code, &name) != HD_CU_SUCCESS || !name)
         return "an unknown error";
     return name;
 }
 
-/* After these no call of this program succeeds on the device. A device that another program has for
-   itself alone is unavailable from the begin. */
+/* A device that another program has for itself alone is unavailable from the begin. */
 static bool is_lost(const char *function, HdCuResult code) {
     switch (code) {
     case HD_CU_ERROR_DEVICE_UNAVAILABLE:
         return strcmp(function, "cuDevicePrimaryCtxRetain") != 0;
-    case HD_CU_ERROR_ECC_UNCORRECTABLE:
-    case HD_CU_ERROR_NVLINK_UNCORRECTABLE:
-    case HD_CU_ERROR_ILLEGAL_ADDRESS:
-    case HD_CU_ERROR_LAUNCH_TIMEOUT:
-    case HD_CU_ERROR_CONTEXT_IS_DESTROYED:
-    case HD_CU_ERROR_HARDWARE_STACK_ERROR:
-    case HD_CU_ERROR_ILLEGAL_INSTRUCTION:
-    case HD_CU_ERROR_MISALIGNED_ADDRESS:
-    case HD_CU_ERROR_INVALID_ADDRESS_SPACE:
-    case HD_CU_ERROR_INVALID_PC:
-    case HD_CU_ERROR_LAUNCH_FAILED:
+#define CASE(name, number) case HD_CU_ERROR_##name:
+        HD_CUDA_LOSSES(CASE)
+#undef CASE
         return true;
     default:
         return false;
@@ -75,19 +66,10 @@ HdStatus hd_cuda_fail(const HdCudaDriver *driver, const char *function, HdCuResu
                       HdError *error) {
     const char *text = NULL;
     char what[512];
-    if (driver->error_string(code, &text) != HD_CU_SUCCESS || !text)
+    if (driver->cuGetErrorString(code, &text) != HD_CU_SUCCESS || !text)
         text = "no description";
     snprintf(what, sizeof what, "%s failed with %s (%u: %s)", function,
              hd_cuda_error_name(driver, code), code, text);
     return is_lost(function, code) ? hd_fail_lost(error, what)
                                    : hd_fail(error, HD_FAILED, "%s", what);
-}
-
-const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library) {
-    static const HdLibrarySymbol symbols[] = {
-#define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
-        HD_NVRTC_FUNCTIONS(SYMBOL)
-#undef SYMBOL
-    };
-    return hd_library_load(library, symbols, COUNT(symbols), functions);
 }

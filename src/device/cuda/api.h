@@ -21,21 +21,28 @@ typedef struct CUfunc_st *HdCuFunction;
 typedef struct CUstream_st *HdCuStream;
 typedef struct CUevent_st *HdCuEvent;
 
+/* X(name, number): errors after which no call of this program succeeds on the device. */
+#define HD_CUDA_LOSSES(X)                                                                          \
+    X(ECC_UNCORRECTABLE, 214)                                                                      \
+    X(NVLINK_UNCORRECTABLE, 220)                                                                   \
+    X(ILLEGAL_ADDRESS, 700)                                                                        \
+    X(LAUNCH_TIMEOUT, 702)                                                                         \
+    X(CONTEXT_IS_DESTROYED, 709)                                                                   \
+    X(HARDWARE_STACK_ERROR, 714)                                                                   \
+    X(ILLEGAL_INSTRUCTION, 715)                                                                    \
+    X(MISALIGNED_ADDRESS, 716)                                                                     \
+    X(INVALID_ADDRESS_SPACE, 717)                                                                  \
+    X(INVALID_PC, 718)                                                                             \
+    X(LAUNCH_FAILED, 719)
+
+#define HD_CUDA_ERROR(name, number) HD_CU_ERROR_##name = (number),
+enum { HD_CUDA_LOSSES(HD_CUDA_ERROR) };
+#undef HD_CUDA_ERROR
+
 enum {
     HD_CU_SUCCESS = 0,
     HD_CU_ERROR_OUT_OF_MEMORY = 2,
     HD_CU_ERROR_DEVICE_UNAVAILABLE = 46,
-    HD_CU_ERROR_ECC_UNCORRECTABLE = 214,
-    HD_CU_ERROR_NVLINK_UNCORRECTABLE = 220,
-    HD_CU_ERROR_ILLEGAL_ADDRESS = 700,
-    HD_CU_ERROR_LAUNCH_TIMEOUT = 702,
-    HD_CU_ERROR_CONTEXT_IS_DESTROYED = 709,
-    HD_CU_ERROR_HARDWARE_STACK_ERROR = 714,
-    HD_CU_ERROR_ILLEGAL_INSTRUCTION = 715,
-    HD_CU_ERROR_MISALIGNED_ADDRESS = 716,
-    HD_CU_ERROR_INVALID_ADDRESS_SPACE = 717,
-    HD_CU_ERROR_INVALID_PC = 718,
-    HD_CU_ERROR_LAUNCH_FAILED = 719,
     HD_CU_DEVICE_CLOCK_KHZ = 13,
     HD_CU_DEVICE_MULTIPROCESSOR_COUNT = 16,
     HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT = 17,
@@ -49,54 +56,47 @@ enum {
     HD_CU_STREAM_NON_BLOCKING = 1
 };
 
-/* X(member, symbol, parameters); all return HdCuResult. The suffix _v2 belongs to the symbol: the
+/* X(function, version, parameters); all return HdCuResult. The version belongs to the symbol: the
    names without it are older functions with other types. */
 #define HD_CUDA_FUNCTIONS(X)                                                                       \
-    X(init, cuInit, (unsigned int flags))                                                          \
-    X(driver_version, cuDriverGetVersion, (int *version))                                          \
-    X(error_name, cuGetErrorName, (HdCuResult code, const char **text))                            \
-    X(error_string, cuGetErrorString, (HdCuResult code, const char **text))                        \
-    X(device_count, cuDeviceGetCount, (int *count))                                                \
-    X(device_get, cuDeviceGet, (HdCuDevice * device, int index))                                   \
-    X(device_name, cuDeviceGetName, (char *name, int capacity, HdCuDevice device))                 \
-    X(device_attribute, cuDeviceGetAttribute,                                                      \
-      (int *value, HdCuAttribute attribute, HdCuDevice device))                                    \
-    X(context_retain, cuDevicePrimaryCtxRetain, (HdCuContext * context, HdCuDevice device))        \
-    X(context_release, cuDevicePrimaryCtxRelease_v2, (HdCuDevice device))                          \
-    X(context_push, cuCtxPushCurrent_v2, (HdCuContext context))                                    \
-    X(context_pop, cuCtxPopCurrent_v2, (HdCuContext * context))                                    \
-    X(module_load, cuModuleLoadData, (HdCuModule * module, const void *image))                     \
-    X(module_unload, cuModuleUnload, (HdCuModule module))                                          \
-    X(module_function, cuModuleGetFunction,                                                        \
-      (HdCuFunction * function, HdCuModule module, const char *name))                              \
-    X(function_attribute, cuFuncGetAttribute,                                                      \
-      (int *value, HdCuAttribute attribute, HdCuFunction function))                                \
-    X(memory_info, cuMemGetInfo_v2, (size_t * available, size_t * total))                          \
-    X(memory_alloc, cuMemAlloc_v2, (HdCuPointer * pointer, size_t bytes))                          \
-    X(memory_free, cuMemFree_v2, (HdCuPointer pointer))                                            \
-    X(host_alloc, cuMemHostAlloc, (void **data, size_t bytes, unsigned int flags))                 \
-    X(host_free, cuMemFreeHost, (void *data))                                                      \
-    X(copy_to_device_async, cuMemcpyHtoDAsync_v2,                                                  \
-      (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream))                         \
-    X(copy_to_host_async, cuMemcpyDtoHAsync_v2,                                                    \
-      (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))                               \
-    X(context_synchronize, cuCtxSynchronize, (void))                                               \
-    X(stream_create, cuStreamCreate, (HdCuStream * stream, unsigned int flags))                    \
-    X(stream_synchronize, cuStreamSynchronize, (HdCuStream stream))                                \
-    X(stream_wait_event, cuStreamWaitEvent,                                                        \
-      (HdCuStream stream, HdCuEvent event, unsigned int flags))                                    \
-    X(stream_destroy, cuStreamDestroy_v2, (HdCuStream stream))                                     \
-    X(launch, cuLaunchKernel,                                                                      \
+    X(cuInit, , (unsigned int flags))                                                              \
+    X(cuDriverGetVersion, , (int *version))                                                        \
+    X(cuGetErrorName, , (HdCuResult code, const char **text))                                      \
+    X(cuGetErrorString, , (HdCuResult code, const char **text))                                    \
+    X(cuDeviceGetCount, , (int *count))                                                            \
+    X(cuDeviceGet, , (HdCuDevice * device, int index))                                             \
+    X(cuDeviceGetName, , (char *name, int capacity, HdCuDevice device))                            \
+    X(cuDeviceGetAttribute, , (int *value, HdCuAttribute attribute, HdCuDevice device))            \
+    X(cuDevicePrimaryCtxRetain, , (HdCuContext * context, HdCuDevice device))                      \
+    X(cuDevicePrimaryCtxRelease, _v2, (HdCuDevice device))                                         \
+    X(cuCtxSetCurrent, , (HdCuContext context))                                                    \
+    X(cuModuleLoadData, , (HdCuModule * module, const void *image))                                \
+    X(cuModuleUnload, , (HdCuModule module))                                                       \
+    X(cuModuleGetFunction, , (HdCuFunction * function, HdCuModule module, const char *name))       \
+    X(cuFuncGetAttribute, , (int *value, HdCuAttribute attribute, HdCuFunction function))          \
+    X(cuMemGetInfo, _v2, (size_t * available, size_t * total))                                     \
+    X(cuMemAlloc, _v2, (HdCuPointer * pointer, size_t bytes))                                      \
+    X(cuMemFree, _v2, (HdCuPointer pointer))                                                       \
+    X(cuMemHostAlloc, , (void **data, size_t bytes, unsigned int flags))                           \
+    X(cuMemFreeHost, , (void *data))                                                               \
+    X(cuMemcpyHtoDAsync, _v2, (HdCuPointer to, const void *from, size_t bytes, HdCuStream stream)) \
+    X(cuMemcpyDtoHAsync, _v2, (void *to, HdCuPointer from, size_t bytes, HdCuStream stream))       \
+    X(cuCtxSynchronize, , (void))                                                                  \
+    X(cuStreamCreate, , (HdCuStream * stream, unsigned int flags))                                 \
+    X(cuStreamSynchronize, , (HdCuStream stream))                                                  \
+    X(cuStreamWaitEvent, , (HdCuStream stream, HdCuEvent event, unsigned int flags))               \
+    X(cuStreamDestroy, _v2, (HdCuStream stream))                                                   \
+    X(cuLaunchKernel, ,                                                                            \
       (HdCuFunction function, unsigned int grid_x, unsigned int grid_y, unsigned int grid_z,       \
        unsigned int block_x, unsigned int block_y, unsigned int block_z,                           \
        unsigned int shared_bytes, HdCuStream stream, void **arguments, void **extra))              \
-    X(event_create, cuEventCreate, (HdCuEvent * event, unsigned int flags))                        \
-    X(event_record, cuEventRecord, (HdCuEvent event, HdCuStream stream))                           \
-    X(event_synchronize, cuEventSynchronize, (HdCuEvent event))                                    \
-    X(event_elapsed, cuEventElapsedTime, (float *milliseconds, HdCuEvent start, HdCuEvent end))    \
-    X(event_destroy, cuEventDestroy_v2, (HdCuEvent event))
+    X(cuEventCreate, , (HdCuEvent * event, unsigned int flags))                                    \
+    X(cuEventRecord, , (HdCuEvent event, HdCuStream stream))                                       \
+    X(cuEventSynchronize, , (HdCuEvent event))                                                     \
+    X(cuEventElapsedTime, , (float *milliseconds, HdCuEvent start, HdCuEvent end))                 \
+    X(cuEventDestroy, _v2, (HdCuEvent event))
 
-#define HD_CUDA_MEMBER(member, symbol, parameters) HdCuResult(*member) parameters;
+#define HD_CUDA_MEMBER(function, version, parameters) HdCuResult(*function) parameters;
 typedef struct HdCudaDriver {
     HD_CUDA_FUNCTIONS(HD_CUDA_MEMBER)
 } HdCudaDriver;
@@ -141,8 +141,5 @@ typedef struct HdNvrtcFunctions {
     HD_NVRTC_FUNCTIONS(HD_NVRTC_MEMBER)
 } HdNvrtcFunctions;
 #undef HD_NVRTC_MEMBER
-
-/* Returns the first symbol that the library lacks, or NULL. */
-const char *hd_nvrtc_load_functions(HdNvrtcFunctions *functions, void *library);
 
 #endif

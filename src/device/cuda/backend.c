@@ -9,6 +9,15 @@
 
 enum { BLOCK_THREADS = 128 };
 
+/* Calls a function of the driver: CALL(device->driver, cuMemFree, (pointer), error). */
+#define CALL(driver, function, arguments, error)                                                   \
+    check(&(driver), (driver).function arguments, #function, error)
+
+static HdStatus check(const HdCudaDriver *driver, HdCuResult code, const char *function,
+                      HdError *error) {
+    return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
+}
+
 /* ---- devices ---- */
 
 static HdStatus query_attributes(HdDevice *device, const HdCudaDriver *driver, HdCuDevice handle,
@@ -24,32 +33,30 @@ static HdStatus query_attributes(HdDevice *device, const HdCudaDriver *driver, H
         {HD_CU_DEVICE_CLOCK_KHZ, &khz},
         {HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT, &has_timeout},
     };
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
-        HdCuResult code = driver->device_attribute(list[i].value, list[i].attribute, handle);
-        if (code != HD_CU_SUCCESS)
-            return hd_cuda_fail(driver, "cuDeviceGetAttribute", code, error);
-    }
+    HdStatus status = HD_OK;
+    for (size_t i = 0; status == HD_OK && i < sizeof list / sizeof *list; i++)
+        status =
+            CALL(*driver, cuDeviceGetAttribute, (list[i].value, list[i].attribute, handle), error);
     device->nvidia_arch = 10 * major + minor;
     device->clock_mhz = khz / 1000;
     device->has_timeout = has_timeout != 0;
-    return HD_OK;
+    return status;
 }
 
 static int query_driver_version(const HdCudaDriver *driver) {
     int version = 0;
-    return driver->driver_version(&version) == HD_CU_SUCCESS ? version : 0;
+    return driver->cuDriverGetVersion(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
 static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
                              HdError *error) {
-    HdCuDevice handle;
-    HdCuResult code = driver->device_get(&handle, index);
-    if (code != HD_CU_SUCCESS)
-        return hd_cuda_fail(driver, "cuDeviceGet", code, error);
-    code = driver->device_name(device->name, (int)sizeof device->name, handle);
-    if (code != HD_CU_SUCCESS)
-        return hd_cuda_fail(driver, "cuDeviceGetName", code, error);
-    HdStatus status = query_attributes(device, driver, handle, error);
+    HdCuDevice handle = 0;
+    HdStatus status = CALL(*driver, cuDeviceGet, (&handle, index), error);
+    if (status == HD_OK)
+        status =
+            CALL(*driver, cuDeviceGetName, (device->name, (int)sizeof device->name, handle), error);
+    if (status == HD_OK)
+        status = query_attributes(device, driver, handle, error);
     if (status != HD_OK)
         return status;
     int arch = device->nvidia_arch, version = query_driver_version(driver);
@@ -72,25 +79,17 @@ static void describe_device(HdDevice *device, const HdCudaDriver *driver, int in
                  (int)sizeof device->unusable - 1, error.message);
 }
 
-static HdStatus count_devices(const HdCudaDriver *driver, int *count, HdError *error) {
-    *count = 0;
-    HdCuResult code = driver->device_count(count);
-    if (code != HD_CU_SUCCESS)
-        return hd_cuda_fail(driver, "cuDeviceGetCount", code, error);
-    if (*count < 1)
-        return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver knows no device");
-    return HD_OK;
-}
-
 static HdStatus cuda_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
     HdCudaDriver driver;
     *count = 0;
     HdStatus status = hd_cuda_load_driver(&driver, error);
     int available = 0;
     if (status == HD_OK)
-        status = count_devices(&driver, &available, error);
+        status = CALL(driver, cuDeviceGetCount, (&available), error);
     if (status != HD_OK)
         return status;
+    if (available < 1)
+        return hd_fail(error, HD_UNAVAILABLE, "the NVIDIA driver knows no device");
     for (*count = 0; *count < available && *count < capacity; ++*count)
         describe_device(&devices[*count], &driver, *count);
     return HD_OK;
@@ -112,26 +111,10 @@ typedef struct Device {
     int registers, local_bytes; /* of the tracing kernel */
 } Device;
 
-/* Calls a function of the driver: CALL(device, memory_free, cuMemFree, (pointer), error). */
-#define CALL(device, member, function, arguments, error)                                           \
-    check(&(device)->driver, (device)->driver.member arguments, #function, error)
-
-static HdStatus check(const HdCudaDriver *driver, HdCuResult code, const char *function,
-                      HdError *error) {
-    return code == HD_CU_SUCCESS ? HD_OK : hd_cuda_fail(driver, function, code, error);
-}
-
-/* The device's own context, which others in this process may share. Other threads may have made
-   another one current, so that it is pushed for every function of the renderer. */
+/* The device's own context, which others in this process may share. */
 static HdStatus enter(void *state, HdError *error) {
     const Device *device = state;
-    return CALL(device, context_push, cuCtxPushCurrent, (device->context), error);
-}
-
-static void leave(void *state) {
-    const Device *device = state;
-    HdCuContext popped;
-    device->driver.context_pop(&popped);
+    return CALL(device->driver, cuCtxSetCurrent, (device->context), error);
 }
 
 static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error) {
@@ -139,15 +122,14 @@ static HdStatus create_streams(Device *device, HdGpuFacts *facts, HdError *error
     HdStatus status = enter(device, error);
     if (status != HD_OK)
         return status;
-    status = CALL(device, stream_create, cuStreamCreate,
-                  (&device->stream, HD_CU_STREAM_NON_BLOCKING), error);
+    status =
+        CALL(device->driver, cuStreamCreate, (&device->stream, HD_CU_STREAM_NON_BLOCKING), error);
     if (status == HD_OK)
-        status = CALL(device, stream_create, cuStreamCreate,
-                      (&device->copies, HD_CU_STREAM_NON_BLOCKING), error);
+        status = CALL(device->driver, cuStreamCreate, (&device->copies, HD_CU_STREAM_NON_BLOCKING),
+                      error);
     if (status == HD_OK)
-        status = CALL(device, memory_info, cuMemGetInfo, (&available, &total), error);
+        status = CALL(device->driver, cuMemGetInfo, (&available, &total), error);
     facts->memory = total;
-    leave(device);
     return status;
 }
 
@@ -156,42 +138,36 @@ static void destroy_streams(Device *device) {
     if (enter(device, &ignored) != HD_OK)
         return;
     if (device->copies)
-        device->driver.stream_destroy(device->copies);
+        device->driver.cuStreamDestroy(device->copies);
     if (device->stream)
-        device->driver.stream_destroy(device->stream);
-    leave(device);
+        device->driver.cuStreamDestroy(device->stream);
 }
 
 static void close_device(void *state) {
     Device *device = state;
     if (device->context) {
         destroy_streams(device);
-        device->driver.context_release(device->handle);
+        device->driver.cuDevicePrimaryCtxRelease(device->handle);
     }
     hd_nvrtc_close(&device->nvrtc);
     hd_cuda_code_free(&device->code);
-    free(device);
 }
 
-static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
-    Device *device = calloc(1, sizeof *device);
+static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
+    Device *device = state;
     HdCuContext context = NULL;
-    if (!device)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     device->is = *is;
     HdStatus status = hd_cuda_load_driver(&device->driver, error);
     if (status == HD_OK)
-        status = CALL(device, device_get, cuDeviceGet, (&device->handle, is->index), error);
+        status = CALL(device->driver, cuDeviceGet, (&device->handle, is->index), error);
     if (status == HD_OK)
-        status = CALL(device, context_retain, cuDevicePrimaryCtxRetain, (&context, device->handle),
-                      error);
+        status = CALL(device->driver, cuDevicePrimaryCtxRetain, (&context, device->handle), error);
     if (status == HD_OK) {
         device->context = context;
         status = create_streams(device, facts, error);
     }
     if (status != HD_OK)
         close_device(device);
-    *state = device;
     return status;
 }
 
@@ -207,11 +183,11 @@ static HdCuResult take(const HdCudaDriver *driver, HdGpuMemory *memory, HdGpuPla
                        size_t bytes) {
     HdCuPointer pointer = 0;
     if (place == HD_GPU_HOST) {
-        HdCuResult code = driver->host_alloc(&memory->data, bytes, 0);
+        HdCuResult code = driver->cuMemHostAlloc(&memory->data, bytes, 0);
         memory->handle = memory->data;
         return code;
     }
-    HdCuResult code = driver->memory_alloc(&pointer, bytes);
+    HdCuResult code = driver->cuMemAlloc(&pointer, bytes);
     memory->handle = (void *)(uintptr_t)pointer; /* NOLINT(performance-no-int-to-ptr) */
     return code;
 }
@@ -229,7 +205,7 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
     *memory = (HdGpuMemory){0};
     if (place != HD_GPU_HOST && code != HD_CU_ERROR_OUT_OF_MEMORY)
         return hd_cuda_fail(driver, function, code, error);
-    driver->memory_info(&available, &total);
+    driver->cuMemGetInfo(&available, &total);
     *refusal = (HdGpuRefusal){.lacks_memory = true,
                               .function = function,
                               .reason = hd_cuda_error_name(driver, code),
@@ -240,11 +216,11 @@ static HdStatus allocate(void *state, HdGpuMemory *memory, HdGpuPlace place, siz
 
 static void release(void *state, HdGpuMemory *memory) {
     const Device *device = state;
-    device->driver.context_synchronize();
+    device->driver.cuCtxSynchronize();
     if (memory->data != NULL)
-        device->driver.host_free(memory->data);
+        device->driver.cuMemFreeHost(memory->data);
     else
-        device->driver.memory_free(pointer_to(memory));
+        device->driver.cuMemFree(pointer_to(memory));
 }
 
 /* Only from memory that the device reads by itself does the host not wait. */
@@ -252,19 +228,19 @@ static HdStatus write_memory(void *state, const HdGpuMemory *memory, const void 
                              HdGpuRefusal *refusal, HdError *error) {
     const Device *device = state;
     (void)refusal;
-    return CALL(device, copy_to_device_async, cuMemcpyHtoDAsync,
+    return CALL(device->driver, cuMemcpyHtoDAsync,
                 (pointer_to(memory), data, bytes, device->stream), error);
 }
 
 static HdStatus finish(void *state, HdError *error) {
     const Device *device = state;
-    return CALL(device, stream_synchronize, cuStreamSynchronize, (device->stream), error);
+    return CALL(device->driver, cuStreamSynchronize, (device->stream), error);
 }
 
 static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, size_t bytes,
                             HdError *error) {
     const Device *device = state;
-    HdStatus status = CALL(device, copy_to_host_async, cuMemcpyDtoHAsync,
+    HdStatus status = CALL(device->driver, cuMemcpyDtoHAsync,
                            (to, pointer_to(memory), bytes, device->stream), error);
     return status == HD_OK ? finish(state, error) : status;
 }
@@ -287,14 +263,14 @@ static void write_version(void *state, char *text, size_t capacity) {
 static void unload(void *state) {
     Device *device = state;
     if (device->module)
-        device->driver.module_unload(device->module);
+        device->driver.cuModuleUnload(device->module);
     device->module = NULL;
     hd_cuda_code_free(&device->code);
 }
 
 static HdStatus query_kernel(const Device *device, HdCuAttribute attribute, int *value,
                              HdError *error) {
-    return CALL(device, function_attribute, cuFuncGetAttribute,
+    return CALL(device->driver, cuFuncGetAttribute,
                 (value, attribute, device->kernels[HD_KERNEL_TRACE]), error);
 }
 
@@ -303,7 +279,7 @@ static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError 
     for (int i = 0; status == HD_OK && i < HD_KERNEL_COUNT; i++) {
         const char *name = hd_kernel_name(shape, (HdKernel)i);
         if (name != NULL)
-            status = CALL(device, module_function, cuModuleGetFunction,
+            status = CALL(device->driver, cuModuleGetFunction,
                           (&device->kernels[i], device->module, name), error);
     }
     if (status == HD_OK)
@@ -316,7 +292,7 @@ static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError 
 static HdStatus load_module(Device *device, const HdKernelShape *shape, const void *cubin,
                             const char *maker, HdError *error) {
     HdCuModule module = NULL;
-    HdCuResult result = device->driver.module_load(&module, cubin);
+    HdCuResult result = device->driver.cuModuleLoadData(&module, cubin);
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
@@ -378,19 +354,17 @@ static HdStatus record(const Device *device, void **event, HdCuStream stream, Hd
     HdCuEvent made = *event;
     HdStatus status = HD_OK;
     if (made == NULL)
-        status =
-            CALL(device, event_create, cuEventCreate, (&made, HD_CU_EVENT_BLOCKING_SYNC), error);
+        status = CALL(device->driver, cuEventCreate, (&made, HD_CU_EVENT_BLOCKING_SYNC), error);
     *event = made;
-    return status == HD_OK ? CALL(device, event_record, cuEventRecord, (made, stream), error)
-                           : status;
+    return status == HD_OK ? CALL(device->driver, cuEventRecord, (made, stream), error) : status;
 }
 
 static void forget(void *state, HdGpuMark *mark) {
     const Device *device = state;
     if (mark->begin)
-        device->driver.event_destroy(mark->begin);
+        device->driver.cuEventDestroy(mark->begin);
     if (mark->end)
-        device->driver.event_destroy(mark->end);
+        device->driver.cuEventDestroy(mark->end);
     *mark = (HdGpuMark){0};
 }
 
@@ -402,7 +376,7 @@ static HdStatus launch(void *state, const HdGpuLaunch *launch, HdGpuMark *mark, 
         arguments[i] = (void *)launch->arguments[i].value;
     HdStatus status = mark != NULL ? record(device, &mark->begin, device->stream, error) : HD_OK;
     if (status == HD_OK)
-        status = CALL(device, launch, cuLaunchKernel,
+        status = CALL(device->driver, cuLaunchKernel,
                       (device->kernels[launch->kernel], blocks, 1, 1, threads, 1, 1, 0,
                        device->stream, arguments, NULL),
                       error);
@@ -415,9 +389,9 @@ static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *
                           HdGpuMark *done, HdError *error) {
     const Device *device = state;
     HdStatus status =
-        CALL(device, stream_wait_event, cuStreamWaitEvent, (device->copies, after->end, 0), error);
+        CALL(device->driver, cuStreamWaitEvent, (device->copies, after->end, 0), error);
     for (int i = 0; status == HD_OK && i < count; i++)
-        status = CALL(device, copy_to_host_async, cuMemcpyDtoHAsync,
+        status = CALL(device->driver, cuMemcpyDtoHAsync,
                       (copies[i].to, pointer_to(copies[i].from), copies[i].bytes, device->copies),
                       error);
     return status == HD_OK ? record(device, &done->end, device->copies, error) : status;
@@ -425,20 +399,20 @@ static HdStatus copy_back(void *state, const HdGpuMark *after, const HdGpuCopy *
 
 static HdStatus wait_for(void *state, const HdGpuMark *mark, HdError *error) {
     const Device *device = state;
-    return CALL(device, event_synchronize, cuEventSynchronize, (mark->end), error);
+    return CALL(device->driver, cuEventSynchronize, (mark->end), error);
 }
 
 static void drain(void *state) {
     const Device *device = state;
-    device->driver.context_synchronize();
+    device->driver.cuCtxSynchronize();
 }
 
 static HdStatus measure_seconds(void *state, const HdGpuMark *from, const HdGpuMark *to,
                                 double *seconds, HdError *error) {
     const Device *device = state;
     float milliseconds = 0.0f;
-    HdStatus status = CALL(device, event_elapsed, cuEventElapsedTime,
-                           (&milliseconds, from->begin, to->end), error);
+    HdStatus status =
+        CALL(device->driver, cuEventElapsedTime, (&milliseconds, from->begin, to->end), error);
     *seconds = 1e-3 * (double)milliseconds;
     return status;
 }
@@ -460,12 +434,12 @@ static int describe(const void *state, const HdKernelShape *shape, int group_siz
 static const HdGpuDriver driver = {
     .groups = "blocks",
     .group_size = BLOCK_THREADS,
+    .bytes = sizeof(Device),
     .source = hd_cuda_source,
     .source_size = &hd_cuda_source_size,
     .open = open_device,
     .close = close_device,
     .enter = enter,
-    .leave = leave,
     .allocate = allocate,
     .release = release,
     .write = write_memory,
@@ -488,10 +462,5 @@ static const HdGpuDriver driver = {
     .describe = describe,
 };
 
-static HdStatus cuda_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
-                          HdError *error) {
-    return hd_gpu_open(&driver, device, options, renderer, error);
-}
-
 const HdBackend hd_backend_cuda = {
-    .name = "cuda", .enumerate = cuda_enumerate, .open = cuda_open, HD_GPU_FUNCTIONS};
+    .name = "cuda", .functions = &hd_gpu_functions, .driver = &driver, .enumerate = cuda_enumerate};

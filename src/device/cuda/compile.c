@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PARTS = HD_KERNEL_DEFINE_COUNT + 8, MOST_TEXT = 1024 };
+enum { MOST_PARTS = 32, MOST_TEXT = 1024 };
 
 static HdStatus fail(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult code,
                      HdError *error) {
@@ -49,17 +49,12 @@ static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, int 
 }
 
 void hd_cuda_options(char *options, size_t capacity, int arch, const HdKernelShape *shape) {
-    char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
+    static const char strict[] = "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false";
+    char defines[HD_KERNEL_DEFINES_SIZE];
     hd_kernel_defines(shape, defines);
-    int length = snprintf(options, capacity, "--gpu-architecture=sm_%d --maxrregcount=%d %s", arch,
-                          shape->register_limit,
-                          shape->math == HD_MATH_FAST
-                              ? "--use_fast_math"
-                              : "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false");
-    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        length += snprintf(options + length, capacity - (size_t)length, " %s", defines[i]);
-    if (shape->is_cautious)
-        snprintf(options + length, capacity - (size_t)length, " --ptxas-options=-O0");
+    snprintf(options, capacity, "--gpu-architecture=sm_%d --maxrregcount=%d %s%s%s", arch,
+             shape->register_limit, shape->math == HD_MATH_FAST ? "--use_fast_math" : strict,
+             defines, shape->is_cautious ? " --ptxas-options=-O0" : "");
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */

@@ -30,12 +30,21 @@ static void load_builtins(const HdNvrtc *nvrtc) {
     hd_library_close(hd_library_open_beside(nvrtc->library, "nvrtcVersion", name));
 }
 
+static bool load_functions(HdNvrtcFunctions *functions, void *library) {
+    static const HdLibrarySymbol symbols[] = {
+#define SYMBOL(type, member, symbol, parameters) {#symbol, offsetof(HdNvrtcFunctions, member)},
+        HD_NVRTC_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+    };
+    return hd_library_load(library, symbols, sizeof symbols / sizeof *symbols, functions) == NULL;
+}
+
 static bool load(HdNvrtc *nvrtc, const char *path) {
     *nvrtc = (HdNvrtc){.library = hd_library_open(path)};
     if (!nvrtc->library)
         return false;
     const HdNvrtcFunctions *functions = &nvrtc->functions;
-    if (!hd_nvrtc_load_functions(&nvrtc->functions, nvrtc->library) &&
+    if (load_functions(&nvrtc->functions, nvrtc->library) &&
         functions->version(&nvrtc->major, &nvrtc->minor) == 0)
         return true;
     hd_nvrtc_close(nvrtc);

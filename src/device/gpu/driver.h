@@ -68,12 +68,15 @@ typedef struct HdGpuDriver {
     const unsigned char *source;
     const size_t *source_size;
 
-    HdStatus (*open)(void **gpu, const HdDevice *device, HdGpuFacts *facts, HdError *error);
+    size_t
+        bytes; /* of an open device, which the functions get as `gpu`; zeroed before it is opened */
+    /* On failure there is nothing to close. */
+    HdStatus (*open)(void *gpu, const HdDevice *device, HdGpuFacts *facts, HdError *error);
     void (*close)(void *gpu);
 
-    /* Around all calls but these two, open and close. NULL: there is nothing to do. */
+    /* Before all calls but open and close, on a thread that may have worked on another GPU. NULL:
+       there is nothing to do. */
     HdStatus (*enter)(void *gpu, HdError *error);
-    void (*leave)(void *gpu);
 
     /* Makes an empty memory one of so many bytes. Fails with `refusal` instead of `error` where
        memory is lacking; what launches failed with before is not taken for that with

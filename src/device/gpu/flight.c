@@ -29,12 +29,12 @@ void hd_gpu_flights_close(HdGpuFlights *flights, const HdGpu *gpu) {
 }
 
 static size_t pixel_count(const HdGpuFlight *flight) {
-    return (size_t)flight->width * (size_t)flight->height;
+    return (size_t)flight->of->width * (size_t)flight->of->height;
 }
 
 /* Of what is copied. */
 static size_t picture_bytes(const HdGpuFlight *flight) {
-    return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->floats * sizeof(float));
+    return pixel_count(flight) * (flight->encodes ? 4 : (size_t)flight->of->floats * sizeof(float));
 }
 
 static size_t bytes_of_tables(const HdFrameTables *tables) {
@@ -44,9 +44,9 @@ static size_t bytes_of_tables(const HdFrameTables *tables) {
     return bytes;
 }
 
-static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, const HdFrameTables *tables,
-                        HdError *error) {
-    size_t pixels = pixel_count(flight), bytes = sizeof(float) * (size_t)flight->floats * pixels;
+static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
+    size_t pixels = pixel_count(flight),
+           bytes = sizeof(float) * (size_t)flight->of->floats * pixels;
     const struct {
         HdGpuMemory *memory;
         HdGpuPlace place;
@@ -55,7 +55,7 @@ static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, const HdFrameTabl
     } list[] = {
         {&flight->pixels, HD_GPU_DEVICE, bytes, "pixels"},
         {&flight->sums, HD_GPU_DEVICE, SUM_BYTES, "sums of the counts"},
-        {&flight->tables, HD_GPU_HOST, bytes_of_tables(tables), "tables of the frame"},
+        {&flight->tables, HD_GPU_HOST, bytes_of_tables(flight->of), "tables of the frame"},
         {&flight->copy, HD_GPU_HOST, SUM_BYTES + picture_bytes(flight),
          "pixels on their way to the host"},
         {&flight->image, HD_GPU_DEVICE, 4 * pixels, "encoded pixels"},
@@ -73,16 +73,13 @@ HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFr
     HdGpuFlight *flight =
         &flights->flights[(flights->oldest + flights->count) % HD_FRAMES_IN_FLIGHT];
     flight->encodes = encodes;
-    flight->width = tables->width;
-    flight->height = tables->height;
-    flight->samples = tables->samples;
-    flight->floats = tables->floats;
+    flight->of = tables;
     flight->submitted = hd_monotonic_seconds();
     flight->launches = 0;
     flight->untimed = NULL;
     flight->longest_launch = -1.0;
     *out = flight;
-    return reserve(flight, gpu, tables, error);
+    return reserve(flight, gpu, error);
 }
 
 HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
@@ -142,7 +139,7 @@ static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gp
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,
            (const char *)flight->copy.data + SUM_BYTES, picture_bytes(flight));
-    hd_frame_set_counts(frame, flight->samples, flight->copy.data, HD_SUM_WORKERS);
+    hd_frame_set_counts(frame, flight->of->samples, flight->copy.data, HD_SUM_WORKERS);
     return HD_OK;
 }
 

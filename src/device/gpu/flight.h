@@ -15,13 +15,13 @@ typedef struct HdGpuFlight {
     HdGpuMemory tables;       /* of the host: of the frame, on their way to the device */
     HdGpuMemory copy;         /* of the host: the sums, then the pixels or the image */
     bool encodes;
-    int width, height, samples, floats; /* as of the frame's tables */
-    double submitted;                   /* by hd_monotonic_seconds */
-    int launches;                       /* of the tracing kernel */
-    HdGpuMark first, later;             /* of its launches: the first one, and the last of others */
-    HdGpuMark *untimed;                 /* which of them is not timed yet, if one is */
-    double work;                        /* of that launch */
-    double longest_launch; /* seconds, of those that are timed; negative: there is none */
+    const HdFrameTables *of; /* the frame */
+    double submitted;        /* by hd_monotonic_seconds */
+    int launches;            /* of the tracing kernel */
+    HdGpuMark first, later;  /* of its launches: the first one, and the last of others */
+    HdGpuMark *untimed;      /* which of them is not timed yet, if one is */
+    double work;             /* of that launch */
+    double longest_launch;   /* seconds, of those that are timed; negative: there is none */
     HdGpuMark summed, encoded, copied;
 } HdGpuFlight;
 

@@ -11,9 +11,9 @@ enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH };
 static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     size_t most = 0;
     HdStatus status = gpu->driver->most_threads(gpu->handle, &most, error);
-    if (status != HD_OK || program->shape.group_size == 0)
+    if (status != HD_OK || program->cache.shape.group_size == 0)
         return status;
-    program->group_size = program->shape.group_size;
+    program->group_size = program->cache.shape.group_size;
     if (program->block > 0 && (size_t)program->block > most)
         return hd_fail(error, HD_UNAVAILABLE,
                        "%s runs the kernel in %s of at most %zu threads, not %d", gpu->name,
@@ -32,11 +32,11 @@ static bool load_cached(HdGpuProgram *program, const HdGpu *gpu, const char *opt
     unsigned char *binary;
     size_t size;
     driver->write_version(gpu->handle, version, sizeof version);
-    if (!hd_kernel_cache_find(cache, &program->shape, driver->source, *driver->source_size, options,
-                              version, &binary, &size))
+    if (!hd_kernel_cache_find(cache, driver->source, *driver->source_size, options, version,
+                              &binary, &size))
         return false;
-    bool is_loaded = driver->load(gpu->handle, &program->shape, options, binary, size, cache->maker,
-                                  error) == HD_OK;
+    bool is_loaded = driver->load(gpu->handle, &program->cache.shape, options, binary, size,
+                                  cache->maker, error) == HD_OK;
     free(binary);
     if (!is_loaded) {
         hd_kernel_cache_refuse(cache, error->message);
@@ -49,18 +49,18 @@ static HdStatus compile(HdGpuProgram *program, const HdGpu *gpu, const char *opt
                         HdError *error) {
     char maker[32] = "";
     double start = hd_monotonic_seconds();
-    HdStatus status =
-        gpu->driver->compile(gpu->handle, &program->shape, options, maker, sizeof maker, error);
+    HdStatus status = gpu->driver->compile(gpu->handle, &program->cache.shape, options, maker,
+                                           sizeof maker, error);
     if (status == HD_OK)
-        hd_kernel_cache_compiled(&program->cache, &program->shape, gpu->driver->binary, gpu->handle,
-                                 maker, hd_monotonic_seconds() - start);
+        hd_kernel_cache_compiled(&program->cache, gpu->driver->binary, gpu->handle, maker,
+                                 hd_monotonic_seconds() - start);
     return status;
 }
 
 HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNeeds *needs,
                       HdError *error) {
     char options[OPTIONS_LENGTH];
-    HdKernelShape *shape = &program->shape;
+    HdKernelShape *shape = &program->cache.shape;
     if (program->is_built && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     program->is_built = false;

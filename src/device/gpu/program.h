@@ -7,9 +7,8 @@
 #include "device/kernel_cache.h"
 
 typedef struct HdGpuProgram {
-    HdKernelShape shape;
     HdKernelCache cache;
-    bool is_built;  /* for that shape */
+    bool is_built;  /* for the cache's shape */
     int block;      /* threads of a group, as asked for; 0: as many as the kernels allow */
     int group_size; /* of a launch: 1 where threads do not work in groups */
 } HdGpuProgram;

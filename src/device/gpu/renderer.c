@@ -8,7 +8,6 @@
 #include "device/gpu/flight.h"
 #include "device/gpu/program.h"
 #include "device/gpu/wave_queue.h"
-#include "device/pipeline.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
 #include "tables/room.h"
@@ -19,10 +18,8 @@ enum { WORKERS_PER_UNIT = 8, CPU_QUEUE_BYTES = 512 << 10 };
 typedef struct Renderer {
     HdGpu gpu;
     HdDevice device;
-    HdPipeline pipeline;
+    HdRenderOptions options;
     bool has_groups; /* of threads that work together, as GPUs have them */
-    int grid;        /* groups, as asked for; 0: what suits the device */
-    int launch_work; /* of a launch; 0: by measurement */
     int depth;       /* of the scene */
     HdGpuProgram program;
     HdGpuMemory scene[HD_SCENE_TABLE_COUNT];
@@ -39,12 +36,6 @@ static HdStatus enter(const Renderer *renderer, HdError *error) {
     return gpu->driver->enter != NULL ? gpu->driver->enter(gpu->handle, error) : HD_OK;
 }
 
-static void leave(const Renderer *renderer) {
-    const HdGpu *gpu = &renderer->gpu;
-    if (gpu->driver->leave != NULL)
-        gpu->driver->leave(gpu->handle);
-}
-
 /* ---- open and close ---- */
 
 /* As many lanes as a register has, within what the kernels are written for. */
@@ -54,9 +45,10 @@ static int natural_lanes(int native_width) {
     return native_width >= 8 ? 8 : 4;
 }
 
-static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
+static void choose_shape(Renderer *renderer) {
     const HdGpu *gpu = &renderer->gpu;
-    HdKernelShape *shape = &renderer->program.shape;
+    const HdRenderOptions *options = &renderer->options;
+    HdKernelShape *shape = &renderer->program.cache.shape;
     bool has_groups = renderer->has_groups;
     int lanes = has_groups ? 1 : natural_lanes(gpu->facts.native_lanes[options->precision]);
     int group_size = options->block > 0 ? options->block : gpu->driver->group_size;
@@ -75,32 +67,32 @@ static void choose_shape(Renderer *renderer, const HdRenderOptions *options) {
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 
-static void choose_launches(Renderer *renderer, const HdRenderOptions *options) {
-    size_t budget =
-        renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
-    renderer->pipeline = options->pipeline;
-    renderer->grid = options->grid;
-    renderer->launch_work = options->test.launch_work;
-    renderer->queue.bytes = options->test.queue_bytes > 0 ? options->test.queue_bytes : budget;
+/* For each worker. */
+static size_t queue_bytes(const Renderer *renderer) {
+    if (renderer->options.test.queue_bytes > 0)
+        return renderer->options.test.queue_bytes;
+    return renderer->has_groups ? hd_wave_budget(renderer->gpu.facts.memory) : CPU_QUEUE_BYTES;
 }
 
-HdStatus hd_gpu_open(const HdGpuDriver *driver, const HdDevice *device,
-                     const HdRenderOptions *options, void **state, HdError *error) {
-    Renderer *renderer = calloc(1, sizeof *renderer);
+static HdStatus gpu_open(const HdDevice *device, const HdRenderOptions *options, void **state,
+                         HdError *error) {
+    const HdGpuDriver *driver = device->backend->driver;
+    Renderer *renderer = calloc(1, sizeof *renderer + driver->bytes);
     if (!renderer)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
     HdGpu *gpu = &renderer->gpu;
     renderer->device = *device;
-    *gpu = (HdGpu){.driver = driver, .name = renderer->device.name};
-    HdStatus status = driver->open(&gpu->handle, device, &gpu->facts, error);
+    renderer->options = *options;
+    *gpu = (HdGpu){.driver = driver, .handle = renderer + 1, .name = renderer->device.name};
+    HdStatus status = driver->open(gpu->handle, &renderer->device, &gpu->facts, error);
     if (status != HD_OK) {
         free(renderer);
         return status;
     }
     hd_kernel_cache_begin(&renderer->program.cache, device);
     renderer->has_groups = !device->is_cpu || options->test.groups;
-    choose_shape(renderer, options);
-    choose_launches(renderer, options);
+    choose_shape(renderer);
+    renderer->queue.bytes = queue_bytes(renderer);
     *state = renderer;
     return HD_OK;
 }
@@ -118,13 +110,11 @@ static void release_all(Renderer *renderer) {
     gpu->driver->unload(gpu->handle);
 }
 
-void hd_gpu_close(void *state) {
+static void gpu_close(void *state) {
     Renderer *renderer = state;
     HdError ignored;
-    if (enter(renderer, &ignored) == HD_OK) {
+    if (enter(renderer, &ignored) == HD_OK)
         release_all(renderer);
-        leave(renderer);
-    }
     renderer->gpu.driver->close(renderer->gpu.handle);
     free(renderer);
 }
@@ -161,20 +151,16 @@ static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError 
     return status == HD_OK ? finished : status;
 }
 
-HdStatus hd_gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
+static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
-    const double longest =
-        renderer->device.has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    const HdDevice *device = &renderer->device;
+    const double longest = device->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    const int work = renderer->options.test.launch_work;
     renderer->depth = tables->depth;
-    renderer->flights.size = renderer->launch_work > 0
-                                 ? hd_launch_size_fixed(renderer->launch_work)
-                                 : hd_launch_size_start(renderer->device.compute_units, longest);
+    renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)
+                                      : hd_launch_size_start(device->compute_units, longest);
     HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = upload(renderer, tables, error);
-    leave(renderer);
-    return status;
+    return status == HD_OK ? upload(renderer, tables, error) : status;
 }
 
 /* ---- arguments of kernels ---- */
@@ -237,8 +223,8 @@ static HdGpuLaunch tracing_of(const Renderer *renderer) {
 /* As many groups as the items need, but no more than the grid may have. */
 static int group_count(const Renderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
-    bool is_limited = renderer->has_groups && renderer->grid > 0;
-    return is_limited && groups > renderer->grid ? renderer->grid : groups;
+    bool is_limited = renderer->has_groups && renderer->options.grid > 0;
+    return is_limited && groups > renderer->options.grid ? renderer->options.grid : groups;
 }
 
 static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch, HdGpuMark *mark,
@@ -270,7 +256,7 @@ static int sample_parts(int samples, int group_size) {
 
 /* CPUs drive no display: there a frame is one launch. */
 static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
-    int left = items, samples = flight->samples, group_size = renderer->program.group_size;
+    int left = items, samples = flight->of->samples, group_size = renderer->program.group_size;
     int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
     int per_group = group_size / parts;
     Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
@@ -301,12 +287,12 @@ static int worker_count(const Renderer *renderer, int items) {
 static Queue queue_of(const Renderer *renderer) {
     const HdGpuWaveQueue *queue = &renderer->queue;
     return (Queue){
-        .ray_reals = &queue->reals,
-        .ray_ints = &queue->ints,
-        .sums = &queue->sums,
+        .ray_reals = &queue->buffers[0],
+        .ray_ints = &queue->buffers[1],
+        .sums = &queue->buffers[2],
         .queue_stride = queue->plan.queue_stride,
         .sum_stride = queue->plan.sum_stride,
-        .compact = renderer->pipeline == HD_PIPELINE_WAVEFRONT,
+        .compact = renderer->options.pipeline == HD_PIPELINE_WAVEFRONT,
     };
 }
 
@@ -322,16 +308,8 @@ static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, int item
     return hd_gpu_flight_launch(flight, &renderer->gpu, &launch, 0.0, error);
 }
 
-typedef struct WaveLaunches {
-    Renderer *renderer;
-    HdGpuFlight *flight;
-    int groups; /* at most */
-} WaveLaunches;
-
-static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
-    const WaveLaunches *launches = context;
-    Renderer *renderer = launches->renderer;
-    HdGpuFlight *flight = launches->flight;
+static HdStatus trace_step(Renderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
+                           int most_groups, unsigned *taken, HdError *error) {
     int group_size = renderer->program.group_size;
     const Queue queue = queue_of(renderer);
     const TraceTake own = {
@@ -349,8 +327,8 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
-    if (step->is_first || launch.groups > launches->groups)
-        launch.groups = launches->groups;
+    if (step->is_first || launch.groups > most_groups)
+        launch.groups = most_groups;
     HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
     if (status == HD_OK)
         status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
@@ -359,40 +337,45 @@ static HdStatus trace_step(void *context, const HdWaveStep *step, unsigned *take
     return status;
 }
 
-static HdStatus store_batch(void *context, int first_item, int item_count, HdError *error) {
-    const WaveLaunches *launches = context;
-    const Renderer *renderer = launches->renderer;
+static HdStatus store_batch(const Renderer *renderer, const HdGpuFlight *flight,
+                            const HdWaveStep *step, HdError *error) {
     const StoreBatch own = {
         .header = &renderer->scene[HD_TABLE_header],
         .view = &renderer->frame[HD_TABLE_view],
-        .sums = &renderer->queue.sums,
+        .sums = queue_of(renderer).sums,
         .sum_stride = renderer->queue.plan.sum_stride,
-        .first_item = first_item,
-        .item_count = item_count,
-        .pixels = &launches->flight->pixels,
+        .first_item = step->first_item,
+        .item_count = step->item_count,
+        .pixels = &flight->pixels,
     };
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_STORE);
     add_store_batch(&launch, &own);
-    launch.groups = group_count(renderer, item_count, launch.group_size);
+    launch.groups = group_count(renderer, step->item_count, launch.group_size);
     return queue_launch(renderer, &launch, NULL, error);
 }
 
 /* The wavefront of devices with groups of threads. */
-static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int groups,
+static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int most_groups,
                              HdError *error) {
-    WaveLaunches launches = {renderer, flight, groups};
-    HdWaveDevice device = {.context = &launches,
-                           .trace = trace_step,
-                           .store = store_batch,
-                           .size = &renderer->flights.size};
-    HdWaveFrame frame = {
+    HdWaveRun run = {
+        .plan = &renderer->queue.plan,
         .items = items,
-        .samples_per_item = flight->samples,
+        .samples_per_item = flight->of->samples,
         .depth = renderer->depth,
         .grain = renderer->program.group_size,
     };
+    const HdWaveStep *step = &run.step;
+    unsigned taken = 0;
     HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
-    return status == HD_OK ? hd_wave_run(&renderer->queue.plan, &frame, &device, error) : status;
+    while (status == HD_OK) {
+        status = hd_wave_next(&run, taken, &renderer->flights.size, error);
+        if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
+            return status;
+        status = step->action == HD_WAVE_STORES
+                     ? store_batch(renderer, flight, step, error)
+                     : trace_step(renderer, flight, step, most_groups, &taken, error);
+    }
+    return status;
 }
 
 static HdStatus launch_sum(Renderer *renderer, HdGpuFlight *flight, int count_slots,
@@ -411,7 +394,7 @@ static HdStatus trace(Renderer *renderer, HdGpuFlight *flight, int items, int co
                       HdError *error) {
     HdStatus status;
     hd_launch_size_begin_frame(&renderer->flights.size);
-    if (!renderer->program.shape.wavefront)
+    if (!renderer->program.cache.shape.wavefront)
         status = launch_mega(renderer, flight, items, error);
     else if (renderer->has_groups)
         status = launch_waves(renderer, flight, items, count_slots, error);
@@ -440,7 +423,7 @@ static HdStatus write_thresholds(Renderer *renderer, HdCurve curve, HdError *err
 
 static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, HdError *error) {
     const Encode own = {.pixels = &flight->pixels,
-                        .count = flight->width * flight->height,
+                        .count = flight->of->width * flight->of->height,
                         .thresholds = &renderer->thresholds,
                         .image = &flight->image};
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_ENCODE);
@@ -455,7 +438,7 @@ static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, H
 /* ---- frames ---- */
 
 static HdStatus reserve_queue(Renderer *renderer, int items, int samples, HdError *error) {
-    const HdKernelShape *shape = &renderer->program.shape;
+    const HdKernelShape *shape = &renderer->program.cache.shape;
     int per_item = shape->pixels_per_item * samples;
     bool has_groups = renderer->has_groups;
     HdWaveNeeds needs = {
@@ -489,13 +472,15 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
 static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
                              HdCurve curve, HdError *error) {
     const HdGpuProgram *program = &renderer->program;
-    int items = hd_kernel_item_count(tables->width, tables->height, program->shape.pixels_per_item);
+    int items =
+        hd_kernel_item_count(tables->width, tables->height, program->cache.shape.pixels_per_item);
     int count_slots = items;
     HdStatus status = HD_OK;
-    if (program->shape.wavefront)
+    if (program->cache.shape.wavefront)
         status = reserve_queue(renderer, items, tables->samples, error);
-    if (program->shape.wavefront && renderer->has_groups)
-        count_slots = hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->grid);
+    if (program->cache.shape.wavefront && renderer->has_groups)
+        count_slots =
+            hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
     if (status == HD_OK)
         status = write_frame(renderer, flight, tables, error);
     if (status == HD_OK)
@@ -510,8 +495,8 @@ static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFr
 }
 
 /* CPUs have no bus to cross, and the host's conversion is as fast. */
-HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
-                       HdError *error) {
+static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
+                           HdError *error) {
     Renderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
     HdGpuFlight *flight;
@@ -526,60 +511,60 @@ HdStatus hd_gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWi
         status = hd_gpu_flight_send(&renderer->flights, flight, gpu, error);
     if (status != HD_OK) /* the next frame takes the flight's memory */
         gpu->driver->drain(gpu->handle);
-    leave(renderer);
     return status;
 }
 
-HdStatus hd_gpu_collect(void *state, HdFrame *frame, HdError *error) {
+/* Flights end in the order of their frames. */
+static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
+                            HdError *error) {
     Renderer *renderer = state;
+    (void)tables;
     HdStatus status = enter(renderer, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error);
-    leave(renderer);
-    return status;
+    return status == HD_OK ? hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error)
+                           : status;
 }
 
 /* What the launches on a CPU take does no harm. */
-double hd_gpu_longest_launch(const void *state) {
+static double gpu_longest_launch(const void *state) {
     const Renderer *renderer = state;
     return renderer->has_groups ? renderer->flights.longest_launch : -1.0;
 }
 
-void hd_gpu_drop(void *state) {
+static void gpu_drop(void *state) {
     Renderer *renderer = state;
     HdError ignored;
     if (enter(renderer, &ignored) != HD_OK)
         return;
     renderer->gpu.driver->drain(renderer->gpu.handle);
     renderer->flights.count = 0;
-    leave(renderer);
 }
 
 /* ---- what was chosen ---- */
 
-HdKernelCache *hd_gpu_kernels(void *state) {
+static HdKernelCache *gpu_kernels(void *state) {
     Renderer *renderer = state;
     return &renderer->program.cache;
 }
 
-bool hd_gpu_be_cautious(void *state) {
-    Renderer *renderer = state;
-    return hd_kernel_shape_be_cautious(&renderer->program.shape);
-}
-
-int hd_gpu_lanes(const void *state) {
-    const Renderer *renderer = state;
-    return renderer->program.shape.lanes;
-}
-
-void hd_gpu_describe(const void *state, char *text, int capacity) {
+static void gpu_describe(const void *state, char *text, int capacity) {
     const Renderer *renderer = state;
     const HdGpu *gpu = &renderer->gpu;
     const HdGpuProgram *program = &renderer->program;
-    int length = gpu->driver->describe(gpu->handle, &program->shape, program->group_size,
-                                       hd_pipeline_name(renderer->pipeline), program->cache.maker,
-                                       text, capacity);
+    int length = gpu->driver->describe(gpu->handle, &program->cache.shape, program->group_size,
+                                       hd_pipeline_names[renderer->options.pipeline],
+                                       program->cache.maker, text, capacity);
     if (renderer->queue.is_cut && length > 0 && length < capacity)
         hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
 }
+
+const HdRendererFunctions hd_gpu_functions = {
+    .open = gpu_open,
+    .upload = gpu_upload,
+    .submit = gpu_submit,
+    .collect = gpu_collect,
+    .longest_launch = gpu_longest_launch,
+    .drop = gpu_drop,
+    .kernels = gpu_kernels,
+    .describe = gpu_describe,
+    .close = gpu_close,
+};

@@ -4,35 +4,31 @@
 #include <string.h>
 
 static void release_rays(HdGpuWaveQueue *queue, const HdGpu *gpu) {
-    hd_gpu_release(gpu, &queue->reals);
-    hd_gpu_release(gpu, &queue->ints);
-    hd_gpu_release(gpu, &queue->sums);
-}
-
-static HdStatus take(HdGpuMemory *memory, const HdGpu *gpu, size_t bytes, HdGpuRefusal *refusal,
-                     HdError *error) {
-    return hd_gpu_try(gpu, memory, HD_GPU_DEVICE_AT_ONCE, bytes, refusal, error);
+    for (int i = 0; i < HD_WAVE_BUFFERS; i++)
+        hd_gpu_release(gpu, &queue->buffers[i]);
 }
 
 HdStatus hd_gpu_wave_queue_reserve(HdGpuWaveQueue *queue, const HdGpu *gpu, HdWaveNeeds *needs,
                                    int workers, HdError *error) {
-    size_t all = (size_t)workers;
     for (;;) {
         HdGpuRefusal refusal = {0};
-        HdWavePlan plan = queue->plan = hd_wave_plan(needs);
-        size_t bytes = (plan.real_bytes + plan.int_bytes + plan.sum_bytes) * all;
-        HdStatus status = take(&queue->reals, gpu, plan.real_bytes * all, &refusal, error);
-        if (status == HD_OK)
-            status = take(&queue->ints, gpu, plan.int_bytes * all, &refusal, error);
-        if (status == HD_OK)
-            status = take(&queue->sums, gpu, plan.sum_bytes * all, &refusal, error);
+        HdStatus status = HD_OK;
+        size_t all = 0;
+        queue->plan = hd_wave_plan(needs);
+        for (int i = 0; i < HD_WAVE_BUFFERS; i++) {
+            size_t bytes = queue->plan.bytes[i] * (size_t)workers;
+            all += bytes;
+            if (status == HD_OK)
+                status = hd_gpu_try(gpu, &queue->buffers[i], HD_GPU_DEVICE_AT_ONCE, bytes, &refusal,
+                                    error);
+        }
         if (status == HD_OK)
             return HD_OK;
         release_rays(queue, gpu);
         if (!refusal.lacks_memory)
             return status;
         if (!hd_wave_halve(needs))
-            return hd_gpu_refuse(gpu, HD_GPU_DEVICE, bytes, "rays of the queue", &refusal, error);
+            return hd_gpu_refuse(gpu, HD_GPU_DEVICE, all, "rays of the queue", &refusal, error);
         queue->bytes = needs->bytes;
         queue->is_cut = true;
     }

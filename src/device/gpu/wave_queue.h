@@ -7,7 +7,7 @@
 #include "device/wave_plan.h"
 
 typedef struct HdGpuWaveQueue {
-    HdGpuMemory reals, ints, sums;
+    HdGpuMemory buffers[HD_WAVE_BUFFERS];
     HdGpuMemory taken; /* the counter of taken places */
     HdGpuMemory told;  /* of the host: what it reads of that */
     HdWavePlan plan;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/text.h"
 #include "device/gpu/renderer.h"
 #include "device/opencl/devices.h"
 
@@ -33,7 +34,6 @@ static void close_device(void *state) {
         clReleaseCommandQueue(device->queue);
     if (device->context)
         clReleaseContext(device->context);
-    free(device);
 }
 
 static HdStatus create_queues(Device *device, HdError *error) {
@@ -50,10 +50,8 @@ static HdStatus create_queues(Device *device, HdError *error) {
     return device->copies ? HD_OK : hd_opencl_fail(error, "clCreateCommandQueue", code);
 }
 
-static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
-    Device *device = calloc(1, sizeof *device);
-    if (!device)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a renderer");
+static HdStatus open_device(void *state, const HdDevice *is, HdGpuFacts *facts, HdError *error) {
+    Device *device = state;
     device->is = *is;
     HdStatus status = hd_opencl_find(&device->id, is->index, facts, error);
     device->at_once = facts->at_once;
@@ -61,7 +59,6 @@ static HdStatus open_device(void **state, const HdDevice *is, HdGpuFacts *facts,
         status = create_queues(device, error);
     if (status != HD_OK)
         close_device(device);
-    *state = device;
     return status;
 }
 
@@ -149,18 +146,14 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
     const Device *device = state;
     const char *cautious = device->is.nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
-    char defines[HD_KERNEL_DEFINE_COUNT][HD_KERNEL_DEFINE_LENGTH];
+    const char *math = shape->math == HD_MATH_FAST ? "-cl-fast-relaxed-math"
+                                                   : "-cl-fp32-correctly-rounded-divide-sqrt";
+    char defines[HD_KERNEL_DEFINES_SIZE], limit[40] = "";
     hd_kernel_defines(shape, defines);
-    int length = snprintf(text, capacity, "-cl-std=CL1.2 %s",
-                          shape->math == HD_MATH_FAST ? "-cl-fast-relaxed-math"
-                                                      : "-cl-fp32-correctly-rounded-divide-sqrt");
-    for (int i = 0; i < HD_KERNEL_DEFINE_COUNT; i++)
-        length += snprintf(text + length, capacity - (size_t)length, " %s", defines[i]);
     if (shape->register_limit > 0)
-        length += snprintf(text + length, capacity - (size_t)length, " -cl-nv-maxrregcount=%d",
-                           shape->register_limit);
-    if (shape->is_cautious)
-        snprintf(text + length, capacity - (size_t)length, "%s", cautious);
+        snprintf(limit, sizeof limit, " -cl-nv-maxrregcount=%d", shape->register_limit);
+    snprintf(text, capacity, "-cl-std=CL1.2 %s%s%s%s", math, defines, limit,
+             shape->is_cautious ? cautious : "");
 }
 
 /* Tells what the device's name and driver do not, such as which LLVM PoCL has. */
@@ -352,15 +345,16 @@ static int describe(const void *state, const HdKernelShape *shape, int group_siz
     return snprintf(
         text, (size_t)capacity,
         "%d lane%s of %s, work groups of %d, %d pixel%s for each work item, %d compute units, %s",
-        shape->lanes, shape->lanes == 1 ? "" : "s",
+        shape->lanes, hd_plural(shape->lanes),
         shape->precision == HD_PRECISION_DOUBLE ? "double" : "float", group_size,
-        shape->pixels_per_item, shape->pixels_per_item == 1 ? "" : "s", device->is.compute_units,
+        shape->pixels_per_item, hd_plural(shape->pixels_per_item), device->is.compute_units,
         pipeline);
 }
 
 static const HdGpuDriver driver = {
     .groups = "work groups",
     .group_size = GPU_GROUP_SIZE,
+    .bytes = sizeof(Device),
     .counts_host_memory = true,
     .source = hd_opencl_source,
     .source_size = &hd_opencl_source_size,
@@ -388,10 +382,7 @@ static const HdGpuDriver driver = {
     .describe = describe,
 };
 
-static HdStatus opencl_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
-                            HdError *error) {
-    return hd_gpu_open(&driver, device, options, renderer, error);
-}
-
-const HdBackend hd_backend_opencl = {
-    .name = "opencl", .enumerate = hd_opencl_enumerate, .open = opencl_open, HD_GPU_FUNCTIONS};
+const HdBackend hd_backend_opencl = {.name = "opencl",
+                                     .functions = &hd_gpu_functions,
+                                     .driver = &driver,
+                                     .enumerate = hd_opencl_enumerate};

@@ -14,21 +14,19 @@ typedef struct Entry {
 } Entry;
 
 /* A query that fails is answered with "no": an OpenCL 1.0 device does not know every question. */
-static cl_ulong query(cl_device_id device, cl_device_info what, size_t size) {
-    cl_ulong wide = 0;
-    cl_uint narrow = 0;
-    void *value = size == sizeof wide ? (void *)&wide : (void *)&narrow;
-    if (clGetDeviceInfo(device, what, size, value, NULL) != CL_SUCCESS)
+static cl_ulong query(cl_device_id device, cl_device_info what) {
+    union {
+        cl_ulong wide;
+        cl_uint narrow;
+    } value;
+    size_t size = 0;
+    if (clGetDeviceInfo(device, what, sizeof value, &value, &size) != CL_SUCCESS)
         return 0;
-    return size == sizeof wide ? wide : narrow;
+    return size == sizeof value.wide ? value.wide : value.narrow;
 }
 
-static cl_ulong query_ulong(cl_device_id device, cl_device_info what) {
-    return query(device, what, sizeof(cl_ulong));
-}
-
-static cl_uint query_uint(cl_device_id device, cl_device_info what) {
-    return (cl_uint)query(device, what, sizeof(cl_uint));
+static int query_int(cl_device_id device, cl_device_info what) {
+    return (int)query(device, what);
 }
 
 static void copy_trimmed(char *text, size_t capacity, const char *from) {
@@ -40,27 +38,26 @@ static void copy_trimmed(char *text, size_t capacity, const char *from) {
     snprintf(text, capacity, "%.*s", (int)length, from);
 }
 
+/* Of a device or, where the entry has none, of a platform. */
+static cl_int query_bytes(Entry of, cl_uint what, size_t size, void *value, size_t *needed) {
+    return of.device ? clGetDeviceInfo(of.device, what, size, value, needed)
+                     : clGetPlatformInfo(of.platform, what, size, value, needed);
+}
+
 /* Strings are asked for whole: a buffer that is too small is an error in OpenCL. */
-static void query_text(cl_device_id device, cl_device_info what, char *text, size_t capacity) {
+static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
-    if (clGetDeviceInfo(device, what, 0, NULL, &size) != CL_SUCCESS || size == 0)
+    if (query_bytes(of, what, 0, NULL, &size) != CL_SUCCESS || size == 0)
         return;
     char *whole = calloc(size + 1, 1);
-    if (whole && clGetDeviceInfo(device, what, size, whole, NULL) == CL_SUCCESS)
+    if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS)
         copy_trimmed(text, capacity, whole);
     free(whole);
 }
 
 static void query_platform_name(cl_platform_id platform, char *text, size_t capacity) {
-    text[0] = '\0';
-    size_t size = 0;
-    if (clGetPlatformInfo(platform, CL_PLATFORM_NAME, 0, NULL, &size) != CL_SUCCESS || size == 0)
-        return;
-    char *whole = calloc(size + 1, 1);
-    if (whole && clGetPlatformInfo(platform, CL_PLATFORM_NAME, size, whole, NULL) == CL_SUCCESS)
-        copy_trimmed(text, capacity, whole);
-    free(whole);
+    query_text((Entry){.platform = platform}, CL_PLATFORM_NAME, text, capacity);
 }
 
 static void add_reason(char *reasons, size_t capacity, bool ok, const char *reason) {
@@ -75,26 +72,26 @@ static void find_obstacles(cl_device_id device, char *reasons, size_t capacity) 
     reasons[0] = '\0';
     char version[64];
     int major = 0, minor = 0;
-    query_text(device, CL_DEVICE_VERSION, version, sizeof version);
+    query_text((Entry){.device = device}, CL_DEVICE_VERSION, version, sizeof version);
     bool is_known = sscanf(version, "OpenCL %d.%d", &major, &minor) == 2;
     bool is_12 = is_known && (major > 1 || (major == 1 && minor >= 2));
-    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_AVAILABLE), "it is not available");
-    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_COMPILER_AVAILABLE),
+    add_reason(reasons, capacity, query(device, CL_DEVICE_AVAILABLE), "it is not available");
+    add_reason(reasons, capacity, query(device, CL_DEVICE_COMPILER_AVAILABLE),
                "its driver has no compiler");
     add_reason(reasons, capacity, is_12, "it is older than OpenCL 1.2");
-    add_reason(reasons, capacity, query_uint(device, CL_DEVICE_ENDIAN_LITTLE),
+    add_reason(reasons, capacity, query(device, CL_DEVICE_ENDIAN_LITTLE),
                "it is not little-endian");
 }
 
 static bool is_full_profile(cl_device_id device) {
     char profile[64];
-    query_text(device, CL_DEVICE_PROFILE, profile, sizeof profile);
+    query_text((Entry){.device = device}, CL_DEVICE_PROFILE, profile, sizeof profile);
     return strcmp(profile, "FULL_PROFILE") == 0;
 }
 
 static void find_strict_obstacles(cl_device_id device, char *reasons, size_t capacity) {
     find_obstacles(device, reasons, capacity);
-    cl_ulong single = query_ulong(device, CL_DEVICE_SINGLE_FP_CONFIG);
+    cl_ulong single = query(device, CL_DEVICE_SINGLE_FP_CONFIG);
     add_reason(reasons, capacity, is_full_profile(device), "it has the embedded profile only");
     add_reason(reasons, capacity, single & CL_FP_FMA, "no fused multiply-add");
     add_reason(reasons, capacity, single & CL_FP_DENORM, "no denormal numbers");
@@ -104,7 +101,7 @@ static void find_strict_obstacles(cl_device_id device, char *reasons, size_t cap
 
 static bool has_extension(cl_device_id device, const char *name) {
     char extensions[8192];
-    query_text(device, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
+    query_text((Entry){.device = device}, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
     return strstr(extensions, name) != NULL;
 }
 
@@ -113,7 +110,7 @@ static int find_nvidia_arch(cl_device_id device) {
     enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001 };
     if (!has_extension(device, "cl_nv_compiler_options"))
         return 0;
-    return (int)(10 * query_uint(device, CAPABILITY_MAJOR) + query_uint(device, CAPABILITY_MINOR));
+    return 10 * query_int(device, CAPABILITY_MAJOR) + query_int(device, CAPABILITY_MINOR);
 }
 
 /* Only NVIDIA's driver tells. */
@@ -122,7 +119,7 @@ static bool has_timeout(cl_device_id id) {
     cl_bool told = CL_FALSE;
     if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
         return told != CL_FALSE;
-    return (query_ulong(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
+    return (query(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
 }
 
 static void describe_device(HdDevice *device, Entry entry, int index) {
@@ -130,15 +127,15 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->index = index;
     char platform[80], version[80], driver[48];
     query_platform_name(entry.platform, platform, sizeof platform);
-    query_text(entry.device, CL_DEVICE_VERSION, version, sizeof version);
-    query_text(entry.device, CL_DRIVER_VERSION, driver, sizeof driver);
-    query_text(entry.device, CL_DEVICE_NAME, device->name, sizeof device->name);
+    query_text(entry, CL_DEVICE_VERSION, version, sizeof version);
+    query_text(entry, CL_DRIVER_VERSION, driver, sizeof driver);
+    query_text(entry, CL_DEVICE_NAME, device->name, sizeof device->name);
     snprintf(device->driver, sizeof device->driver, "%s, %s, driver %s", platform, version, driver);
-    device->is_cpu = query_ulong(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
-    device->compute_units = (int)query_uint(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
-    device->clock_mhz = (int)query_uint(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    device->is_cpu = query(entry.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU;
+    device->compute_units = query_int(entry.device, CL_DEVICE_MAX_COMPUTE_UNITS);
+    device->clock_mhz = query_int(entry.device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     device->nvidia_arch = find_nvidia_arch(entry.device);
-    device->has_double = query_ulong(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    device->has_double = query(entry.device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     device->has_timeout = has_timeout(entry.device);
     find_obstacles(entry.device, device->unusable, sizeof device->unusable);
@@ -209,10 +206,10 @@ HdStatus hd_opencl_find(cl_device_id *device, int index, HdGpuFacts *facts, HdEr
                        count - 1);
     cl_device_id id = *device = entries[index].device;
     *facts = (HdGpuFacts){
-        .memory = query_ulong(id, CL_DEVICE_GLOBAL_MEM_SIZE),
-        .at_once = query_ulong(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
-        .native_lanes = {(int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
-                         (int)query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
+        .memory = query(id, CL_DEVICE_GLOBAL_MEM_SIZE),
+        .at_once = query(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+        .native_lanes = {query_int(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT),
+                         query_int(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE)},
     };
     return HD_OK;
 }

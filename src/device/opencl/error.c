@@ -6,81 +6,78 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/loss.h"
+#include "device/backend.h"
 
-#define CODES(X)                                                                                   \
-    X(CL_DEVICE_NOT_FOUND)                                                                         \
-    X(CL_DEVICE_NOT_AVAILABLE)                                                                     \
-    X(CL_COMPILER_NOT_AVAILABLE)                                                                   \
-    X(CL_MEM_OBJECT_ALLOCATION_FAILURE)                                                            \
-    X(CL_OUT_OF_RESOURCES)                                                                         \
-    X(CL_OUT_OF_HOST_MEMORY)                                                                       \
-    X(CL_PROFILING_INFO_NOT_AVAILABLE)                                                             \
-    X(CL_MEM_COPY_OVERLAP)                                                                         \
-    X(CL_IMAGE_FORMAT_MISMATCH)                                                                    \
-    X(CL_IMAGE_FORMAT_NOT_SUPPORTED)                                                               \
-    X(CL_BUILD_PROGRAM_FAILURE)                                                                    \
-    X(CL_MAP_FAILURE)                                                                              \
-    X(CL_MISALIGNED_SUB_BUFFER_OFFSET)                                                             \
-    X(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST)                                                \
-    X(CL_COMPILE_PROGRAM_FAILURE)                                                                  \
-    X(CL_LINKER_NOT_AVAILABLE)                                                                     \
-    X(CL_LINK_PROGRAM_FAILURE)                                                                     \
-    X(CL_DEVICE_PARTITION_FAILED)                                                                  \
-    X(CL_KERNEL_ARG_INFO_NOT_AVAILABLE)                                                            \
-    X(CL_INVALID_VALUE)                                                                            \
-    X(CL_INVALID_DEVICE_TYPE)                                                                      \
-    X(CL_INVALID_PLATFORM)                                                                         \
-    X(CL_INVALID_DEVICE)                                                                           \
-    X(CL_INVALID_CONTEXT)                                                                          \
-    X(CL_INVALID_QUEUE_PROPERTIES)                                                                 \
-    X(CL_INVALID_COMMAND_QUEUE)                                                                    \
-    X(CL_INVALID_HOST_PTR)                                                                         \
-    X(CL_INVALID_MEM_OBJECT)                                                                       \
-    X(CL_INVALID_IMAGE_FORMAT_DESCRIPTOR)                                                          \
-    X(CL_INVALID_IMAGE_SIZE)                                                                       \
-    X(CL_INVALID_SAMPLER)                                                                          \
-    X(CL_INVALID_BINARY)                                                                           \
-    X(CL_INVALID_BUILD_OPTIONS)                                                                    \
-    X(CL_INVALID_PROGRAM)                                                                          \
-    X(CL_INVALID_PROGRAM_EXECUTABLE)                                                               \
-    X(CL_INVALID_KERNEL_NAME)                                                                      \
-    X(CL_INVALID_KERNEL_DEFINITION)                                                                \
-    X(CL_INVALID_KERNEL)                                                                           \
-    X(CL_INVALID_ARG_INDEX)                                                                        \
-    X(CL_INVALID_ARG_VALUE)                                                                        \
-    X(CL_INVALID_ARG_SIZE)                                                                         \
-    X(CL_INVALID_KERNEL_ARGS)                                                                      \
-    X(CL_INVALID_WORK_DIMENSION)                                                                   \
-    X(CL_INVALID_WORK_GROUP_SIZE)                                                                  \
-    X(CL_INVALID_WORK_ITEM_SIZE)                                                                   \
-    X(CL_INVALID_GLOBAL_OFFSET)                                                                    \
-    X(CL_INVALID_EVENT_WAIT_LIST)                                                                  \
-    X(CL_INVALID_EVENT)                                                                            \
-    X(CL_INVALID_OPERATION)                                                                        \
-    X(CL_INVALID_GL_OBJECT)                                                                        \
-    X(CL_INVALID_BUFFER_SIZE)                                                                      \
-    X(CL_INVALID_MIP_LEVEL)                                                                        \
-    X(CL_INVALID_GLOBAL_WORK_SIZE)                                                                 \
-    X(CL_INVALID_PROPERTY)                                                                         \
-    X(CL_INVALID_IMAGE_DESCRIPTOR)                                                                 \
-    X(CL_INVALID_COMPILER_OPTIONS)                                                                 \
-    X(CL_INVALID_LINKER_OPTIONS)                                                                   \
-    X(CL_INVALID_DEVICE_PARTITION_COUNT)
+#define NAME(code) [-(code)] = #code
+
+static const char *const names[] = {NAME(CL_DEVICE_NOT_FOUND),
+                                    NAME(CL_DEVICE_NOT_AVAILABLE),
+                                    NAME(CL_COMPILER_NOT_AVAILABLE),
+                                    NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE),
+                                    NAME(CL_OUT_OF_RESOURCES),
+                                    NAME(CL_OUT_OF_HOST_MEMORY),
+                                    NAME(CL_PROFILING_INFO_NOT_AVAILABLE),
+                                    NAME(CL_MEM_COPY_OVERLAP),
+                                    NAME(CL_IMAGE_FORMAT_MISMATCH),
+                                    NAME(CL_IMAGE_FORMAT_NOT_SUPPORTED),
+                                    NAME(CL_BUILD_PROGRAM_FAILURE),
+                                    NAME(CL_MAP_FAILURE),
+                                    NAME(CL_MISALIGNED_SUB_BUFFER_OFFSET),
+                                    NAME(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST),
+                                    NAME(CL_COMPILE_PROGRAM_FAILURE),
+                                    NAME(CL_LINKER_NOT_AVAILABLE),
+                                    NAME(CL_LINK_PROGRAM_FAILURE),
+                                    NAME(CL_DEVICE_PARTITION_FAILED),
+                                    NAME(CL_KERNEL_ARG_INFO_NOT_AVAILABLE),
+                                    NAME(CL_INVALID_VALUE),
+                                    NAME(CL_INVALID_DEVICE_TYPE),
+                                    NAME(CL_INVALID_PLATFORM),
+                                    NAME(CL_INVALID_DEVICE),
+                                    NAME(CL_INVALID_CONTEXT),
+                                    NAME(CL_INVALID_QUEUE_PROPERTIES),
+                                    NAME(CL_INVALID_COMMAND_QUEUE),
+                                    NAME(CL_INVALID_HOST_PTR),
+                                    NAME(CL_INVALID_MEM_OBJECT),
+                                    NAME(CL_INVALID_IMAGE_FORMAT_DESCRIPTOR),
+                                    NAME(CL_INVALID_IMAGE_SIZE),
+                                    NAME(CL_INVALID_SAMPLER),
+                                    NAME(CL_INVALID_BINARY),
+                                    NAME(CL_INVALID_BUILD_OPTIONS),
+                                    NAME(CL_INVALID_PROGRAM),
+                                    NAME(CL_INVALID_PROGRAM_EXECUTABLE),
+                                    NAME(CL_INVALID_KERNEL_NAME),
+                                    NAME(CL_INVALID_KERNEL_DEFINITION),
+                                    NAME(CL_INVALID_KERNEL),
+                                    NAME(CL_INVALID_ARG_INDEX),
+                                    NAME(CL_INVALID_ARG_VALUE),
+                                    NAME(CL_INVALID_ARG_SIZE),
+                                    NAME(CL_INVALID_KERNEL_ARGS),
+                                    NAME(CL_INVALID_WORK_DIMENSION),
+                                    NAME(CL_INVALID_WORK_GROUP_SIZE),
+                                    NAME(CL_INVALID_WORK_ITEM_SIZE),
+                                    NAME(CL_INVALID_GLOBAL_OFFSET),
+                                    NAME(CL_INVALID_EVENT_WAIT_LIST),
+                                    NAME(CL_INVALID_EVENT),
+                                    NAME(CL_INVALID_OPERATION),
+                                    NAME(CL_INVALID_GL_OBJECT),
+                                    NAME(CL_INVALID_BUFFER_SIZE),
+                                    NAME(CL_INVALID_MIP_LEVEL),
+                                    NAME(CL_INVALID_GLOBAL_WORK_SIZE),
+                                    NAME(CL_INVALID_PROPERTY),
+                                    NAME(CL_INVALID_IMAGE_DESCRIPTOR),
+                                    NAME(CL_INVALID_COMPILER_OPTIONS),
+                                    NAME(CL_INVALID_LINKER_OPTIONS),
+                                    NAME(CL_INVALID_DEVICE_PARTITION_COUNT)};
+
+#undef NAME
 
 const char *hd_opencl_error_name(cl_int code) {
+    enum { COUNT = sizeof names / sizeof *names };
     enum { PLATFORM_NOT_FOUND_KHR = -1001 }; /* the ICD loader's own, in cl_ext.h */
-    switch (code) {
-#define NAME(value)                                                                                \
-    case value:                                                                                    \
-        return #value;
-        CODES(NAME)
-#undef NAME
-    case PLATFORM_NOT_FOUND_KHR:
+    if (code == PLATFORM_NOT_FOUND_KHR)
         return "CL_PLATFORM_NOT_FOUND_KHR";
-    default:
-        return "an unknown error";
-    }
+    bool is_known = code < 0 && code > -COUNT && names[-code] != NULL;
+    return is_known ? names[-code] : "an unknown error";
 }
 
 /* Drivers report what became of a kernel to those who wait for it; NVIDIA's has no other words than

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
+#include "device/backend.h"
 #include "device/cuda/api.h"
-#include "device/loss.h"
 #include "device/opencl/error.h"
 
 static HdCuResult name_error(HdCuResult code, const char **text) {
@@ -24,7 +24,7 @@ static HdCuResult know_nothing(HdCuResult code, const char **text) {
     return 1;
 }
 
-static const HdCudaDriver driver = {.error_name = name_error, .error_string = name_error};
+static const HdCudaDriver driver = {.cuGetErrorName = name_error, .cuGetErrorString = name_error};
 
 static bool is_lost(const HdError *error) {
     return error->status == HD_UNAVAILABLE && hd_is_loss(error);
@@ -32,7 +32,7 @@ static bool is_lost(const HdError *error) {
 
 static void cuda_errors_have_their_names(void **state) {
     (void)state;
-    const HdCudaDriver silent = {.error_name = know_nothing, .error_string = know_nothing};
+    const HdCudaDriver silent = {.cuGetErrorName = know_nothing, .cuGetErrorString = know_nothing};
     HdError error;
     assert_int_equal(hd_cuda_fail(&driver, "cuMemAlloc", HD_CU_ERROR_OUT_OF_MEMORY, &error),
                      HD_FAILED);

@@ -109,10 +109,10 @@ static void damaged_kernels_are_compiled_anew(void **state) {
     HdKernelCache cache;
     unsigned char *binary;
     size_t size;
-    HdKernelShape shape = {.needs = {.plane_bound = 8, .depth_bound = 8}};
     assert_int_equal(upload(), HD_OK);
     hd_kernel_cache_begin(&cache, &device);
-    assert_true(hd_kernel_cache_find(&cache, &shape, "text", 5, "", "1", &binary, &size));
+    cache.shape.needs = (HdKernelNeeds){.plane_bound = 8, .depth_bound = 8};
+    assert_true(hd_kernel_cache_find(&cache, "text", 5, "", "1", &binary, &size));
     free(binary);
     /* An entry whose bytes are in order, but that tells of no test, or of nothing at all. */
     static const char *const entries[] = {"", "\n\n", "passed\nnobody\nfake", "fake"};
@@ -225,9 +225,9 @@ static void kernels_with_meshes_pass_one_more_frame(void **state) {
     unsigned char *binary;
     size_t size;
     char entry[300];
-    HdKernelShape shape = {.needs = {.plane_bound = 8, .depth_bound = 8}};
     hd_kernel_cache_begin(&cache, &device);
-    assert_false(hd_kernel_cache_find(&cache, &shape, "text", 5, "-DMESHES", "1", &binary, &size));
+    cache.shape.needs = (HdKernelNeeds){.plane_bound = 8, .depth_bound = 8};
+    assert_false(hd_kernel_cache_find(&cache, "text", 5, "-DMESHES", "1", &binary, &size));
     snprintf(entry, sizeof entry, "%s\nnobody\nfake", cache.stamp);
     assert_int_equal(hd_cache_put_text("fake", cache.key, entry, &error), HD_OK);
     assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);

@@ -8,7 +8,6 @@
 
 #include <cmocka.h>
 
-#include "device/pipeline.h"
 #include "device/renderer.h"
 
 static void auto_is_mega(void **state) {
@@ -18,7 +17,7 @@ static void auto_is_mega(void **state) {
     assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_MEGA);
     options.pipeline = HD_PIPELINE_WAVEFRONT;
     assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_WAVEFRONT);
-    assert_string_equal(hd_pipeline_name(HD_PIPELINE_WAVEFRONT_UNCOMPACTED),
+    assert_string_equal(hd_pipeline_names[HD_PIPELINE_WAVEFRONT_UNCOMPACTED],
                         "wavefront-uncompacted");
 }
 

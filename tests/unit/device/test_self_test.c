@@ -19,16 +19,16 @@ static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_fro
     HdDevice device = c_device();
     HdRenderOptions options = {.lanes = lanes, .threads = 1, .precision = precision};
     void *renderer;
-    assert_int_equal(hd_backend_c.open(&device, &options, &renderer, &error), HD_OK);
+    assert_int_equal(hd_backend_c.functions->open(&device, &options, &renderer, &error), HD_OK);
     HdSceneTables like = {.precision = precision,
-                          .lanes = hd_backend_c.lanes(renderer),
+                          .lanes = hd_backend_c.functions->lanes(renderer),
                           .node_stack = 1,
                           .refracts = refracts,
                           .lit_from_behind = lit_from_behind};
     bool is_wrong;
     HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &is_wrong, &error);
     assert_int_equal(is_wrong, status == HD_UNAVAILABLE);
-    hd_backend_c.close(renderer);
+    hd_backend_c.functions->close(renderer);
     if (status != HD_OK)
         print_error("precision %d, refraction %d, light from behind %d, %d lanes: %s\n",
                     (int)precision, refracts, lit_from_behind, lanes, error.message);

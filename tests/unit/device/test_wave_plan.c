@@ -19,7 +19,7 @@
    of rays that do not live are filled too. */
 typedef struct Account {
     const HdWavePlan *plan;
-    const HdWaveFrame *frame;
+    const HdWaveRun *frame;
     int children; /* negative: see rays_going_on */
     char *waits;  /* 1 for each place of the queue whose ray is still to be traced */
     int64_t traced, steps;
@@ -47,9 +47,7 @@ static int rays_going_on(const Account *account, const HdWaveStep *step) {
     return account->children * groups * grain;
 }
 
-static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, HdError *error) {
-    (void)error;
-    Account *account = context;
+static void trace(Account *account, const HdWaveStep *step) {
     assert_true(step->count > 0);
     assert_int_equal(step->taken_before, account->taken);
     assert_int_equal(step->is_first, account->steps == 0);
@@ -70,27 +68,22 @@ static HdStatus trace(void *context, const HdWaveStep *step, unsigned *taken, Hd
     account->traced += step->count;
     account->steps++;
     account->taken += (unsigned)going_on;
-    *taken = account->taken;
-    return HD_OK;
 }
 
-static HdStatus store(void *context, int first_item, int item_count, HdError *error) {
-    (void)error;
-    Account *account = context;
-    assert_int_equal(first_item, account->next_item);
-    assert_int_equal(account->batch_samples, item_count * account->frame->samples_per_item);
+static void store(Account *account, const HdWaveStep *step) {
+    assert_int_equal(step->first_item, account->next_item);
+    assert_int_equal(account->batch_samples, step->item_count * account->frame->samples_per_item);
     for (int i = 0; i < account->plan->queue_stride; i++)
         assert_false(account->waits[i]);
     account->batch_samples = 0;
-    account->next_item += item_count;
-    return HD_OK;
+    account->next_item += step->item_count;
 }
 
 /* What one launch may have. */
 static int launch_rays = HD_MOST_LAUNCH_WORK;
 
 /* Runs a frame; returns the number of rays traced. */
-static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t *steps) {
+static int64_t run(size_t bytes, const HdWaveRun *frame, int children, int64_t *steps) {
     HdError error;
     HdWaveNeeds needs = {
         .bytes = bytes,
@@ -100,12 +93,16 @@ static int64_t run(size_t bytes, const HdWaveFrame *frame, int children, int64_t
         .samples_at_once = frame->samples_per_item,
     };
     HdWavePlan plan = hd_wave_plan(&needs);
-    assert_true(plan.real_bytes >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
+    assert_true(plan.bytes[0] >= sizeof(float) * WAVE_REALS * (size_t)plan.queue_stride);
     HdLaunchSize size = hd_launch_size_fixed(launch_rays);
     Account account = {.plan = &plan, .frame = frame, .children = children};
     account.waits = calloc((size_t)plan.queue_stride, 1);
-    HdWaveDevice device = {.context = &account, .trace = trace, .store = store, .size = &size};
-    assert_int_equal(hd_wave_run(&plan, frame, &device, &error), HD_OK);
+    HdWaveRun run = *frame;
+    run.plan = &plan;
+    while (hd_wave_next(&run, account.taken, &size, &error) == HD_OK &&
+           run.step.action != HD_WAVE_IS_DONE)
+        (run.step.action == HD_WAVE_STORES ? store : trace)(&account, &run.step);
+    assert_int_equal(run.step.action, HD_WAVE_IS_DONE);
     assert_int_equal(account.next_item, frame->items);
     free(account.waits);
     if (steps != NULL)
@@ -120,8 +117,7 @@ static void all_rays_are_traced_in_any_memory(void **state) {
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 6; depth++)
             for (int children = 0; children <= 2; children++) {
-                HdWaveFrame frame = {
-                    .items = 24, .samples_per_item = 4, .depth = depth, .grain = 4};
+                HdWaveRun frame = {.items = 24, .samples_per_item = 4, .depth = depth, .grain = 4};
                 int64_t expected = 0, of_level = 96;
                 for (int level = 0; level <= depth; level++, of_level *= children)
                     expected += of_level;
@@ -134,7 +130,7 @@ static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
     static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 5; depth++) {
-            HdWaveFrame frame = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
+            HdWaveRun frame = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
             run(budgets[b], &frame, 2, NULL);
             run(budgets[b], &frame, 1, NULL);
         }
@@ -152,7 +148,7 @@ static void launches_of_any_size_trace_all_rays(void **state) {
 
 static void launches_have_at_most_their_size(void **state) {
     (void)state;
-    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     int64_t steps;
     launch_rays = 64;
     run(1 << 24, &frame, 1, &steps);
@@ -162,7 +158,7 @@ static void launches_have_at_most_their_size(void **state) {
 
 static void enough_memory_takes_a_step_a_level(void **state) {
     (void)state;
-    HdWaveFrame frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     int64_t steps, few, many;
     run(1 << 24, &frame, 1, &steps);
     assert_int_equal(steps, 6);
@@ -174,7 +170,7 @@ static void enough_memory_takes_a_step_a_level(void **state) {
 /* A level's rest would make all levels below it again. */
 static void levels_of_deep_trees_are_taken_whole(void **state) {
     (void)state;
-    HdWaveFrame frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
+    HdWaveRun frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
     int64_t steps;
     run(1 << 25, &frame, -1, &steps);
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
@@ -191,7 +187,7 @@ static void plans_keep_to_their_budget(void **state) {
                                  .samples = hd_wave_samples(1 << 22, 16),
                                  .samples_at_once = 16};
             HdWavePlan plan = hd_wave_plan(&needs);
-            size_t used = plan.real_bytes + plan.int_bytes + plan.sum_bytes;
+            size_t used = plan.bytes[0] + plan.bytes[1] + plan.bytes[2];
             assert_true(used < bytes + 10000);
             assert_true(used > bytes / 2);
             assert_int_equal(plan.sum_stride % 16, 0);
@@ -204,13 +200,13 @@ static void a_refused_queue_is_halved(void **state) {
     (void)state;
     HdWaveNeeds needs = {
         .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
-    size_t before = hd_wave_plan(&needs).real_bytes;
+    size_t before = hd_wave_plan(&needs).bytes[0];
     static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         assert_true(hd_wave_halve(&needs));
         assert_int_equal(needs.bytes, expected[i]);
-        assert_true(hd_wave_plan(&needs).real_bytes < before);
-        before = hd_wave_plan(&needs).real_bytes;
+        assert_true(hd_wave_plan(&needs).bytes[0] < before);
+        before = hd_wave_plan(&needs).bytes[0];
     }
     assert_false(hd_wave_halve(&needs));
     assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
@@ -242,11 +238,11 @@ static void a_signal_ends_the_frame(void **state) {
     (void)state;
     HdError error;
     HdWavePlan plan = {.queue_stride = 64, .sum_stride = 64};
-    HdWaveFrame frame = {.items = 1, .samples_per_item = 1, .grain = 32};
-    HdWaveDevice device = {.trace = trace, .store = store};
+    HdWaveRun frame = {.plan = &plan, .items = 1, .samples_per_item = 1, .grain = 32};
+    HdLaunchSize size = hd_launch_size_fixed(launch_rays);
     hd_interrupt_install();
     raise(SIGTERM);
-    assert_int_equal(hd_wave_run(&plan, &frame, &device, &error), HD_INTERRUPTED);
+    assert_int_equal(hd_wave_next(&frame, 0, &size, &error), HD_INTERRUPTED);
 }
 
 int main(void) {

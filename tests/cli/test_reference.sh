@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Random scenes, rendered by a tracer that was written from docs/model.md alone, have the same pixels.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+need_python
+run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 7 20
+cat "$logs/stdout"
+if ((code != 0)); then
+    fail "the tracer has other pixels"
+    cat "$logs/stderr" >&2
+fi
+finish

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Renders random scenes by hedron and by tracer.py, and compares them pixel by pixel.
+
+    compare_scenes.py HEDRON FIRST_SEED COUNT
+
+What belongs to a seed stays in the current folder: SEED.json, the files that it names, and the pictures
+SEED.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top. Ends
+with 1 where more than a few pixels of all scenes differ.
+"""
+import array
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import tracer
+from random_scenes import HEIGHT, WIDTH, Maker
+
+RELATIVE, ABSOLUTE = 1e-6, 1e-7
+SHARE_ALLOWED = 0.0005  # of all pixels: an edge may pass a sample so closely that rounding decides
+
+
+def values_of(path):
+    """The values of a PFM, from the bottom."""
+    data = path.read_bytes().split(b"\n", 3)[3]
+    values = array.array("f", data)
+    if sys.byteorder == "big":
+        values.byteswap()
+    return values
+
+
+def compared(first, second):
+    """The pixels that differ, as (y, x, values, values), and the largest difference of the others."""
+    a, b = values_of(first), values_of(second)
+    if len(a) != 3 * WIDTH * HEIGHT or len(b) != len(a):
+        raise ValueError(f"{first} and {second} have {len(a) // 3} and {len(b) // 3} pixels")
+    differing, largest = [], 0
+    for i in range(0, len(a), 3):
+        pixels = list(a[i:i + 3]), list(b[i:i + 3])
+        if all(abs(p - q) <= ABSOLUTE + RELATIVE * max(abs(p), abs(q)) for p, q in zip(*pixels)):
+            largest = max(largest, *(abs(p - q) for p, q in zip(*pixels)))
+        else:
+            differing.append((HEIGHT - 1 - i // 3 // WIDTH, i // 3 % WIDTH, *pixels))
+    return sorted(differing), largest
+
+
+def rendered(hedron, seed, folder):
+    """The two pictures of the scene of a seed."""
+    keys, frame = Maker(seed, folder).scene()
+    scene, theirs, own = (folder / f"{seed}{end}" for end in (".json", ".pfm", "-own.pfm"))
+    scene.write_text(json.dumps(keys, indent=1) + "\n")
+    subprocess.run([hedron, "render", "--quiet", "--backend", "c", "--precision", "double",
+                    "--frames", str(frame), "-o", theirs, scene], check=True, stdout=subprocess.DEVNULL)
+    tracer.write_pfm(own, tracer.Scene(scene, frame).picture())
+    return theirs, own
+
+
+def main():
+    """The command line."""
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    first, count = int(sys.argv[2]), int(sys.argv[3])
+    total, largest = 0, 0
+    for seed in range(first, first + count):
+        differing, most = compared(*rendered(sys.argv[1], seed, Path(".")))
+        total, largest = total + len(differing), max(largest, most)
+        if differing:
+            y, x, theirs, own = differing[0]
+            print(f"seed {seed}: {len(differing)} pixels differ, the first at {x}, {y}: {theirs}, not {own}")
+    pixels = count * WIDTH * HEIGHT
+    print(f"{total} of {pixels} pixels differ; the others by {largest:.3g} at most")
+    sys.exit(total > SHARE_ALLOWED * pixels)
+
+
+if __name__ == "__main__":
+    main()
