@@ -3,20 +3,27 @@
 #ifndef HD_BASE_GROWTH_H
 #define HD_BASE_GROWTH_H
 
+#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* The array, with room for another element after the `count` that it has; `room` is what it has
-   room for. NULL where there is no memory: then the array is as it was. */
-static inline void *hd_grown(void *array, size_t element, int count, int *room) {
-    if (count < *room)
-        return array;
-    if (count > 1 << 29)
-        return NULL;
-    int more = count < 32 ? 64 : 2 * count;
-    void *grown = realloc(array, (size_t)more * element);
-    if (grown != NULL)
+/* Puts a copy of `element`, of `size` bytes, behind the `count` elements of an array, which grows
+   where it must; `array` is the address of the pointer to it, and `room` what it has room for.
+   False where there is no memory: then all is as it was. */
+static inline bool hd_append(void *array, size_t size, int *count, int *room, const void *element) {
+    char *elements;
+    memcpy(&elements, array, sizeof elements);
+    if (*count == *room) {
+        const int more = *count < 32 ? 64 : 2 * *count;
+        char *grown = *count > 1 << 29 ? NULL : realloc(elements, (size_t)more * size);
+        if (grown == NULL)
+            return false;
+        memcpy(array, &grown, sizeof grown);
+        elements = grown;
         *room = more;
-    return grown;
+    }
+    memcpy(elements + (size_t)(*count)++ * size, element, size);
+    return true;
 }
 
 /* The array, with room for `count` elements, which are lost where it must grow; `room` is what it

@@ -2,7 +2,6 @@
 #include "mesh/divide.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* An edge of the mesh; it runs from the vertex with the smaller number. */
 typedef struct Edge {
@@ -14,7 +13,7 @@ typedef struct Division {
     int parts; /* of each edge */
     int edge_count;
     Edge *edges; /* in order, each once */
-    HdMesh fine; /* what comes out; only what is listed in `allocate` */
+    HdMesh fine; /* what comes out; only what hd_mesh_allocate makes */
 } Division;
 
 static HdStatus no_memory(const HdMesh *mesh, HdError *error) {
@@ -134,37 +133,28 @@ static void divide_triangle(Division *division, int t, int32_t *upper, int32_t *
     }
 }
 
-static void free_arrays(HdMesh *mesh) {
-    free(mesh->vertices);
-    free(mesh->corners);
-    free(mesh->material_of);
-    free(mesh->group_of);
-}
-
 /* For each triangle parts^2, and (parts - 1) (parts - 2) / 2 vertices inside. */
 static bool allocate(Division *division) {
     size_t old = (size_t)division->mesh->triangle_count, parts = (size_t)division->parts;
-    size_t triangles = old * parts * parts;
     size_t vertices = (size_t)division->mesh->vertex_count +
                       (size_t)division->edge_count * (parts - 1) +
                       old * ((parts - 1) * (parts - 2) / 2);
-    HdMesh *fine = &division->fine;
-    fine->vertices = malloc(vertices * sizeof *fine->vertices);
-    fine->corners = malloc(triangles * sizeof *fine->corners);
-    fine->material_of = malloc(triangles * sizeof *fine->material_of);
-    fine->group_of = malloc(triangles * sizeof *fine->group_of);
-    return fine->vertices != NULL && fine->corners != NULL && fine->material_of != NULL &&
-           fine->group_of != NULL;
+    return hd_mesh_allocate(&division->fine, vertices, old * parts * parts);
 }
 
-static void take_arrays(HdMesh *mesh, const HdMesh *fine) {
-    free_arrays(mesh);
+/* Leaves the former arrays in `fine`. */
+static void swap_arrays(HdMesh *mesh, HdMesh *fine) {
+    const HdMesh former = *mesh;
     mesh->vertex_count = fine->vertex_count;
     mesh->triangle_count = fine->triangle_count;
     mesh->vertices = fine->vertices;
     mesh->corners = fine->corners;
     mesh->material_of = fine->material_of;
     mesh->group_of = fine->group_of;
+    *fine = (HdMesh){.vertices = former.vertices,
+                     .corners = former.corners,
+                     .material_of = former.material_of,
+                     .group_of = former.group_of};
 }
 
 static HdStatus divide(Division *division, int32_t *rows, HdError *error) {
@@ -189,9 +179,8 @@ HdStatus hd_divide_triangles(HdMesh *mesh, int divisions, HdError *error) {
     else
         status = divide(&division, rows, error);
     if (status == HD_OK)
-        take_arrays(mesh, &division.fine);
-    else
-        free_arrays(&division.fine);
+        swap_arrays(mesh, &division.fine);
+    hd_mesh_free(&division.fine);
     free(division.edges);
     free(rows);
     return status;

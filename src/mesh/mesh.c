@@ -6,6 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles) {
+    mesh->vertices = calloc(vertices, sizeof *mesh->vertices);
+    mesh->corners = calloc(triangles, sizeof *mesh->corners);
+    mesh->material_of = calloc(triangles, sizeof *mesh->material_of);
+    mesh->group_of = calloc(triangles, sizeof *mesh->group_of);
+    return mesh->vertices != NULL && mesh->corners != NULL && mesh->material_of != NULL &&
+           mesh->group_of != NULL;
+}
+
 static double largest_coordinate(HdVec3 a) {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }

@@ -4,6 +4,7 @@
 #define HD_MESH_MESH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
@@ -48,6 +49,10 @@ typedef struct HdMesh {
     HdVec3 lower, upper;       /* the box about all triangles; set by hd_mesh_build */
     HdHierarchy tree;          /* over the triangles; without nodes until hd_mesh_build */
 } HdMesh;
+
+/* Makes `vertices`, `corners`, `material_of` and `group_of` with room for so many, and zeros, in a
+   mesh that has none of them. False: out of memory; hd_mesh_free frees what was made. */
+bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles);
 
 /* Leaves out triangles that have no area: two corners at one place, or all three on a line up to
    the rounding of their coordinates, and counts them. Vertices that no triangle names stay. */

@@ -33,18 +33,12 @@ static bool ends_in(const char *name, const char *ending) {
 }
 
 static void add(Listing *listing, const char *name, const struct stat *found) {
-    Entry *entries = hd_grown(listing->entries, sizeof *entries, listing->count, &listing->room);
-    if (entries == NULL)
+    Entry entry = {.bytes = (int64_t)found->st_size, .used = found->st_mtim};
+    if (strlen(name) >= sizeof entry.name)
         return;
-    listing->entries = entries;
-    Entry *entry = &entries[listing->count];
-    if (strlen(name) >= sizeof entry->name)
-        return;
-    listing->count++;
-    memcpy(entry->name, name, strlen(name) + 1);
-    entry->bytes = (int64_t)found->st_size;
-    entry->used = found->st_mtim;
-    listing->bytes += entry->bytes;
+    memcpy(entry.name, name, strlen(name) + 1);
+    if (hd_append(&listing->entries, sizeof entry, &listing->count, &listing->room, &entry))
+        listing->bytes += entry.bytes;
 }
 
 static void look_at(Listing *listing, int folder, const char *name) {

@@ -14,6 +14,11 @@ typedef struct Triangle {
     bool is_fixed[3];  /* the edge is one of the segments */
 } Triangle;
 
+/* Points of an edge that is to be turned. */
+typedef struct Crossed {
+    int32_t a, b;
+} Crossed;
+
 typedef struct Work {
     const HdVec2 *points;
     int count;
@@ -21,6 +26,9 @@ typedef struct Work {
     int32_t *one_at; /* of each point, one of the triangles about it */
     int32_t *stack;  /* triangles to look at; four for each point */
     int last;        /* where the last point was found */
+    int crossed_first, crossed_count, crossed_room;
+    Crossed *crossed; /* edges that a segment crosses, from the first on that is left */
+    bool is_broken;   /* outlines lie too near to each other; otherwise what fails is memory */
 } Work;
 
 /* The edge of a triangle. */
@@ -28,23 +36,9 @@ typedef struct Side {
     int triangle, edge;
 } Side;
 
-/* Points of an edge that is to be turned. */
-typedef struct Crossed {
-    int32_t a, b;
-} Crossed;
-
-typedef struct CrossedEdges {
-    int first, count, room;
-    Crossed *list;
-} CrossedEdges;
-
-static HdStatus no_memory(HdError *error) {
-    return hd_fail(error, HD_FAILED, "out of memory: a face has too many triangles");
-}
-
-static HdStatus is_broken(HdError *error) {
-    return hd_fail(error, HD_FAILED,
-                   "the outlines on a face lie too near to each other to be told apart");
+static bool fail_broken(Work *work) {
+    work->is_broken = true;
+    return false;
 }
 
 static int next(int i) {
@@ -224,18 +218,18 @@ static void split_side(Work *work, Side side, int point) {
 }
 
 /* A point on an inner edge makes a flat triangle, which is flipped at once. */
-static HdStatus insert_point(Work *work, int point, HdError *error) {
+static bool insert_point(Work *work, int point) {
     static const double on_side = 1e-12;
     Side nearest = {0, 0};
     double distance = 0.0;
     if (!find_point(work, point, &nearest, &distance))
-        return is_broken(error);
+        return fail_broken(work);
     if (distance < on_side && work->triangles[nearest.triangle].beyond[nearest.edge] < 0)
         split_side(work, nearest, point);
     else
         split_triangle(work, nearest.triangle, point);
     work->last = work->one_at[point];
-    return HD_OK;
+    return true;
 }
 
 static void start_with_fan(Work *work, int corner_count) {
@@ -301,32 +295,27 @@ static bool find_first_crossed(const Work *work, int a, int b, Side *crossed) {
     return false;
 }
 
-static HdStatus add_crossed(CrossedEdges *edges, int a, int b, HdError *error) {
-    Crossed *list = hd_grown(edges->list, sizeof *list, edges->count, &edges->room);
-    if (list == NULL)
-        return no_memory(error);
-    edges->list = list;
-    list[edges->count++] = (Crossed){a, b};
-    return HD_OK;
+static bool add_crossed(Work *work, int a, int b) {
+    const Crossed edge = {a, b};
+    return hd_append(&work->crossed, sizeof edge, &work->crossed_count, &work->crossed_room, &edge);
 }
 
 /* Lists the edges that the segment from a to b crosses. */
-static HdStatus list_crossed(const Work *work, int a, int b, CrossedEdges *edges, HdError *error) {
+static bool list_crossed(Work *work, int a, int b) {
     Side side;
+    work->crossed_first = work->crossed_count = 0;
     if (!find_first_crossed(work, a, b, &side))
-        return is_broken(error);
+        return fail_broken(work);
     for (;;) {
         const Triangle *triangle = &work->triangles[side.triangle];
         if (triangle->is_fixed[side.edge] || triangle->beyond[side.edge] < 0)
-            return is_broken(error);
-        HdStatus status = add_crossed(edges, triangle->corner[side.edge],
-                                      triangle->corner[next(side.edge)], error);
-        if (status != HD_OK)
-            return status;
+            return fail_broken(work);
+        if (!add_crossed(work, triangle->corner[side.edge], triangle->corner[next(side.edge)]))
+            return false;
         side = opposite(work, side);
         int tip = work->triangles[side.triangle].corner[before(side.edge)];
         if (tip == b)
-            return HD_OK;
+            return true;
         side.edge = area(work, a, b, tip) > 0.0 ? next(side.edge) : before(side.edge);
     }
 }
@@ -354,14 +343,15 @@ static bool is_convex(const Work *work, Crossed edge, const int tips[2]) {
 }
 
 /* Flips the crossed edges, each when its quadrilateral is convex, until none crosses. */
-static HdStatus turn_crossed(Work *work, int a, int b, CrossedEdges *edges, HdError *error) {
+static bool turn_crossed(Work *work, int a, int b) {
     int put_off = 0;
-    while (edges->first < edges->count) {
-        Crossed edge = edges->list[edges->first++];
+    while (work->crossed_first < work->crossed_count) {
+        Crossed edge = work->crossed[work->crossed_first++];
         Side side;
         int tips[2];
-        if (!find_edge(work, edge.a, edge.b, &side) || put_off > edges->count - edges->first)
-            return is_broken(error);
+        if (!find_edge(work, edge.a, edge.b, &side) ||
+            put_off > work->crossed_count - work->crossed_first)
+            return fail_broken(work);
         tips_of(work, side, tips);
         bool can_flip = is_convex(work, edge, tips);
         put_off = can_flip ? 0 : put_off + 1;
@@ -369,30 +359,22 @@ static HdStatus turn_crossed(Work *work, int a, int b, CrossedEdges *edges, HdEr
             flip(work, side);
             edge = (Crossed){tips[0], tips[1]};
         }
-        if (can_flip && !crosses(work, tips, a, b))
-            continue;
-        HdStatus status = add_crossed(edges, edge.a, edge.b, error);
-        if (status != HD_OK)
-            return status;
+        if ((!can_flip || crosses(work, tips, a, b)) && !add_crossed(work, edge.a, edge.b))
+            return false;
     }
-    return HD_OK;
+    return true;
 }
 
-static HdStatus insert_segment(Work *work, int a, int b, HdError *error) {
+static bool insert_segment(Work *work, int a, int b) {
     Side side = {0, 0};
-    CrossedEdges edges = {0};
-    HdStatus status = HD_OK;
     if (!find_edge(work, a, b, &side)) {
-        status = list_crossed(work, a, b, &edges, error);
-        if (status == HD_OK)
-            status = turn_crossed(work, a, b, &edges, error);
-        free(edges.list);
-        if (status == HD_OK && !find_edge(work, a, b, &side))
-            status = is_broken(error);
+        if (!list_crossed(work, a, b) || !turn_crossed(work, a, b))
+            return false;
+        if (!find_edge(work, a, b, &side))
+            return fail_broken(work);
     }
-    if (status == HD_OK)
-        fix_edge(work, side);
-    return status;
+    fix_edge(work, side);
+    return true;
 }
 
 static void settle_all(Work *work) {
@@ -407,17 +389,24 @@ static void settle_all(Work *work) {
     }
 }
 
-static HdStatus build(Work *work, int point_count, int corner_count, const int32_t (*segments)[2],
-                      int segment_count, HdError *error) {
+static bool build(Work *work, int point_count, int corner_count, const int32_t (*segments)[2],
+                  int segment_count) {
     start_with_fan(work, corner_count);
-    HdStatus status = HD_OK;
-    for (int p = corner_count; p < point_count && status == HD_OK; p++)
-        status = insert_point(work, p, error);
-    for (int s = 0; s < segment_count && status == HD_OK; s++)
-        status = insert_segment(work, segments[s][0], segments[s][1], error);
-    if (status == HD_OK)
-        settle_all(work);
-    return status;
+    for (int p = corner_count; p < point_count; p++)
+        if (!insert_point(work, p))
+            return false;
+    for (int s = 0; s < segment_count; s++)
+        if (!insert_segment(work, segments[s][0], segments[s][1]))
+            return false;
+    settle_all(work);
+    return true;
+}
+
+static HdStatus fail(const Work *work, HdError *error) {
+    if (work->is_broken)
+        return hd_fail(error, HD_FAILED,
+                       "the outlines on a face lie too near to each other to be told apart");
+    return hd_fail(error, HD_FAILED, "out of memory: a face has too many triangles");
 }
 
 HdStatus hd_triangulate_plane(const HdVec2 *points, int point_count, int corner_count,
@@ -428,17 +417,14 @@ HdStatus hd_triangulate_plane(const HdVec2 *points, int point_count, int corner_
                  .triangles = calloc(room, sizeof *work.triangles),
                  .one_at = calloc(room, sizeof *work.one_at),
                  .stack = calloc(2 * room, sizeof *work.stack)};
-    HdStatus status = work.triangles == NULL || work.one_at == NULL || work.stack == NULL
-                          ? no_memory(error)
-                          : build(&work, point_count, corner_count, segments, segment_count, error);
-    *triangle_count = 0;
-    if (status == HD_OK) {
-        for (int t = 0; t < work.count; t++)
-            memcpy(triangles[t], work.triangles[t].corner, sizeof triangles[t]);
-        *triangle_count = work.count;
-    }
+    const bool is_done = work.triangles != NULL && work.one_at != NULL && work.stack != NULL &&
+                         build(&work, point_count, corner_count, segments, segment_count);
+    *triangle_count = is_done ? work.count : 0;
+    for (int t = 0; t < *triangle_count; t++)
+        memcpy(triangles[t], work.triangles[t].corner, sizeof triangles[t]);
     free(work.triangles);
     free(work.one_at);
     free(work.stack);
-    return status;
+    free(work.crossed);
+    return is_done ? HD_OK : fail(&work, error);
 }

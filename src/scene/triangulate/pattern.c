@@ -216,69 +216,62 @@ static Polygon disc_polygon(const HdPattern *pattern, const Disc *disc) {
 }
 
 /* Adds what a segment has inside of the face. */
-static HdStatus add_inside(const HdFace *face, HdVec2 a, HdVec2 b, HdNetwork *network,
-                           HdError *error) {
+static bool add_inside(const HdFace *face, HdVec2 a, HdVec2 b, HdNetwork *network) {
     double from = 0.0, to = 1.0;
     for (int i = 0; i < face->side_count; i++) {
         double at_a = hd_face_depth(face, i, a), at_b = hd_face_depth(face, i, b);
         if (at_a < 0.0 && at_b < 0.0)
-            return HD_OK;
+            return true;
         if (at_a < 0.0)
             from = fmax(from, at_a / (at_a - at_b));
         else if (at_b < 0.0)
             to = fmin(to, at_a / (at_a - at_b));
     }
-    if (from >= to)
-        return HD_OK;
-    return hd_network_add(network, hd_mix2(a, b, from), hd_mix2(a, b, to), error);
+    return from >= to || hd_network_add(network, hd_mix2(a, b, from), hd_mix2(a, b, to));
 }
 
-static HdStatus add_polygon(const HdFace *face, const Polygon *polygon, HdNetwork *network,
-                            HdError *error) {
-    HdStatus status = HD_OK;
-    for (int i = 0; i < polygon->count && status == HD_OK; i++)
-        status = add_inside(face, polygon->corner[i], polygon->corner[(i + 1) % polygon->count],
-                            network, error);
-    return status;
+static bool add_polygon(const HdFace *face, const Polygon *polygon, HdNetwork *network) {
+    const int count = polygon->count;
+    for (int i = 0; i < count; i++)
+        if (!add_inside(face, polygon->corner[i], polygon->corner[(i + 1) % count], network))
+            return false;
+    return true;
 }
 
 /* The inner border of the rim; none where that is the whole face. */
-static HdStatus add_rim(const HdFace *face, double width, HdNetwork *network, HdError *error) {
+static bool add_rim(const HdFace *face, double width, HdNetwork *network) {
     Polygon inner = {.count = face->side_count};
     double left = inset_share(face, width);
     if (left <= LEAST_LENGTH)
-        return HD_OK;
+        return true;
     for (int i = 0; i < face->side_count; i++)
         inner.corner[i] = (HdVec2){left * face->corner[i].x, left * face->corner[i].y};
-    return add_polygon(face, &inner, network, error);
+    return add_polygon(face, &inner, network);
 }
 
 /* The kernels ask of a disc's points that they be near a side, too. All are: no edge is nearer to a
    point of a face than the face's nearest side. */
-static HdStatus add_discs(const HdPattern *pattern, int face, int edge, HdNetwork *network,
-                          HdError *error) {
+static bool add_discs(const HdPattern *pattern, int face, int edge, HdNetwork *network) {
     EdgeView view = view_edge(pattern, face, edge);
-    HdStatus status = HD_OK;
-    for (int k = 0; k < pattern->per_edge && status == HD_OK; k++) {
+    for (int k = 0; k < pattern->per_edge; k++) {
         Disc disc;
         if (!disc_in_plane(pattern, &pattern->face[face], &view, k, &disc))
             continue;
         Polygon polygon = disc_polygon(pattern, &disc);
         cut_to_cell(&polygon, pattern, &view, k);
-        status = add_polygon(&pattern->face[face], &polygon, network, error);
+        if (!add_polygon(&pattern->face[face], &polygon, network))
+            return false;
     }
-    return status;
+    return true;
 }
 
-HdStatus hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network,
-                                HdError *error) {
-    HdStatus status = HD_OK;
-    if (pattern->rim_width > 0.0)
-        status = add_rim(&pattern->face[face], pattern->rim_width, network, error);
-    if (pattern->disc_radius > 0.0)
-        for (int e = 0; e < pattern->shape.edge_count && status == HD_OK; e++)
-            status = add_discs(pattern, face, e, network, error);
-    return status;
+bool hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network) {
+    if (pattern->rim_width > 0.0 && !add_rim(&pattern->face[face], pattern->rim_width, network))
+        return false;
+    for (int e = 0; pattern->disc_radius > 0.0 && e < pattern->shape.edge_count; e++)
+        if (!add_discs(pattern, face, e, network))
+            return false;
+    return true;
 }
 
 static bool polygon_has(const HdPattern *pattern, const Disc *disc, HdVec2 point) {

@@ -44,9 +44,8 @@ typedef struct HdPattern {
 
 void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides);
 
-/* Adds the borders between the materials of a face, but not its own sides. */
-HdStatus hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network,
-                                HdError *error);
+/* Adds the borders between the materials of a face, but not its own sides. False: out of memory. */
+bool hd_pattern_add_borders(const HdPattern *pattern, int face, HdNetwork *network);
 
 /* Number of the material at a point of a face, as above: where discs overlap, that of the last
    edge, as in the kernels. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene/triangulate/segments.h"
 
-#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/growth.h"
@@ -23,10 +23,6 @@ typedef struct Key {
     double value;
     int number;
 } Key;
-
-static HdStatus no_memory(HdError *error) {
-    return hd_fail(error, HD_FAILED, "out of memory: the outlines on a face are too many");
-}
 
 static int compare_keys(const void *left, const void *right) {
     const Key *a = left, *b = right;
@@ -51,50 +47,35 @@ static int compare_segments(const void *left, const void *right) {
     return (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-static HdStatus add_point(HdNetwork *network, HdVec2 point, HdError *error) {
-    HdVec2 *points =
-        hd_grown(network->points, sizeof *points, network->point_count, &network->point_room);
-    if (points == NULL)
-        return no_memory(error);
-    network->points = points;
-    points[network->point_count++] = point;
-    return HD_OK;
+static bool add_point(HdNetwork *network, HdVec2 point) {
+    return hd_append(&network->points, sizeof point, &network->point_count, &network->point_room,
+                     &point);
 }
 
-static HdStatus add_segment(HdNetwork *network, int a, int b, HdError *error) {
-    int32_t(*segments)[2] = hd_grown(network->segments, sizeof *segments, network->segment_count,
-                                     &network->segment_room);
-    if (segments == NULL)
-        return no_memory(error);
-    network->segments = segments;
-    segments[network->segment_count][0] = a < b ? a : b;
-    segments[network->segment_count][1] = a < b ? b : a;
-    network->segment_count++;
-    return HD_OK;
+static bool add_segment(HdNetwork *network, int a, int b) {
+    const int32_t segment[2] = {a < b ? a : b, a < b ? b : a};
+    return hd_append(&network->segments, sizeof segment, &network->segment_count,
+                     &network->segment_room, segment);
 }
 
-HdStatus hd_network_add(HdNetwork *network, HdVec2 a, HdVec2 b, HdError *error) {
+bool hd_network_add(HdNetwork *network, HdVec2 a, HdVec2 b) {
     if (hd_length2(hd_sub2(b, a)) <= HD_SAME_PLACE)
-        return HD_OK;
-    HdStatus status = add_point(network, a, error);
-    if (status == HD_OK)
-        status = add_point(network, b, error);
-    if (status == HD_OK)
-        status = add_segment(network, network->point_count - 2, network->point_count - 1, error);
-    return status;
+        return true;
+    return add_point(network, a) && add_point(network, b) &&
+           add_segment(network, network->point_count - 2, network->point_count - 1);
 }
 
-static HdStatus add_mark(Marks *marks, int segment, int point, double along, HdError *error) {
-    Mark *list = hd_grown(marks->list, sizeof *list, marks->count, &marks->room);
-    if (list == NULL)
-        return no_memory(error);
-    marks->list = list;
-    list[marks->count++] = (Mark){segment, point, along};
-    return HD_OK;
+static bool add_mark(Marks *marks, int segment, int point, double along) {
+    const Mark mark = {segment, point, along};
+    return hd_append(&marks->list, sizeof mark, &marks->count, &marks->room, &mark);
 }
 
 static HdVec2 end_of(const HdNetwork *network, int segment, int end) {
     return network->points[network->segments[segment][end]];
+}
+
+static double length_of(const HdNetwork *network, int segment) {
+    return hd_length2(hd_sub2(end_of(network, segment, 1), end_of(network, segment, 0)));
 }
 
 /* A point's place as seen from a segment: how far along it, and how far to its left. */
@@ -106,51 +87,40 @@ static HdVec2 seen_from(const HdNetwork *network, int segment, HdVec2 point) {
 }
 
 /* Marks the ends of `other` that lie on the segment. */
-static HdStatus mark_touches(HdNetwork *network, int segment, int other, Marks *marks,
-                             bool *touches, HdError *error) {
-    double length = hd_length2(hd_sub2(end_of(network, segment, 1), end_of(network, segment, 0)));
+static bool mark_touches(const HdNetwork *network, int segment, int other, Marks *marks) {
+    const double length = length_of(network, segment);
     for (int end = 0; end < 2; end++) {
         HdVec2 seen = seen_from(network, segment, end_of(network, other, end));
-        if (fabs(seen.y) > HD_SAME_PLACE || seen.x < -HD_SAME_PLACE ||
-            seen.x > length + HD_SAME_PLACE)
-            continue;
-        *touches = true;
-        HdStatus status = add_mark(marks, segment, network->segments[other][end], seen.x, error);
-        if (status != HD_OK)
-            return status;
+        if (fabs(seen.y) <= HD_SAME_PLACE && seen.x >= -HD_SAME_PLACE &&
+            seen.x <= length + HD_SAME_PLACE &&
+            !add_mark(marks, segment, network->segments[other][end], seen.x))
+            return false;
     }
-    return HD_OK;
+    return true;
 }
 
-static HdStatus mark_crossing(HdNetwork *network, int segment, int other, Marks *marks,
-                              HdError *error) {
+static bool mark_crossing(HdNetwork *network, int segment, int other, Marks *marks) {
     HdVec2 from = seen_from(network, segment, end_of(network, other, 0));
     HdVec2 to = seen_from(network, segment, end_of(network, other, 1));
     double first = seen_from(network, other, end_of(network, segment, 0)).y;
     double second = seen_from(network, other, end_of(network, segment, 1)).y;
     if (!(from.y * to.y < 0.0 && first * second < 0.0))
-        return HD_OK;
+        return true;
     double t = from.y / (from.y - to.y);
     HdVec2 start = end_of(network, other, 0), end = end_of(network, other, 1);
     int point = network->point_count;
-    HdStatus status = add_point(network, hd_mix2(start, end, t), error);
-    if (status == HD_OK)
-        status = add_mark(marks, segment, point, from.x + t * (to.x - from.x), error);
-    if (status == HD_OK)
-        status = add_mark(marks, other, point, t * hd_length2(hd_sub2(end, start)), error);
-    return status;
+    return add_point(network, hd_mix2(start, end, t)) &&
+           add_mark(marks, segment, point, from.x + t * (to.x - from.x)) &&
+           add_mark(marks, other, point, t * length_of(network, other));
 }
 
 /* Where one touches the other nothing else is looked for: cut there, they meet in an end. */
-static HdStatus mark_pair(HdNetwork *network, int segment, int other, Marks *marks,
-                          HdError *error) {
-    bool touches = false;
-    HdStatus status = mark_touches(network, segment, other, marks, &touches, error);
-    if (status == HD_OK)
-        status = mark_touches(network, other, segment, marks, &touches, error);
-    if (status == HD_OK && !touches)
-        status = mark_crossing(network, segment, other, marks, error);
-    return status;
+static bool mark_pair(HdNetwork *network, int segment, int other, Marks *marks) {
+    const int before = marks->count;
+    if (!mark_touches(network, segment, other, marks) ||
+        !mark_touches(network, other, segment, marks))
+        return false;
+    return marks->count > before || mark_crossing(network, segment, other, marks);
 }
 
 static double least_x(const HdNetwork *network, int segment) {
@@ -168,85 +138,67 @@ static bool overlap_in_y(const HdNetwork *network, int segment, int other) {
 }
 
 /* From left to right each segment is held against those that begin before it ends. */
-static HdStatus mark_pairs(HdNetwork *network, const Key *order, Marks *marks, HdError *error) {
+static bool mark_pairs(HdNetwork *network, const Key *order, Marks *marks) {
     for (int i = 0; i < network->segment_count; i++) {
         int segment = order[i].number;
         double end = most_x(network, segment) + HD_SAME_PLACE;
-        for (int j = i + 1; j < network->segment_count && order[j].value <= end; j++) {
-            int other = order[j].number;
-            if (!overlap_in_y(network, segment, other))
-                continue;
-            HdStatus status = mark_pair(network, segment, other, marks, error);
-            if (status != HD_OK)
-                return status;
-        }
+        for (int j = i + 1; j < network->segment_count && order[j].value <= end; j++)
+            if (overlap_in_y(network, segment, order[j].number) &&
+                !mark_pair(network, segment, order[j].number, marks))
+                return false;
     }
-    return HD_OK;
+    return true;
 }
 
-static HdStatus mark_segments(HdNetwork *network, Marks *marks, HdError *error) {
-    Key *order = calloc((size_t)network->segment_count + 1, sizeof *order);
-    if (order == NULL)
-        return no_memory(error);
-    HdStatus status = HD_OK;
-    for (int s = 0; s < network->segment_count && status == HD_OK; s++) {
+static bool mark_ends(const HdNetwork *network, int segment, Marks *marks) {
+    return add_mark(marks, segment, network->segments[segment][0], 0.0) &&
+           add_mark(marks, segment, network->segments[segment][1], length_of(network, segment));
+}
+
+static bool mark_segments(HdNetwork *network, Marks *marks) {
+    Key *order = calloc((size_t)network->segment_count, sizeof *order);
+    bool has_room = order != NULL;
+    for (int s = 0; s < network->segment_count && has_room; s++) {
         order[s] = (Key){least_x(network, s), s};
-        double length = hd_length2(hd_sub2(end_of(network, s, 1), end_of(network, s, 0)));
-        status = add_mark(marks, s, network->segments[s][0], 0.0, error);
-        if (status == HD_OK)
-            status = add_mark(marks, s, network->segments[s][1], length, error);
+        has_room = mark_ends(network, s, marks);
     }
-    if (status == HD_OK) {
+    if (has_room) {
         qsort(order, (size_t)network->segment_count, sizeof *order, compare_keys);
-        status = mark_pairs(network, order, marks, error);
+        has_room = mark_pairs(network, order, marks);
     }
     free(order);
-    return status;
+    return has_room;
 }
 
-/* Leaves one of the points at each place; `now` tells each former point's number. The order is
-   along a line that outlines are hardly parallel or at right angles to. */
-static HdStatus join_points(HdNetwork *network, int *now, HdError *error) {
+/* Puts one of the points at each place into `points`, and into `now` each former point's number.
+   The order, for which `keys` is, is along a line that outlines are hardly parallel or at right
+   angles to. */
+static void join_points(HdNetwork *network, Key *keys, HdVec2 *points, int *now) {
     int count = network->point_count, kept = 0;
-    Key *order = calloc((size_t)count + 1, sizeof *order);
-    Key *keys = calloc((size_t)count + 1, sizeof *keys);
-    HdVec2 *points = calloc((size_t)count + 1, sizeof *points);
-    if (order == NULL || keys == NULL || points == NULL) {
-        free(order);
-        free(keys);
-        free(points);
-        return no_memory(error);
-    }
     for (int i = 0; i < count; i++)
-        order[i] = (Key){0.8 * network->points[i].x + 0.6 * network->points[i].y, i};
-    qsort(order, (size_t)count, sizeof *order, compare_keys);
+        keys[i] = (Key){0.8 * network->points[i].x + 0.6 * network->points[i].y, i};
+    qsort(keys, (size_t)count, sizeof *keys, compare_keys);
     for (int i = 0; i < count; i++) {
-        HdVec2 point = network->points[order[i].number];
+        const Key key = keys[i];
+        HdVec2 point = network->points[key.number];
         int same = kept - 1;
-        while (same >= 0 && order[i].value - keys[same].value <= HD_SAME_PLACE &&
+        while (same >= 0 && key.value - keys[same].value <= HD_SAME_PLACE &&
                hd_length2(hd_sub2(point, points[same])) > HD_SAME_PLACE)
             same--;
-        if (same < 0 || order[i].value - keys[same].value > HD_SAME_PLACE) {
+        if (same < 0 || key.value - keys[same].value > HD_SAME_PLACE) {
             same = kept++;
-            keys[same] = order[i];
+            keys[same] = key;
             points[same] = point;
         }
-        now[order[i].number] = same;
+        now[key.number] = same;
     }
-    free(order);
-    free(keys);
-    free(network->points);
-    network->points = points;
-    network->point_room = count;
     network->point_count = kept;
-    return HD_OK;
 }
 
 static void drop_doubles(HdNetwork *network) {
     int kept = 0;
-    if (network->segment_count > 0)
-        qsort(network->segments, (size_t)network->segment_count, sizeof *network->segments,
-              compare_segments);
+    qsort(network->segments, (size_t)network->segment_count, sizeof *network->segments,
+          compare_segments);
     for (int i = 0; i < network->segment_count; i++) {
         const int32_t *segment = network->segments[i];
         if (kept > 0 && compare_segments(network->segments[kept - 1], segment) == 0)
@@ -257,8 +209,7 @@ static void drop_doubles(HdNetwork *network) {
 }
 
 /* Puts the pieces between the marks in place of the segments, and tells whether any was cut. */
-static HdStatus cut_at_marks(HdNetwork *network, Marks *marks, const int *now, bool *was_cut,
-                             HdError *error) {
+static bool cut_at_marks(HdNetwork *network, Marks *marks, const int *now, bool *was_cut) {
     qsort(marks->list, (size_t)marks->count, sizeof *marks->list, compare_marks);
     network->segment_count = 0;
     int pieces = 0;
@@ -268,46 +219,44 @@ static HdStatus cut_at_marks(HdNetwork *network, Marks *marks, const int *now, b
         int a = now[from->point], b = now[to->point];
         if (to->segment != from->segment || a == b)
             continue;
-        HdStatus status = add_segment(network, a, b, error);
-        if (status != HD_OK)
-            return status;
-        *was_cut = *was_cut || ++pieces > 1;
+        if (!add_segment(network, a, b))
+            return false;
+        *was_cut |= ++pieces > 1;
     }
     drop_doubles(network);
-    return HD_OK;
+    return true;
 }
 
-static HdStatus join_and_cut(HdNetwork *network, Marks *marks, bool *was_cut, HdError *error) {
-    int *now = calloc((size_t)network->point_count + 1, sizeof *now);
-    if (now == NULL)
-        return no_memory(error);
-    HdStatus status = join_points(network, now, error);
-    if (status == HD_OK && marks->list != NULL)
-        status = cut_at_marks(network, marks, now, was_cut, error);
+static bool join_and_cut(HdNetwork *network, Marks *marks, bool *was_cut) {
+    const int count = network->point_count;
+    Key *keys = calloc((size_t)count, sizeof *keys);
+    HdVec2 *points = calloc((size_t)count, sizeof *points), *former = points;
+    int *now = calloc((size_t)count, sizeof *now);
+    bool has_room = keys != NULL && points != NULL && now != NULL;
+    if (has_room) {
+        join_points(network, keys, points, now);
+        former = network->points;
+        network->points = points;
+        network->point_room = count;
+        has_room = cut_at_marks(network, marks, now, was_cut);
+    }
+    free(keys);
+    free(former);
     free(now);
-    return status;
+    return has_room;
 }
 
-static HdStatus cut_once(HdNetwork *network, bool *was_cut, HdError *error) {
-    Marks marks = {0};
-    *was_cut = false;
-    HdStatus status = mark_segments(network, &marks, error);
-    if (status == HD_OK)
-        status = join_and_cut(network, &marks, was_cut, error);
-    free(marks.list);
-    return status;
-}
-
-HdStatus hd_network_cut(HdNetwork *network, HdError *error) {
+bool hd_network_cut(HdNetwork *network) {
     /* A piece runs to points that were moved a little, and may touch others then. */
     enum { MOST_PASSES = 16 };
-    bool was_cut = true;
-    for (int pass = 0; was_cut && pass < MOST_PASSES; pass++) {
-        HdStatus status = cut_once(network, &was_cut, error);
-        if (status != HD_OK)
-            return status;
+    bool was_cut = network->segment_count > 0, has_room = true;
+    for (int pass = 0; was_cut && has_room && pass < MOST_PASSES; pass++) {
+        Marks marks = {0};
+        was_cut = false;
+        has_room = mark_segments(network, &marks) && join_and_cut(network, &marks, &was_cut);
+        free(marks.list);
     }
-    return HD_OK;
+    return has_room;
 }
 
 void hd_network_free(HdNetwork *network) {

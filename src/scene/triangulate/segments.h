@@ -3,9 +3,9 @@
 #ifndef HD_SCENE_TRIANGULATE_SEGMENTS_H
 #define HD_SCENE_TRIANGULATE_SEGMENTS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-#include "base/error.h"
 #include "base/vector.h"
 
 /* Points that are no farther apart are one; for coordinates of about 1. */
@@ -20,12 +20,13 @@ typedef struct HdNetwork {
 } HdNetwork;
 
 /* Adds a segment with two points of its own. One that is no longer than HD_SAME_PLACE is left out.
- */
-HdStatus hd_network_add(HdNetwork *network, HdVec2 a, HdVec2 b, HdError *error);
+   False: out of memory. */
+bool hd_network_add(HdNetwork *network, HdVec2 a, HdVec2 b);
 
 /* Cuts the segments where they cross, touch or overlap, and makes one of points at the same place
-   and of segments between the same points. Then segments have nothing but ends in common. */
-HdStatus hd_network_cut(HdNetwork *network, HdError *error);
+   and of segments between the same points. Then segments have nothing but ends in common. False:
+   out of memory. */
+bool hd_network_cut(HdNetwork *network);
 
 /* Frees what the network owns and clears it. */
 void hd_network_free(HdNetwork *network);

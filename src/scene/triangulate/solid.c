@@ -17,15 +17,6 @@ typedef struct EdgePoints {
     int first_vertex;
 } EdgePoints;
 
-typedef struct Work {
-    HdMesh *mesh;
-    HdPattern pattern;
-    HdNetwork network[HD_MAX_FACES]; /* borders in each face */
-    EdgePoints edge[HD_MAX_EDGES];
-    double circumradius;
-    int vertex_room, triangle_room, material_room, group_room;
-} Work;
-
 /* The points of one face, as it is made of triangles: its corners, those on its sides, then those
    of its borders that are inside. */
 typedef struct FacePoints {
@@ -34,6 +25,16 @@ typedef struct FacePoints {
     int32_t *vertex; /* of the mesh */
     int32_t *number; /* of each of the borders' points */
 } FacePoints;
+
+typedef struct Work {
+    HdMesh *mesh;
+    HdPattern pattern;
+    HdNetwork network[HD_MAX_FACES]; /* borders in each face */
+    EdgePoints edge[HD_MAX_EDGES];
+    double circumradius;
+    FacePoints list;         /* of one face after the other, with room for the most points */
+    int32_t (*triangles)[3]; /* of one face, likewise */
+} Work;
 
 /* Where a point of a face's borders is: at a corner, on a side, or (`side` -1) inside. */
 typedef struct Whereabouts {
@@ -59,33 +60,21 @@ static Whereabouts locate(const HdFace *face, double edge_length, HdVec2 point) 
     return (Whereabouts){-1, false, 0.0};
 }
 
-static HdStatus add_edge_point(EdgePoints *edge, double place, HdError *error) {
-    double *grown = hd_grown(edge->place, sizeof *grown, edge->count, &edge->room);
-    if (grown == NULL)
-        return no_memory(error);
-    edge->place = grown;
-    grown[edge->count++] = place;
-    return HD_OK;
-}
-
-/* Finds the borders in each face, and the points where they end on its sides. */
-static HdStatus find_borders(Work *work, HdError *error) {
-    double length = work->pattern.shape.edge_length;
-    for (int f = 0; f < work->pattern.shape.face_count; f++) {
-        const HdFace *face = &work->pattern.face[f];
-        HdNetwork *network = &work->network[f];
-        HdStatus status = hd_pattern_add_borders(&work->pattern, f, network, error);
-        if (status == HD_OK)
-            status = hd_network_cut(network, error);
-        for (int i = 0; i < network->point_count && status == HD_OK; i++) {
-            Whereabouts where = locate(face, length, network->points[i]);
-            if (where.side >= 0 && !where.is_corner)
-                status = add_edge_point(&work->edge[face->edge[where.side]], where.place, error);
-        }
-        if (status != HD_OK)
-            return status;
+/* Finds the borders in a face, and the points where they end on its sides. False: out of memory. */
+static bool find_borders(Work *work, int number) {
+    const HdFace *face = &work->pattern.face[number];
+    HdNetwork *network = &work->network[number];
+    if (!hd_pattern_add_borders(&work->pattern, number, network) || !hd_network_cut(network))
+        return false;
+    for (int i = 0; i < network->point_count; i++) {
+        Whereabouts where = locate(face, work->pattern.shape.edge_length, network->points[i]);
+        if (where.side < 0 || where.is_corner)
+            continue;
+        EdgePoints *edge = &work->edge[face->edge[where.side]];
+        if (!hd_append(&edge->place, sizeof where.place, &edge->count, &edge->room, &where.place))
+            return false;
     }
-    return HD_OK;
+    return true;
 }
 
 static int compare_places(const void *left, const void *right) {
@@ -117,34 +106,44 @@ static int kept_point(const EdgePoints *edge, double place) {
     return low;
 }
 
-static HdStatus add_vertex(Work *work, HdVec3 place, HdError *error) {
-    HdMesh *mesh = work->mesh;
-    HdVec3 *vertices =
-        hd_grown(mesh->vertices, sizeof *vertices, mesh->vertex_count, &work->vertex_room);
-    if (vertices == NULL)
-        return no_memory(error);
-    mesh->vertices = vertices;
-    vertices[mesh->vertex_count++] = hd_scale(place, work->circumradius);
-    return HD_OK;
+/* Room for all that comes of the points on edges and in faces: a plane with n points has fewer than
+   2 n triangles. */
+static bool allocate(Work *work) {
+    size_t most = 0, sum = 0;
+    for (int f = 0; f < work->pattern.shape.face_count; f++) {
+        const HdFace *face = &work->pattern.face[f];
+        size_t count = (size_t)face->side_count + (size_t)work->network[f].point_count;
+        for (int i = 0; i < face->side_count; i++)
+            count += (size_t)work->edge[face->edge[i]].count;
+        most = count > most ? count : most;
+        sum += count;
+    }
+    FacePoints *list = &work->list;
+    list->points = calloc(most, sizeof *list->points);
+    list->vertex = calloc(most, sizeof *list->vertex);
+    list->number = calloc(most, sizeof *list->number);
+    work->triangles = calloc(2 * most, sizeof *work->triangles);
+    return list->points != NULL && list->vertex != NULL && list->number != NULL &&
+           work->triangles != NULL && hd_mesh_allocate(work->mesh, sum, 2 * sum);
 }
 
-static HdStatus add_outer_vertices(Work *work, HdError *error) {
+static void add_vertex(Work *work, HdVec3 place) {
+    work->mesh->vertices[work->mesh->vertex_count++] = hd_scale(place, work->circumradius);
+}
+
+static void add_outer_vertices(Work *work) {
     const HdPlatonic *shape = &work->pattern.shape;
-    HdStatus status = HD_OK;
-    for (int v = 0; v < shape->vertex_count && status == HD_OK; v++)
-        status = add_vertex(work, shape->vertex[v], error);
+    for (int v = 0; v < shape->vertex_count; v++)
+        add_vertex(work, shape->vertex[v]);
     for (int e = 0; e < shape->edge_count; e++) {
         EdgePoints *edge = &work->edge[e];
         HdVec3 a = shape->vertex[shape->edge[e].vertex[0]];
         HdVec3 b = shape->vertex[shape->edge[e].vertex[1]];
-        join_edge_points(edge, shape->edge_length);
         edge->first_vertex = work->mesh->vertex_count;
-        for (int i = 0; i < edge->count && status == HD_OK; i++)
-            status = add_vertex(
-                work, hd_add(hd_scale(a, 1.0 - edge->place[i]), hd_scale(b, edge->place[i])),
-                error);
+        for (int i = 0; i < edge->count; i++)
+            add_vertex(work,
+                       hd_add(hd_scale(a, 1.0 - edge->place[i]), hd_scale(b, edge->place[i])));
     }
-    return status;
 }
 
 static void add_face_point(FacePoints *face, HdVec2 point, int vertex) {
@@ -152,7 +151,9 @@ static void add_face_point(FacePoints *face, HdVec2 point, int vertex) {
     face->vertex[face->count++] = vertex;
 }
 
-static void list_outer_points(const Work *work, const HdFace *face, FacePoints *list) {
+static void list_outer_points(Work *work, const HdFace *face) {
+    FacePoints *list = &work->list;
+    list->count = 0;
     for (int i = 0; i < face->side_count; i++)
         add_face_point(list, face->corner[i], face->vertex[i]);
     for (int i = 0; i < face->side_count; i++) {
@@ -167,8 +168,8 @@ static void list_outer_points(const Work *work, const HdFace *face, FacePoints *
     }
 }
 
-static HdStatus list_inner_points(Work *work, const HdFace *face, const HdNetwork *network,
-                                  FacePoints *list, HdError *error) {
+static void list_inner_points(Work *work, const HdFace *face, const HdNetwork *network) {
+    FacePoints *list = &work->list;
     for (int i = 0; i < network->point_count; i++) {
         HdVec2 point = network->points[i];
         Whereabouts where = locate(face, work->pattern.shape.edge_length, point);
@@ -181,12 +182,9 @@ static HdStatus list_inner_points(Work *work, const HdFace *face, const HdNetwor
             HdVec3 inside = hd_add(hd_scale(face->u, point.x), hd_scale(face->v, point.y));
             list->number[i] = list->count;
             add_face_point(list, point, work->mesh->vertex_count);
-            HdStatus status = add_vertex(work, hd_add(face->origin, inside), error);
-            if (status != HD_OK)
-                return status;
+            add_vertex(work, hd_add(face->origin, inside));
         }
     }
-    return HD_OK;
 }
 
 /* The sides that a point lies on, a bit for each. */
@@ -211,65 +209,33 @@ static int number_segments(const HdFace *face, HdNetwork *network, const FacePoi
     return kept;
 }
 
-static HdStatus add_triangle(Work *work, const int32_t *corner, const FacePoints *list, int face,
-                             HdError *error) {
+static void add_triangle(Work *work, const int32_t *corner, int face) {
     HdMesh *mesh = work->mesh;
-    int t = mesh->triangle_count;
-    int32_t(*corners)[3] = hd_grown(mesh->corners, sizeof *corners, t, &work->triangle_room);
-    mesh->corners = corners != NULL ? corners : mesh->corners;
-    int32_t *materials = hd_grown(mesh->material_of, sizeof *materials, t, &work->material_room);
-    mesh->material_of = materials != NULL ? materials : mesh->material_of;
-    uint8_t *groups = hd_grown(mesh->group_of, sizeof *groups, t, &work->group_room);
-    mesh->group_of = groups != NULL ? groups : mesh->group_of;
-    if (corners == NULL || materials == NULL || groups == NULL)
-        return no_memory(error);
+    const FacePoints *list = &work->list;
+    int t = mesh->triangle_count++;
     HdVec2 middle = {0.0, 0.0};
     for (int i = 0; i < 3; i++) {
-        corners[t][i] = list->vertex[corner[i]];
+        mesh->corners[t][i] = list->vertex[corner[i]];
         middle.x += list->points[corner[i]].x / 3.0;
         middle.y += list->points[corner[i]].y / 3.0;
     }
-    materials[t] = hd_pattern_material(&work->pattern, face, middle);
-    groups[t] = (uint8_t)(face + 1);
-    mesh->triangle_count++;
-    return HD_OK;
-}
-
-static HdStatus fill_face(Work *work, int f, FacePoints *list, int32_t (*triangles)[3],
-                          HdError *error) {
-    const HdFace *face = &work->pattern.face[f];
-    HdNetwork *network = &work->network[f];
-    int count = 0;
-    list_outer_points(work, face, list);
-    HdStatus status = list_inner_points(work, face, network, list, error);
-    if (status == HD_OK) {
-        int segments = number_segments(face, network, list);
-        status = hd_triangulate_plane(list->points, list->count, face->side_count,
-                                      (const int32_t(*)[2])network->segments, segments, triangles,
-                                      &count, error);
-    }
-    for (int t = 0; t < count && status == HD_OK; t++)
-        status = add_triangle(work, triangles[t], list, f, error);
-    return status;
+    mesh->material_of[t] = hd_pattern_material(&work->pattern, face, middle);
+    mesh->group_of[t] = (uint8_t)(face + 1);
 }
 
 static HdStatus add_face(Work *work, int f, HdError *error) {
     const HdFace *face = &work->pattern.face[f];
-    size_t room = (size_t)face->side_count + (size_t)work->network[f].point_count;
-    for (int i = 0; i < face->side_count; i++)
-        room += (size_t)work->edge[face->edge[i]].count;
-    FacePoints list = {.points = calloc(room, sizeof *list.points),
-                       .vertex = calloc(room, sizeof *list.vertex),
-                       .number = calloc(room, sizeof *list.number)};
-    int32_t(*triangles)[3] = calloc(2 * room, sizeof *triangles);
-    HdStatus status =
-        list.points == NULL || list.vertex == NULL || list.number == NULL || triangles == NULL
-            ? no_memory(error)
-            : fill_face(work, f, &list, triangles, error);
-    free(list.points);
-    free(list.vertex);
-    free(list.number);
-    free(triangles);
+    const FacePoints *list = &work->list;
+    HdNetwork *network = &work->network[f];
+    int count;
+    list_outer_points(work, face);
+    list_inner_points(work, face, network);
+    const int segments = number_segments(face, network, list);
+    HdStatus status = hd_triangulate_plane(list->points, list->count, face->side_count,
+                                           (const int32_t(*)[2])network->segments, segments,
+                                           work->triangles, &count, error);
+    for (int t = 0; t < count; t++)
+        add_triangle(work, work->triangles[t], f);
     return status;
 }
 
@@ -315,12 +281,19 @@ static HdStatus add_materials(HdMesh *mesh, const HdSolid *solid, bool has_discs
 }
 
 static HdStatus add_solid(Work *work, const HdSolid *solid, int divisions, HdError *error) {
+    const HdPlatonic *shape = &work->pattern.shape;
     HdStatus status = add_materials(work->mesh, solid, work->pattern.disc_radius > 0.0, error);
-    if (status == HD_OK)
-        status = find_borders(work, error);
-    if (status == HD_OK)
-        status = add_outer_vertices(work, error);
-    for (int f = 0; f < work->pattern.shape.face_count && status == HD_OK; f++)
+    if (status != HD_OK)
+        return status;
+    for (int f = 0; f < shape->face_count; f++)
+        if (!find_borders(work, f))
+            return hd_fail(error, HD_FAILED, "out of memory: the outlines on a face are too many");
+    for (int e = 0; e < shape->edge_count; e++)
+        join_edge_points(&work->edge[e], shape->edge_length);
+    if (!allocate(work))
+        return no_memory(error);
+    add_outer_vertices(work);
+    for (int f = 0; f < shape->face_count && status == HD_OK; f++)
         status = add_face(work, f, error);
     return status == HD_OK ? hd_divide_triangles(work->mesh, divisions, error) : status;
 }
@@ -350,6 +323,10 @@ HdStatus hd_triangulate_solid(HdMesh *mesh, const HdSolid *solid, int disc_sides
         hd_network_free(&work->network[f]);
     for (int e = 0; e < HD_MAX_EDGES; e++)
         free(work->edge[e].place);
+    free(work->list.points);
+    free(work->list.vertex);
+    free(work->list.number);
+    free(work->triangles);
     free(work);
     if (status != HD_OK)
         hd_mesh_free(mesh);
@@ -364,11 +341,10 @@ static HdVec3 floor_point(const HdVec3 corner[4], double s, double t) {
 }
 
 static void fill_floor_points(HdMesh *mesh, const HdFloor *floor, int divisions) {
-    HdVec3 corner[4], centre = floor->corners[0];
-    for (int i = 1; i < 4; i++)
-        centre = hd_add(centre, floor->corners[i]);
+    const HdVec3 centre = hd_floor_centre(floor);
+    HdVec3 corner[4];
     for (int i = 0; i < 4; i++)
-        corner[i] = hd_sub(floor->corners[i], hd_scale(centre, 0.25));
+        corner[i] = hd_sub(floor->corners[i], centre);
     for (int row = 0; row <= divisions; row++)
         for (int column = 0; column <= divisions; column++) {
             double s = (double)column / divisions, t = (double)row / divisions;
@@ -399,14 +375,11 @@ static void fill_floor_triangles(HdMesh *mesh, int divisions) {
 
 static HdStatus allocate_floor(HdMesh *mesh, int divisions, HdError *error) {
     size_t n = (size_t)divisions, points = (n + 1) * (n + 1), triangles = 2 * n * n;
-    mesh->vertices = malloc(points * sizeof *mesh->vertices);
     mesh->uvs = malloc(points * sizeof *mesh->uvs);
-    mesh->corners = malloc(triangles * sizeof *mesh->corners);
     mesh->corner_uvs = malloc(triangles * sizeof *mesh->corner_uvs);
-    mesh->group_of = malloc(triangles * sizeof *mesh->group_of);
     mesh->materials = calloc(1, sizeof *mesh->materials);
-    if (mesh->vertices == NULL || mesh->uvs == NULL || mesh->corners == NULL ||
-        mesh->corner_uvs == NULL || mesh->group_of == NULL || mesh->materials == NULL)
+    if (mesh->uvs == NULL || mesh->corner_uvs == NULL || mesh->materials == NULL ||
+        !hd_mesh_allocate(mesh, points, triangles))
         return hd_fail(error, HD_FAILED, "out of memory: no room for %zu triangles", triangles);
     return HD_OK;
 }
