@@ -303,11 +303,8 @@ static bool has_schema(const void *owner) {
 static const HdField scene_fields[] = {
     {AT(HdSceneFile, schema, "$schema", "Where the JSON Schema is, for editors"),
      .type = HD_FIELD_TEXT, .is_given = has_schema},
-    {.key = "hedron",
-     .about = "Version of the format",
-     .type = HD_FIELD_CHOICE,
-     .choices = versions,
-     REQUIRED},
+    {AT(HdSceneFile, version, "hedron", "Version of the format"), .type = HD_FIELD_CHOICE,
+     .choices = versions, .is_unseen = true, REQUIRED, DEFAULT(1)},
     {AT(HdSceneFile, scene, "image", "The picture and what it may cost"), .type = HD_FIELD_OBJECT,
      .object = &image},
     {AT(HdSceneFile, scene, "camera", "The view"), .type = HD_FIELD_OBJECT, .object = &camera,
@@ -315,7 +312,8 @@ static const HdField scene_fields[] = {
     {.key = "output",
      .about = "What becomes of the frames",
      .type = HD_FIELD_OBJECT,
-     .object = &output},
+     .object = &output,
+     .is_unseen = true},
     {AT(HdSceneFile, scene.background, "background", "Where a ray meets nothing; linear"),
      VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, DEFAULT(0.0)},
     {.key = "materials",
@@ -385,33 +383,32 @@ bool hd_field_holds(const HdField *field, double value) {
     return from && to;
 }
 
-void hd_field_reset(const HdField *field, void *owner) {
+void hd_field_set(const HdField *field, void *owner, const double numbers[3]) {
     void *place = (char *)owner + field->offset;
-    const HdVec3 vector = hd_vec3(field->standard[0], field->standard[1], field->standard[2]);
+    const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
     switch (field->type) {
     case HD_FIELD_BOOLEAN:
-        *(bool *)place = field->standard[0] != 0.0;
+        *(bool *)place = numbers[0] != 0.0;
         break;
     case HD_FIELD_CHOICE:
-        if (field->choices[1].json == NULL) /* nothing to choose */
-            break;
-        *(int *)place = (int)field->standard[0];
-        break;
     case HD_FIELD_INTEGER:
-        *(int *)place = (int)field->standard[0];
+        *(int *)place = (int)numbers[0];
         break;
     case HD_FIELD_NUMBER:
-        *(double *)place = field->standard[0];
+        *(double *)place = numbers[0];
+        break;
+    case HD_FIELD_FACTOR:
+        *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, numbers[0]);
+        break;
+    case HD_FIELD_VECTORS:
+        if (field->count_offset != 0)
+            *(int *)(void *)((char *)owner + field->count_offset) = 1;
+        *(HdVec3 *)place = vector;
         break;
     case HD_FIELD_VECTOR:
     case HD_FIELD_UNSCALED:
     case HD_FIELD_SCALE:
         *(HdVec3 *)place = vector;
-        break;
-    case HD_FIELD_VECTORS:
-        *(HdVec3 *)place = vector;
-        if (field->count_offset != 0)
-            *(int *)((char *)owner + field->count_offset) = 1;
         break;
     case HD_FIELD_PATH:
         *(HdPath *)place = (HdPath){.is_fixed = true, .point = vector};
@@ -458,7 +455,12 @@ void hd_field_expected_count(const HdField *field, char out[HD_EXPECTED_SIZE]) {
         snprintf(out, HD_EXPECTED_SIZE, "%d to %d elements", field->least, field->most);
 }
 
-void hd_field_expected(const HdField *field, bool is_part, char out[HD_EXPECTED_SIZE]) {
+void hd_field_expected(const HdField *field, int parts, char out[HD_EXPECTED_SIZE]) {
+    static const char number[] = "a number", vector[] = "three numbers, each a number";
+    static const char *const of_range[HD_FIELD_MATERIALS + 1] = {
+        [HD_FIELD_NUMBER] = number,        [HD_FIELD_FACTOR] = number,
+        [HD_FIELD_INTEGER] = "an integer", [HD_FIELD_VECTOR] = vector,
+        [HD_FIELD_UNSCALED] = vector,      [HD_FIELD_SCALE] = "one number or three, each a number"};
     static const char *const plain[] = {
         [HD_FIELD_BOOLEAN] = "true or false",
         [HD_FIELD_TEXT] = "a string that is not empty",
@@ -469,14 +471,9 @@ void hd_field_expected(const HdField *field, bool is_part, char out[HD_EXPECTED_
         [HD_FIELD_LIST] = "an array of objects",
         [HD_FIELD_MATERIALS] = "an object with a material for each name",
         [HD_FIELD_VECTORS] = "an array of vectors"};
-    if (is_part || field->type == HD_FIELD_NUMBER || field->type == HD_FIELD_FACTOR)
-        expected_range(field, "a number", out);
-    else if (field->type == HD_FIELD_INTEGER)
-        expected_range(field, "an integer", out);
-    else if (field->type == HD_FIELD_VECTOR || field->type == HD_FIELD_UNSCALED)
-        expected_range(field, "three numbers, each a number", out);
-    else if (field->type == HD_FIELD_SCALE)
-        expected_range(field, "one number or three, each a number", out);
+    const char *what = parts == 1 ? number : parts == 3 ? vector : of_range[field->type];
+    if (what != NULL)
+        expected_range(field, what, out);
     else if (field->type == HD_FIELD_CHOICE)
         expected_choice(field, out);
     else

@@ -20,7 +20,7 @@ typedef enum HdFieldType {
     HD_FIELD_UNSCALED, /* the same, but for the factor of the next field, which has its offset; */
     HD_FIELD_FACTOR,   /* number */
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if that may vary */
-    HD_FIELD_CHOICE,   /* one of `choices`; int or an enum, or nothing if there is only one */
+    HD_FIELD_CHOICE,   /* one of `choices`; int or an enum */
     HD_FIELD_SCALE,    /* number, or a vector; HdVec3 */
     HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH] */
     HD_FIELD_FILE,     /* string, a path that counts from the scene's folder; char *, owned */
@@ -46,6 +46,7 @@ typedef struct HdField {
     bool above_low, below_high; /* that bound itself is out of the range */
     double low, high;           /* of the number, or of every number of a vector */
     double least_but_zero;      /* a valid scene's number is 0 or at least this; 0: as above */
+    bool is_unseen;             /* says nothing of what pixels look like */
     bool is_light;              /* vectors are red, green and blue, not x, y and z */
     const char *said, *unit;    /* how the checks call it (NULL: its key) and end (NULL: not) */
     double standard[3];         /* the default; where it is required, a valid stand-in */
@@ -96,11 +97,14 @@ int hd_field_count(const HdField *field, const void *owner);
 /* Whether the number is in the field's range. */
 bool hd_field_holds(const HdField *field, double value);
 
-/* Puts the default, if the field has one, into the struct at `owner`. */
-void hd_field_reset(const HdField *field, void *owner);
+/* Puts numbers into the struct at `owner`: three of a vector, a path's point or the only one of
+   several vectors, else one, which is a choice's value or 0 for false. What has no numbers
+   stays. A factor is multiplied with what is there. */
+void hd_field_set(const HdField *field, void *owner, const double numbers[3]);
 
-/* What may stand there, as "a number above 0 and at most 1e6"; `is_part`: in a vector of it. */
-void hd_field_expected(const HdField *field, bool is_part, char out[HD_EXPECTED_SIZE]);
+/* What may stand there, as "a number above 0 and at most 1e6"; with 1 or 3 `parts` not as a whole,
+   but for one of its numbers or vectors. */
+void hd_field_expected(const HdField *field, int parts, char out[HD_EXPECTED_SIZE]);
 
 /* The same for the number of elements of a list, as "1 to 30 elements". */
 void hd_field_expected_count(const HdField *field, char out[HD_EXPECTED_SIZE]);

@@ -31,85 +31,71 @@ static void leave_to(Reader *reader, size_t length) {
     reader->report.path[length] = '\0';
 }
 
+static void *place_of(const HdField *field, void *owner) {
+    return (char *)owner + field->offset;
+}
+
 static void read_object(Reader *reader, const HdObjectType *type, const json_t *json, void *owner);
 
 /* Numbers */
 
-/* Reads a number in the field's range; false, and `out` as it was, where it is none. */
-static bool read_number(Reader *reader, const HdField *field, const json_t *value, bool is_part,
-                        double *out) {
+/* Each reads what the value says to `out`. False, and `out` as it was, where it is not what the
+   field expects, which it then tells. */
+typedef bool ReadNumbers(Reader *reader, const HdField *field, const json_t *value, double *out);
+
+static bool refuse(Reader *reader, const HdField *field, const json_t *value, int parts) {
+    hd_report_field(&reader->report, field, value, parts);
+    return false;
+}
+
+static bool is_in_range(const HdField *field, const json_t *value) {
+    return json_is_number(value) && hd_field_holds(field, json_number_value(value));
+}
+
+static bool read_boolean(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    if (!json_is_boolean(value))
+        return refuse(reader, field, value, 0);
+    *out = json_is_true(value) ? 1.0 : 0.0;
+    return true;
+}
+
+static bool read_number(Reader *reader, const HdField *field, const json_t *value, double *out) {
     const double number = json_number_value(value);
-    if (!json_is_number(value) || !hd_field_holds(field, number)) {
-        hd_report_field(&reader->report, field, value, is_part);
-        return false;
-    }
+    /* As in JSON Schema, 3.0 is an integer too. */
+    const bool is_whole = field->type != HD_FIELD_INTEGER || floor(number) == number;
+    if (!is_in_range(field, value) || !is_whole)
+        return refuse(reader, field, value, 0);
     *out = number;
     return true;
 }
 
-/* As in JSON Schema, 3.0 is an integer too. */
-static void read_integer(Reader *reader, const HdField *field, const json_t *value, int *out) {
-    const double number = json_number_value(value);
-    if (!json_is_number(value) || floor(number) != number || !hd_field_holds(field, number))
-        hd_report_field(&reader->report, field, value, false);
-    else
-        *out = (int)number;
-}
-
-static void refuse_vector(Reader *reader, const HdField *field, const json_t *value) {
-    char number[HD_EXPECTED_SIZE], expected[HD_EXPECTED_SIZE + 32];
-    hd_field_expected(field, true, number);
-    snprintf(expected, sizeof expected, "three numbers, each %s", number);
-    hd_report_value(&reader->report, value, expected);
-}
-
-static void read_vector(Reader *reader, const HdField *field, const json_t *value, HdVec3 *out) {
+static bool read_vector(Reader *reader, const HdField *field, const json_t *value, double *out) {
     double parts[3];
     bool is_read = true;
-    if (!json_is_array(value) || json_array_size(value) != 3) {
-        refuse_vector(reader, field, value);
-        return;
-    }
+    if (json_array_size(value) != 3)
+        return refuse(reader, field, value, 3);
     for (size_t i = 0; i < 3; i++) {
         const size_t length = hd_json_path_index(reader->report.path, i);
-        is_read &= read_number(reader, field, json_array_get(value, i), true, &parts[i]);
+        const json_t *part = json_array_get(value, i);
+        parts[i] = json_number_value(part);
+        if (!is_in_range(field, part))
+            is_read = refuse(reader, field, part, 1);
         leave_to(reader, length);
     }
     if (is_read)
-        *out = hd_vec3(parts[0], parts[1], parts[2]);
+        memcpy(out, parts, sizeof parts);
+    return is_read;
 }
 
-/* Whether the value is an array with as many elements as the field may have. */
-static bool check_count(Reader *reader, const HdField *field, const json_t *value) {
-    char expected[HD_EXPECTED_SIZE];
-    const size_t count = json_array_size(value);
-    if (!json_is_array(value)) {
-        hd_report_field(&reader->report, field, value, false);
-        return false;
-    }
-    if (count >= (size_t)field->least && count <= (size_t)field->most)
-        return true;
-    hd_field_expected_count(field, expected);
-    hd_report(&reader->report, "has %zu elements, expected %s", count, expected);
-    return false;
+/* One number is the same for every axis. */
+static bool read_scale(Reader *reader, const HdField *field, const json_t *value, double *out) {
+    if (json_array_size(value) == 3)
+        return read_vector(reader, field, value, out);
+    if (!is_in_range(field, value))
+        return refuse(reader, field, value, json_is_number(value) ? 1 : 0);
+    out[0] = out[1] = out[2] = json_number_value(value);
+    return true;
 }
-
-static void read_vectors(Reader *reader, const HdField *field, const json_t *value, void *owner) {
-    HdVec3 *vectors = (void *)((char *)owner + field->offset);
-    const size_t count = json_array_size(value);
-    if (!check_count(reader, field, value))
-        return;
-    for (size_t i = 0; i < count; i++) {
-        const size_t length = hd_json_path_index(reader->report.path, i);
-        vectors[i] = vectors[0]; /* a default, should it be refused */
-        read_vector(reader, field, json_array_get(value, i), &vectors[i]);
-        leave_to(reader, length);
-    }
-    if (field->count_offset != 0)
-        *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
-}
-
-/* Words */
 
 /* Numbers by their value: 16.0 is 16. A word stands in quotes in the table. */
 static bool is_choice(const HdChoice *choice, const json_t *value) {
@@ -120,24 +106,72 @@ static bool is_choice(const HdChoice *choice, const json_t *value) {
            memcmp(choice->json + 1, word, strlen(word)) == 0;
 }
 
-static void read_choice(Reader *reader, const HdField *field, const json_t *value, void *place) {
+static bool read_choice(Reader *reader, const HdField *field, const json_t *value, double *out) {
     const HdChoice *choice = field->choices;
     while (choice->json != NULL && !is_choice(choice, value))
         choice++;
     if (choice->json == NULL)
         hd_report_choice(&reader->report, field, value);
-    else if (field->choices[1].json != NULL)
-        *(int *)place = choice->value;
+    else
+        *out = choice->value;
+    return choice->json != NULL;
 }
 
-static void read_text(Reader *reader, const HdField *field, const json_t *value,
-                      char out[HD_MAX_PATH]) {
-    if (!json_is_string(value) || json_string_length(value) == 0) {
-        hd_report_field(&reader->report, field, value, false);
+static void read_numbers(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    static ReadNumbers *const of_type[] = {
+        [HD_FIELD_BOOLEAN] = read_boolean, [HD_FIELD_INTEGER] = read_number,
+        [HD_FIELD_NUMBER] = read_number,   [HD_FIELD_FACTOR] = read_number,
+        [HD_FIELD_VECTOR] = read_vector,   [HD_FIELD_UNSCALED] = read_vector,
+        [HD_FIELD_PATH] = read_vector,     [HD_FIELD_SCALE] = read_scale,
+        [HD_FIELD_CHOICE] = read_choice};
+    double numbers[3] = {0.0, 0.0, 0.0};
+    if (of_type[field->type](reader, field, value, numbers))
+        hd_field_set(field, owner, numbers);
+}
+
+/* Lists */
+
+/* Whether the value is an array with as many elements as the field may have. */
+static bool check_count(Reader *reader, const HdField *field, const json_t *value) {
+    char expected[HD_EXPECTED_SIZE];
+    const size_t count = json_array_size(value);
+    if (!json_is_array(value))
+        return refuse(reader, field, value, 0);
+    if (count >= (size_t)field->least && count <= (size_t)field->most)
+        return true;
+    hd_field_expected_count(field, expected);
+    hd_report(&reader->report, "has %zu elements, expected %s", count, expected);
+    return false;
+}
+
+static void read_vectors(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    HdVec3 *vectors = place_of(field, owner);
+    const size_t count = json_array_size(value);
+    if (!check_count(reader, field, value))
         return;
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = hd_json_path_index(reader->report.path, i);
+        double parts[3] = {vectors[0].x, vectors[0].y, vectors[0].z}; /* should it be refused */
+        read_vector(reader, field, json_array_get(value, i), parts);
+        vectors[i] = hd_vec3(parts[0], parts[1], parts[2]);
+        leave_to(reader, length);
     }
-    if (hd_check_file_name(&reader->report, value))
+    if (field->count_offset != 0)
+        *(int *)(void *)((char *)owner + field->count_offset) = (int)count;
+}
+
+/* Words */
+
+static void copy_text(Reader *reader, const HdField *field, const json_t *value,
+                      char out[HD_MAX_PATH]) {
+    if (json_string_length(value) == 0)
+        refuse(reader, field, value, 0);
+    else if (hd_check_file_name(&reader->report, value))
         memcpy(out, json_string_value(value), json_string_length(value) + 1);
+}
+
+static void read_text(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    copy_text(reader, field, value, place_of(field, owner));
 }
 
 /* A relative path counts from the folder of the scene. False where there is no room for it. */
@@ -165,25 +199,14 @@ static void *allocate(Reader *reader, size_t count, size_t size) {
     return memory;
 }
 
-static void read_file(Reader *reader, const HdField *field, const json_t *value, char **out) {
-    char path[HD_MAX_PATH] = "";
-    read_text(reader, field, value, path);
+static void read_file(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    char path[HD_MAX_PATH] = "", **out = place_of(field, owner);
+    copy_text(reader, field, value, path);
     if (path[0] == '\0' || !place_file(reader, path))
         return;
     *out = allocate(reader, strlen(path) + 1, 1);
     if (*out != NULL)
         memcpy(*out, path, strlen(path) + 1);
-}
-
-/* One number is the same for every axis. */
-static void read_scale(Reader *reader, const HdField *field, const json_t *value, HdVec3 *out) {
-    double number = 1.0;
-    if (json_is_array(value) && json_array_size(value) == 3)
-        read_vector(reader, field, value, out);
-    else if (!json_is_number(value))
-        hd_report_field(&reader->report, field, value, false);
-    else if (read_number(reader, field, value, true, &number))
-        *out = hd_vec3(number, number, number);
 }
 
 static int compare_names(const void *a, const void *b) {
@@ -206,22 +229,19 @@ static void report_unknown_material(Reader *reader, const HdField *field, const 
         if (!hd_problems_are_full(reader->report.problems))
             hd_nearest_offer(&nearest, reader->materials[i].name);
     if (nearest.name == NULL)
-        hd_report_field(&reader->report, field, value, false);
+        refuse(reader, field, value, 0);
     else
         hd_report_mistaken(&reader->report, value, nearest.name);
 }
 
-static void read_material(Reader *reader, const HdField *field, const json_t *value,
-                          HdMaterial *out) {
+static void read_material(Reader *reader, const HdField *field, const json_t *value, void *owner) {
     const char *name = json_string_value(value);
-    if (name == NULL) {
-        hd_report_field(&reader->report, field, value, false);
-        return;
-    }
-    NamedMaterial *named = find_material(reader, name);
+    NamedMaterial *named = name != NULL ? find_material(reader, name) : NULL;
     if (named != NULL) {
-        *out = named->material;
+        *(HdMaterial *)place_of(field, owner) = named->material;
         named->is_used = true;
+    } else if (name == NULL) {
+        refuse(reader, field, value, 0);
     } else if (reader->knows_materials) {
         report_unknown_material(reader, field, value);
     }
@@ -229,14 +249,18 @@ static void read_material(Reader *reader, const HdField *field, const json_t *va
 
 /* Objects */
 
-static void read_path(Reader *reader, const HdField *field, const json_t *value, HdPath *out) {
-    if (json_is_array(value)) {
-        read_vector(reader, field, value, &out->point);
-    } else if (json_is_object(value)) {
-        *out = (HdPath){.is_fixed = false};
-        read_object(reader, field->object, value, out);
+static void read_part(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    read_object(reader, field->object, value, place_of(field, owner));
+}
+
+static void read_path(Reader *reader, const HdField *field, const json_t *value, void *owner) {
+    if (json_is_object(value)) {
+        *(HdPath *)place_of(field, owner) = (HdPath){.is_fixed = false};
+        read_part(reader, field, value, owner);
+    } else if (json_is_array(value)) {
+        read_numbers(reader, field, value, owner);
     } else {
-        hd_report_field(&reader->report, field, value, false);
+        refuse(reader, field, value, 0);
     }
 }
 
@@ -289,12 +313,14 @@ static void sort_materials(Reader *reader) {
     qsort(reader->by_name, count, sizeof(NamedMaterial *), compare_names);
 }
 
-static void read_materials(Reader *reader, const HdField *field, const json_t *value) {
+static void read_materials(Reader *reader, const HdField *field, const json_t *value,
+                           void *unused) {
     const size_t count = json_object_size(value);
     const char *name;
     json_t *json;
+    (void)unused;
     if (!json_is_object(value)) {
-        hd_report_field(&reader->report, field, value, false);
+        refuse(reader, field, value, 0);
         return;
     }
     if (count > (size_t)field->most) {
@@ -317,67 +343,22 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
     sort_materials(reader);
 }
 
+typedef void ReadField(Reader *reader, const HdField *field, const json_t *value, void *owner);
+
 static void read_field(Reader *reader, const HdField *field, const json_t *value, void *owner) {
-    void *place = (char *)owner + field->offset;
-    double factor = 1.0;
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        if (json_is_boolean(value))
-            *(bool *)place = json_is_true(value);
-        else
-            hd_report_field(&reader->report, field, value, false);
-        break;
-    case HD_FIELD_INTEGER:
-        read_integer(reader, field, value, place);
-        break;
-    case HD_FIELD_NUMBER:
-        read_number(reader, field, value, false, place);
-        break;
-    case HD_FIELD_FACTOR:
-        if (read_number(reader, field, value, false, &factor))
-            *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, factor);
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_UNSCALED:
-        read_vector(reader, field, value, place);
-        break;
-    case HD_FIELD_VECTORS:
-        read_vectors(reader, field, value, owner);
-        break;
-    case HD_FIELD_CHOICE:
-        read_choice(reader, field, value, place);
-        break;
-    case HD_FIELD_SCALE:
-        read_scale(reader, field, value, place);
-        break;
-    case HD_FIELD_TEXT:
-        read_text(reader, field, value, place);
-        break;
-    case HD_FIELD_FILE:
-        read_file(reader, field, value, place);
-        break;
-    case HD_FIELD_MATERIAL:
-        read_material(reader, field, value, place);
-        break;
-    case HD_FIELD_PATH:
-        read_path(reader, field, value, place);
-        break;
-    case HD_FIELD_OBJECT:
-        read_object(reader, field->object, value, place);
-        break;
-    case HD_FIELD_LIST:
-        read_list(reader, field, value, owner);
-        break;
-    case HD_FIELD_MATERIALS:
-        read_materials(reader, field, value);
-        break;
-    }
+    static ReadField *const of_type[HD_FIELD_MATERIALS + 1] = {
+        [HD_FIELD_VECTORS] = read_vectors, [HD_FIELD_TEXT] = read_text,
+        [HD_FIELD_FILE] = read_file,       [HD_FIELD_MATERIAL] = read_material,
+        [HD_FIELD_PATH] = read_path,       [HD_FIELD_OBJECT] = read_part,
+        [HD_FIELD_LIST] = read_list,       [HD_FIELD_MATERIALS] = read_materials};
+    ReadField *read = of_type[field->type];
+    (read != NULL ? read : read_numbers)(reader, field, value, owner);
 }
 
 static void reset_object(const HdObjectType *type, void *owner) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
-        hd_field_reset(field, owner);
+        hd_field_set(field, owner, field->standard);
         if (field->type == HD_FIELD_OBJECT && field->is_given == NULL)
             reset_object(field->object, (char *)owner + field->offset);
         if (field->type == HD_FIELD_MATERIAL)
@@ -390,7 +371,7 @@ static const json_t *find_value(Reader *reader, const HdField *field, const json
     char expected[HD_EXPECTED_SIZE];
     const json_t *value = json_object_get(json, field->key);
     if (value == NULL && field->required) {
-        hd_field_expected(field, false, expected);
+        hd_field_expected(field, 0, expected);
         hd_report(&reader->report, "is missing, expected %s", expected);
     }
     if (value != NULL && field->instead_of != NULL &&
@@ -426,11 +407,12 @@ static void read_object(Reader *reader, const HdObjectType *type, const json_t *
 /* Where a value is refused, its default must not make other values look wrong. */
 static void set_wrong_parts_aside(const Reader *reader, HdSceneFile *file) {
     const HdObjectType *camera = hd_field(&hd_scene_fields, "camera")->object;
+    const HdField *eye = hd_field(camera, "eye"), *target = hd_field(camera, "target");
     HdScene *scene = &file->scene;
     bool is_any_wrong = false;
     if (reader->report.is_view_wrong) {
-        hd_field_reset(hd_field(camera, "eye"), scene);
-        hd_field_reset(hd_field(camera, "target"), scene);
+        hd_field_set(eye, scene, eye->standard);
+        hd_field_set(target, scene, target->standard);
     }
     if (reader->report.is_floor_wrong)
         scene->floor.present = false;

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "input/report.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/text.h"
 #include "image/formats.h"
@@ -56,10 +59,9 @@ void hd_report_value(HdSceneReport *report, const json_t *value, const char *exp
     hd_report(report, "is %s, expected %s", words, expected);
 }
 
-void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value,
-                     bool is_part) {
+void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value, int parts) {
     char expected[HD_EXPECTED_SIZE];
-    hd_field_expected(field, is_part, expected);
+    hd_field_expected(field, parts, expected);
     hd_report_value(report, value, expected);
 }
 
@@ -125,23 +127,11 @@ static const struct Synonym {
     {"hexahedron", "cube"},
 };
 
-static char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
-static bool is_same_word(const char *a, const char *b) {
-    while (*a != '\0' && lower(*a) == lower(*b)) {
-        a++;
-        b++;
-    }
-    return *a == *b;
-}
-
 static bool means(const char *word, const char *name) {
     for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
-        if (is_same_word(synonyms[i].word, word) && strcmp(synonyms[i].name, name) == 0)
+        if (strcasecmp(synonyms[i].word, word) == 0 && strcmp(synonyms[i].name, name) == 0)
             return true;
-    return is_same_word(word, name);
+    return strcasecmp(word, name) == 0;
 }
 
 /* hd_nearest_offer, but a name that means the word, or is the word but for upper and lower case, is
@@ -168,7 +158,7 @@ void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t 
     if (nearest.name != NULL)
         hd_report_mistaken(report, value, nearest.name);
     else
-        hd_report_field(report, field, value, false);
+        hd_report_field(report, field, value, 0);
 }
 
 static void offer_keys(HdNearest *nearest, const HdObjectType *type) {

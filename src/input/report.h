@@ -28,9 +28,8 @@ void hd_report(HdSceneReport *report, const char *format, ...);
 /* The value at the path is not what was expected. */
 void hd_report_value(HdSceneReport *report, const json_t *value, const char *expected);
 
-/* The same with what the field expects; `is_part`: of a number of its vector. */
-void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value,
-                     bool is_part);
+/* The same with what the field expects; `parts` as in hd_field_expected. */
+void hd_report_field(HdSceneReport *report, const HdField *field, const json_t *value, int parts);
 
 /* The value at the path is a word that seems to mean another one. */
 void hd_report_mistaken(HdSceneReport *report, const json_t *value, const char *meant);

@@ -37,6 +37,7 @@ typedef struct HdMeshEntry {
 } HdMeshEntry;
 
 typedef struct HdSceneFile {
+    int version;              /* of the format, of which there is one */
     char schema[HD_MAX_PATH]; /* where the JSON Schema is, for editors; empty: not said */
     HdScene scene;            /* hd_scene_file_load_texture loads the floor's texture, and
                                  hd_scene_file_load_meshes the meshes, their instances and pictures */

@@ -4,8 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "input/fields.h"
-#include "input/json/print.h"
+#include "input/write.h"
 
 static void print_object(HdJsonPrinter *printer, const HdObjectType *type);
 
@@ -47,28 +46,33 @@ static void print_choices(HdJsonPrinter *printer, const HdField *field) {
     hd_json_close(printer, ']');
 }
 
+static void print_number(HdJsonPrinter *printer, const HdField *field) {
+    print_range(printer, field, field->type == HD_FIELD_INTEGER ? "integer" : "number");
+}
+
+static void print_part(HdJsonPrinter *printer, const HdField *field) {
+    print_object(printer, field->object);
+}
+
 /* A vector, or else an object or a number. */
-static void print_either(HdJsonPrinter *printer, const HdField *field, bool vector_is_first) {
+static void print_either(HdJsonPrinter *printer, const HdField *field) {
+    const bool is_path = field->type == HD_FIELD_PATH;
     hd_json_key(printer, "oneOf");
     hd_json_open(printer, '[');
-    for (int i = 0; i < 2; i++) {
-        hd_json_open(printer, '{');
-        if ((i == 0) == vector_is_first)
-            print_vector(printer, field);
-        else if (field->object != NULL)
-            print_object(printer, field->object);
-        else
-            print_range(printer, field, "number");
-        hd_json_close(printer, '}');
-    }
+    hd_json_open(printer, '{');
+    (is_path ? print_vector : print_number)(printer, field);
+    hd_json_close(printer, '}');
+    hd_json_open(printer, '{');
+    (is_path ? print_part : print_vector)(printer, field);
+    hd_json_close(printer, '}');
     hd_json_close(printer, ']');
 }
 
-static void print_text(HdJsonPrinter *printer, int most) {
+static void print_text(HdJsonPrinter *printer, const HdField *field) {
     print_pair(printer, "type", "string");
     print_count(printer, "minLength", 1);
-    if (most > 0)
-        print_count(printer, "maxLength", most);
+    if (field->type != HD_FIELD_MATERIAL)
+        print_count(printer, "maxLength", HD_MAX_PATH - 1);
 }
 
 static void print_materials(HdJsonPrinter *printer, const HdField *field) {
@@ -80,85 +84,43 @@ static void print_materials(HdJsonPrinter *printer, const HdField *field) {
     hd_json_close(printer, '}');
 }
 
+typedef void PrintType(HdJsonPrinter *printer, const HdField *field);
+
+static void print_boolean(HdJsonPrinter *printer, const HdField *unused) {
+    (void)unused;
+    print_pair(printer, "type", "boolean");
+}
+
+static void print_array(HdJsonPrinter *printer, const HdField *field) {
+    open_array(printer, field->least, field->most);
+    (field->object != NULL ? print_part : print_vector)(printer, field);
+    hd_json_close(printer, '}');
+}
+
 static void print_type(HdJsonPrinter *printer, const HdField *field) {
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        print_pair(printer, "type", "boolean");
-        break;
-    case HD_FIELD_INTEGER:
-        print_range(printer, field, "integer");
-        break;
-    case HD_FIELD_NUMBER:
-    case HD_FIELD_FACTOR:
-        print_range(printer, field, "number");
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_UNSCALED:
-        print_vector(printer, field);
-        break;
-    case HD_FIELD_VECTORS:
-        open_array(printer, field->least, field->most);
-        print_vector(printer, field);
-        hd_json_close(printer, '}');
-        break;
-    case HD_FIELD_CHOICE:
-        print_choices(printer, field);
-        break;
-    case HD_FIELD_SCALE:
-        print_either(printer, field, false);
-        break;
-    case HD_FIELD_TEXT:
-    case HD_FIELD_FILE:
-        print_text(printer, HD_MAX_PATH - 1);
-        break;
-    case HD_FIELD_MATERIAL:
-        print_text(printer, 0);
-        break;
-    case HD_FIELD_PATH:
-        print_either(printer, field, true);
-        break;
-    case HD_FIELD_OBJECT:
-        print_object(printer, field->object);
-        break;
-    case HD_FIELD_LIST:
-        open_array(printer, field->least, field->most);
-        print_object(printer, field->object);
-        hd_json_close(printer, '}');
-        break;
-    case HD_FIELD_MATERIALS:
-        print_materials(printer, field);
-        break;
-    }
+    static PrintType *const of_type[] = {
+        [HD_FIELD_BOOLEAN] = print_boolean, [HD_FIELD_INTEGER] = print_number,
+        [HD_FIELD_NUMBER] = print_number,   [HD_FIELD_FACTOR] = print_number,
+        [HD_FIELD_VECTOR] = print_vector,   [HD_FIELD_UNSCALED] = print_vector,
+        [HD_FIELD_VECTORS] = print_array,   [HD_FIELD_CHOICE] = print_choices,
+        [HD_FIELD_SCALE] = print_either,    [HD_FIELD_TEXT] = print_text,
+        [HD_FIELD_FILE] = print_text,       [HD_FIELD_MATERIAL] = print_text,
+        [HD_FIELD_PATH] = print_either,     [HD_FIELD_OBJECT] = print_part,
+        [HD_FIELD_LIST] = print_array,      [HD_FIELD_MATERIALS] = print_materials};
+    of_type[field->type](printer, field);
 }
 
 /* Of what may be left out; what then is not there at all has none. */
 static void print_default(HdJsonPrinter *printer, const HdField *field) {
-    const HdVec3 vector = hd_vec3(field->standard[0], field->standard[1], field->standard[2]);
     const bool is_object = field->object != NULL && field->type != HD_FIELD_PATH;
     if (field->required || hd_field_may_be_absent(field) || is_object)
         return;
     hd_json_key(printer, "default");
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        hd_json_raw(printer, "false");
-        break;
-    case HD_FIELD_CHOICE:
-        hd_json_raw(printer, hd_field_choice(field, (int)field->standard[0]));
-        break;
-    case HD_FIELD_VECTORS:
+    if (field->type == HD_FIELD_VECTORS)
         hd_json_open(printer, '[');
-        hd_json_vector(printer, vector);
+    hd_numbers_print(printer, field, field->standard);
+    if (field->type == HD_FIELD_VECTORS)
         hd_json_close(printer, ']');
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_UNSCALED:
-    case HD_FIELD_PATH:
-        hd_json_vector(printer, vector);
-        break;
-    default:
-        hd_json_number(printer, field->standard[0]);
-        break;
-    }
 }
 
 static void print_field(HdJsonPrinter *printer, const HdField *field) {

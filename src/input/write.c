@@ -70,11 +70,12 @@ static void collect_materials(Writer *writer, const HdSceneFile *file) {
         add_material(writer, &scene->floor.material, "floor", 0);
 }
 
-static void write_materials(Writer *writer) {
+static void write_materials(Writer *writer, const HdField *field, const void *unused) {
+    (void)unused;
     hd_json_open(&writer->printer, '{');
     for (int i = 0; i < writer->material_count; i++) {
         hd_json_key(&writer->printer, writer->materials[i].name);
-        write_object(writer, &hd_material_fields, writer->materials[i].material);
+        write_object(writer, field->object, writer->materials[i].material);
     }
     hd_json_close(&writer->printer, '}');
 }
@@ -98,12 +99,82 @@ static double light_factor(HdVec3 light) {
     return power <= HD_MAX_NUMBER ? power : largest;
 }
 
-static HdVec3 light_colour(HdVec3 light) {
-    const double factor = light_factor(light);
-    return hd_vec3(light.x / factor, light.y / factor, light.z / factor);
+/* Fields */
+
+/* What hd_field_set takes, but for paths; 3, 1 or, where the field has no numbers, 0 of them. A
+   hash takes light as it is. */
+static int take_numbers(const Writer *writer, const HdField *field, const void *owner,
+                        double out[3]) {
+    const void *place = place_of(field, owner);
+    double factor = 1.0;
+    switch (field->type) {
+    case HD_FIELD_BOOLEAN:
+        out[0] = *(const bool *)place ? 1.0 : 0.0;
+        return 1;
+    case HD_FIELD_INTEGER:
+    case HD_FIELD_CHOICE:
+        out[0] = *(const int *)place;
+        return 1;
+    case HD_FIELD_NUMBER:
+        out[0] = *(const double *)place;
+        return 1;
+    case HD_FIELD_FACTOR:
+        out[0] = light_factor(*(const HdVec3 *)place);
+        return 1;
+    case HD_FIELD_UNSCALED:
+        if (!is_hashed(writer))
+            factor = light_factor(*(const HdVec3 *)place);
+        break;
+    case HD_FIELD_VECTOR:
+    case HD_FIELD_SCALE:
+    case HD_FIELD_VECTORS:
+        break;
+    default:
+        return 0;
+    }
+    const HdVec3 vector = *(const HdVec3 *)place;
+    out[0] = vector.x / factor;
+    out[1] = vector.y / factor;
+    out[2] = vector.z / factor;
+    return 3;
 }
 
-/* Fields */
+void hd_numbers_print(HdJsonPrinter *printer, const HdField *field, const double numbers[3]) {
+    const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
+    switch (field->type) {
+    case HD_FIELD_BOOLEAN:
+        hd_json_raw(printer, numbers[0] != 0.0 ? "true" : "false");
+        break;
+    case HD_FIELD_CHOICE:
+        hd_json_raw(printer, hd_field_choice(field, (int)numbers[0]));
+        break;
+    case HD_FIELD_INTEGER:
+    case HD_FIELD_NUMBER:
+    case HD_FIELD_FACTOR:
+        hd_json_number(printer, numbers[0]);
+        break;
+    case HD_FIELD_SCALE:
+        if (vector.x == vector.y && vector.y == vector.z)
+            hd_json_number(printer, vector.x); /* of every axis */
+        else
+            hd_json_vector(printer, vector);
+        break;
+    default:
+        hd_json_vector(printer, vector);
+        break;
+    }
+}
+
+typedef void WriteField(Writer *writer, const HdField *field, const void *owner);
+
+static void write_numbers(Writer *writer, const HdField *field, const void *owner) {
+    double numbers[3] = {0.0, 0.0, 0.0};
+    take_numbers(writer, field, owner, numbers);
+    if (is_hashed(writer) && field->type == HD_FIELD_CHOICE)
+        hd_json_number(&writer->printer, numbers[0]);
+    else
+        hd_numbers_print(&writer->printer, field, numbers);
+}
 
 static void write_vectors(Writer *writer, const HdField *field, const void *owner) {
     const HdVec3 *vectors = place_of(field, owner);
@@ -113,21 +184,30 @@ static void write_vectors(Writer *writer, const HdField *field, const void *owne
     hd_json_close(&writer->printer, ']');
 }
 
-static void write_choice(Writer *writer, const HdField *field, int value) {
-    if (is_hashed(writer) && field->choices[1].json != NULL)
-        hd_json_number(&writer->printer, value);
-    else
-        hd_json_raw(&writer->printer, hd_field_choice(field, value));
+static void write_text(Writer *writer, const HdField *field, const void *owner) {
+    hd_json_string(&writer->printer, place_of(field, owner));
 }
 
-static void write_material(Writer *writer, const HdMaterial *material) {
+static void write_file(Writer *writer, const HdField *field, const void *owner) {
+    const char *path;
+    memcpy(&path, place_of(field, owner), sizeof path);
+    hd_json_string(&writer->printer, path);
+}
+
+static void write_material(Writer *writer, const HdField *field, const void *owner) {
+    const HdMaterial *material = place_of(field, owner);
     if (is_hashed(writer))
         write_object(writer, &hd_material_fields, material);
     else
         hd_json_string(&writer->printer, material_name(writer, material));
 }
 
-static void write_path(Writer *writer, const HdField *field, const HdPath *path) {
+static void write_part(Writer *writer, const HdField *field, const void *owner) {
+    write_object(writer, field->object, place_of(field, owner));
+}
+
+static void write_path(Writer *writer, const HdField *field, const void *owner) {
+    const HdPath *path = place_of(field, owner);
     if (path->is_fixed)
         hd_json_vector(&writer->printer, path->point);
     else
@@ -143,121 +223,36 @@ static void write_list(Writer *writer, const HdField *field, const void *owner) 
     hd_json_close(&writer->printer, ']');
 }
 
-/* One number where every axis has the same. */
-static void write_scale(Writer *writer, HdVec3 scale) {
-    if (scale.x == scale.y && scale.y == scale.z)
-        hd_json_number(&writer->printer, scale.x);
-    else
-        hd_json_vector(&writer->printer, scale);
-}
-
-static void write_file(Writer *writer, const void *place) {
-    const char *path;
-    memcpy(&path, place, sizeof path);
-    hd_json_string(&writer->printer, path);
-}
-
-static void write_value(Writer *writer, const HdField *field, const void *owner) {
-    HdJsonPrinter *printer = &writer->printer;
-    const void *place = place_of(field, owner);
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        hd_json_raw(printer, *(const bool *)place ? "true" : "false");
-        break;
-    case HD_FIELD_INTEGER:
-        hd_json_number(printer, *(const int *)place);
-        break;
-    case HD_FIELD_NUMBER:
-        hd_json_number(printer, *(const double *)place);
-        break;
-    case HD_FIELD_UNSCALED:
-        hd_json_vector(printer, light_colour(*(const HdVec3 *)place));
-        break;
-    case HD_FIELD_FACTOR:
-        hd_json_number(printer, light_factor(*(const HdVec3 *)place));
-        break;
-    case HD_FIELD_VECTOR:
-        hd_json_vector(printer, *(const HdVec3 *)place);
-        break;
-    case HD_FIELD_VECTORS:
-        write_vectors(writer, field, owner);
-        break;
-    case HD_FIELD_CHOICE:
-        write_choice(writer, field, *(const int *)place);
-        break;
-    case HD_FIELD_SCALE:
-        write_scale(writer, *(const HdVec3 *)place);
-        break;
-    case HD_FIELD_TEXT:
-        hd_json_string(printer, place);
-        break;
-    case HD_FIELD_FILE:
-        write_file(writer, place);
-        break;
-    case HD_FIELD_MATERIAL:
-        write_material(writer, place);
-        break;
-    case HD_FIELD_PATH:
-        write_path(writer, field, place);
-        break;
-    case HD_FIELD_OBJECT:
-        write_object(writer, field->object, place);
-        break;
-    case HD_FIELD_LIST:
-        write_list(writer, field, owner);
-        break;
-    case HD_FIELD_MATERIALS:
-        write_materials(writer);
-        break;
-    }
-}
-
 /* Objects */
 
-/* Numbers are compared by their bits, lest 0 and -0 become one. */
-static bool are_same(const double *a, const double *b, size_t count) {
-    return memcmp(a, b, count * sizeof *a) == 0;
+static void write_field(Writer *writer, const HdField *field, const void *owner) {
+    static WriteField *const of_type[HD_FIELD_MATERIALS + 1] = {
+        [HD_FIELD_VECTORS] = write_vectors, [HD_FIELD_TEXT] = write_text,
+        [HD_FIELD_FILE] = write_file,       [HD_FIELD_MATERIAL] = write_material,
+        [HD_FIELD_PATH] = write_path,       [HD_FIELD_OBJECT] = write_part,
+        [HD_FIELD_LIST] = write_list,       [HD_FIELD_MATERIALS] = write_materials};
+    WriteField *write = of_type[field->type];
+    (write != NULL ? write : write_numbers)(writer, field, owner);
 }
 
-static bool is_standard_vector(const HdField *field, HdVec3 vector) {
-    const double parts[3] = {vector.x, vector.y, vector.z};
-    return are_same(parts, field->standard, 3);
-}
-
-/* Whether reading nothing gives the same. */
-static bool is_default(const HdField *field, const void *owner) {
-    const void *place = place_of(field, owner);
+/* Whether reading nothing gives the same. Numbers are compared by their bits, lest 0 and -0 become
+   one. */
+static bool is_default(const Writer *writer, const HdField *field, const void *owner) {
+    double numbers[3];
     if (hd_field_may_be_absent(field))
         return !hd_field_is_given(field, owner);
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
-        return !*(const bool *)place;
-    case HD_FIELD_INTEGER:
-    case HD_FIELD_CHOICE:
-        return *(const int *)place == (int)field->standard[0];
-    case HD_FIELD_NUMBER:
-        return are_same(place, field->standard, 1);
-    case HD_FIELD_FACTOR:
-        return light_factor(*(const HdVec3 *)place) == field->standard[0];
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_SCALE:
-        return is_standard_vector(field, *(const HdVec3 *)place);
-    case HD_FIELD_UNSCALED:
-        return is_standard_vector(field, light_colour(*(const HdVec3 *)place));
-    case HD_FIELD_VECTORS:
-        return hd_field_count(field, owner) == 1 &&
-               is_standard_vector(field, *(const HdVec3 *)place);
-    case HD_FIELD_LIST:
+    if (field->type == HD_FIELD_LIST)
         return hd_field_count(field, owner) == 0;
-    default:
+    if (field->type == HD_FIELD_VECTORS && hd_field_count(field, owner) != 1)
         return false;
-    }
+    const int count = take_numbers(writer, field, owner, numbers);
+    return count > 0 && memcmp(numbers, field->standard, (size_t)count * sizeof *numbers) == 0;
 }
 
 static bool is_left_out(const Writer *writer, const HdField *field) {
-    return is_hashed(writer) &&
-           (field->type == HD_FIELD_TEXT || field->type == HD_FIELD_FILE ||
-            field->type == HD_FIELD_MATERIALS || strcmp(field->key, "output") == 0);
+    return is_hashed(writer) && (field->type == HD_FIELD_TEXT || field->type == HD_FIELD_FILE ||
+                                 field->type == HD_FIELD_FACTOR ||
+                                 field->type == HD_FIELD_MATERIALS || field->is_unseen);
 }
 
 static void write_object(Writer *writer, const HdObjectType *type, const void *owner) {
@@ -266,10 +261,11 @@ static void write_object(Writer *writer, const HdObjectType *type, const void *o
         const HdField *field = &type->fields[i];
         const bool is_absent = !hd_field_is_given(field, owner);
         const bool is_wanted = field->required || type->is_complete;
-        if (is_absent || is_left_out(writer, field) || (!is_wanted && is_default(field, owner)))
+        if (is_absent || is_left_out(writer, field) ||
+            (!is_wanted && is_default(writer, field, owner)))
             continue;
         hd_json_key(&writer->printer, field->key);
-        write_value(writer, field, owner);
+        write_field(writer, field, owner);
     }
     hd_json_close(&writer->printer, '}');
 }
