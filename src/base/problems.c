@@ -37,14 +37,25 @@ static void append_line(char *whole, size_t size, const char *line, size_t lengt
     snprintf(whole + used, size - used, "\n  %.*s", (int)length, line);
 }
 
+HdStatus hd_problems_first(const HdProblems *problems, HdError *error) {
+    if (problems->count == 0)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT, "%.*s", (int)strcspn(problems->text, "\n"), problems->text);
+}
+
+void hd_problems_print(const HdProblems *problems, FILE *out, const char *name, const char *kind) {
+    for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        fprintf(out, "%s%s%.*s\n", name, kind, (int)strcspn(line, "\n"), line);
+}
+
 HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdError *error) {
     char whole[sizeof error->message];
     int listed = 0;
-    if (problems->count == 0)
-        return HD_OK;
+    const HdStatus status = hd_problems_first(problems, error);
     if (problems->count == 1)
-        return hd_fail(error, HD_BAD_INPUT, "%s: %.*s", name, (int)strcspn(problems->text, "\n"),
-                       problems->text);
+        hd_error_prefix(error, name);
+    if (problems->count <= 1)
+        return status;
     snprintf(whole, sizeof whole, "%s: %d problems", name, problems->count);
     for (const char *line = problems->text; *line != '\0'; line += strcspn(line, "\n") + 1) {
         append_line(whole, sizeof whole, line, strcspn(line, "\n"));

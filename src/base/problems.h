@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/error.h"
 
@@ -26,8 +27,14 @@ void hd_problem(HdProblems *problems, const char *format, ...);
    dear, `count` alone may be raised. */
 bool hd_problems_are_full(const HdProblems *problems);
 
+/* HD_OK where nothing was found. Otherwise HD_BAD_INPUT and the first problem. */
+HdStatus hd_problems_first(const HdProblems *problems, HdError *error);
+
 /* HD_OK where nothing was found. Otherwise HD_BAD_INPUT and "name: problem", or, for more than one,
    "name: 3 problems" followed by a line for each, indented. */
 HdStatus hd_problems_status(const HdProblems *problems, const char *name, HdError *error);
+
+/* Writes each as a line of its own, which begins with the two texts. */
+void hd_problems_print(const HdProblems *problems, FILE *out, const char *name, const char *kind);
 
 #endif

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/load_scene.h"
 #include "input/schema.h"
-
-static void print_notes(const char *name, const HdProblems *notes) {
-    for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)
-        printf("%s: note: %.*s\n", name, (int)strcspn(line, "\n"), line);
-}
 
 static void print_meshes(const HdScene *scene) {
     if (scene->mesh_count > 0)
@@ -33,7 +27,7 @@ static HdStatus check_scene(const char *operand, HdError *error) {
     printf("%s: fine, %d solid%s, ", name, solids, hd_plural(solids));
     print_meshes(&file.scene);
     printf("%d light%s, %d frame%s\n", lights, hd_plural(lights), frames, hd_plural(frames));
-    print_notes(name, &notes);
+    hd_problems_print(&notes, stdout, name, ": note: ");
     hd_scene_file_free(&file);
     return HD_OK;
 }

@@ -47,14 +47,14 @@ static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, H
 }
 
 static HdStatus print_default(const HdOptions *options, HdError *error) {
-    HdClassicInput input;
+    HdSceneFile input;
     HdStatus status = hd_default_input(&input, error);
     if (status != HD_OK)
         return status;
     status = hd_apply_scene_options(&input.scene, options, error);
     if (status == HD_OK)
         status = hd_classic_print(stdout, &input, error);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
     return status;
 }
 

@@ -39,7 +39,7 @@ static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t m
     return HD_OK;
 }
 
-static HdStatus read_classic(HdClassicInput *input, const char *path, int variant, HdError *error) {
+HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
     const char *name = path != NULL ? path : standard_input;
     size_t size = 0;
     char *text = malloc(MAX_INPUT_BYTES + 1);
@@ -50,26 +50,11 @@ static HdStatus read_classic(HdClassicInput *input, const char *path, int varian
         stream != NULL ? read_stream(stream, name, text, MAX_INPUT_BYTES, &size, error)
                        : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
     if (status == HD_OK)
-        status = hd_classic_parse(input, text, size, name, variant, error);
+        status = hd_classic_parse(file, text, size, name, variant, error);
     if (stream != NULL && stream != stdin)
         fclose(stream);
     free(text);
     return status;
-}
-
-HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
-    HdClassicInput input;
-    HdStatus status = read_classic(&input, path, variant, error);
-    if (status != HD_OK)
-        return status;
-    memset(file, 0, sizeof *file);
-    file->scene = input.scene;
-    file->output.style = (HdOutputStyle){.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
-                                         .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND};
-    file->texture_curve = HD_CURVE_LINEAR;
-    memcpy(file->output.path, input.output_pattern, sizeof file->output.path);
-    memcpy(file->texture_path, input.texture_path, sizeof file->texture_path);
-    return HD_OK;
 }
 
 static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *source,
@@ -195,11 +180,6 @@ static HdStatus read_default(HdSceneFile *file, const HdSceneSource *source, HdE
     return hd_scene_file_parse(file, text, size, source, error);
 }
 
-static void tell_notes(const HdProblems *notes) {
-    for (const char *line = notes->text; *line != '\0'; line += strcspn(line, "\n") + 1)
-        fprintf(stderr, "hedron: %.*s\n", (int)strcspn(line, "\n"), line);
-}
-
 HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *error) {
     HdProblems notes = {.count = 0};
     const HdSceneSource source = {.name = hd_scene_name(options),
@@ -214,7 +194,7 @@ HdStatus hd_read_scene(HdSceneFile *file, const HdOptions *options, HdError *err
     if (status != HD_OK)
         return status;
     if (!options->quiet)
-        tell_notes(&notes);
+        hd_problems_print(&notes, stderr, "hedron", ": ");
     status = hd_apply_scene_options(&file->scene, options, error);
     if (status == HD_OK)
         status = hd_apply_geometry(&file->scene, options, error);

@@ -15,7 +15,7 @@ const char *hd_default_scene_text(size_t *size) {
     return (const char *)hd_default_scene;
 }
 
-HdStatus hd_default_input(HdClassicInput *input, HdError *error) {
+HdStatus hd_default_input(HdSceneFile *input, HdError *error) {
     return hd_classic_parse(input, (const char *)hd_default_classic, hd_default_classic_size,
                             "the built-in configuration", HD_CLASSIC_DEFAULT_VARIANT, error);
 }

@@ -19,7 +19,7 @@ bool hd_texture_path_is_relative(const char *path);
 const char *hd_default_scene_text(size_t *size);
 
 /* The most colourful configuration that the classic input can tell, without its texture. */
-HdStatus hd_default_input(HdClassicInput *input, HdError *error);
+HdStatus hd_default_input(HdSceneFile *input, HdError *error);
 
 /* Reads the texture that the scene names, if any: the embedded one, or a file ("~" is
    the home folder). */

@@ -423,7 +423,5 @@ void hd_scene_check(const HdScene *scene, HdNaming naming, HdProblems *problems)
 HdStatus hd_scene_validate(const HdScene *scene, HdError *error) {
     HdProblems problems = {0};
     hd_scene_check(scene, HD_NAMING_PROSE, &problems);
-    if (problems.count == 0)
-        return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT, "%.*s", (int)strcspn(problems.text, "\n"), problems.text);
+    return hd_problems_first(&problems, error);
 }

@@ -112,7 +112,7 @@ static void read_solid(HdTokenReader *reader, HdSolidKind kind, int number, HdSo
     fill_solid(solid);
 }
 
-static void read_floor(HdTokenReader *reader, HdClassicInput *input) {
+static void read_floor(HdTokenReader *reader, HdSceneFile *input) {
     static const char *const names[4] = {"corner 1", "corner 2", "corner 3", "corner 4"};
     HdFloor *floor = &input->scene.floor;
     floor->present = true;
@@ -171,11 +171,11 @@ static void read_output_pattern(HdTokenReader *reader, char pattern[HD_MAX_PATH]
     }
 }
 
-static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdClassicInput *input) {
+static void read_input(HdTokenReader *reader, const HdSolidKind *kinds, HdSceneFile *input) {
     HdScene *scene = &input->scene;
     scene->exposure = 1.0;
     hd_read_int(reader, "number of frames", 1, HD_MAX_FRAMES, &scene->frame_count);
-    read_output_pattern(reader, input->output_pattern);
+    read_output_pattern(reader, input->output.path);
     hd_read_int(reader, "width", 1, HD_MAX_IMAGE_SIDE, &scene->width);
     hd_read_int(reader, "height", 1, HD_MAX_IMAGE_SIDE, &scene->height);
     hd_read_number(reader, "field of view", &scene->field_of_view_degrees);
@@ -219,9 +219,11 @@ static bool is_json(const char *text, size_t size) {
     return start < size && text[start] == '{';
 }
 
-HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, const char *name,
+HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, const char *name,
                           int variant, HdError *error) {
-    *input = (HdClassicInput){0};
+    *input = (HdSceneFile){.output.style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
+                                            .frames_per_second = HD_DEFAULT_FRAMES_PER_SECOND},
+                           .texture_curve = HD_CURVE_LINEAR};
     const HdSolidKind *kinds = hd_classic_variant_kinds(variant);
     if (kinds == NULL)
         return hd_fail(error, HD_BAD_INPUT, "the variant is %d, expected 1 to %d", variant,
@@ -235,13 +237,8 @@ HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, 
     HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
     read_input(&reader, kinds, input);
     if (reader.status != HD_OK)
-        hd_classic_free(input);
+        hd_scene_file_free(input);
     return reader.status;
-}
-
-void hd_classic_free(HdClassicInput *input) {
-    hd_scene_free(&input->scene);
-    *input = (HdClassicInput){0};
 }
 
 /* The other way */
@@ -317,7 +314,7 @@ static bool is_one_token(const char *path) {
     return path[0] != '\0' && strpbrk(path, " \t\n\v\f\r") == NULL;
 }
 
-static HdStatus check_fits(const HdClassicInput *input, HdError *error) {
+static HdStatus check_fits(const HdSceneFile *input, HdError *error) {
     const HdScene *scene = &input->scene;
     if (scene->solid_count != HD_CLASSIC_SOLIDS)
         return hd_fail(error, HD_BAD_INPUT, "the scene has %d solids, expected %d",
@@ -327,10 +324,10 @@ static HdStatus check_fits(const HdClassicInput *input, HdError *error) {
     if (scene->light_count > HD_CLASSIC_MAX_LIGHTS)
         return hd_fail(error, HD_BAD_INPUT, "the scene has %d lights, expected at most %d",
                        scene->light_count, HD_CLASSIC_MAX_LIGHTS);
-    if (!is_one_token(input->output_pattern))
+    if (!is_one_token(input->output.path))
         return hd_fail(error, HD_BAD_INPUT,
                        "the output path is '%s', expected one without white space",
-                       input->output_pattern);
+                       input->output.path);
     if (!is_one_token(input->texture_path))
         return hd_fail(error, HD_BAD_INPUT,
                        "the texture path is '%s', expected one without white space",
@@ -338,12 +335,12 @@ static HdStatus check_fits(const HdClassicInput *input, HdError *error) {
     return HD_OK;
 }
 
-HdStatus hd_classic_print(FILE *out, const HdClassicInput *input, HdError *error) {
+HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error) {
     const HdScene *scene = &input->scene;
     const HdStatus status = check_fits(input, error);
     if (status != HD_OK)
         return status;
-    fprintf(out, "%d\n%s\n%d %d ", scene->frame_count, input->output_pattern, scene->width,
+    fprintf(out, "%d\n%s\n%d %d ", scene->frame_count, input->output.path, scene->width,
             scene->height);
     print_number(out, scene->field_of_view_degrees);
     putc('\n', out);

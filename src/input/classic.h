@@ -17,8 +17,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
-#include "scene/scene.h"
-#include "system/path.h"
+#include "input/scene_file.h"
 
 enum {
     HD_CLASSIC_SOLIDS = 3,
@@ -27,26 +26,19 @@ enum {
     HD_CLASSIC_DEFAULT_VARIANT = 4
 };
 
-typedef struct HdClassicInput {
-    HdScene scene;
-    char output_pattern[HD_MAX_PATH]; /* as in the text: "~" is not replaced */
-    char texture_path[HD_MAX_PATH];   /* likewise */
-} HdClassicInput;
-
 /* The kinds of the three solids of a variant; NULL where there is no such variant. */
 const HdSolidKind *hd_classic_variant_kinds(int variant);
 
 /* Reads `size` bytes of text, which need not end in a zero byte, and fills in what the classic
-   input does not say (materials, rims, the light of the edges). Messages call the text `name`. The
-   texture is not read: scene.floor.texture is empty. On failure `input` is left empty. */
-HdStatus hd_classic_parse(HdClassicInput *input, const char *text, size_t size, const char *name,
+   input does not say (materials, rims, the light of the edges, linear curves). Messages call the
+   text `name`. Paths are as in the text, and the texture is not read. On failure `input` is left
+   empty. */
+HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, const char *name,
                           int variant, HdError *error);
-
-void hd_classic_free(HdClassicInput *input);
 
 /* Writes the same format; reading it back gives the same numbers. Fails with HD_BAD_INPUT where the
    format cannot hold the scene: not three solids, no floor, more than four lights, or a path with
    white space. Of materials and lights it keeps what the format has. */
-HdStatus hd_classic_print(FILE *out, const HdClassicInput *input, HdError *error);
+HdStatus hd_classic_print(FILE *out, const HdSceneFile *input, HdError *error);
 
 #endif

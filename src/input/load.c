@@ -14,20 +14,6 @@
 #include "input/read.h"
 #include "system/file_bytes.h"
 
-/* JSON text has no zero bytes, and the parser takes one for the end of a token. */
-static HdStatus check_no_zero(const char *text, size_t size, const char *name, HdError *error) {
-    const char *zero = size > 0 ? memchr(text, 0, size) : NULL;
-    int line = 1, column = 1;
-    if (zero == NULL)
-        return HD_OK;
-    for (const char *c = text; c < zero; c++) {
-        column = *c == '\n' ? 1 : column + 1;
-        line += *c == '\n';
-    }
-    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: there is a zero byte, expected JSON text", name,
-                   line, column);
-}
-
 static HdStatus fail_syntax(const json_error_t *found, const char *text_read, size_t size,
                             const char *name, HdError *error) {
     char text[JSON_ERROR_TEXT_LENGTH * 2];
@@ -59,13 +45,17 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
                        (int)HD_MAX_SCENE_BYTES);
     if (size == 0)
         return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected a scene in JSON", name);
-    HdStatus status = check_no_zero(text, size, name, error);
-    if (status == HD_OK && is_classic(text, size))
+    /* JSON text has no zero bytes, and the parser takes one for the end of a token. */
+    const char *zero = memchr(text, 0, size);
+    if (zero != NULL)
+        return hd_json_fail_at(text, (size_t)(zero - text), name,
+                               "there is a zero byte, expected JSON text", error);
+    if (is_classic(text, size))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
                        "scene.json' makes a scene of",
                        name);
-    return status == HD_OK ? hd_json_check_limits(text, size, name, error) : status;
+    return hd_json_check_limits(text, size, name, error);
 }
 
 static HdStatus parse_json(json_t **root, const char *text, size_t size, const char *name,

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/tokens.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -17,9 +16,6 @@ typedef struct Token {
 
 static bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
-}
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
 }
 
 /* The start of a token, fit for a message. */
@@ -81,68 +77,35 @@ static bool read_token(HdTokenReader *reader, const char *what, const char *expe
     return true;
 }
 
-static const char *skip_digits(const char *s) {
-    while (is_digit(*s))
-        s++;
-    return s;
-}
-
-static const char *skip_sign(const char *s) {
-    return *s == '+' || *s == '-' ? s + 1 : s;
-}
-
 /* Decimal notation only: strtod alone would take hexadecimal numbers, "nan" and "inf" too. */
-static bool is_decimal(const char *s) {
-    const char *start = skip_sign(s);
-    const char *end = skip_digits(start);
-    size_t digits = (size_t)(end - start);
-    if (*end == '.') {
-        start = end + 1;
-        end = skip_digits(start);
-        digits += (size_t)(end - start);
-    }
-    if (digits == 0)
-        return false;
-    if (*end == 'e' || *end == 'E') {
-        start = skip_sign(end + 1);
-        end = skip_digits(start);
-        if (end == start)
-            return false;
-    }
-    return *end == '\0';
+static bool is_decimal(const char *s, double *number) {
+    char *end;
+    *number = strtod(s, &end);
+    return *end == '\0' && s[strspn(s, "0123456789+-.eE")] == '\0';
 }
 
-static bool is_integer(const char *s) {
-    const char *start = skip_sign(s);
-    const char *end = skip_digits(start);
-    return end != start && *end == '\0';
-}
-
-/* The number, or NaN after a failure. */
-static double next_number(HdTokenReader *reader, const char *what) {
+/* False where there is none, which is an error. */
+static bool next_number(HdTokenReader *reader, const char *what, double *number) {
     static const char *const expected = "a number";
     Token token;
     if (!read_token(reader, what, expected, &token))
-        return (double)NAN;
-    if (!is_decimal(token.text)) {
+        return false;
+    if (!is_decimal(token.text, number))
         fail_token(reader, what, &token, expected);
-        return (double)NAN;
-    }
-    const double number = strtod(token.text, NULL);
-    if (isinf(number))
+    else if (isinf(*number))
         fail_token(reader, what, &token, "a number within the range of double precision");
-    return number;
+    return reader->status == HD_OK;
 }
 
 void hd_read_number(HdTokenReader *reader, const char *what, double *value) {
-    const double number = next_number(reader, what);
-    if (reader->status == HD_OK)
+    double number;
+    if (next_number(reader, what, &number))
         *value = number;
 }
 
 void hd_read_share(HdTokenReader *reader, const char *what, double *value) {
-    const double number = next_number(reader, what);
-    if (reader->status != HD_OK)
+    double number;
+    if (!next_number(reader, what, &number))
         return;
     if (number >= 0.0 && number <= 1.0)
         *value = number;
@@ -151,14 +114,13 @@ void hd_read_share(HdTokenReader *reader, const char *what, double *value) {
 }
 
 void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int *value) {
-    char expected[64];
+    char expected[64], *end;
     Token token;
     snprintf(expected, sizeof expected, "a whole number from %d to %d", low, high);
     if (!read_token(reader, what, expected, &token))
         return;
-    errno = 0;
-    const long number = is_integer(token.text) ? strtol(token.text, NULL, 10) : 0;
-    if (errno != 0 || !is_integer(token.text) || number < low || number > high)
+    const long number = strtol(token.text, &end, 10); /* one too long is the largest or least */
+    if (*end != '\0' || number < low || number > high)
         fail_token(reader, what, &token, expected);
     else
         *value = (int)number;

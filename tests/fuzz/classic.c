@@ -11,7 +11,7 @@
 #include "scene_work.h"
 #include "system/path.h"
 
-static char *print(const HdClassicInput *input, size_t *size) {
+static char *print(const HdSceneFile *input, size_t *size) {
     static HdError error;
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
@@ -22,9 +22,9 @@ static char *print(const HdClassicInput *input, size_t *size) {
     return text;
 }
 
-static void expect_to_come_back(const HdClassicInput *input, int variant) {
+static void expect_to_come_back(const HdSceneFile *input, int variant) {
     static HdError error;
-    HdClassicInput again;
+    HdSceneFile again;
     size_t first_size, second_size;
     char *first = print(input, &first_size);
     fuzz_expect(hd_classic_parse(&again, first, first_size, "again", variant, &error) == HD_OK,
@@ -32,14 +32,14 @@ static void expect_to_come_back(const HdClassicInput *input, int variant) {
     char *second = print(&again, &second_size);
     fuzz_expect(first_size == second_size && memcmp(first, second, first_size) == 0,
                 "an input that changes when it is written and read");
-    hd_classic_free(&again);
+    hd_scene_file_free(&again);
     free(first);
     free(second);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static HdError error;
-    HdClassicInput input;
+    HdSceneFile input;
     char name[HD_MAX_PATH];
     if (size < 1)
         return 0;
@@ -49,9 +49,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_expect_input_status(status, &error);
     if (status != HD_OK)
         return 0;
-    hd_pattern_format(input.output_pattern, input.scene.frame_count - 1, name, &error);
+    hd_pattern_format(input.output.path, input.scene.frame_count - 1, name, &error);
     fuzz_prepare_scene(&input.scene);
     expect_to_come_back(&input, variant);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
     return 0;
 }

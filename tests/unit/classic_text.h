@@ -72,8 +72,8 @@ static inline Tokens official_tokens(void) {
 }
 
 /* Parses a copy with no zero byte behind it, so that a memory checker sees a byte read too many. */
-static inline HdStatus parse_bytes(HdClassicInput *input, const char *text, size_t size,
-                                   int variant, HdError *error) {
+static inline HdStatus parse_bytes(HdSceneFile *input, const char *text, size_t size, int variant,
+                                   HdError *error) {
     char *copy = malloc(size > 0 ? size : 1);
     assert_non_null(copy);
     memcpy(copy, text, size);
@@ -82,17 +82,17 @@ static inline HdStatus parse_bytes(HdClassicInput *input, const char *text, size
     return status;
 }
 
-static inline void expect_parsed(HdClassicInput *input, const char *text, int variant) {
+static inline void expect_parsed(HdSceneFile *input, const char *text, int variant) {
     static HdError error;
     if (parse_bytes(input, text, strlen(text), variant, &error) != HD_OK)
         fail_msg("%s", error.message);
 }
 
-static inline void expect_empty(const HdClassicInput *input) {
+static inline void expect_empty(const HdSceneFile *input) {
     assert_null(input->scene.solids);
     assert_null(input->scene.lights);
     assert_int_equal(input->scene.solid_count, 0);
-    assert_int_equal(input->output_pattern[0], '\0');
+    assert_int_equal(input->output.path[0], '\0');
 }
 
 /* The official text with one token replaced; the caller frees it. */
@@ -106,8 +106,7 @@ static inline char *with_token(int index, const char *replacement) {
     return text;
 }
 
-static inline void expect_token_accepted(HdClassicInput *input, int index,
-                                         const char *replacement) {
+static inline void expect_token_accepted(HdSceneFile *input, int index, const char *replacement) {
     char *text = with_token(index, replacement);
     expect_parsed(input, text, 4);
     free(text);

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,26 +34,30 @@ static void take(Counter *counter, char c) {
     counter->depth -= (c == ']' || c == '}') && counter->depth > 0;
 }
 
-static HdStatus fail_at(const char *text, size_t position, const char *name, const char *what,
-                        int most, HdError *error) {
+HdStatus hd_json_fail_at(const char *text, size_t position, const char *name, const char *what,
+                         HdError *error) {
     int line = 1, column = 1;
     for (size_t i = 0; i < position; i++) {
         column = text[i] == '\n' ? 1 : column + 1;
         line += text[i] == '\n';
     }
-    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s, expected at most %d", name, line, column,
-                   what, most);
+    return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s", name, line, column, what);
 }
 
 HdStatus hd_json_check_limits(const char *text, size_t size, const char *name, HdError *error) {
     Counter counter = {.values = 1};
+    char what[96] = "";
     for (size_t i = 0; i < size; i++) {
         take(&counter, text[i]);
         if (counter.values > HD_MAX_JSON_VALUES)
-            return fail_at(text, i, name, "there are too many values", HD_MAX_JSON_VALUES, error);
-        if (counter.depth > HD_MAX_JSON_DEPTH)
-            return fail_at(text, i, name, "there are too many arrays and objects in each other",
-                           HD_MAX_JSON_DEPTH, error);
+            snprintf(what, sizeof what, "there are too many values, expected at most %d",
+                     (int)HD_MAX_JSON_VALUES);
+        else if (counter.depth > HD_MAX_JSON_DEPTH)
+            snprintf(what, sizeof what,
+                     "there are too many arrays and objects in each other, expected at most %d",
+                     (int)HD_MAX_JSON_DEPTH);
+        if (what[0] != '\0')
+            return hd_json_fail_at(text, i, name, what, error);
     }
     return HD_OK;
 }

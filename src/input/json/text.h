@@ -14,6 +14,10 @@ enum {
     HD_MAX_JSON_DEPTH = 32        /* arrays and objects within each other; a scene has 7 */
 };
 
+/* Fails with HD_BAD_INPUT, the line and column of a place in the text, and what is wrong there. */
+HdStatus hd_json_fail_at(const char *text, size_t position, const char *name, const char *what,
+                         HdError *error);
+
 /* Refuses, with line and column, text in which more values could be or that is nested deeper. What
    is no JSON may pass. */
 HdStatus hd_json_check_limits(const char *text, size_t size, const char *name, HdError *error);

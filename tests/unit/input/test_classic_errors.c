@@ -4,7 +4,7 @@
 
 static void expect_rejected(const char *text, const char *message) {
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     const HdStatus status = parse_bytes(&input, text, strlen(text), 4, &error);
     assert_int_equal(status, HD_BAD_INPUT);
     assert_int_equal(error.status, HD_BAD_INPUT);
@@ -22,7 +22,7 @@ static void expect_token_rejected(int index, const char *replacement, const char
 static void test_every_truncation(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     const Tokens tokens = official_tokens();
     assert_int_equal(tokens.count, TOKENS);
     for (int i = 0; i < tokens.count; i++) {
@@ -39,18 +39,18 @@ static void test_every_truncation(void **state) {
 static void test_every_byte_as_the_last(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     for (size_t size = 0; size < sizeof official; size++) {
         const HdStatus status = parse_bytes(&input, official, size, 4, &error);
         assert_true(status == HD_OK || status == HD_BAD_INPUT);
-        hd_classic_free(&input);
+        hd_scene_file_free(&input);
     }
 }
 
 static void test_the_missing_field_is_named(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     static const struct {
         int token;
         const char *message;
@@ -146,19 +146,19 @@ static void test_values_that_the_scene_refuses(void **state) {
 
 static void test_output_path(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_token_rejected(OUTPUT, "img.data", "standard input:2: output path: ");
     expect_token_rejected(OUTPUT, "%d/%d.data", "standard input:2: output path: ");
     expect_token_rejected(OUTPUT, "%s%d.data", "standard input:2: output path: ");
     expect_token_rejected(OUTPUT, "%n%d", "standard input:2: output path: ");
     expect_token_accepted(&input, OUTPUT, "~/frames/%d");
-    assert_string_equal(input.output_pattern, "~/frames/%d");
-    hd_classic_free(&input);
+    assert_string_equal(input.output.path, "~/frames/%d");
+    hd_scene_file_free(&input);
 }
 
 static void test_long_tokens(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     static char token[HD_MAX_PATH + 1];
     memset(token, 'x', HD_MAX_PATH);
     expect_token_rejected(TEXTURE, token,
@@ -167,7 +167,7 @@ static void test_long_tokens(void **state) {
     token[HD_MAX_PATH - 1] = '\0';
     expect_token_accepted(&input, TEXTURE, token);
     assert_string_equal(input.texture_path, token);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
     expect_token_rejected(VIEW, token, "xxx...', expected a number");
     memset(token, '9', HD_MAX_PATH);
     expect_token_rejected(VIEW, token, "field of view has 4096 characters");
@@ -176,7 +176,7 @@ static void test_long_tokens(void **state) {
 static void test_strange_bytes(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     char text[sizeof official];
     memcpy(text, official, sizeof text);
     text[2] = '\0';
@@ -194,7 +194,7 @@ static void test_strange_bytes(void **state) {
         memcpy(text, official, sizeof text);
         text[40] = (char)byte;
         parse_bytes(&input, text, sizeof text - 1, 4, &error);
-        hd_classic_free(&input);
+        hd_scene_file_free(&input);
     }
 }
 
@@ -204,16 +204,16 @@ static void test_leftovers(void **state) {
     snprintf(text, sizeof text, "%s\n 17 18", official);
     expect_rejected(text, "standard input:15: what follows the last value is '17', expected the "
                           "end of the input");
-    static HdClassicInput input;
+    static HdSceneFile input;
     snprintf(text, sizeof text, "%s\n \t\r\n ", official);
     expect_parsed(&input, text, 4);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_no_such_variant(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     const int wrong[4] = {0, 11, -1, 2147483647};
     for (int i = 0; i < 4; i++) {
         assert_null(hd_classic_variant_kinds(wrong[i]));

@@ -18,13 +18,13 @@ static void expect_path(const HdCylinderPath *actual, const double expected[10])
 
 static void test_official_camera_and_picture(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     const double eye[10] = {7.0, 3.0, 0.0, 2.0, 1.0, 2.0, 6.0, 1.0, 0.0, 0.0};
     const double target[10] = {2.0, 0.0, 0.0, 0.5, 0.1, 1.0, 4.0, 1.0, 0.0, 0.0};
     expect_parsed(&input, official, 4);
     const HdScene *scene = &input.scene;
     assert_int_equal(scene->frame_count, 1024);
-    assert_string_equal(input.output_pattern, "out/img_%d.data");
+    assert_string_equal(input.output.path, "out/img_%d.data");
     assert_int_equal(scene->width, 640);
     assert_int_equal(scene->height, 480);
     expect_near(scene->field_of_view_degrees, 120.0, 0.0);
@@ -35,13 +35,13 @@ static void test_official_camera_and_picture(void **state) {
     expect_near(scene->exposure, 1.0, 0.0);
     expect_near(scene->cutoff, 0.0, 0.0);
     expect_vector(scene->background, 0.0, 0.0, 0.0);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
     expect_empty(&input);
 }
 
 static void test_official_solids(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     assert_int_equal(input.scene.solid_count, 3);
     const HdSolid *solids = input.scene.solids;
@@ -66,12 +66,12 @@ static void test_official_solids(void **state) {
     expect_near(solids[2].face.reflection, 0.7, 0.0);
     expect_near(solids[2].face.transmission, 0.3, 0.0);
     assert_int_equal(solids[2].lights.per_edge, 2);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_official_floor_and_lights(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     const HdFloor *floor = &input.scene.floor;
     assert_true(floor->present);
@@ -90,12 +90,12 @@ static void test_official_floor_and_lights(void **state) {
     expect_vector(input.scene.lights[1].position, 1.0, 0.0, 10.0);
     expect_vector(input.scene.lights[1].intensity, 0.0, 0.0, 1.0);
     expect_near(input.scene.lights[1].falloff.distance, 0.0, 0.0);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_what_the_input_lacks(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     for (int i = 0; i < 3; i++) {
         const HdSolid *solid = &input.scene.solids[i];
@@ -129,15 +129,15 @@ static void test_what_the_input_lacks(void **state) {
     expect_near(floor->transmission, 0.0, 0.0);
     assert_int_equal(floor->shininess, 64);
     expect_vector(floor->mirror_tint, 1.0, 1.0, 1.0);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_no_light_and_no_edge_light(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_token_accepted(&input, SOLID_1 + 9, "0");
     expect_near(input.scene.solids[0].lights.intensity, 0.0, 0.0);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 
     const Tokens tokens = official_tokens();
     char text[sizeof official + 16];
@@ -146,12 +146,12 @@ static void test_no_light_and_no_edge_light(void **state) {
     assert_int_equal(input.scene.light_count, 0);
     assert_int_equal(input.scene.depth, 3);
     assert_int_equal(input.scene.samples_per_side, 2);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_any_white_space_separates(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     static const char spaces[] = " \t\n\v\f\r";
     char text[sizeof official];
     memcpy(text, official, sizeof text);
@@ -160,7 +160,7 @@ static void test_any_white_space_separates(void **state) {
             text[i] = spaces[next++ % (sizeof spaces - 1)];
     expect_parsed(&input, text, 4);
     assert_int_equal(input.scene.samples_per_side, 16);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_what_is_a_number(void **state) {
@@ -170,15 +170,15 @@ static void test_what_is_a_number(void **state) {
         double value;
     } cases[] = {{"90", 90.0},       {"+90.", 90.0},  {"9E1", 90.0},     {".9e+2", 90.0},
                  {"900.0e-1", 90.0}, {"00090", 90.0}, {"1e-320", 1e-320}};
-    static HdClassicInput input;
+    static HdSceneFile input;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         expect_token_accepted(&input, VIEW, cases[i].text);
         expect_near(input.scene.field_of_view_degrees, cases[i].value, 0.0);
-        hd_classic_free(&input);
+        hd_scene_file_free(&input);
     }
     expect_token_accepted(&input, FRAMES, "+0012");
     assert_int_equal(input.scene.frame_count, 12);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_variants(void **state) {
@@ -189,7 +189,7 @@ static void test_variants(void **state) {
     static const int edges[5] = {6, 12, 12, 30, 30};
     static const int per_edge[3] = {10, 5, 2};
     for (int variant = 1; variant <= 10; variant++) {
-        static HdClassicInput input;
+        static HdSceneFile input;
         const HdSolidKind *kinds = hd_classic_variant_kinds(variant);
         expect_parsed(&input, official, variant);
         for (int i = 0; i < 3; i++) {
@@ -199,12 +199,12 @@ static void test_variants(void **state) {
             assert_int_equal(solid->kind, kind);
             expect_near(solid->lights.intensity, 0.7 / (edges[kind] * per_edge[i]), 0.0);
         }
-        hd_classic_free(&input);
+        hd_scene_file_free(&input);
     }
 }
 
 /* The text that hd_classic_print writes; the caller frees it. */
-static char *printed(const HdClassicInput *input) {
+static char *printed(const HdSceneFile *input) {
     static HdError error;
     FILE *file = tmpfile();
     assert_non_null(file);
@@ -230,8 +230,8 @@ static void expect_same_solid(const HdSolid *a, const HdSolid *b) {
     assert_int_equal(a->lights.per_edge, b->lights.per_edge);
 }
 
-static void expect_same(const HdClassicInput *a, const HdClassicInput *b) {
-    assert_string_equal(a->output_pattern, b->output_pattern);
+static void expect_same(const HdSceneFile *a, const HdSceneFile *b) {
+    assert_string_equal(a->output.path, b->output.path);
     assert_string_equal(a->texture_path, b->texture_path);
     assert_int_equal(a->scene.frame_count, b->scene.frame_count);
     assert_int_equal(a->scene.width, b->scene.width);
@@ -255,18 +255,18 @@ static void expect_same(const HdClassicInput *a, const HdClassicInput *b) {
     assert_int_equal(a->scene.samples_per_side, b->scene.samples_per_side);
 }
 
-static void expect_round_trip(const HdClassicInput *input) {
-    static HdClassicInput again;
+static void expect_round_trip(const HdSceneFile *input) {
+    static HdSceneFile again;
     char *text = printed(input);
     expect_parsed(&again, text, 4);
     expect_same(input, &again);
-    hd_classic_free(&again);
+    hd_scene_file_free(&again);
     free(text);
 }
 
 static void test_round_trip(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     expect_round_trip(&input);
     /* Numbers that need all their digits. */
@@ -276,12 +276,12 @@ static void test_round_trip(void **state) {
     input.scene.solids[1].centre = hd_vec3(0.1, -1e-17, 1e11 + 0.1);
     input.scene.lights[1].intensity = hd_vec3(nextafter(1.0, 2.0), 2.0 / 3.0, 1e5);
     expect_round_trip(&input);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_printed_text_is_short_and_in_lines(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     input.scene.eye.cylinder.z_phase = 0.1 + 0.2;
     char *text = printed(&input);
@@ -291,10 +291,10 @@ static void test_printed_text_is_short_and_in_lines(void **state) {
     expect_contains(text, "   ~/floor.data   0 1 0   0.5\n2\n-10 0 10   1 1 1\n");
     expect_contains(text, "\n10 16\n");
     free(text);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
-static void expect_not_printed(const HdClassicInput *input, const char *message) {
+static void expect_not_printed(const HdSceneFile *input, const char *message) {
     static HdError error;
     FILE *file = tmpfile();
     assert_non_null(file);
@@ -306,7 +306,7 @@ static void expect_not_printed(const HdClassicInput *input, const char *message)
 
 static void test_what_the_format_cannot_hold(void **state) {
     (void)state;
-    static HdClassicInput input;
+    static HdSceneFile input;
     expect_parsed(&input, official, 4);
     input.scene.solid_count = 2;
     expect_not_printed(&input, "the scene has 2 solids, expected 3");
@@ -321,15 +321,15 @@ static void test_what_the_format_cannot_hold(void **state) {
     expect_not_printed(&input, "texture path is 'my floor.png'");
     input.texture_path[0] = '\0';
     expect_not_printed(&input, "texture path is ''");
-    strcpy(input.output_pattern, "a\tb%d");
+    strcpy(input.output.path, "a\tb%d");
     expect_not_printed(&input, "output path is ");
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 static void test_a_full_disk(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     FILE *full = fopen("/dev/full", "w");
     if (full == NULL)
         skip();
@@ -337,7 +337,7 @@ static void test_a_full_disk(void **state) {
     assert_int_equal(hd_classic_print(full, &input, &error), HD_FAILED);
     expect_contains(error.message, "cannot write the configuration");
     fclose(full);
-    hd_classic_free(&input);
+    hd_scene_file_free(&input);
 }
 
 int main(void) {

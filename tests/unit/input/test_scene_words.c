@@ -160,7 +160,7 @@ static void test_hints_for_json(void **state) {
 static void test_scene_as_classic_input(void **state) {
     (void)state;
     static HdError error;
-    static HdClassicInput input;
+    static HdSceneFile input;
     static const char text[] = "\xef\xbb\xbf \n{\"hedron\": 1}";
     assert_int_equal(hd_classic_parse(&input, text, strlen(text), "a.in", 4, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "a.in: this looks like a scene file, which 'hedron render "
