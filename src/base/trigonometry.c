@@ -16,31 +16,24 @@ static const double largest_reduced = 1e6;
 
 /* Taylor's series; the first term left out is below 1e-19 on [-pi/4, pi/4]. All factorials up to
    18! are exact in double. */
-static double sine_near_zero(double x) {
-    const double y = x * x;
-    double sum = 1.0 / 355687428096000.0;
-    sum = sum * y - 1.0 / 1307674368000.0;
-    sum = sum * y + 1.0 / 6227020800.0;
-    sum = sum * y - 1.0 / 39916800.0;
-    sum = sum * y + 1.0 / 362880.0;
-    sum = sum * y - 1.0 / 5040.0;
-    sum = sum * y + 1.0 / 120.0;
-    sum = sum * y - 1.0 / 6.0;
-    return x + x * (y * sum);
-}
+static const double sine_terms[] = {
+    1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+    1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+static const double cosine_terms[] = {-1.0 / 6402373705728000.0,
+                                      1.0 / 20922789888000.0,
+                                      -1.0 / 87178291200.0,
+                                      1.0 / 479001600.0,
+                                      -1.0 / 3628800.0,
+                                      1.0 / 40320.0,
+                                      -1.0 / 720.0,
+                                      1.0 / 24.0,
+                                      -1.0 / 2.0};
 
-static double cosine_near_zero(double x) {
-    const double y = x * x;
-    double sum = -1.0 / 6402373705728000.0;
-    sum = sum * y + 1.0 / 20922789888000.0;
-    sum = sum * y - 1.0 / 87178291200.0;
-    sum = sum * y + 1.0 / 479001600.0;
-    sum = sum * y - 1.0 / 3628800.0;
-    sum = sum * y + 1.0 / 40320.0;
-    sum = sum * y - 1.0 / 720.0;
-    sum = sum * y + 1.0 / 24.0;
-    sum = sum * y - 1.0 / 2.0;
-    return 1.0 + y * sum;
+static double sum_terms(const double *terms, int count, double y) {
+    double sum = terms[0];
+    for (int i = 1; i < count; i++)
+        sum = sum * y + terms[i];
+    return y * sum;
 }
 
 void hd_sine_cosine(double x, double *sine, double *cosine) {
@@ -54,8 +47,8 @@ void hd_sine_cosine(double x, double *sine, double *cosine) {
         rest = fmod(rest, 2.0 * HD_PI); /* exact for the double 2 pi; off by what that is off */
     const double quotient = floor(rest * TWO_OVER_PI + 0.5);
     rest = ((rest - quotient * HALF_PI_1) - quotient * HALF_PI_2) - quotient * HALF_PI_3;
-    const double s = sine_near_zero(rest);
-    const double c = cosine_near_zero(rest);
+    const double s = rest + rest * sum_terms(sine_terms, 8, rest * rest);
+    const double c = 1.0 + sum_terms(cosine_terms, 9, rest * rest);
     const int quadrant = (int)quotient & 3;
     const double absolute_sine = (quadrant & 1) ? c : s;
     const double absolute_cosine = (quadrant & 1) ? s : c;

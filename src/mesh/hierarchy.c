@@ -58,6 +58,16 @@ typedef struct Chunk {
     HdBounds centres[2];
 } Chunk;
 
+/* What the top of the hierarchy is built of; it has a fixed size. */
+typedef struct Top {
+    TopNode nodes[MOST_TASKS];
+    Task tasks[MOST_TASKS];
+    Turn turns[MOST_TASKS];
+    Open opens[2][MOST_PIECES]; /* of a level and the next, by turns */
+    Chunk chunks[MOST_CHUNKS];
+    HdBins bins[MOST_CHUNKS]; /* of each chunk */
+} Top;
+
 typedef struct Build {
     const HdBox *boxes;
     int count, piece;
@@ -67,12 +77,8 @@ typedef struct Build {
     HdItem *items, *others; /* `others` takes what is moved */
     HdBuildNode *nodes;     /* of subtrees, each from the number of its first item on */
     int32_t *order;
-    TopNode *tops;
-    Task *tasks;
-    Turn *turns;
+    Top *top;
     Open *opens, *next_opens;
-    Chunk *chunks;
-    HdBins *bins; /* of each chunk */
     int root, top_count, task_count, open_count, next_open_count, chunk_count;
     HdBuildNode *result;
 } Build;
@@ -91,7 +97,7 @@ static HdStatus run(Build *build, HdThreadPool *pool, int count, HdThreadWork *w
 static void load_chunk(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Chunk *chunk = &build->chunks[number];
+    Chunk *chunk = &build->top->chunks[number];
     chunk->box = hd_bounds_empty();
     for (int i = chunk->begin; i < chunk->end; i++) {
         const float *lower = build->boxes[i].lower, *upper = build->boxes[i].upper;
@@ -108,7 +114,7 @@ static void load_chunk(void *context, int thread, int number) {
 static void bound_centres(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Chunk *chunk = &build->chunks[number];
+    Chunk *chunk = &build->top->chunks[number];
     HdBounds centres = hd_bounds_empty();
     for (int i = chunk->begin; i < chunk->end; i++) {
         const HdLanes centre = hd_item_centre(&build->items[i], build->unit);
@@ -137,7 +143,7 @@ static HdLanes find_unit(const HdBounds *box) {
 static void cut(Build *build, int first, int count, const Open *open) {
     const int pieces = (count + build->piece - 1) / build->piece;
     for (int i = 0; i < pieces; i++) {
-        Chunk *chunk = &build->chunks[build->chunk_count++];
+        Chunk *chunk = &build->top->chunks[build->chunk_count++];
         chunk->open = open;
         chunk->begin = first + (int)((int64_t)count * i / pieces);
         chunk->end = first + (int)((int64_t)count * (i + 1) / pieces);
@@ -153,7 +159,7 @@ static void hand_on(Build *build, const HdGroup *group, int *link) {
         return;
     }
     *link = ~build->task_count;
-    build->tasks[build->task_count++] =
+    build->top->tasks[build->task_count++] =
         (Task){.group = *group, .items = build->others, .spare = build->items};
 }
 
@@ -176,13 +182,13 @@ static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
     HdGroup root = {.first = 0, .count = build->count, .depth = 1};
     root.box = root.centres = hd_bounds_empty();
     for (int i = 0; i < build->chunk_count; i++)
-        hd_bounds_merge(&root.box, &build->chunks[i].box);
+        hd_bounds_merge(&root.box, &build->top->chunks[i].box);
     build->unit = find_unit(&root.box);
     status = run(build, pool, build->chunk_count, bound_centres, error);
     if (status != HD_OK)
         return status;
     for (int i = 0; i < build->chunk_count; i++)
-        hd_bounds_merge(&root.centres, &build->chunks[i].centres[0]);
+        hd_bounds_merge(&root.centres, &build->top->chunks[i].centres[0]);
     /* As if they had been moved. */
     swap(build);
     hand_on(build, &root, &build->root);
@@ -193,22 +199,22 @@ static HdStatus load(Build *build, HdThreadPool *pool, HdError *error) {
 static void bin_chunk(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Chunk *chunk = &build->chunks[number];
+    const Chunk *chunk = &build->top->chunks[number];
     const HdBinning binning = hd_binning_of(&chunk->open->group, build->unit);
-    hd_bins_clear(&build->bins[number], &binning);
-    hd_bins_add(&build->bins[number], &binning, build->items + chunk->begin,
+    hd_bins_clear(&build->top->bins[number], &binning);
+    hd_bins_add(&build->top->bins[number], &binning, build->items + chunk->begin,
                 chunk->end - chunk->begin);
 }
 
 static void plan_moves(const Build *build, const Open *open) {
     int left = open->group.first, right = left + open->split.left_count;
     for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++) {
-        Chunk *chunk = &build->chunks[i];
+        Chunk *chunk = &build->top->chunks[i];
         chunk->left = left;
         chunk->right = right;
         for (int bin = 0; bin < open->binning.count; bin++)
             *(bin < open->split.bin ? &left : &right) +=
-                build->bins[i].count[bin][open->split.axis];
+                build->top->bins[i].count[bin][open->split.axis];
     }
 }
 
@@ -223,7 +229,7 @@ static void choose_split(void *context, int thread, int number) {
     HdBins all;
     hd_bins_clear(&all, &open->binning);
     for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
-        hd_bins_merge(&all, &open->binning, &build->bins[i]);
+        hd_bins_merge(&all, &open->binning, &build->top->bins[i]);
     open->split = hd_bins_choose(&all, &open->binning);
     if (open->split.axis >= 0)
         plan_moves(build, open);
@@ -232,7 +238,7 @@ static void choose_split(void *context, int thread, int number) {
 static void move_chunk(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Chunk *chunk = &build->chunks[number];
+    Chunk *chunk = &build->top->chunks[number];
     const Open *open = chunk->open;
     if (open->split.axis < 0)
         return;
@@ -259,14 +265,14 @@ static void divide(Build *build, const Open *open) {
          group->depth + 1,
          split->right,
          {{0}, {0}}}};
-    TopNode *top = &build->tops[build->top_count];
+    TopNode *top = &build->top->nodes[build->top_count];
     *open->link = build->top_count++;
     top->axis = split->axis;
     for (int side = 0; side < 2; side++) {
         top->box[side] = sides[side].box;
         sides[side].centres = hd_bounds_empty();
         for (int i = open->first_chunk; i < open->first_chunk + open->chunk_count; i++)
-            hd_bounds_merge(&sides[side].centres, &build->chunks[i].centres[side]);
+            hd_bounds_merge(&sides[side].centres, &build->top->chunks[i].centres[side]);
         hand_on(build, &sides[side], &top->child[side]);
     }
 }
@@ -274,7 +280,7 @@ static void divide(Build *build, const Open *open) {
 /* What cannot be divided so stays where it is. */
 static void leave_undivided(Build *build, const Open *open) {
     *open->link = ~build->task_count;
-    build->tasks[build->task_count++] =
+    build->top->tasks[build->task_count++] =
         (Task){.group = open->group, .items = build->items, .spare = build->others};
 }
 
@@ -307,7 +313,7 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
 static void build_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    Task *task = &build->tasks[build->turns[number].task];
+    Task *task = &build->top->tasks[build->top->turns[number].task];
     const int first = task->group.first, end = first + task->group.count;
     HdSubtree subtree = {build->options, build->unit,          task->items,
                          task->spare,    build->nodes + first, 0};
@@ -324,15 +330,15 @@ static int larger_first(const void *a, const void *b) {
 
 static HdStatus build_subtrees(Build *build, HdThreadPool *pool, HdError *error) {
     for (int i = 0; i < build->task_count; i++)
-        build->turns[i] = (Turn){build->tasks[i].group.count, i};
-    qsort(build->turns, (size_t)build->task_count, sizeof *build->turns, larger_first);
+        build->top->turns[i] = (Turn){build->top->tasks[i].group.count, i};
+    qsort(build->top->turns, (size_t)build->task_count, sizeof *build->top->turns, larger_first);
     return run(build, pool, build->task_count, build_task, error);
 }
 
 static void copy_task(void *context, int thread, int number) {
     (void)thread;
     const Build *build = context;
-    const Task *task = &build->tasks[build->turns[number].task];
+    const Task *task = &build->top->tasks[build->top->turns[number].task];
     const HdBuildNode *from = build->nodes + task->group.first;
     HdBuildNode *to = build->result + task->first_node;
     for (int i = 0; i < task->node_count; i++) {
@@ -347,13 +353,13 @@ static void copy_task(void *context, int thread, int number) {
    top. Returns the height. */
 static int place(Build *build, int top, int *next, int32_t *child) {
     if (top < 0) {
-        Task *task = &build->tasks[~top];
+        Task *task = &build->top->tasks[~top];
         task->first_node = *next;
         *next += task->node_count;
         *child = task->branch.child + (task->branch.child >= 0 ? task->first_node : 0);
         return task->branch.height;
     }
-    const TopNode *node = &build->tops[top];
+    const TopNode *node = &build->top->nodes[top];
     const int number = (*next)++;
     int32_t children[2];
     const int left = place(build, node->child[0], next, &children[0]);
@@ -371,8 +377,10 @@ static void make_root_of_leaf(const Build *build, HdHierarchy *hierarchy, int32_
     const HdBounds none = hd_bounds_empty();
     const int32_t empty_leaf = ~0;
     hierarchy->node_count = hierarchy->depth = 1;
-    hierarchy->nodes[0] = (HdBuildNode){
-        {hd_bounds_box(&build->tasks[0].group.box), hd_bounds_box(&none)}, {leaf, empty_leaf}, 0};
+    hierarchy->nodes[0] =
+        (HdBuildNode){{hd_bounds_box(&build->top->tasks[0].group.box), hd_bounds_box(&none)},
+                      {leaf, empty_leaf},
+                      0};
 }
 
 /* The nodes take the place of the items, which need more room and are no longer needed: memory that
@@ -400,35 +408,17 @@ static bool allocate(Build *build, HdHierarchy *hierarchy) {
     const size_t count = (size_t)build->count;
     build->memory = hd_large_allocate(2 * count * sizeof(HdItem));
     build->nodes = hd_large_allocate(count * sizeof *build->nodes);
-    build->tops = hd_large_allocate(MOST_TASKS * sizeof *build->tops);
-    build->tasks = hd_large_allocate(MOST_TASKS * sizeof *build->tasks);
-    build->turns = hd_large_allocate(MOST_TASKS * sizeof *build->turns);
-    build->opens = hd_large_allocate(MOST_PIECES * sizeof *build->opens);
-    build->next_opens = hd_large_allocate(MOST_PIECES * sizeof *build->next_opens);
-    build->chunks = hd_large_allocate(MOST_CHUNKS * sizeof *build->chunks);
-    build->bins = hd_large_allocate(MOST_CHUNKS * sizeof *build->bins);
+    build->top = malloc(sizeof *build->top); /* small pages: little of it is touched as a rule */
     hierarchy->order = hd_large_allocate(count * sizeof *hierarchy->order);
-    if (build->memory == NULL || build->nodes == NULL || build->tops == NULL ||
-        build->tasks == NULL || build->turns == NULL || build->opens == NULL ||
-        build->next_opens == NULL || build->chunks == NULL || build->bins == NULL ||
+    if (build->memory == NULL || build->nodes == NULL || build->top == NULL ||
         hierarchy->order == NULL)
         return false;
+    build->opens = build->top->opens[0];
+    build->next_opens = build->top->opens[1];
     build->items = build->memory;
     build->others = build->items + count;
     build->order = hierarchy->order;
     return true;
-}
-
-static void free_build(Build *build) {
-    free(build->memory);
-    free(build->nodes);
-    free(build->tops);
-    free(build->tasks);
-    free(build->turns);
-    free(build->opens);
-    free(build->next_opens);
-    free(build->chunks);
-    free(build->bins);
 }
 
 static HdStatus build_all(Build *build, HdHierarchy *hierarchy, HdThreadPool *pool,
@@ -454,7 +444,9 @@ HdStatus hd_hierarchy_build(HdHierarchy *hierarchy, const HdBox *boxes, int coun
         build.piece = LEAST_PIECE;
     *hierarchy = (HdHierarchy){0};
     const HdStatus status = build_all(&build, hierarchy, pool, error);
-    free_build(&build);
+    free(build.memory);
+    free(build.nodes);
+    free(build.top);
     if (status != HD_OK)
         hd_hierarchy_free(hierarchy);
     return status;

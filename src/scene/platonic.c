@@ -74,23 +74,6 @@ static void list_vertices(HdSolidKind kind, Points *points) {
     }
 }
 
-static HdSolidKind dual_of(HdSolidKind kind) {
-    switch (kind) {
-    case HD_TETRAHEDRON:
-        return HD_TETRAHEDRON;
-    case HD_HEXAHEDRON:
-        return HD_OCTAHEDRON;
-    case HD_OCTAHEDRON:
-        return HD_HEXAHEDRON;
-    case HD_DODECAHEDRON:
-        return HD_ICOSAHEDRON;
-    case HD_ICOSAHEDRON:
-    case HD_SOLID_KIND_COUNT:
-        break;
-    }
-    return HD_DODECAHEDRON;
-}
-
 static bool is_opposite(HdVec3 a, HdVec3 b) {
     return a.x == -b.x && a.y == -b.y && a.z == -b.z;
 }
@@ -110,11 +93,15 @@ static void pair_opposites(Points *points) {
 
 /* The face normals are the vertices of the dual. */
 static void list_normals(HdSolidKind kind, Points *points) {
+    static const HdSolidKind duals[] = {[HD_HEXAHEDRON] = HD_OCTAHEDRON,
+                                        [HD_OCTAHEDRON] = HD_HEXAHEDRON,
+                                        [HD_DODECAHEDRON] = HD_ICOSAHEDRON,
+                                        [HD_ICOSAHEDRON] = HD_DODECAHEDRON};
     if (kind == HD_TETRAHEDRON) { /* its own dual, turned round */
         points->count = 0;
         add_tetrahedron(points, -1.0);
     } else {
-        list_vertices(dual_of(kind), points);
+        list_vertices(duals[kind], points);
         pair_opposites(points);
     }
 }

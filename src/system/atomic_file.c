@@ -40,33 +40,19 @@ static struct {
     pthread_mutex_t mutex;
 } known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
 
-static uint64_t hash_folder(const char *path) {
-    return hd_hash_bytes(HD_HASH_START, path, (size_t)folder_length(path));
-}
-
-static bool is_known(uint64_t hash) {
-    for (int i = 0; i < MAX_FOLDERS; i++)
-        if (known.hashes[i] == hash)
-            return true;
-    return false;
-}
-
-static void remember_folder(const char *path) {
-    uint64_t hash = hash_folder(path);
+/* Whether the run has written to the file's folder; with `from_now_on` it has. */
+static bool knows_folder(const char *path, bool from_now_on) {
+    const uint64_t hash = hd_hash_bytes(HD_HASH_START, path, (size_t)folder_length(path));
+    bool is_known = false;
     pthread_mutex_lock(&known.mutex);
-    if (!is_known(hash)) {
+    for (int i = 0; i < MAX_FOLDERS; i++)
+        is_known |= known.hashes[i] == hash;
+    if (from_now_on && !is_known) {
         known.hashes[known.next] = hash;
         known.next = (known.next + 1) % MAX_FOLDERS;
     }
     pthread_mutex_unlock(&known.mutex);
-}
-
-static bool remembers_folder(const char *path) {
-    uint64_t hash = hash_folder(path);
-    pthread_mutex_lock(&known.mutex);
-    bool has = is_known(hash);
-    pthread_mutex_unlock(&known.mutex);
-    return has;
+    return is_known;
 }
 
 void hd_known_folders_forget(void) {
@@ -163,7 +149,7 @@ static HdStatus fail_without(const char *path, const char *temporary, HdError *e
 
 static HdStatus fail_to_create(const char *path, const char *temporary, int reason,
                                HdError *error) {
-    if (reason == ENOENT && remembers_folder(path))
+    if (reason == ENOENT && knows_folder(path, false))
         return fail_without(path, temporary, error);
     return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path, temporary,
                    strerror(reason));
@@ -172,7 +158,7 @@ static HdStatus fail_to_create(const char *path, const char *temporary, int reas
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
-    if (status == HD_OK && !remembers_folder(path))
+    if (status == HD_OK && !knows_folder(path, false))
         status = hd_path_make_parents(path, error);
     if (status == HD_OK)
         status = check_length(path, error);
@@ -184,7 +170,7 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
-            remember_folder(path);
+            knows_folder(path, true);
             return HD_OK;
         }
         if (*descriptor >= 0)
@@ -246,15 +232,13 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
     if (fclose(file->stream) != 0)
         reason = errno;
     file->stream = NULL;
-    HdStatus status = HD_OK;
-    if (reason == 0)
-        status = hd_temporary_publish(file->temporary, file->path, error);
-    else
+    HdStatus status = reason == 0 ? hd_temporary_publish(file->temporary, file->path, error)
+                                  : hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path,
+                                            strerror(reason));
+    if (reason != 0)
         hd_temporary_remove(file->temporary);
     close(file->lock);
-    return reason == 0
-               ? status
-               : hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
+    return status;
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {

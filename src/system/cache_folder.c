@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "system/cache_folder.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -11,11 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "base/growth.h"
 #include "base/hash.h"
 #include "system/atomic_file.h"
-#include "system/cache_limit.h"
 #include "system/file_bytes.h"
 
 /* Then follow the key and the payload. Folders are not shared among machines of different byte
@@ -30,6 +32,9 @@ typedef struct Header {
 
 enum { VERSION = 1 };
 static const uint64_t magic = UINT64_C(0x0a68636163446865);
+
+/* Entries' names end so. */
+#define ENDING ".entry"
 
 /* ---- names ---- */
 
@@ -69,7 +74,7 @@ static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], con
     HdStatus status = hd_cache_folder(folder, error);
     if (status != HD_OK)
         return status;
-    snprintf(name, sizeof name, "%.*s-%016" PRIx64 HD_CACHE_ENDING, (int)HD_CACHE_MAX_KIND, kind,
+    snprintf(name, sizeof name, "%.*s-%016" PRIx64 ENDING, (int)HD_CACHE_MAX_KIND, kind,
              hd_hash_bytes(HD_HASH_START, key, strlen(key)));
     return join(path, folder, name, error);
 }
@@ -163,6 +168,71 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
     }
     close(descriptor);
     return status;
+}
+
+/* ---- limits ---- */
+
+enum { STALE_SECONDS = 3600 };
+
+typedef struct Entry {
+    char name[256];
+    int64_t bytes;
+    struct timespec used;
+} Entry;
+
+typedef struct Listing {
+    Entry *entries;
+    int count, room;
+    int64_t bytes;
+} Listing;
+
+static bool ends_in(const char *name, const char *ending) {
+    size_t length = strlen(name), tail = strlen(ending);
+    return length >= tail && strcmp(name + length - tail, ending) == 0;
+}
+
+static void add(Listing *listing, const char *name, const struct stat *found) {
+    Entry entry = {.bytes = (int64_t)found->st_size, .used = found->st_mtim};
+    if (strlen(name) >= sizeof entry.name)
+        return;
+    memcpy(entry.name, name, strlen(name) + 1);
+    if (hd_append(&listing->entries, sizeof entry, &listing->count, &listing->room, &entry))
+        listing->bytes += entry.bytes;
+}
+
+static void look_at(Listing *listing, int folder, const char *name) {
+    struct stat found;
+    if (fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode))
+        return;
+    if (ends_in(name, ENDING))
+        add(listing, name, &found);
+    else if (strstr(name, ENDING ".tmp-") != NULL &&
+             time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
+        unlinkat(folder, name, 0);
+}
+
+static int by_use(const void *first, const void *second) {
+    const struct timespec *a = &((const Entry *)first)->used, *b = &((const Entry *)second)->used;
+    if (a->tv_sec != b->tv_sec)
+        return a->tv_sec < b->tv_sec ? -1 : 1;
+    return (a->tv_nsec > b->tv_nsec) - (a->tv_nsec < b->tv_nsec);
+}
+
+void hd_cache_limit(const char *folder, int64_t most) {
+    Listing listing = {0};
+    DIR *stream = opendir(folder);
+    if (stream == NULL)
+        return;
+    for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
+        look_at(&listing, dirfd(stream), found->d_name);
+    if (listing.entries != NULL)
+        qsort(listing.entries, (size_t)listing.count, sizeof *listing.entries, by_use);
+    for (int i = 0; i < listing.count && listing.bytes > most; i++) {
+        unlinkat(dirfd(stream), listing.entries[i].name, 0);
+        listing.bytes -= listing.entries[i].bytes;
+    }
+    closedir(stream);
+    free(listing.entries);
 }
 
 /* ---- writing ---- */

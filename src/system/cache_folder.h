@@ -11,6 +11,7 @@
 #define HD_SYSTEM_CACHE_FOLDER_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/error.h"
 #include "system/path.h"
@@ -41,5 +42,9 @@ HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size
 HdStatus hd_cache_get_text(const char *kind, const char *key, char *text, size_t capacity,
                            HdError *error);
 HdStatus hd_cache_put_text(const char *kind, const char *key, const char *text, HdError *error);
+
+/* Removes the longest unused entries of a folder until all of them together have at most `most`
+   bytes, and temporary files more than an hour old; nothing else. What cannot be removed stays. */
+void hd_cache_limit(const char *folder, int64_t most);
 
 #endif

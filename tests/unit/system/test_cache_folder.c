@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "system/cache_limit.h"
 #include "test_folder.h"
 
 static HdError error;
