@@ -13,9 +13,7 @@
 
 #include "system/file_bytes.h"
 
-enum { RAW_SIZE = 1 << 17 };
-
-_Static_assert(RAW_SIZE > HD_OBJ_MOST_LINE + 2, "a line and its end fit into the buffer");
+enum { RAW_SIZE = 1 << 17, TEXT_SIZE = 2 * HD_OBJ_MOST_LINE + 1 };
 
 static const char byte_order_mark[] = "\xef\xbb\xbf";
 
@@ -41,17 +39,18 @@ bool hd_obj_fail_at(HdObjLines *lines, size_t line, const char *format, ...) {
     return false;
 }
 
-/* Reads until the buffer is full or the file ends. */
+/* Reads what comes next. False: there is nothing, or it cannot be read. */
 static bool fill(HdObjLines *lines) {
-    memmove(lines->raw, lines->raw + lines->raw_begin, lines->raw_end - lines->raw_begin);
-    lines->raw_end -= lines->raw_begin;
-    lines->raw_begin = 0;
-    const ssize_t count =
-        hd_read_fully(lines->descriptor, lines->raw + lines->raw_end, RAW_SIZE - lines->raw_end);
+    const ssize_t count = hd_read_fully(lines->descriptor, lines->raw, RAW_SIZE);
     if (count < 0)
         return hd_obj_fail_reading(lines, strerror(errno));
-    lines->raw_end += (size_t)count;
-    return true;
+    lines->raw_begin = 0;
+    lines->raw_end = (size_t)count;
+    return count > 0;
+}
+
+static bool has_next(HdObjLines *lines) {
+    return lines->raw_begin < lines->raw_end || fill(lines);
 }
 
 static bool open_file(HdObjLines *lines) {
@@ -71,8 +70,8 @@ HdStatus hd_obj_lines_open(HdObjLines *lines) {
     if (!open_file(lines))
         return lines->status;
     lines->raw = hd_obj_allocate(lines->memory, RAW_SIZE, 1);
-    lines->joined = hd_obj_allocate(lines->memory, HD_OBJ_MOST_LINE, 1);
-    if (lines->raw == NULL || lines->joined == NULL)
+    lines->text = hd_obj_allocate(lines->memory, TEXT_SIZE, 1);
+    if (lines->raw == NULL || lines->text == NULL)
         hd_obj_fail_room(lines);
     else if (fill(lines) && lines->raw_end >= 3 && memcmp(lines->raw, byte_order_mark, 3) == 0)
         lines->raw_begin = 3;
@@ -83,117 +82,72 @@ void hd_obj_lines_close(HdObjLines *lines) {
     if (lines->descriptor >= 0)
         close(lines->descriptor);
     hd_obj_release(lines->memory, lines->raw, RAW_SIZE);
-    hd_obj_release(lines->memory, lines->joined, HD_OBJ_MOST_LINE);
+    hd_obj_release(lines->memory, lines->text, TEXT_SIZE);
 }
 
-/* Looks for the line's end from `*at` on; false: it is not in the buffer, or something is wrong. */
-static bool find_end(HdObjLines *lines, size_t *at) {
-    const unsigned char *raw = (const unsigned char *)lines->raw;
-    for (; *at < lines->raw_end; ++*at) {
-        const unsigned char byte = raw[*at];
-        if (byte > '\r')
-            continue;
-        if (byte == '\n' || byte == '\r')
-            return true;
-        if (byte == '\0')
-            return hd_obj_fail_at(lines, lines->lines_read + 1,
-                                  "it has a byte 0, so this is no OBJ file");
-    }
-    return false;
+static bool is_comment(const char *text, size_t length) {
+    const HdSpan span = hd_rest((HdSpan){text, text + length});
+    return span.begin < span.end && *span.begin == '#';
 }
 
-/* Takes the line end at raw_begin: "\n", "\r\n" or, as old files have it, "\r". */
-static bool skip_end(HdObjLines *lines) {
-    if (lines->raw_begin == lines->raw_end)
-        return true;
-    if (lines->raw[lines->raw_begin++] == '\n')
-        return true;
-    if (lines->raw_begin == lines->raw_end && !fill(lines))
-        return false;
-    if (lines->raw_begin < lines->raw_end && lines->raw[lines->raw_begin] == '\n')
+/* Takes what the buffer has of a line, which is put behind the `*length` bytes that `text` has of
+   it; of what is too long only its beginning. Whether the line goes on, and is not refused. */
+static bool take_piece(HdObjLines *lines, char *text, size_t *length) {
+    const char *begin = lines->raw + lines->raw_begin, *end = lines->raw + lines->raw_end;
+    const char *at = begin;
+    while (at < end && *at != '\n' && *at != '\r' && *at != '\0')
+        at++;
+    const size_t size = (size_t)(at - begin), room = HD_OBJ_MOST_LINE + 1 - *length;
+    const size_t kept = size < room ? size : room;
+    memcpy(text + *length, begin, kept);
+    *length += kept;
+    lines->raw_begin += size;
+    return at == end && (*length <= HD_OBJ_MOST_LINE || is_comment(text, *length)) && fill(lines);
+}
+
+/* Takes a line's end: "\n", "\r\n" or, as old files have it, "\r". */
+static bool take_end(HdObjLines *lines) {
+    if (!has_next(lines))
+        return lines->status == HD_OK;
+    const char end = lines->raw[lines->raw_begin++];
+    if (end == '\0')
+        return hd_obj_fail_at(lines, lines->lines_read, "it has a byte 0, so this is no OBJ file");
+    if (end == '\r' && has_next(lines) && lines->raw[lines->raw_begin] == '\n')
         lines->raw_begin++;
-    return true;
+    return lines->status == HD_OK;
 }
 
-/* Passes over the rest of a comment that is longer than the buffer. */
-static bool skip_comment(HdObjLines *lines) {
-    size_t at = lines->raw_end;
-    while (!find_end(lines, &at)) {
-        if (lines->status != HD_OK)
-            return false;
-        lines->raw_begin = lines->raw_end;
-        if (!fill(lines))
-            return false;
-        at = 0;
-        if (lines->raw_end == 0)
-            return true;
-    }
-    lines->raw_begin = at;
-    return true;
-}
-
-/* The next line as it stands in the file, whose end is taken before the one after it; NULL for its
-   begin at the end, or when something is wrong. */
-static HdSpan next_raw_line(HdObjLines *lines) {
-    const HdSpan none = {NULL, NULL};
-    if (lines->lines_read > 0 && !skip_end(lines))
-        return none;
-    size_t at = lines->raw_begin;
-    if (!find_end(lines, &at)) {
-        const size_t seen = at - lines->raw_begin;
-        if (lines->status != HD_OK || !fill(lines))
-            return none;
-        at = seen;
-        if (!find_end(lines, &at) && lines->status != HD_OK)
-            return none;
-    }
-    if (lines->raw_begin == lines->raw_end)
-        return none;
-    HdSpan line = {lines->raw + lines->raw_begin, lines->raw + at};
+/* Takes a line of the file and puts it behind the `*used` bytes of those that it continues, but
+   nothing of a comment. False: there is none, or something is wrong. */
+static bool take_line(HdObjLines *lines, size_t *used) {
+    char *text = lines->text + *used;
+    size_t length = 0;
+    if (!has_next(lines))
+        return false;
     lines->lines_read++;
-    lines->raw_begin = at;
-    const HdSpan text = hd_rest(line);
-    if (text.begin < text.end && *text.begin == '#') {
-        line.end = line.begin;
-        if (at == RAW_SIZE && !skip_comment(lines))
-            return none;
-    } else if (line.end - line.begin > HD_OBJ_MOST_LINE) {
-        hd_obj_fail_at(lines, lines->lines_read, "it is longer than %d bytes", HD_OBJ_MOST_LINE);
-        return none;
-    }
-    return line;
-}
-
-/* Puts the line behind the `*used` bytes of those that it continues. */
-static bool join(HdObjLines *lines, HdSpan line, size_t *used) {
-    const size_t length = (size_t)(line.end - line.begin);
-    if (*used + length > HD_OBJ_MOST_LINE)
+    while (take_piece(lines, text, &length))
+        continue;
+    if (is_comment(text, length))
+        length = 0;
+    if (length > HD_OBJ_MOST_LINE)
+        return hd_obj_fail_at(lines, lines->lines_read, "it is longer than %d bytes",
+                              HD_OBJ_MOST_LINE);
+    *used += length;
+    if (*used > HD_OBJ_MOST_LINE)
         return hd_obj_fail_at(lines, lines->line_number,
                               "with those that continue it, it is longer than %d bytes",
                               HD_OBJ_MOST_LINE);
-    memcpy(lines->joined + *used, line.begin, length);
-    *used += length;
-    return true;
-}
-
-static bool is_continued(HdSpan line) {
-    return line.begin != NULL && line.begin < line.end && line.end[-1] == '\\';
+    return take_end(lines);
 }
 
 bool hd_obj_lines_next(HdObjLines *lines, HdSpan *line) {
     size_t used = 0;
-    *line = next_raw_line(lines);
-    lines->line_number = lines->lines_read;
-    while (is_continued(*line)) {
-        if (!join(lines, *line, &used))
-            return false;
-        lines->joined[used - 1] = ' ';
-        *line = next_raw_line(lines);
+    lines->line_number = lines->lines_read + 1;
+    bool is_taken = take_line(lines, &used);
+    while (is_taken && used > 0 && lines->text[used - 1] == '\\') {
+        lines->text[used - 1] = ' ';
+        is_taken = take_line(lines, &used);
     }
-    if (lines->status != HD_OK || used == 0)
-        return lines->status == HD_OK && line->begin != NULL;
-    if (line->begin != NULL && !join(lines, *line, &used))
-        return false;
-    *line = (HdSpan){lines->joined, lines->joined + used};
-    return true;
+    *line = (HdSpan){lines->text, lines->text + used};
+    return lines->status == HD_OK && (is_taken || used > 0);
 }

@@ -21,7 +21,7 @@ typedef struct HdObjLines {
     char *raw; /* what has been read and not yet taken */
     size_t raw_begin, raw_end;
     size_t lines_read;
-    char *joined; /* a line that is continued on the next */
+    char *text; /* the line, with those that continue it */
 } HdObjLines;
 
 /* Opens the file. `lines` has path, memory and error, and zeros. To be closed afterwards, whether
