@@ -96,7 +96,7 @@ static bool read_step(Walk *walk, Step *step) {
 
 static bool may_be_made(const Step *step, bool is_first) {
     const HdField *field = is_first ? hd_field(&hd_scene_fields, step->key) : NULL;
-    return field != NULL && field->type == HD_FIELD_OBJECT && field->is_given == NULL;
+    return field != NULL && field->type == HD_FIELD_OBJECT && !hd_field_may_be_absent(field);
 }
 
 /* Complains unless `parent`, which the first `length` bytes name, can hold the step: an object for

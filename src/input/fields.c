@@ -20,18 +20,24 @@
 #define AT(struct_name, member, key_text, about_text)                                              \
     .offset = offsetof(struct_name, member), .key = (key_text), .about = (about_text)
 
+/* The same for what has no place of its own. */
+#define HERE(key_text, about_text) .key = (key_text), .about = (about_text)
+
 #define NUMBER(low_number, high_number)                                                            \
     .type = HD_FIELD_NUMBER, .low = (low_number), .high = (high_number)
 #define INTEGER(low_number, high_number)                                                           \
     .type = HD_FIELD_INTEGER, .low = (low_number), .high = (high_number)
 #define VECTOR(low_number, high_number)                                                            \
     .type = HD_FIELD_VECTOR, .low = (low_number), .high = (high_number)
-#define ANY_NUMBER      NUMBER(-HD_MAX_NUMBER, HD_MAX_NUMBER)
-#define POSITION        VECTOR(-HD_MAX_NUMBER, HD_MAX_NUMBER)
-#define COLOUR          VECTOR(0.0, 1.0), .is_light = true
-#define DEFAULT(number) .standard = {(number)}
-#define WHITE           .standard = {1.0, 1.0, 1.0}
-#define REQUIRED        .required = true
+#define CHOICE(list, value) .type = HD_FIELD_CHOICE, .choices = (list), .standard = {(value)}
+#define PART(object_type)   .type = HD_FIELD_OBJECT, .object = &(object_type)
+#define TEXT                .type = HD_FIELD_TEXT
+#define ANY_NUMBER          NUMBER(-HD_MAX_NUMBER, HD_MAX_NUMBER)
+#define POSITION            VECTOR(-HD_MAX_NUMBER, HD_MAX_NUMBER)
+#define COLOUR              VECTOR(0.0, 1.0), .is_light = true
+#define DEFAULT(number)     .standard = {(number)}
+#define WHITE               .standard = {1.0, 1.0, 1.0}
+#define REQUIRED            .required = true
 
 /* Enums are stored as int. */
 _Static_assert(sizeof(HdSolidKind) == sizeof(int), "an HdSolidKind is as large as an int");
@@ -67,7 +73,7 @@ static const HdField image_fields[] = {
      NUMBER(0.0, 1.0), .below_high = true, DEFAULT(0.0)},
     {AT(HdScene, sampling, "aa",
         "Which of the n x n samples a pixel gets: all of the grid, or as many as it needs"),
-     .type = HD_FIELD_CHOICE, .choices = samplings, DEFAULT(HD_SAMPLING_GRID)},
+     CHOICE(samplings, HD_SAMPLING_GRID)},
     {AT(HdScene, max_error, "max_error",
         "What may be left out of a pixel, in steps of 255: depth, cutoff and lights follow from "
         "it; "
@@ -111,27 +117,20 @@ static const HdField camera_fields[] = {
 };
 static const HdObjectType camera = COMPLETE_TYPE(HdScene, camera_fields);
 
-static bool has_output_path(const void *owner) {
-    return ((const HdSceneFile *)owner)->output.path[0] != '\0';
-}
-
 static const HdField output_fields[] = {
     {AT(HdSceneFile, output.path, "path",
         "File of the picture or film; #### or %04d stands for the number of a frame"),
-     .type = HD_FIELD_TEXT, .is_given = has_output_path},
+     TEXT},
     {AT(HdSceneFile, output.style.frames_per_second, "frames_per_second", "Speed of a film"),
      INTEGER(1, HD_MAX_FRAMES_PER_SECOND), DEFAULT(HD_DEFAULT_FRAMES_PER_SECOND)},
     {AT(HdSceneFile, output.style.picture.curve, "curve",
         "Transfer curve of the numbers in the file"),
-     .type = HD_FIELD_CHOICE, .choices = curves, DEFAULT(HD_CURVE_SRGB)},
-    {AT(HdSceneFile, output.style.picture.bits, "bits", "Bits of a channel"),
-     .type = HD_FIELD_CHOICE, .choices = bits, DEFAULT(8)},
+     CHOICE(curves, HD_CURVE_SRGB)},
+    {AT(HdSceneFile, output.style.picture.bits, "bits", "Bits of a channel"), CHOICE(bits, 8)},
 };
 static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields);
 
-static bool has_inner_side(const void *owner) {
-    return ((const HdMaterial *)owner)->has_inner_side;
-}
+#define INNER_SIDE .flag_offset = offsetof(HdMaterial, has_inner_side)
 
 static const HdField material_fields[] = {
     {AT(HdMaterial, colour, "colour", "Tint of diffuse light and of what passes through, linear"),
@@ -152,10 +151,10 @@ static const HdField material_fields[] = {
      DEFAULT(0.0)},
     {AT(HdMaterial, inner_reflection, "inner_reflection",
         "Reflection of rays from inside the solid; as outside unless given"),
-     NUMBER(0.0, 1.0), .is_given = has_inner_side},
+     NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, inner_transmission, "inner_transmission",
         "Transmission of rays from inside the solid; as outside unless given"),
-     NUMBER(0.0, 1.0), .is_given = has_inner_side},
+     NUMBER(0.0, 1.0), INNER_SIDE},
     {AT(HdMaterial, index_of_refraction, "index_of_refraction",
         "Inside the solid, 1 outside; 1: rays go straight on"),
      NUMBER(HD_MIN_INDEX_OF_REFRACTION, HD_MAX_INDEX_OF_REFRACTION), DEFAULT(1.0)},
@@ -212,8 +211,8 @@ static bool has_edge_lights(const void *owner) {
 }
 
 static const HdField solid_fields[] = {
-    {AT(HdSolid, kind, "kind", "Which of the five platonic solids"), .type = HD_FIELD_CHOICE,
-     .choices = kinds, REQUIRED, DEFAULT(HD_TETRAHEDRON)},
+    {AT(HdSolid, kind, "kind", "Which of the five platonic solids"), CHOICE(kinds, HD_TETRAHEDRON),
+     REQUIRED},
     {AT(HdSolid, centre, "centre", "Its centre"), POSITION, DEFAULT(0.0)},
     {AT(HdSolid, circumradius, "circumradius", "From the centre to a corner"), LENGTH,
      .said = "radius", DEFAULT(1.0)},
@@ -221,13 +220,9 @@ static const HdField solid_fields[] = {
         "Degrees about the x axis, then the y axis, then the z axis"),
      VECTOR(-HD_MAX_ROTATION, HD_MAX_ROTATION), DEFAULT(0.0)},
     {AT(HdSolid, face, "material", "Name of the faces' material"), MATERIAL},
-    {.key = "rim",
-     .about = "A frame along the edges of every face",
-     .type = HD_FIELD_OBJECT,
-     .object = &rim,
-     .is_given = has_rim},
-    {AT(HdSolid, lights, "edge_lights", "Point lights along the edges"), .type = HD_FIELD_OBJECT,
-     .object = &edge_lights, .is_given = has_edge_lights},
+    {HERE("rim", "A frame along the edges of every face"), PART(rim), .is_given = has_rim},
+    {AT(HdSolid, lights, "edge_lights", "Point lights along the edges"), PART(edge_lights),
+     .is_given = has_edge_lights},
 };
 static const HdObjectType solid = TYPE(HdSolid, solid_fields);
 
@@ -244,7 +239,7 @@ static const HdField mesh_fields[] = {
      .type = HD_FIELD_SCALE, .low = HD_MIN_LENGTH, .high = HD_MAX_NUMBER, WHITE},
     {AT(HdMeshEntry, normals, "normals",
         "Those of the file, which is flat where it has none; flat; or smooth but for sharp edges"),
-     .type = HD_FIELD_CHOICE, .choices = normals, DEFAULT(HD_NORMALS_FILE)},
+     CHOICE(normals, HD_NORMALS_FILE)},
     {AT(HdMeshEntry, crease_degrees, "crease",
         "Smooth normals keep edges where faces meet at more degrees"),
      NUMBER(0.0, 180.0), DEFAULT(40.0)},
@@ -267,18 +262,14 @@ static const HdObjectType light = TYPE(HdLight, light_fields);
 static const HdField texture_fields[] = {
     {AT(HdSceneFile, texture_path, "file",
         "PNG or the data format; counts from the scene's folder; \"builtin:floor\" is built in"),
-     .type = HD_FIELD_TEXT, REQUIRED},
+     TEXT, REQUIRED},
     {AT(HdSceneFile, texture_curve, "curve", "Transfer curve of the numbers in the file"),
-     .type = HD_FIELD_CHOICE, .choices = curves, DEFAULT(HD_CURVE_SRGB)},
+     CHOICE(curves, HD_CURVE_SRGB)},
 };
 static const HdObjectType texture = TYPE(HdSceneFile, texture_fields);
 
 static bool has_texture(const void *owner) {
     return ((const HdSceneFile *)owner)->texture_path[0] != '\0';
-}
-
-static bool has_floor(const void *owner) {
-    return ((const HdSceneFile *)owner)->scene.floor.present;
 }
 
 static const HdField floor_fields[] = {
@@ -288,39 +279,21 @@ static const HdField floor_fields[] = {
      .type = HD_FIELD_VECTORS, .low = -HD_MAX_NUMBER, .high = HD_MAX_NUMBER, .least = 4, .most = 4,
      .said = "corner", REQUIRED},
     {AT(HdSceneFile, scene.floor.material, "material", "Name of its material"), MATERIAL},
-    {.key = "texture",
-     .about = "Picture that tints the floor",
-     .type = HD_FIELD_OBJECT,
-     .object = &texture,
-     .is_given = has_texture},
+    {HERE("texture", "Picture that tints the floor"), PART(texture), .is_given = has_texture},
 };
 static const HdObjectType floor_object = TYPE(HdSceneFile, floor_fields);
 
-static bool has_schema(const void *owner) {
-    return ((const HdSceneFile *)owner)->schema[0] != '\0';
-}
-
 static const HdField scene_fields[] = {
-    {AT(HdSceneFile, schema, "$schema", "Where the JSON Schema is, for editors"),
-     .type = HD_FIELD_TEXT, .is_given = has_schema},
-    {AT(HdSceneFile, version, "hedron", "Version of the format"), .type = HD_FIELD_CHOICE,
-     .choices = versions, .is_unseen = true, REQUIRED, DEFAULT(1)},
-    {AT(HdSceneFile, scene, "image", "The picture and what it may cost"), .type = HD_FIELD_OBJECT,
-     .object = &image},
-    {AT(HdSceneFile, scene, "camera", "The view"), .type = HD_FIELD_OBJECT, .object = &camera,
-     REQUIRED},
-    {.key = "output",
-     .about = "What becomes of the frames",
-     .type = HD_FIELD_OBJECT,
-     .object = &output,
+    {AT(HdSceneFile, schema, "$schema", "Where the JSON Schema is, for editors"), TEXT},
+    {AT(HdSceneFile, version, "hedron", "Version of the format"), CHOICE(versions, 1), REQUIRED,
      .is_unseen = true},
+    {AT(HdSceneFile, scene, "image", "The picture and what it may cost"), PART(image)},
+    {AT(HdSceneFile, scene, "camera", "The view"), PART(camera), REQUIRED},
+    {HERE("output", "What becomes of the frames"), PART(output), .is_unseen = true},
     {AT(HdSceneFile, scene.background, "background", "Where a ray meets nothing; linear"),
      VECTOR(0.0, HD_MAX_NUMBER), .is_light = true, DEFAULT(0.0)},
-    {.key = "materials",
-     .about = "Materials by their names",
-     .type = HD_FIELD_MATERIALS,
-     .object = &hd_material_fields,
-     .most = HD_MAX_MATERIALS},
+    {HERE("materials", "Materials by their names"), .type = HD_FIELD_MATERIALS,
+     .object = &hd_material_fields, .most = HD_MAX_MATERIALS},
     {AT(HdSceneFile, scene.solids, "solids", "Platonic solids"), .type = HD_FIELD_LIST,
      .object = &solid, .most = HD_MAX_SOLIDS,
      .count_offset = offsetof(HdSceneFile, scene.solid_count)},
@@ -330,11 +303,8 @@ static const HdField scene_fields[] = {
     {AT(HdSceneFile, scene.lights, "lights", "Point lights"), .type = HD_FIELD_LIST,
      .object = &light, .most = HD_MAX_LIGHTS,
      .count_offset = offsetof(HdSceneFile, scene.light_count)},
-    {.key = "floor",
-     .about = "A flat floor; none unless given",
-     .type = HD_FIELD_OBJECT,
-     .object = &floor_object,
-     .is_given = has_floor},
+    {HERE("floor", "A flat floor; none unless given"), PART(floor_object),
+     .flag_offset = offsetof(HdSceneFile, scene.floor.present)},
 };
 const HdObjectType hd_scene_fields = TYPE(HdSceneFile, scene_fields);
 
@@ -346,14 +316,18 @@ const HdField *hd_field(const HdObjectType *type, const char *key) {
 }
 
 bool hd_field_may_be_absent(const HdField *field) {
-    return field->zero_is_absent || field->flag_offset != 0 || field->is_given != NULL;
+    const bool is_text = field->type == HD_FIELD_TEXT && !field->required;
+    return is_text || field->zero_is_absent || field->flag_offset != 0 || field->is_given != NULL;
 }
 
 bool hd_field_is_given(const HdField *field, const void *owner) {
+    const char *begin = owner;
+    if (field->type == HD_FIELD_TEXT)
+        return begin[field->offset] != '\0';
     if (field->zero_is_absent)
-        return *(const double *)(const void *)((const char *)owner + field->offset) != 0.0;
+        return *(const double *)(const void *)(begin + field->offset) != 0.0;
     if (field->flag_offset != 0)
-        return *(const bool *)(const void *)((const char *)owner + field->flag_offset);
+        return *(const bool *)(const void *)(begin + field->flag_offset);
     return field->is_given == NULL || field->is_given(owner);
 }
 

@@ -22,7 +22,7 @@ typedef enum HdFieldType {
     HD_FIELD_VECTORS,  /* array of vectors; HdVec3[most], and their number if that may vary */
     HD_FIELD_CHOICE,   /* one of `choices`; int or an enum */
     HD_FIELD_SCALE,    /* number, or a vector; HdVec3 */
-    HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH] */
+    HD_FIELD_TEXT,     /* string; char[HD_MAX_PATH], empty where it is not given */
     HD_FIELD_FILE,     /* string, a path that counts from the scene's folder; char *, owned */
     HD_FIELD_MATERIAL, /* name of a material; HdMaterial */
     HD_FIELD_PATH,     /* [x, y, z] or `object`; HdPath */

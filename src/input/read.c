@@ -284,7 +284,6 @@ static void read_list(Reader *reader, const HdField *field, const json_t *value,
 static void settle_inner_side(HdMaterial *material, const json_t *json) {
     const bool reflects = json_object_get(json, "inner_reflection") != NULL;
     const bool transmits = json_object_get(json, "inner_transmission") != NULL;
-    material->has_inner_side = reflects || transmits;
     if (transmits && !reflects)
         material->inner_reflection = material->reflection;
     if (reflects && !transmits)
@@ -359,7 +358,7 @@ static void reset_object(const HdObjectType *type, void *owner) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
         hd_field_set(field, owner, field->standard);
-        if (field->type == HD_FIELD_OBJECT && field->is_given == NULL)
+        if (field->type == HD_FIELD_OBJECT && !hd_field_may_be_absent(field))
             reset_object(field->object, (char *)owner + field->offset);
         if (field->type == HD_FIELD_MATERIAL)
             reset_object(&hd_material_fields, (char *)owner + field->offset);
@@ -442,7 +441,6 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
         .report = {.source = source, .problems = problems}, .error = error, .status = HD_OK};
     reader.knows_materials = json_object_get(root, "materials") == NULL;
     read_object(&reader, &hd_scene_fields, root, file);
-    file->scene.floor.present = json_is_object(json_object_get(root, "floor"));
     snprintf(reader.report.path, sizeof reader.report.path, "floor.texture.file");
     if (!hd_check_texture_path(&reader.report, file->texture_path) ||
         !place_file(&reader, file->texture_path))

@@ -171,7 +171,7 @@ static bool find_in_part(const HdObjectType *type, const char *key, char path[64
     for (int i = 0; i < type->field_count; i++) {
         const HdField *part = &type->fields[i];
         HdNearest nearest = {.word = key};
-        if (part->type != HD_FIELD_OBJECT || part->is_given != NULL)
+        if (part->type != HD_FIELD_OBJECT || hd_field_may_be_absent(part))
             continue;
         offer_keys(&nearest, part->object);
         if (nearest.name == NULL || nearest.distance > 0)

@@ -5,9 +5,11 @@
 
 #include <limits.h>
 #include <stdbool.h>
-#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/growth.h"
 
 /* Both ends belong to it. */
 typedef struct Range {
@@ -16,15 +18,12 @@ typedef struct Range {
 
 static HdStatus fail_item(const char *item, size_t length, const char *what, int frame_count,
                           HdError *error) {
-    if (frame_count == 1)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "the frame list has \"%.*s\", %s; the scene has one frame, 0",
-                       (int)(length < 1000 ? length : 1000), item, what);
-    int shown = length < 1000 ? (int)length : 1000;
-    return hd_fail(error, HD_BAD_INPUT,
-                   "the frame list has \"%.*s\", %s; expected frames or ascending ranges within "
-                   "0-%d",
-                   shown, item, what, frame_count - 1);
+    char expected[80] = "the scene has one frame, 0";
+    if (frame_count != 1)
+        snprintf(expected, sizeof expected, "expected frames or ascending ranges within 0-%d",
+                 frame_count - 1);
+    return hd_fail(error, HD_BAD_INPUT, "the frame list has \"%.*s\", %s; %s",
+                   (int)(length < 1000 ? length : 1000), item, what, expected);
 }
 
 /* Moves `*text` past the digits; a number beyond int stays at INT_MAX, which no sequence holds. */
@@ -62,34 +61,16 @@ static HdStatus parse_item(const char *item, size_t length, int frame_count, Ran
     return HD_OK;
 }
 
-static size_t count_items(const char *text) {
-    size_t count = 1;
-    for (; *text != '\0'; text++)
-        count += *text == ',';
-    return count;
-}
-
-static HdStatus parse_items(const char *text, int frame_count, Range *ranges, size_t count,
-                            HdError *error) {
-    HdStatus status = HD_OK;
-    for (size_t i = 0; i < count && status == HD_OK; i++) {
-        size_t length = strcspn(text, ",");
-        status = parse_item(text, length, frame_count, &ranges[i], error);
-        text += length + 1;
-    }
-    return status;
-}
-
 static int compare_ranges(const void *a, const void *b) {
     const Range *left = a, *right = b;
     return (left->first > right->first) - (left->first < right->first);
 }
 
 /* Leaves ascending ranges that share no frame and returns how many there are. */
-static size_t merge_ranges(Range *ranges, size_t count) {
-    size_t kept = 1;
-    qsort(ranges, count, sizeof *ranges, compare_ranges);
-    for (size_t i = 1; i < count; i++) {
+static int merge_ranges(Range *ranges, int count) {
+    int kept = 1;
+    qsort(ranges, (size_t)count, sizeof *ranges, compare_ranges);
+    for (int i = 1; i < count; i++) {
         Range *previous = &ranges[kept - 1];
         if (ranges[i].first > previous->last)
             ranges[kept++] = ranges[i];
@@ -99,30 +80,33 @@ static size_t merge_ranges(Range *ranges, size_t count) {
     return kept;
 }
 
-static HdStatus fill_list(HdFrameList *list, const Range *ranges, size_t count, HdError *error) {
+static HdStatus fill_list(HdFrameList *list, const Range *ranges, int count, HdError *error) {
     int total = 0; /* at most the frames of the sequence, hence an int */
-    for (size_t i = 0; i < count; i++)
+    for (int i = 0; i < count; i++)
         total += ranges[i].last - ranges[i].first + 1;
     list->frames = malloc((size_t)total * sizeof *list->frames);
     if (list->frames == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %d frames", total);
-    for (size_t i = 0; i < count; i++)
+    for (int i = 0; i < count; i++)
         for (int frame = ranges[i].first; frame <= ranges[i].last; frame++)
             list->frames[list->count++] = frame;
     return HD_OK;
 }
 
 static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count, HdError *error) {
-    size_t count = count_items(text);
-    Range *ranges = calloc(count, sizeof *ranges);
-    if (ranges == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for a frame list of %zu items",
-                       count);
-    HdStatus status = parse_items(text, frame_count, ranges, count, error);
-    if (status == HD_OK) {
-        count = merge_ranges(ranges, count);
-        status = fill_list(list, ranges, count, error);
+    Range *ranges = NULL, range;
+    int count = 0, room = 0;
+    HdStatus status = HD_OK;
+    for (bool is_last = false; !is_last && status == HD_OK;) {
+        const size_t length = strcspn(text, ",");
+        status = parse_item(text, length, frame_count, &range, error);
+        if (status == HD_OK && !hd_append(&ranges, sizeof range, &count, &room, &range))
+            status = hd_fail(error, HD_FAILED, "out of memory: no room for a frame list");
+        is_last = text[length] == '\0';
+        text += length + 1;
     }
+    if (status == HD_OK)
+        status = fill_list(list, ranges, merge_ranges(ranges, count), error);
     free(ranges);
     return status;
 }

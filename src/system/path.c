@@ -156,18 +156,6 @@ static Part read_directive(const char **text, int *digits) {
     return PART_NUMBER;
 }
 
-/* True where the path has "%d" or "%0Nd"; then '#' is a character like any other. */
-static bool has_directive(const char *path) {
-    int digits;
-    while ((path = strchr(path, '%')) != NULL) {
-        Part part = read_directive(&path, &digits);
-        if (part == PART_NUMBER)
-            return true;
-        path += part == PART_WRONG;
-    }
-    return false;
-}
-
 /* Moves `*text` past the next part unless that is wrong; `*digits` is a number's least. */
 static Part read_part(const char **text, bool takes_marks, int *digits) {
     size_t marks = takes_marks ? strspn(*text, "#") : 0;
@@ -183,14 +171,25 @@ static Part read_part(const char **text, bool takes_marks, int *digits) {
     return PART_NUMBER;
 }
 
-bool hd_pattern_has_number(const char *path) {
-    for (const char *run = strchr(path, '#'); run != NULL; run = strchr(run, '#')) {
-        const size_t marks = strspn(run, "#");
-        if (marks <= MAX_DIGITS)
+static bool has_number(const char *path, bool takes_marks) {
+    int digits;
+    while (*path != '\0') {
+        const Part part = read_part(&path, takes_marks, &digits);
+        if (part == PART_NUMBER)
             return true;
-        run += marks;
+        if (part == PART_WRONG)
+            path += *path == '#' ? strspn(path, "#") : 1;
     }
-    return has_directive(path);
+    return false;
+}
+
+bool hd_pattern_has_number(const char *path) {
+    return has_number(path, true);
+}
+
+/* "%d" or "%0Nd"; with it '#' is a character like any other. */
+static bool has_directive(const char *path) {
+    return has_number(path, false);
 }
 
 static HdStatus count_numbers(const char *pattern, int *numbers, HdError *error) {
