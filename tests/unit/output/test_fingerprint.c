@@ -199,6 +199,20 @@ static void every_field_of_a_scene_changes_it(void **state) {
     assert_true(fingerprint() == usual);
 }
 
+/* As a file tells them, a colour and a factor, they may come back a rounding off. */
+static void the_last_digit_of_bright_lights_changes_it(void **state) {
+    (void)state;
+    HdVec3 *light = &file.scene.lights[0].intensity;
+    const HdVec3 kept = *light;
+    for (int i = 0; i < 1000; i++) {
+        *light = hd_vec3(6e11 + 1e8 / 3.0 * i, 1e11 / 7.0 * i / 1000, 1e11 / (i + 1));
+        const uint64_t before = fingerprint();
+        light->y = nextafter(light->y, 1e12);
+        assert_true(fingerprint() != before);
+    }
+    *light = kept;
+}
+
 static void what_becomes_of_the_frames_does_not(void **state) {
     (void)state;
     file.output.style.frames_per_second++;
@@ -372,6 +386,7 @@ static int free_scene(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_field_of_a_scene_changes_it),
+        cmocka_unit_test(the_last_digit_of_bright_lights_changes_it),
         cmocka_unit_test(what_becomes_of_the_frames_does_not),
         cmocka_unit_test(what_files_hold_changes_it),
         cmocka_unit_test(arrays_that_are_missing_change_it),
