@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "input/fields.h"
 #include "scene/camera.h"
@@ -109,12 +108,11 @@ static bool refracts(const HdSolid *solid) {
 static void name_solid(const HdSceneChecker *checker, const HdSolid *solid, int index,
                        char out[48]) {
     const HdObjectType *type = hd_field(&hd_scene_fields, "solids")->object;
-    const char *quoted = hd_field_choice(hd_field(type, "kind"), (int)solid->kind);
-    const int length = (int)strlen(quoted) - 2;
+    const char *kind = hd_field_choice(hd_field(type, "kind"), (int)solid->kind);
     if (checker->naming == HD_NAMING_JSON)
-        snprintf(out, 48, "solids[%d] (%.*s)", index, length, quoted + 1);
+        snprintf(out, 48, "solids[%d] (%s)", index, kind);
     else
-        snprintf(out, 48, "solid %d (%.*s)", index + 1, length, quoted + 1);
+        snprintf(out, 48, "solid %d (%s)", index + 1, kind);
 }
 
 static void add_overlap(HdSceneChecker *checker, const char *refracting, const char *other,

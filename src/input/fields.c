@@ -45,20 +45,16 @@ _Static_assert(sizeof(HdCurve) == sizeof(int), "an HdCurve is as large as an int
 _Static_assert(sizeof(HdMeshNormals) == sizeof(int), "an HdMeshNormals is as large as an int");
 
 static const HdChoice versions[] = {{"1", 1}, {NULL, 0}};
-static const HdChoice curves[] = {
-    {"\"srgb\"", HD_CURVE_SRGB}, {"\"linear\"", HD_CURVE_LINEAR}, {NULL, 0}};
+static const HdChoice curves[] = {{"srgb", HD_CURVE_SRGB}, {"linear", HD_CURVE_LINEAR}, {NULL, 0}};
 static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {NULL, 0}};
-static const HdChoice normals[] = {{"\"file\"", HD_NORMALS_FILE},
-                                   {"\"flat\"", HD_NORMALS_FLAT},
-                                   {"\"smooth\"", HD_NORMALS_SMOOTH},
-                                   {NULL, 0}};
-static const HdChoice kinds[] = {
-    {"\"tetrahedron\"", HD_TETRAHEDRON}, {"\"cube\"", HD_HEXAHEDRON},
-    {"\"octahedron\"", HD_OCTAHEDRON},   {"\"dodecahedron\"", HD_DODECAHEDRON},
-    {"\"icosahedron\"", HD_ICOSAHEDRON}, {NULL, 0}};
+static const HdChoice normals[] = {
+    {"file", HD_NORMALS_FILE}, {"flat", HD_NORMALS_FLAT}, {"smooth", HD_NORMALS_SMOOTH}, {NULL, 0}};
+static const HdChoice kinds[] = {{"tetrahedron", HD_TETRAHEDRON}, {"cube", HD_HEXAHEDRON},
+                                 {"octahedron", HD_OCTAHEDRON},   {"dodecahedron", HD_DODECAHEDRON},
+                                 {"icosahedron", HD_ICOSAHEDRON}, {NULL, 0}};
 
 static const HdChoice samplings[] = {
-    {"\"grid\"", HD_SAMPLING_GRID}, {"\"adaptive\"", HD_SAMPLING_ADAPTIVE}, {NULL, 0}};
+    {"grid", HD_SAMPLING_GRID}, {"adaptive", HD_SAMPLING_ADAPTIVE}, {NULL, 0}};
 _Static_assert(sizeof(HdSampling) == sizeof(int), "an HdSampling is as large as an int");
 
 static const HdField image_fields[] = {
@@ -340,9 +336,13 @@ void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]) {
 
 const char *hd_field_choice(const HdField *field, int value) {
     const HdChoice *choice = field->choices;
-    while (choice[1].json != NULL && choice->value != value)
+    while (choice[1].word != NULL && choice->value != value)
         choice++;
-    return choice->json;
+    return choice->word;
+}
+
+bool hd_choice_is_number(const char *word) {
+    return word[0] >= '0' && word[0] <= '9';
 }
 
 int hd_field_count(const HdField *field, const void *owner) {
@@ -357,39 +357,32 @@ bool hd_field_holds(const HdField *field, double value) {
     return from && to;
 }
 
+int hd_field_parts(const HdField *field) {
+    static const int parts[HD_FIELD_MATERIALS + 1] = {
+        [HD_FIELD_BOOLEAN] = 1,  [HD_FIELD_INTEGER] = 1, [HD_FIELD_NUMBER] = 1,
+        [HD_FIELD_FACTOR] = 1,   [HD_FIELD_CHOICE] = 1,  [HD_FIELD_VECTOR] = 3,
+        [HD_FIELD_UNSCALED] = 3, [HD_FIELD_VECTORS] = 3, [HD_FIELD_SCALE] = 3,
+        [HD_FIELD_PATH] = 3};
+    return parts[field->type];
+}
+
 void hd_field_set(const HdField *field, void *owner, const double numbers[3]) {
     void *place = (char *)owner + field->offset;
     const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
+    if (field->type == HD_FIELD_BOOLEAN)
         *(bool *)place = numbers[0] != 0.0;
-        break;
-    case HD_FIELD_CHOICE:
-    case HD_FIELD_INTEGER:
+    else if (field->type == HD_FIELD_INTEGER || field->type == HD_FIELD_CHOICE)
         *(int *)place = (int)numbers[0];
-        break;
-    case HD_FIELD_NUMBER:
+    else if (field->type == HD_FIELD_NUMBER)
         *(double *)place = numbers[0];
-        break;
-    case HD_FIELD_FACTOR:
+    else if (field->type == HD_FIELD_FACTOR)
         *(HdVec3 *)place = hd_scale(*(const HdVec3 *)place, numbers[0]);
-        break;
-    case HD_FIELD_VECTORS:
-        if (field->count_offset != 0)
-            *(int *)(void *)((char *)owner + field->count_offset) = 1;
-        *(HdVec3 *)place = vector;
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_UNSCALED:
-    case HD_FIELD_SCALE:
-        *(HdVec3 *)place = vector;
-        break;
-    case HD_FIELD_PATH:
+    else if (field->type == HD_FIELD_PATH)
         *(HdPath *)place = (HdPath){.is_fixed = true, .point = vector};
-        break;
-    default:
-        break;
-    }
+    else if (hd_field_parts(field) == 3)
+        *(HdVec3 *)place = vector;
+    if (field->type == HD_FIELD_VECTORS && field->count_offset != 0)
+        *(int *)(void *)((char *)owner + field->count_offset) = 1;
 }
 
 static void expected_range(const HdField *field, const char *what, char out[HD_EXPECTED_SIZE]) {
@@ -411,12 +404,13 @@ static void expected_range(const HdField *field, const char *what, char out[HD_E
 
 static void expected_choice(const HdField *field, char out[HD_EXPECTED_SIZE]) {
     size_t used = 0;
-    for (const HdChoice *choice = field->choices; choice->json != NULL; choice++) {
+    for (const HdChoice *choice = field->choices; choice->word != NULL; choice++) {
+        const char *quote = hd_choice_is_number(choice->word) ? "" : "\"";
         const char *between = choice == field->choices ? ""
-                              : choice[1].json == NULL ? " or "
+                              : choice[1].word == NULL ? " or "
                                                        : ", ";
-        used +=
-            (size_t)snprintf(out + used, HD_EXPECTED_SIZE - used, "%s%s", between, choice->json);
+        used += (size_t)snprintf(out + used, HD_EXPECTED_SIZE - used, "%s%s%s%s", between, quote,
+                                 choice->word, quote);
     }
 }
 

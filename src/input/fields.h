@@ -32,7 +32,7 @@ typedef enum HdFieldType {
 } HdFieldType;
 
 typedef struct HdChoice {
-    const char *json; /* NULL ends a list */
+    const char *word; /* in JSON a number where it begins with a digit; NULL ends a list */
     int value;
 } HdChoice;
 
@@ -88,7 +88,10 @@ bool hd_field_is_given(const HdField *field, const void *owner);
 /* What the checks call it: "mirror tint". */
 void hd_field_said(const HdField *field, char out[HD_SAID_SIZE]);
 
-/* The JSON of the choice that has the value; of the last one where none has. */
+/* Whether the word is a number. */
+bool hd_choice_is_number(const char *word);
+
+/* The word of the choice that has the value; of the last one where none has. */
 const char *hd_field_choice(const HdField *field, int value);
 
 /* Elements of its list, or vectors, in the struct at `owner`. */
@@ -96,6 +99,9 @@ int hd_field_count(const HdField *field, const void *owner);
 
 /* Whether the number is in the field's range. */
 bool hd_field_holds(const HdField *field, double value);
+
+/* How many numbers it has: 3 as a vector or more of them, 1, or 0. */
+int hd_field_parts(const HdField *field);
 
 /* Puts numbers into the struct at `owner`: three of a vector, a path's point or the only one of
    several vectors, else one, which is a choice's value or 0 for false. What has no numbers

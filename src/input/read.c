@@ -97,24 +97,23 @@ static bool read_scale(Reader *reader, const HdField *field, const json_t *value
     return true;
 }
 
-/* Numbers by their value: 16.0 is 16. A word stands in quotes in the table. */
-static bool is_choice(const HdChoice *choice, const json_t *value) {
+/* Numbers by their value: 16.0 is 16. */
+static bool is_choice(const char *choice, const json_t *value) {
     const char *word = json_string_value(value);
-    if (json_is_number(value))
-        return choice->json[0] != '"' && strtod(choice->json, NULL) == json_number_value(value);
-    return word != NULL && choice->json[0] == '"' && strlen(choice->json) == strlen(word) + 2 &&
-           memcmp(choice->json + 1, word, strlen(word)) == 0;
+    if (hd_choice_is_number(choice))
+        return json_is_number(value) && strtod(choice, NULL) == json_number_value(value);
+    return word != NULL && strcmp(word, choice) == 0;
 }
 
 static bool read_choice(Reader *reader, const HdField *field, const json_t *value, double *out) {
     const HdChoice *choice = field->choices;
-    while (choice->json != NULL && !is_choice(choice, value))
+    while (choice->word != NULL && !is_choice(choice->word, value))
         choice++;
-    if (choice->json == NULL)
+    if (choice->word == NULL)
         hd_report_choice(&reader->report, field, value);
     else
         *out = choice->value;
-    return choice->json != NULL;
+    return choice->word != NULL;
 }
 
 static void read_numbers(Reader *reader, const HdField *field, const json_t *value, void *owner) {

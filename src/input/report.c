@@ -13,9 +13,6 @@
 #include "input/builtin.h"
 #include "input/changes.h"
 
-/* The longest word, with room. */
-enum { HD_CHOICE_SIZE = 32 };
-
 static bool begins_with(const char *text, const char *beginning) {
     return strncmp(text, beginning, strlen(beginning)) == 0;
 }
@@ -146,15 +143,10 @@ static void offer_meant(HdNearest *nearest, const char *name) {
 }
 
 void hd_report_choice(HdSceneReport *report, const HdField *field, const json_t *value) {
-    char words[16][HD_CHOICE_SIZE];
     HdNearest nearest = {.word = json_is_string(value) ? json_string_value(value) : ""};
-    for (int i = 0; i < 16 && field->choices[i].json != NULL; i++) {
-        const char *json = field->choices[i].json;
-        if (json[0] != '"')
-            continue;
-        snprintf(words[i], sizeof words[i], "%.*s", (int)strlen(json) - 2, json + 1);
-        offer_meant(&nearest, words[i]);
-    }
+    for (const HdChoice *choice = field->choices; choice->word != NULL; choice++)
+        if (!hd_choice_is_number(choice->word))
+            offer_meant(&nearest, choice->word);
     if (nearest.name != NULL)
         hd_report_mistaken(report, value, nearest.name);
     else

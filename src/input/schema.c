@@ -41,8 +41,8 @@ static void print_vector(HdJsonPrinter *printer, const HdField *field) {
 static void print_choices(HdJsonPrinter *printer, const HdField *field) {
     hd_json_key(printer, "enum");
     hd_json_open(printer, '[');
-    for (const HdChoice *choice = field->choices; choice->json != NULL; choice++)
-        hd_json_raw(printer, choice->json);
+    for (const HdChoice *choice = field->choices; choice->word != NULL; choice++)
+        hd_choice_print(printer, choice->word);
     hd_json_close(printer, ']');
 }
 

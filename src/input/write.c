@@ -93,76 +93,49 @@ static double light_factor(HdVec3 light) {
     const HdVec3 product = hd_scale(colour, largest);
     if (product.x == light.x && product.y == light.y && product.z == light.z)
         return largest;
-    double power = 1.0;
-    while (power < largest)
-        power *= 2.0;
+    int exponent;
+    (void)frexp(largest, &exponent);
+    const double power = ldexp(1.0, exponent);
     return power <= HD_MAX_NUMBER ? power : largest;
 }
 
 /* Fields */
 
-/* What hd_field_set takes, but for paths; 3, 1 or, where the field has no numbers, 0 of them. A
-   hash takes light as it is. */
-static int take_numbers(const Writer *writer, const HdField *field, const void *owner,
-                        double out[3]) {
+/* What hd_field_set takes, but for paths. A hash takes light as it is. */
+static void take_numbers(const Writer *writer, const HdField *field, const void *owner,
+                         double out[3]) {
     const void *place = place_of(field, owner);
-    double factor = 1.0;
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
+    if (field->type == HD_FIELD_BOOLEAN) {
         out[0] = *(const bool *)place ? 1.0 : 0.0;
-        return 1;
-    case HD_FIELD_INTEGER:
-    case HD_FIELD_CHOICE:
+    } else if (field->type == HD_FIELD_INTEGER || field->type == HD_FIELD_CHOICE) {
         out[0] = *(const int *)place;
-        return 1;
-    case HD_FIELD_NUMBER:
+    } else if (field->type == HD_FIELD_NUMBER) {
         out[0] = *(const double *)place;
-        return 1;
-    case HD_FIELD_FACTOR:
-        out[0] = light_factor(*(const HdVec3 *)place);
-        return 1;
-    case HD_FIELD_UNSCALED:
-        if (!is_hashed(writer))
-            factor = light_factor(*(const HdVec3 *)place);
-        break;
-    case HD_FIELD_VECTOR:
-    case HD_FIELD_SCALE:
-    case HD_FIELD_VECTORS:
-        break;
-    default:
-        return 0;
+    } else {
+        const HdVec3 vector = *(const HdVec3 *)place;
+        const bool is_divided = field->type == HD_FIELD_UNSCALED && !is_hashed(writer);
+        const double factor = light_factor(vector), divisor = is_divided ? factor : 1.0;
+        out[0] = field->type == HD_FIELD_FACTOR ? factor : vector.x / divisor;
+        out[1] = vector.y / divisor;
+        out[2] = vector.z / divisor;
     }
-    const HdVec3 vector = *(const HdVec3 *)place;
-    out[0] = vector.x / factor;
-    out[1] = vector.y / factor;
-    out[2] = vector.z / factor;
-    return 3;
+}
+
+void hd_choice_print(HdJsonPrinter *printer, const char *word) {
+    (hd_choice_is_number(word) ? hd_json_raw : hd_json_string)(printer, word);
 }
 
 void hd_numbers_print(HdJsonPrinter *printer, const HdField *field, const double numbers[3]) {
     const HdVec3 vector = hd_vec3(numbers[0], numbers[1], numbers[2]);
-    switch (field->type) {
-    case HD_FIELD_BOOLEAN:
+    const bool is_even = vector.x == vector.y && vector.y == vector.z;
+    if (field->type == HD_FIELD_BOOLEAN)
         hd_json_raw(printer, numbers[0] != 0.0 ? "true" : "false");
-        break;
-    case HD_FIELD_CHOICE:
-        hd_json_raw(printer, hd_field_choice(field, (int)numbers[0]));
-        break;
-    case HD_FIELD_INTEGER:
-    case HD_FIELD_NUMBER:
-    case HD_FIELD_FACTOR:
-        hd_json_number(printer, numbers[0]);
-        break;
-    case HD_FIELD_SCALE:
-        if (vector.x == vector.y && vector.y == vector.z)
-            hd_json_number(printer, vector.x); /* of every axis */
-        else
-            hd_json_vector(printer, vector);
-        break;
-    default:
+    else if (field->type == HD_FIELD_CHOICE)
+        hd_choice_print(printer, hd_field_choice(field, (int)numbers[0]));
+    else if (hd_field_parts(field) == 1 || (field->type == HD_FIELD_SCALE && is_even))
+        hd_json_number(printer, numbers[0]); /* of every axis */
+    else
         hd_json_vector(printer, vector);
-        break;
-    }
 }
 
 typedef void WriteField(Writer *writer, const HdField *field, const void *owner);
@@ -245,8 +218,10 @@ static bool is_default(const Writer *writer, const HdField *field, const void *o
         return hd_field_count(field, owner) == 0;
     if (field->type == HD_FIELD_VECTORS && hd_field_count(field, owner) != 1)
         return false;
-    const int count = take_numbers(writer, field, owner, numbers);
-    return count > 0 && memcmp(numbers, field->standard, (size_t)count * sizeof *numbers) == 0;
+    if (field->type == HD_FIELD_PATH || hd_field_parts(field) == 0)
+        return false;
+    take_numbers(writer, field, owner, numbers);
+    return memcmp(numbers, field->standard, (size_t)hd_field_parts(field) * sizeof *numbers) == 0;
 }
 
 static bool is_left_out(const Writer *writer, const HdField *field) {

@@ -14,6 +14,9 @@
    "rim_1", "mesh_1", "floor". Fails with HD_BAD_INPUT where a path is not UTF-8. */
 HdStatus hd_scene_file_print(FILE *out, const HdSceneFile *file, HdError *error);
 
+/* Prints the word of a choice. */
+void hd_choice_print(HdJsonPrinter *printer, const char *word);
+
 /* Prints what hd_field_set takes, as a file tells it; of a path its point. */
 void hd_numbers_print(HdJsonPrinter *printer, const HdField *field, const double numbers[3]);
 

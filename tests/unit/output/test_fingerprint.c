@@ -127,7 +127,7 @@ static void change_value(const HdField *field, void *owner) {
         change_boolean(field, place);
         break;
     case HD_FIELD_CHOICE:
-        if (field->choices[1].json == NULL)
+        if (field->choices[1].word == NULL)
             break;
         change_integer(field, place);
         break;
@@ -182,7 +182,7 @@ static void expect_all_changed(const HdObjectType *type) {
         const HdField *field = &type->fields[i];
         const bool has_value = field->type != HD_FIELD_OBJECT && field->type != HD_FIELD_MATERIAL &&
                                field->type != HD_FIELD_MATERIALS && field->type != HD_FIELD_FILE &&
-                               (field->type != HD_FIELD_CHOICE || field->choices[1].json != NULL);
+                               (field->type != HD_FIELD_CHOICE || field->choices[1].word != NULL);
         if (strcmp(field->key, "output") == 0)
             continue;
         if (has_value && !is_changed(field))
