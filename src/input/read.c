@@ -22,7 +22,7 @@ typedef struct Reader {
     HdError *error;
     HdStatus status;
     NamedMaterial *materials;
-    NamedMaterial **by_name; /* the same, sorted once all are read */
+    json_t *numbers; /* of the materials, by their names, once all are read */
     int material_count;
     bool knows_materials; /* otherwise no name of one can be checked */
 } Reader;
@@ -191,10 +191,14 @@ static bool place_file(Reader *reader, char path[HD_MAX_PATH]) {
     return true;
 }
 
+static void fail_memory(Reader *reader) {
+    reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+}
+
 static void *allocate(Reader *reader, size_t count, size_t size) {
     void *memory = calloc(count, size);
     if (memory == NULL)
-        reader->status = hd_fail(reader->error, HD_FAILED, "out of memory: no room for the scene");
+        fail_memory(reader);
     return memory;
 }
 
@@ -208,17 +212,9 @@ static void read_file(Reader *reader, const HdField *field, const json_t *value,
         memcpy(*out, path, strlen(path) + 1);
 }
 
-static int compare_names(const void *a, const void *b) {
-    return strcmp((*(NamedMaterial *const *)a)->name, (*(NamedMaterial *const *)b)->name);
-}
-
 static NamedMaterial *find_material(const Reader *reader, const char *name) {
-    NamedMaterial wanted = {.name = name}, *key = &wanted;
-    NamedMaterial **found = reader->by_name == NULL
-                                ? NULL
-                                : bsearch(&key, reader->by_name, (size_t)reader->material_count,
-                                          sizeof(NamedMaterial *), compare_names);
-    return found != NULL ? *found : NULL;
+    const json_t *number = json_object_get(reader->numbers, name);
+    return number != NULL ? &reader->materials[json_integer_value(number)] : NULL;
 }
 
 /* Looking for what may be meant takes long among many names, and is for readers. */
@@ -300,15 +296,12 @@ static void check_shares(Reader *reader, HdMaterial *material) {
         material->reflection = material->inner_reflection = 0.0;
 }
 
-/* None where there is no room, which the reader's status then tells. */
-static void sort_materials(Reader *reader) {
-    const size_t count = (size_t)reader->material_count;
-    reader->by_name = allocate(reader, count + 1, sizeof(NamedMaterial *));
-    if (reader->by_name == NULL)
-        return;
-    for (size_t i = 0; i < count; i++)
-        reader->by_name[i] = &reader->materials[i];
-    qsort(reader->by_name, count, sizeof(NamedMaterial *), compare_names);
+static bool number_materials(Reader *reader) {
+    reader->numbers = json_object();
+    for (int i = 0; i < reader->material_count; i++)
+        if (json_object_set_new(reader->numbers, reader->materials[i].name, json_integer(i)) != 0)
+            return false;
+    return reader->numbers != NULL;
 }
 
 static void read_materials(Reader *reader, const HdField *field, const json_t *value,
@@ -338,7 +331,8 @@ static void read_materials(Reader *reader, const HdField *field, const json_t *v
         check_shares(reader, &named->material);
         leave_to(reader, length);
     }
-    sort_materials(reader);
+    if (!number_materials(reader))
+        fail_memory(reader);
 }
 
 typedef void ReadField(Reader *reader, const HdField *field, const json_t *value, void *owner);
@@ -448,7 +442,7 @@ HdStatus hd_scene_from_json(HdSceneFile *file, const json_t *root, const HdScene
     hd_check_output_path(&reader.report, file->output.path);
     if (source->notes != NULL)
         note_unused_materials(&reader, source->notes);
-    free(reader.by_name);
+    json_decref(reader.numbers);
     free(reader.materials);
     if (reader.status != HD_OK)
         return reader.status;

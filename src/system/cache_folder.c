@@ -15,7 +15,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/growth.h"
 #include "base/hash.h"
 #include "system/atomic_file.h"
 #include "system/file_bytes.h"
@@ -174,65 +173,55 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
 
 enum { STALE_SECONDS = 3600 };
 
-typedef struct Entry {
-    char name[256];
+/* All entries together, and the one that has not been used for the longest time. */
+typedef struct Usage {
     int64_t bytes;
+    char oldest[256];
     struct timespec used;
-} Entry;
-
-typedef struct Listing {
-    Entry *entries;
-    int count, room;
-    int64_t bytes;
-} Listing;
+} Usage;
 
 static bool ends_in(const char *name, const char *ending) {
     size_t length = strlen(name), tail = strlen(ending);
     return length >= tail && strcmp(name + length - tail, ending) == 0;
 }
 
-static void add(Listing *listing, const char *name, const struct stat *found) {
-    Entry entry = {.bytes = (int64_t)found->st_size, .used = found->st_mtim};
-    if (strlen(name) >= sizeof entry.name)
+static void add_entry(Usage *usage, const char *name, const struct stat *found) {
+    const struct timespec *used = &found->st_mtim, *least = &usage->used;
+    if (strlen(name) >= sizeof usage->oldest)
         return;
-    memcpy(entry.name, name, strlen(name) + 1);
-    if (hd_append(&listing->entries, sizeof entry, &listing->count, &listing->room, &entry))
-        listing->bytes += entry.bytes;
+    usage->bytes += (int64_t)found->st_size;
+    if (usage->oldest[0] != '\0' &&
+        (used->tv_sec != least->tv_sec ? used->tv_sec > least->tv_sec
+                                       : used->tv_nsec >= least->tv_nsec))
+        return;
+    memcpy(usage->oldest, name, strlen(name) + 1);
+    usage->used = *used;
 }
 
-static void look_at(Listing *listing, int folder, const char *name) {
+static void look_at(Usage *usage, int folder, const char *name) {
     struct stat found;
     if (fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode))
         return;
     if (ends_in(name, ENDING))
-        add(listing, name, &found);
+        add_entry(usage, name, &found);
     else if (strstr(name, ENDING ".tmp-") != NULL &&
              time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
         unlinkat(folder, name, 0);
 }
 
-static int by_use(const void *first, const void *second) {
-    const struct timespec *a = &((const Entry *)first)->used, *b = &((const Entry *)second)->used;
-    if (a->tv_sec != b->tv_sec)
-        return a->tv_sec < b->tv_sec ? -1 : 1;
-    return (a->tv_nsec > b->tv_nsec) - (a->tv_nsec < b->tv_nsec);
-}
-
 void hd_cache_limit(const char *folder, int64_t most) {
-    Listing listing = {0};
     DIR *stream = opendir(folder);
-    if (stream == NULL)
-        return;
-    for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
-        look_at(&listing, dirfd(stream), found->d_name);
-    if (listing.entries != NULL)
-        qsort(listing.entries, (size_t)listing.count, sizeof *listing.entries, by_use);
-    for (int i = 0; i < listing.count && listing.bytes > most; i++) {
-        unlinkat(dirfd(stream), listing.entries[i].name, 0);
-        listing.bytes -= listing.entries[i].bytes;
+    bool is_over = stream != NULL;
+    while (is_over) {
+        Usage usage = {0};
+        rewinddir(stream);
+        for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
+            look_at(&usage, dirfd(stream), found->d_name);
+        is_over = usage.bytes > most &&
+                  (unlinkat(dirfd(stream), usage.oldest, 0) == 0 || errno == ENOENT);
     }
-    closedir(stream);
-    free(listing.entries);
+    if (stream != NULL)
+        closedir(stream);
 }
 
 /* ---- writing ---- */

@@ -50,26 +50,21 @@ ssize_t hd_read_fully(int descriptor, void *bytes, size_t size) {
     return (ssize_t)done;
 }
 
-static HdStatus read_exactly(const File *file, unsigned char *bytes, size_t size, HdError *error) {
-    const ssize_t done = hd_read_fully(file->descriptor, bytes, size);
-    if (done < 0)
-        return fail_reading(file, error);
-    if ((size_t)done == size)
-        return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
-                   file->what, file->path, done, size);
-}
-
 static HdStatus read_file(const File *file, unsigned char **bytes, size_t size, HdError *error) {
     *bytes = malloc(size + 1);
     if (*bytes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the %zu bytes of the %s %s",
                        size, file->what, file->path);
-    const HdStatus status = read_exactly(file, *bytes, size, error);
-    if (status != HD_OK) {
-        free(*bytes);
-        *bytes = NULL;
-    }
+    const ssize_t done = hd_read_fully(file->descriptor, *bytes, size);
+    if (done == (ssize_t)size)
+        return HD_OK;
+    const HdStatus status =
+        done < 0
+            ? fail_reading(file, error)
+            : hd_fail(error, HD_BAD_INPUT, "cannot read the %s %s: it ended after %zd of %zu bytes",
+                      file->what, file->path, done, size);
+    free(*bytes);
+    *bytes = NULL;
     return status;
 }
 

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "base/error.h"
 
@@ -22,6 +23,22 @@ void *hd_obj_resize(HdObjMemory *memory, void *array, size_t size, size_t before
 /* The array with room for `count` elements, and some more where it has to grow; `*room` is what it
    has room for. NULL as above. */
 void *hd_obj_grow(HdObjMemory *memory, void *array, size_t size, size_t count, size_t *room);
+
+/* Puts a copy of `element`, of `size` bytes, behind the `*count` elements of an array, which grows
+   where it must; `array` is the address of the pointer to it. False where there is no more. */
+static inline bool hd_obj_append(HdObjMemory *memory, void *array, size_t size, size_t *count,
+                                 size_t *room, const void *element) {
+    char *elements;
+    memcpy(&elements, array, sizeof elements);
+    if (*count == *room) {
+        elements = hd_obj_grow(memory, elements, size, *count + 1, room);
+        if (elements == NULL)
+            return false;
+        memcpy(array, &elements, sizeof elements);
+    }
+    memcpy(elements + (*count)++ * size, element, size);
+    return true;
+}
 
 /* Not zeroed; at least a byte. */
 void *hd_obj_allocate(HdObjMemory *memory, size_t count, size_t size);

@@ -28,18 +28,6 @@ static bool is_statement_end(HdSpan word) {
     return word.begin == word.end || *word.begin == '#';
 }
 
-/* Room for another element; NULL: there is none. */
-static double *add_element(HdObjText *text, HdObjKind kind) {
-    HdObjElements *elements = &text->elements[kind];
-    const size_t size = (size_t)most_numbers[kind] * sizeof *elements->numbers;
-    double *numbers = hd_obj_grow(text->lines.memory, elements->numbers, size, elements->count + 1,
-                                  &elements->room);
-    if (numbers == NULL)
-        return NULL;
-    elements->numbers = numbers;
-    return numbers + (size_t)most_numbers[kind] * elements->count++;
-}
-
 /* Numbers beyond those that are kept are for others; those that may be missing are 0. */
 static bool keep_numbers(HdObjText *text, HdObjKind kind, HdSpan line) {
     double numbers[3] = {0.0, 0.0, 0.0};
@@ -53,13 +41,13 @@ static bool keep_numbers(HdObjText *text, HdObjKind kind, HdSpan line) {
                              hd_span_shown(word), word.begin, fault);
         numbers[i] = (double)(float)numbers[i];
     }
-    if (text->elements[kind].count == MOST_ELEMENTS)
+    HdObjElements *elements = &text->elements[kind];
+    if (elements->count == MOST_ELEMENTS)
         return fail_line(text, "there are more than %d %s", (int)MOST_ELEMENTS, plurals[kind]);
-    double *element = add_element(text, kind);
-    if (element == NULL)
-        return hd_obj_fail_room(&text->lines);
-    memcpy(element, numbers, (size_t)most_numbers[kind] * sizeof *numbers);
-    return true;
+    return hd_obj_append(text->lines.memory, &elements->numbers,
+                         (size_t)most_numbers[kind] * sizeof *numbers, &elements->count,
+                         &elements->room, numbers) ||
+           hd_obj_fail_room(&text->lines);
 }
 
 /* Reads "-12" or "12"; without digits, `*number` is 0. NULL: too many digits. */
@@ -123,12 +111,12 @@ static bool read_corner(HdObjText *text, HdSpan word, HdObjCorner *corner) {
 }
 
 static bool keep_corner(HdObjText *text, HdSpan word) {
-    HdObjCorner *corners = hd_obj_grow(text->lines.memory, text->corners, sizeof *corners,
-                                       text->corner_count + 1, &text->corner_room);
-    if (corners == NULL)
-        return hd_obj_fail_room(&text->lines);
-    text->corners = corners;
-    return read_corner(text, word, &corners[text->corner_count++]);
+    HdObjCorner corner;
+    if (!read_corner(text, word, &corner))
+        return false;
+    return hd_obj_append(text->lines.memory, &text->corners, sizeof corner, &text->corner_count,
+                         &text->corner_room, &corner) ||
+           hd_obj_fail_room(&text->lines);
 }
 
 static bool set_material(HdObjText *text, HdSpan name) {
@@ -147,13 +135,10 @@ static bool add_face(HdObjText *text, int32_t corner_count) {
     static const char none[] = HD_OBJ_NO_MATERIAL;
     if (text->material < 0 && !set_material(text, (HdSpan){none, none + strlen(none)}))
         return false;
-    HdObjFace *faces = hd_obj_grow(text->lines.memory, text->faces, sizeof *faces,
-                                   text->face_count + 1, &text->face_room);
-    if (faces == NULL)
-        return hd_obj_fail_room(&text->lines);
-    text->faces = faces;
-    faces[text->face_count++] = (HdObjFace){corner_count, text->material};
-    return true;
+    const HdObjFace face = {corner_count, text->material};
+    return hd_obj_append(text->lines.memory, &text->faces, sizeof face, &text->face_count,
+                         &text->face_room, &face) ||
+           hd_obj_fail_room(&text->lines);
 }
 
 static bool keep_face(HdObjText *text, HdSpan line) {
