@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "mesh/hierarchy.h"
+#include "mesh/hierarchy_node.h"
 
 typedef float HdLanes __attribute__((vector_size(16)));
 typedef int32_t HdIntLanes __attribute__((vector_size(16)));
