@@ -50,8 +50,7 @@ static const HdField *scene_field(const char *key) {
 
 static void add_value(HdSceneChecker *checker, const char *what, const char *part, double value,
                       const char *expected) {
-    hd_problem(checker->problems, "%s%s%s is %.15g, expected %s", checker->place, what, part, value,
-               expected);
+    hd_tell(checker, "%s%s is %.15g, expected %s", what, part, value, expected);
 }
 
 /* NaN compares false with everything, so it is outside every range. */
@@ -80,8 +79,7 @@ static void check_number(HdSceneChecker *checker, const HdField *field, const ch
 
 static void check_int(HdSceneChecker *checker, const char *what, int value, int low, int high) {
     if (value < low || value > high)
-        hd_problem(checker->problems, "%s%s is %d, expected %d to %d", checker->place, what, value,
-                   low, high);
+        hd_tell(checker, "%s is %d, expected %d to %d", what, value, low, high);
 }
 
 static void check_vector(HdSceneChecker *checker, const HdField *field, const char *what,
@@ -147,9 +145,8 @@ static void check_fields(HdSceneChecker *checker, const HdObjectType *type, cons
 
 static void check_falloff(HdSceneChecker *checker, const HdFalloff *falloff) {
     if (falloff->distance > 0.0 && falloff->end > 0.0)
-        hd_problem(checker->problems,
-                   "%sfalloff distance is %.15g and falloff end is %.15g, expected one of them",
-                   checker->place, falloff->distance, falloff->end);
+        hd_tell(checker, "falloff distance is %.15g and falloff end is %.15g, expected one of them",
+                falloff->distance, falloff->end);
 }
 
 static void check_path(HdSceneChecker *checker, const char *key, const HdPath *path) {
@@ -175,8 +172,8 @@ static void check_camera(HdSceneChecker *checker, const HdScene *scene) {
 
 static void check_picture(HdSceneChecker *checker, const HdScene *scene) {
     if ((int64_t)scene->width * scene->height > HD_MAX_IMAGE_PIXELS)
-        hd_problem(checker->problems, "%s%d x %d pixels are too many, expected at most %d in all",
-                   checker->place, scene->width, scene->height, (int)HD_MAX_IMAGE_PIXELS);
+        hd_tell(checker, "%d x %d pixels are too many, expected at most %d in all", scene->width,
+                scene->height, (int)HD_MAX_IMAGE_PIXELS);
     check_fields(checker, scene_field("image")->object, scene);
     check_vector(checker, scene_field("background"), "background", &scene->background);
 }
@@ -313,11 +310,11 @@ static bool check_light_count(HdSceneChecker *checker, const HdSolid *solid, int
     if (count <= HD_MAX_LIGHTS)
         return false;
     enter_item(checker, "solid", "solids", index);
-    hd_problem(checker->problems,
-               "%s%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
-               "the scene",
-               checker->place, is_json ? "edge_lights.per_edge" : "number of lights per edge",
-               per_edge, count, count / per_edge, (int)HD_MAX_LIGHTS);
+    hd_tell(checker,
+            "%s is %d, which makes %d lights on its %d edges, expected at most %d lights in "
+            "the scene",
+            is_json ? "edge_lights.per_edge" : "number of lights per edge", per_edge, count,
+            count / per_edge, (int)HD_MAX_LIGHTS);
     leave(checker);
     return true;
 }
@@ -332,9 +329,9 @@ static void check_all_lights(HdSceneChecker *checker, const HdScene *scene) {
         is_told |= check_light_count(checker, &scene->solids[i], i);
     }
     if (!is_told && lights > HD_MAX_LIGHTS)
-        hd_problem(checker->problems,
-                   "%snumber of lights, those on the edges included, is %d, expected at most %d",
-                   checker->place, lights, (int)HD_MAX_LIGHTS);
+        hd_tell(checker,
+                "number of lights, those on the edges included, is %d, expected at most %d", lights,
+                (int)HD_MAX_LIGHTS);
 }
 
 static void check_floor(HdSceneChecker *checker, const HdFloor *floor) {

@@ -27,20 +27,20 @@ void hd_check_floor_shape(HdSceneChecker *checker, const HdVec3 corner[4]) {
     }
     const double height = fabs(hd_dot(hd_sub(corner[1], corner[0]), normal)) / area;
     if (height > flatness * size) {
-        hd_problem(checker->problems,
-                   "%sits diagonals pass each other %.6g apart, expected four corners in one plane "
-                   "(at most %.6g apart)",
-                   checker->place, height, flatness * size);
+        hd_tell(checker,
+                "its diagonals pass each other %.6g apart, expected four corners in one plane "
+                "(at most %.6g apart)",
+                height, flatness * size);
         return;
     }
     for (int i = 0; i < 4; i++) {
         const HdVec3 before = hd_sub(corner[i], corner[(i + 3) % 4]);
         const HdVec3 after = hd_sub(corner[(i + 1) % 4], corner[i]);
         if (!(hd_dot(hd_cross(before, after), normal) / area > sharpness * size * size))
-            hd_problem(checker->problems,
-                       "%scorner %d is not a convex corner, expected the corners of a convex "
-                       "quadrilateral in their order around it",
-                       checker->place, i + 1);
+            hd_tell(checker,
+                    "corner %d is not a convex corner, expected the corners of a convex "
+                    "quadrilateral in their order around it",
+                    i + 1);
     }
 }
 
@@ -97,7 +97,7 @@ void hd_check_flight(HdSceneChecker *checker, const HdScene *scene) {
     for (int frame = 0; status == HD_OK && frame < frames; frame++)
         status = hd_camera_at(&camera, scene, frame, &error);
     if (status != HD_OK)
-        hd_problem(checker->problems, "%s%s", checker->place, error.message);
+        hd_tell(checker, "%s", error.message);
 }
 
 static bool refracts(const HdSolid *solid) {

@@ -21,6 +21,10 @@ typedef struct HdSceneChecker {
     bool solid_is_sound[HD_MAX_SOLIDS]; /* its shape and place are */
 } HdSceneChecker;
 
+/* Adds a problem of the part that is checked: a format, without the place, and its arguments. */
+#define hd_tell(checker, format, ...)                                                              \
+    hd_problem((checker)->problems, "%s" format, (checker)->place, __VA_ARGS__)
+
 /* Checks that the floor, whose place has been set, is convex and flat, with room inside. */
 void hd_check_floor_shape(HdSceneChecker *checker, const HdVec3 corner[4]);
 

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 #include "base/problems.h"
 #include "image/curve.h"
@@ -65,6 +66,12 @@ typedef struct HdSceneSource {
                                checked; NULL: neither */
 } HdSceneSource;
 
-void hd_scene_file_free(HdSceneFile *file);
+static inline void hd_scene_file_free(HdSceneFile *file) {
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        free(file->mesh_entries[i].file);
+    free(file->mesh_entries);
+    hd_scene_free(&file->scene);
+    *file = (HdSceneFile){.version = 0};
+}
 
 #endif

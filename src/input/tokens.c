@@ -2,7 +2,6 @@
 #include "input/tokens.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,19 +24,10 @@ static const char *shown(const char *token, char out[44]) {
     return out;
 }
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static void
-refuse(HdTokenReader *reader, const char *what, const char *format, ...) {
-    char text[160];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    reader->status = hd_fail(reader->error, HD_BAD_INPUT, "%s:%d: %s%s %s", reader->name,
-                             reader->line, reader->where, what, text);
-}
+#define refuse(reader, what, format, ...)                                                          \
+    ((reader)->status =                                                                            \
+         hd_fail((reader)->error, HD_BAD_INPUT, "%s:%d: %s%s " format, (reader)->name,             \
+                 (reader)->line, (reader)->where, what, __VA_ARGS__))
 
 static void fail_token(HdTokenReader *reader, const char *what, const Token *token,
                        const char *expected) {

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh/obj/mtl_text.h"
 
-#include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,18 +22,9 @@ typedef struct Reader {
     int noted_count;
 } Reader;
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-note(Reader *reader, const char *format, ...) {
-    char message[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    hd_problem(reader->notes, "%s: line %zu: %s", reader->source->path, reader->line, message);
-}
+#define note(reader, format, ...)                                                                  \
+    hd_problem((reader)->notes, "%s: line %zu: " format, (reader)->source->path, (reader)->line,   \
+               __VA_ARGS__)
 
 /* Of two materials with one name the first counts. */
 static HdMtlDefinition *define(Reader *reader, HdSpan name) {
@@ -158,7 +147,7 @@ static void leave_out(Reader *reader, HdSpan keyword) {
     if (hd_name_fault(keyword) == NULL)
         note(reader, "%.*s is not used", hd_span_shown(keyword), keyword.begin);
     else
-        note(reader, "it has no statement of a material library");
+        note(reader, "%s", "it has no statement of a material library");
 }
 
 static void take_statement(Reader *reader, HdSpan keyword, HdSpan line) {
