@@ -9,10 +9,6 @@
 
 #include "base/text.h"
 
-typedef struct Token {
-    char text[HD_MAX_PATH];
-} Token;
-
 static bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -29,10 +25,10 @@ static const char *shown(const char *token, char out[44]) {
          hd_fail((reader)->error, HD_BAD_INPUT, "%s:%d: %s%s " format, (reader)->name,             \
                  (reader)->line, (reader)->where, what, __VA_ARGS__))
 
-static void fail_token(HdTokenReader *reader, const char *what, const Token *token,
+static void fail_token(HdTokenReader *reader, const char *what, const char *token,
                        const char *expected) {
     char value[44];
-    refuse(reader, what, "is '%s', expected %s", shown(token->text, value), expected);
+    refuse(reader, what, "is '%s', expected %s", shown(token, value), expected);
 }
 
 static void skip_space(HdTokenReader *reader) {
@@ -45,7 +41,7 @@ static void skip_space(HdTokenReader *reader) {
 
 /* False where there is none, which is an error, or where an error came before. */
 static bool read_token(HdTokenReader *reader, const char *what, const char *expected,
-                       Token *token) {
+                       char token[HD_MAX_PATH]) {
     if (reader->status != HD_OK)
         return false;
     skip_space(reader);
@@ -56,14 +52,14 @@ static bool read_token(HdTokenReader *reader, const char *what, const char *expe
     reader->position += length;
     if (length == 0)
         refuse(reader, what, "is missing, expected %s", expected);
-    else if (length >= sizeof token->text)
+    else if (length >= HD_MAX_PATH)
         refuse(reader, what, "has %zu characters, expected at most %d", length, HD_MAX_PATH - 1);
     else if (memchr(start, '\0', length) != NULL)
         refuse(reader, what, "holds a zero byte, expected %s", expected);
     if (reader->status != HD_OK)
         return false;
-    memcpy(token->text, start, length);
-    token->text[length] = '\0';
+    memcpy(token, start, length);
+    token[length] = '\0';
     return true;
 }
 
@@ -77,13 +73,13 @@ static bool is_decimal(const char *s, double *number) {
 /* False where there is none, which is an error. */
 static bool next_number(HdTokenReader *reader, const char *what, double *number) {
     static const char *const expected = "a number";
-    Token token;
-    if (!read_token(reader, what, expected, &token))
+    char token[HD_MAX_PATH];
+    if (!read_token(reader, what, expected, token))
         return false;
-    if (!is_decimal(token.text, number))
-        fail_token(reader, what, &token, expected);
+    if (!is_decimal(token, number))
+        fail_token(reader, what, token, expected);
     else if (isinf(*number))
-        fail_token(reader, what, &token, "a number within the range of double precision");
+        fail_token(reader, what, token, "a number within the range of double precision");
     return reader->status == HD_OK;
 }
 
@@ -105,29 +101,27 @@ void hd_read_share(HdTokenReader *reader, const char *what, double *value) {
 
 void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int *value) {
     char expected[64], *end;
-    Token token;
+    char token[HD_MAX_PATH];
     snprintf(expected, sizeof expected, "a whole number from %d to %d", low, high);
-    if (!read_token(reader, what, expected, &token))
+    if (!read_token(reader, what, expected, token))
         return;
-    const long number = strtol(token.text, &end, 10); /* one too long is the largest or least */
+    const long number = strtol(token, &end, 10); /* one too long is the largest or least */
     if (*end != '\0' || number < low || number > high)
-        fail_token(reader, what, &token, expected);
+        fail_token(reader, what, token, expected);
     else
         *value = (int)number;
 }
 
 void hd_read_path(HdTokenReader *reader, const char *what, char path[HD_MAX_PATH]) {
-    Token token;
-    if (read_token(reader, what, "a path", &token))
-        memcpy(path, token.text, strlen(token.text) + 1);
+    read_token(reader, what, "a path", path);
 }
 
 void hd_read_end(HdTokenReader *reader) {
     static const char *const what = "what follows the last value";
-    Token token;
+    char token[HD_MAX_PATH];
     if (reader->status != HD_OK)
         return;
     skip_space(reader);
-    if (reader->position < reader->size && read_token(reader, what, "the end of the input", &token))
-        fail_token(reader, what, &token, "the end of the input");
+    if (reader->position < reader->size && read_token(reader, what, "the end of the input", token))
+        fail_token(reader, what, token, "the end of the input");
 }
