@@ -30,6 +30,10 @@ static inline HdVec3 hd_cross(HdVec3 a, HdVec3 b) {
 static inline double hd_length(HdVec3 a) {
     return sqrt(hd_dot(a, a));
 }
+/* The largest of its coordinates, whatever their signs. */
+static inline double hd_largest(HdVec3 a) {
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
 static inline HdVec3 hd_normalize(HdVec3 a) {
     return hd_scale(a, 1.0 / hd_length(a));
 }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "input/read.h"
 
 #include <math.h>
@@ -207,9 +209,9 @@ static void read_file(Reader *reader, const HdField *field, const json_t *value,
     copy_text(reader, field, value, path);
     if (path[0] == '\0' || !place_file(reader, path))
         return;
-    *out = allocate(reader, strlen(path) + 1, 1);
-    if (*out != NULL)
-        memcpy(*out, path, strlen(path) + 1);
+    *out = strdup(path);
+    if (*out == NULL)
+        fail_memory(reader);
 }
 
 static NamedMaterial *find_material(const Reader *reader, const char *name) {

@@ -150,6 +150,12 @@ static void cut(Build *build, int first, int count, const Open *open) {
     }
 }
 
+static void add_task(Build *build, const HdGroup *group, HdItem *items, HdItem *spare, int *link) {
+    *link = ~build->task_count;
+    build->top->tasks[build->task_count++] =
+        (Task){.group = *group, .items = items, .spare = spare};
+}
+
 /* Makes a task or an open node of a group that lies in `others` until they are swapped. */
 static void hand_on(Build *build, const HdGroup *group, int *link) {
     if (group->count > build->piece) {
@@ -158,9 +164,7 @@ static void hand_on(Build *build, const HdGroup *group, int *link) {
         open->link = link;
         return;
     }
-    *link = ~build->task_count;
-    build->top->tasks[build->task_count++] =
-        (Task){.group = *group, .items = build->others, .spare = build->items};
+    add_task(build, group, build->others, build->items, link);
 }
 
 static void swap(Build *build) {
@@ -277,13 +281,6 @@ static void divide(Build *build, const Open *open) {
     }
 }
 
-/* What cannot be divided so stays where it is. */
-static void leave_undivided(Build *build, const Open *open) {
-    *open->link = ~build->task_count;
-    build->top->tasks[build->task_count++] =
-        (Task){.group = open->group, .items = build->items, .spare = build->others};
-}
-
 static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
     build->chunk_count = 0;
     for (int i = 0; i < build->open_count; i++) {
@@ -303,8 +300,8 @@ static HdStatus divide_level(Build *build, HdThreadPool *pool, HdError *error) {
         const Open *open = &build->opens[i];
         if (open->split.axis >= 0)
             divide(build, open);
-        else
-            leave_undivided(build, open);
+        else /* it stays where it is */
+            add_task(build, &open->group, build->items, build->others, open->link);
     }
     swap(build);
     return HD_OK;

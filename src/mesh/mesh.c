@@ -15,17 +15,12 @@ bool hd_mesh_allocate(HdMesh *mesh, size_t vertices, size_t triangles) {
            mesh->group_of != NULL;
 }
 
-static double largest_coordinate(HdVec3 a) {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
-}
-
 /* Whether the height over the longest side is within what coordinates of this size are rounded by:
    rounding may then have made any area that there is. */
 static bool has_no_area(HdVec3 a, HdVec3 b, HdVec3 c) {
     const HdVec3 ab = hd_sub(b, a), ac = hd_sub(c, a), bc = hd_sub(c, b);
     const double longest = sqrt(fmax(hd_dot(ab, ab), fmax(hd_dot(ac, ac), hd_dot(bc, bc))));
-    const double size =
-        fmax(largest_coordinate(a), fmax(largest_coordinate(b), largest_coordinate(c)));
+    const double size = fmax(hd_largest(a), fmax(hd_largest(b), hd_largest(c)));
     return hd_length(hd_cross(ab, ac)) <= 4.0 * DBL_EPSILON * size * longest;
 }
 

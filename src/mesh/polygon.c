@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh/polygon.h"
 
-/* A corner in the plane in which the polygon runs counterclockwise. */
-typedef struct Point {
-    double u, v;
-} Point;
-
-/* A ring of the corners that are left. */
+/* A ring of the corners that are left, in the plane in which the polygon runs counterclockwise. */
 typedef struct Ring {
     int count;
-    Point point[HD_MAX_CONCAVE_CORNERS];
+    HdVec2 point[HD_MAX_CONCAVE_CORNERS];
     int16_t next[HD_MAX_CONCAVE_CORNERS], last[HD_MAX_CONCAVE_CORNERS];
     bool is_convex[HD_MAX_CONCAVE_CORNERS];
     bool is_ear[HD_MAX_CONCAVE_CORNERS];
@@ -25,30 +20,30 @@ static HdVec3 normal_of(const HdVec3 *corners, int count) {
 }
 
 /* Drops the coordinate along which the normal is longest, and mirrors what would run clockwise. */
-static Point project(HdVec3 corner, HdVec3 normal) {
+static HdVec2 project(HdVec3 corner, HdVec3 normal) {
     const double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
     double sign = normal.z;
-    Point point = {corner.x, corner.y};
+    HdVec2 point = {corner.x, corner.y};
     if (x >= y && x >= z) {
         sign = normal.x;
-        point = (Point){corner.y, corner.z};
+        point = (HdVec2){corner.y, corner.z};
     } else if (y >= z) {
         sign = normal.y;
-        point = (Point){corner.z, corner.x};
+        point = (HdVec2){corner.z, corner.x};
     }
     if (sign < 0.0)
-        point.u = -point.u;
+        point.x = -point.x;
     return point;
 }
 
 /* Twice the area: positive where a, b, c run counterclockwise. */
-static double turn(Point a, Point b, Point c) {
-    return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+static double turn(HdVec2 a, HdVec2 b, HdVec2 c) {
+    return hd_cross2(hd_sub2(b, a), hd_sub2(c, a));
 }
 
 /* Whether the triangles from the first corner cover the polygon. */
 static bool is_fan(const HdVec3 *corners, int count, HdVec3 normal) {
-    const Point tip = project(corners[0], normal);
+    const HdVec2 tip = project(corners[0], normal);
     for (int i = 1; i + 1 < count; i++)
         if (!(turn(tip, project(corners[i], normal), project(corners[i + 1], normal)) > 0.0))
             return false;
@@ -63,15 +58,15 @@ static void cut_fan(int count, int32_t (*triangles)[3]) {
     }
 }
 
-static bool is_same(Point a, Point b) {
-    return a.u == b.u && a.v == b.v;
+static bool is_same(HdVec2 a, HdVec2 b) {
+    return a.x == b.x && a.y == b.y;
 }
 
 /* Corners at the place of one of the triangle's do not count: bridges to holes have them twice. */
 static bool has_inside(const Ring *ring, int last, int corner, int next) {
-    const Point a = ring->point[last], b = ring->point[corner], c = ring->point[next];
+    const HdVec2 a = ring->point[last], b = ring->point[corner], c = ring->point[next];
     for (int i = ring->next[next]; i != last; i = ring->next[i]) {
-        const Point p = ring->point[i];
+        const HdVec2 p = ring->point[i];
         if (ring->is_convex[i] || is_same(p, a) || is_same(p, b) || is_same(p, c))
             continue;
         if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0)

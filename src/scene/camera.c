@@ -47,15 +47,11 @@ static bool is_finite(HdVec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-static double largest_component(HdVec3 a) {
-    return fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
-}
-
 /* `path` supplies phi where the view is vertical and the picture could be turned any way. */
 static void set_basis(HdCamera *camera, HdVec3 view, const HdPath *path, double t) {
     static const double vertical = 1e-9;
     /* Brought near 1 first, so that the squares neither overflow nor vanish. */
-    const double size = largest_component(view);
+    const double size = hd_largest(view);
     camera->forward = hd_normalize(hd_vec3(view.x / size, view.y / size, view.z / size));
     const HdVec3 sideways = hd_cross(camera->forward, hd_vec3(0.0, 0.0, 1.0));
     if (hd_length(sideways) >= vertical) {
@@ -78,8 +74,8 @@ HdStatus hd_camera_at(HdCamera *camera, const HdScene *scene, int frame, HdError
     if (!is_finite(eye) || !is_finite(target) || !is_finite(view))
         return hd_fail(error, HD_BAD_INPUT,
                        "frame %d: the eye or the target is too far away for a number", frame);
-    const double scale = fmax(largest_component(eye), largest_component(target));
-    if (largest_component(view) <= same_place * scale)
+    const double scale = fmax(hd_largest(eye), hd_largest(target));
+    if (hd_largest(view) <= same_place * scale)
         return hd_fail(error, HD_BAD_INPUT,
                        "frame %d: the eye is at the target (%.15g, %.15g, %.15g), "
                        "expected two different points",

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "scene/triangulate/solid.h"
 
 #include <stdio.h>
@@ -243,12 +245,9 @@ static HdStatus add_material(HdMesh *mesh, const char *name, const HdMaterial *m
                              HdError *error) {
     HdMeshMaterial *added = &mesh->materials[mesh->material_count];
     *added = (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
-    added->name = malloc(strlen(name) + 1);
-    if (added->name == NULL)
-        return no_memory(error);
-    memcpy(added->name, name, strlen(name) + 1);
+    added->name = strdup(name);
     mesh->material_count++;
-    return HD_OK;
+    return added->name != NULL ? HD_OK : no_memory(error);
 }
 
 /* A disc shows its own radiance and nothing else. */
