@@ -214,9 +214,10 @@ static void read_file(Reader *reader, const HdField *field, const json_t *value,
         fail_memory(reader);
 }
 
-static NamedMaterial *find_material(const Reader *reader, const char *name) {
+/* Its number; -1: there is none. */
+static int find_material(const Reader *reader, const char *name) {
     const json_t *number = json_object_get(reader->numbers, name);
-    return number != NULL ? &reader->materials[json_integer_value(number)] : NULL;
+    return number != NULL ? (int)json_integer_value(number) : -1;
 }
 
 /* Looking for what may be meant takes long among many names, and is for readers. */
@@ -233,10 +234,10 @@ static void report_unknown_material(Reader *reader, const HdField *field, const 
 
 static void read_material(Reader *reader, const HdField *field, const json_t *value, void *owner) {
     const char *name = json_string_value(value);
-    NamedMaterial *named = name != NULL ? find_material(reader, name) : NULL;
-    if (named != NULL) {
-        *(HdMaterial *)place_of(field, owner) = named->material;
-        named->is_used = true;
+    const int number = name != NULL ? find_material(reader, name) : -1;
+    if (number >= 0) {
+        *(HdMaterial *)place_of(field, owner) = reader->materials[number].material;
+        reader->materials[number].is_used = true;
     } else if (name == NULL) {
         refuse(reader, field, value, 0);
     } else if (reader->knows_materials) {

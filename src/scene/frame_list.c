@@ -97,15 +97,18 @@ static HdStatus parse_text(HdFrameList *list, const char *text, int frame_count,
     Range *ranges = NULL, range;
     int count = 0, room = 0;
     HdStatus status = HD_OK;
-    for (bool is_last = false; !is_last && status == HD_OK;) {
+    bool has_room = true;
+    for (bool is_last = false; !is_last && has_room && status == HD_OK;) {
         const size_t length = strcspn(text, ",");
         status = parse_item(text, length, frame_count, &range, error);
-        if (status == HD_OK && !hd_append(&ranges, sizeof range, &count, &room, &range))
-            status = hd_fail(error, HD_FAILED, "out of memory: no room for a frame list");
+        if (status == HD_OK)
+            has_room = hd_append(&ranges, sizeof range, &count, &room, &range);
         is_last = text[length] == '\0';
         text += length + 1;
     }
-    if (status == HD_OK)
+    if (!has_room)
+        status = hd_fail(error, HD_FAILED, "out of memory: no room for a frame list");
+    else if (status == HD_OK)
         status = fill_list(list, ranges, merge_ranges(ranges, count), error);
     free(ranges);
     return status;

@@ -93,10 +93,10 @@ static void pair_opposites(Points *points) {
 
 /* The face normals are the vertices of the dual. */
 static void list_normals(HdSolidKind kind, Points *points) {
-    static const HdSolidKind duals[] = {[HD_HEXAHEDRON] = HD_OCTAHEDRON,
-                                        [HD_OCTAHEDRON] = HD_HEXAHEDRON,
-                                        [HD_DODECAHEDRON] = HD_ICOSAHEDRON,
-                                        [HD_ICOSAHEDRON] = HD_DODECAHEDRON};
+    static const HdSolidKind duals[HD_SOLID_KIND_COUNT + 1] = {[HD_HEXAHEDRON] = HD_OCTAHEDRON,
+                                                               [HD_OCTAHEDRON] = HD_HEXAHEDRON,
+                                                               [HD_DODECAHEDRON] = HD_ICOSAHEDRON,
+                                                               [HD_ICOSAHEDRON] = HD_DODECAHEDRON};
     if (kind == HD_TETRAHEDRON) { /* its own dual, turned round */
         points->count = 0;
         add_tetrahedron(points, -1.0);
@@ -151,7 +151,7 @@ static void find_edges(HdPlatonic *solid) {
 }
 
 void hd_platonic(HdSolidKind kind, HdPlatonic *solid) {
-    Points vertices, normals;
+    Points vertices = {.count = 0}, normals = {.count = 0};
     *solid = (HdPlatonic){0};
     list_vertices(kind, &vertices);
     list_normals(kind, &normals);

@@ -111,7 +111,7 @@ static int kept_point(const EdgePoints *edge, double place) {
 /* Room for all that comes of the points on edges and in faces: a plane with n points has fewer than
    2 n triangles. */
 static bool allocate(Work *work) {
-    size_t most = 0, sum = 0;
+    size_t most = 1, sum = 1;
     for (int f = 0; f < work->pattern.shape.face_count; f++) {
         const HdFace *face = &work->pattern.face[f];
         size_t count = (size_t)face->side_count + (size_t)work->network[f].point_count;
