@@ -185,10 +185,11 @@ expect_exit 0 "$hedron" check bad.json
 jq '.camera.field_of_view = 1.2 | .materials.paper = {}' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json
 expect_silent_stderr
-expect_stdout_lines 3 'bad\.json: (fine, .*|note: .*)'
+expect_stdout_lines 4 'bad\.json: (fine, .*|note: .*)'
 expect_stdout_contains 'bad.json: note: materials.paper is used nowhere'
+expect_stdout_contains 'bad.json: note: solids[1] touches the floor'
 expect_exit 2 "$hedron" check bad.json missing.json
-expect_stdout_lines 3
+expect_stdout_lines 4
 
 # ---- one kind of input for the other
 cp "$cli_folder/official.in" bad.json

@@ -124,7 +124,7 @@ if ((${#ours[@]} < 2)); then
 fi
 expect_exit 0 "$hedron" check "${ours[@]}"
 expect_silent_stderr
-expect_stdout_lines ${#ours[@]} '.*\.json: fine, .*'
+expect_stdout_lines $((${#ours[@]} + 1)) '.*\.json: fine, .*|.*lantern\.json: note: solids\[1\] overlaps solids\[0\]: .*'
 rm ./*.json
 expect_exit 0 "$hedron" check --schema
 expect_silent_stderr

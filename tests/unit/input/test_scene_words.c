@@ -217,8 +217,21 @@ static const char quiet_text[] =
     " \"solids\": [{\"kind\": \"cube\", \"circumradius\": 1.7320508075688772, \"material\": "
     "\"m\",\n"
     "   \"edge_lights\": {\"per_edge\": 4, \"disc_radius\": 0.24, \"disc_radiance\": 1}}],\n"
-    " \"floor\": {\"corners\": [[-5, 5, -1], [5, 5, -1], [5, -5, -1], [-5, -5, -1]],\n"
+    " \"floor\": {\"corners\": [[-5, 5, -1.25], [5, 5, -1.25], [5, -5, -1.25], [-5, -5, "
+    "-1.25]],\n"
     "   \"material\": \"m\"}}";
+
+static void test_notes_on_contacts(void **state) {
+    (void)state;
+    assert_string_equal(notes_on(quiet_text, "solids[0].centre=[0, 0, -0.25]"),
+                        "solids[0] touches the floor: it is drawn smaller by a millionth or so, "
+                        "lest rounding decide which is in front\n");
+    assert_string_equal(notes_on(quiet_text, "solids[0].centre=[0, 0, -1]"),
+                        "solids[0] overlaps the floor: each has all of its faces there\n");
+    assert_string_equal(notes_on(quiet_text, "lights=[{\"position\": [0.5, 1, 0]}]"),
+                        "solids[0] touches lights[0]: it is drawn smaller by a millionth or so, "
+                        "lest rounding decide which is in front\n");
+}
 
 static void test_notes(void **state) {
     (void)state;
@@ -251,17 +264,12 @@ static void test_notes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_output_paths),
-        cmocka_unit_test(test_numbers_by_value),
-        cmocka_unit_test(test_control_characters),
-        cmocka_unit_test(test_synonyms_of_keys),
-        cmocka_unit_test(test_synonyms_of_kinds),
-        cmocka_unit_test(test_paths_of_changes),
-        cmocka_unit_test(test_hints_for_json),
-        cmocka_unit_test(test_scene_as_classic_input),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_too_many_edge_lights),
-        cmocka_unit_test(test_notes),
+        cmocka_unit_test(test_output_paths),       cmocka_unit_test(test_numbers_by_value),
+        cmocka_unit_test(test_control_characters), cmocka_unit_test(test_synonyms_of_keys),
+        cmocka_unit_test(test_synonyms_of_kinds),  cmocka_unit_test(test_paths_of_changes),
+        cmocka_unit_test(test_hints_for_json),     cmocka_unit_test(test_scene_as_classic_input),
+        cmocka_unit_test(test_textures),           cmocka_unit_test(test_too_many_edge_lights),
+        cmocka_unit_test(test_notes_on_contacts),  cmocka_unit_test(test_notes),
 
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
