@@ -4,7 +4,9 @@
    one. The options --backend, --lanes, --precision and --threads leave out the others; with
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
    other launches (variants.h). Each renderer also has frames under way together (flights.h). With
-   --few each renders only what the least of the variants do, and no truths are checked.
+   --few each renders only what the least of the variants do, and no truths are checked. With
+   --brief so do processors with more lanes than they take by themselves, and the variants that
+   differ from another only in how the work is cut, which are left out in double.
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -31,7 +33,7 @@ static const char usage[] =
     "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
     "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
-    "                          [--one-build] [--few] [--pictures FOLDER]\n";
+    "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n";
 static const char *const precision_names[2] = {"float", "double"};
 static const char *const math_names[2] = {"strict", "fast"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
@@ -49,7 +51,7 @@ typedef struct Options {
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
     int threads;              /* an index into thread_names; or ALL */
-    bool one_build, few, write_golden;
+    bool one_build, few, brief, write_golden;
     int math;
 } Options;
 
@@ -207,8 +209,25 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     hd_renderer_close(target.renderer);
 }
 
+/* The lanes of which all frames are rendered: briefly only those that a processor takes where
+   nobody asks for any, and fewer. */
+static int most_lanes_for_all(const HdDevice *device, HdPrecision precision,
+                              const Options *options) {
+    const HdRenderOptions wanted = {.precision = precision};
+    HdRenderer *renderer;
+    HdError error;
+    if (!options->brief || !device->is_cpu)
+        return lane_counts[LANE_COUNTS - 1];
+    if (hd_renderer_open(&renderer, device, &wanted, &error) != HD_OK)
+        fail(device->name, &error);
+    int lanes = hd_renderer_lanes(renderer);
+    hd_renderer_close(renderer);
+    return lanes;
+}
+
 static void check_lanes(const HdDevice *device, HdPrecision precision, const Options *options,
                         Golden *golden, Tally *tally) {
+    int most_for_all = most_lanes_for_all(device, precision, options);
     for (int i = 0; i < (device->is_cpu ? LANE_COUNTS : 1); i++) {
         if (options->lanes != ALL && options->lanes != i)
             continue;
@@ -220,7 +239,8 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .pipeline = HD_PIPELINE_MEGA,
         };
         bool one_build = options->one_build || (device->is_cpu && lane_counts[i] != OWN_BUILDS);
-        check_renderer(device, &wanted, options->few, one_build, options, golden, tally);
+        bool only_few = options->few || lane_counts[i] > most_for_all;
+        check_renderer(device, &wanted, only_few, one_build, options, golden, tally);
     }
 }
 
@@ -228,12 +248,14 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
                            Golden *golden, Tally *tally) {
     for (int i = 0; i < variant_count; i++) {
         const Variant *variant = &variants[i];
-        if (options->lanes != ALL || !variant_suits(variant, device))
+        bool only_cut = options->brief && (variant->frames & ONLY_CUT) != 0;
+        if (options->lanes != ALL || !variant_suits(variant, device) ||
+            (only_cut && precision == HD_PRECISION_DOUBLE))
             continue;
         HdRenderOptions wanted = variant->options;
         wanted.precision = precision;
         wanted.math = (HdMath)options->math;
-        bool only_few = options->few || !variant->all_frames;
+        bool only_few = options->few || only_cut || !(variant->frames & EVERY_FRAME);
         check_renderer(device, &wanted, only_few, true, options, golden, tally);
     }
 }
@@ -285,6 +307,10 @@ static bool parse_options(Options *options, int count, char **arguments) {
         }
         if (strcmp(arguments[i], "--few") == 0) {
             options->few = true;
+            continue;
+        }
+        if (strcmp(arguments[i], "--brief") == 0) {
+            options->brief = true;
             continue;
         }
         const char *value = i + 1 < count ? arguments[i + 1] : NULL;

@@ -6,9 +6,13 @@
 
 #include "device/renderer.h"
 
+/* Which frames: a few are those of is_variant_frame. ONLY_CUT differs from another variant, or from
+   what lanes render, only in how the work is cut. */
+enum { FEW_FRAMES = 0, EVERY_FRAME = 1, ONLY_CUT = 2 };
+
 typedef struct Variant {
     enum { FOR_CPUS, FOR_PLAIN_C, FOR_GPUS, FOR_CUDA, FOR_CPUS_AS_GPUS } kind;
-    bool all_frames; /* otherwise those of is_variant_frame */
+    int frames;
     HdRenderOptions options;
 } Variant;
 

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVRTC 12: has the system's compiler build the text, with device.h before it, as a
-   shared object that the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. */
+   shared object that the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. What was
+   built of the same is taken from the folder that FAKE_NVRTC_CACHE names, which must be there. */
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
 #include <fcntl.h>
+#include <inttypes.h>
 #include <spawn.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "device/cuda/api.h"
 
 enum {
@@ -21,7 +25,8 @@ enum {
     COMPILATION = 6,
     MAX_WORDS = 128,
     MAX_FOLDER = 4000,
-    MAX_PATH = 4096
+    MAX_PATH = 4096,
+    MAX_NAME = 32
 };
 
 static const int archs[] = {50, 52, 60, 61, 70, 75, 80, 90};
@@ -222,10 +227,69 @@ static bool describe_kernels(const char *folder) {
     return file != NULL;
 }
 
-static bool build(const char *folder, Words words) {
-    static const char *const more[] = {
-        "-std=c++17", "-O2",        "-fPIC",    "-shared",        "-fno-math-errno", "-w", "-s",
-        "-o",         "kernels.so", "-include", FAKE_CUDA_DEVICE, "kernels.cpp",     "-lm"};
+/* ---- what was built before ---- */
+
+static uint64_t hash_file(uint64_t hash, const char *folder, const char *name) {
+    Text text = {0};
+    if (read_file(folder, name, &text))
+        hash = hd_hash_bytes(hash, text.data, text.size);
+    free(text.data);
+    return hash;
+}
+
+/* Of all that the object depends on: text, device.h and what that includes, command line, compiler.
+ */
+static uint64_t hash_build(const char *folder, const Words *words) {
+    uint64_t hash = hash_file(HD_HASH_START, folder, "kernels.cpp");
+    struct stat compiler;
+    hash = hash_file(hash, FAKE_CUDA_FOLDER, "device.h");
+    hash = hash_file(hash, FAKE_CUDA_FOLDER, "kernel.h");
+    for (int i = 0; i < words->count; i++)
+        hash = hd_hash_bytes(hash, words->word[i], strlen(words->word[i]) + 1);
+    if (stat(FAKE_NVRTC_COMPILER, &compiler) == 0) {
+        hash = hd_hash_bytes(hash, &compiler.st_size, sizeof compiler.st_size);
+        hash = hd_hash_bytes(hash, &compiler.st_mtim, sizeof compiler.st_mtim);
+    }
+    return hash;
+}
+
+static bool name_kept(char name[MAX_NAME], const char *folder, const Words *words) {
+    if (getenv("FAKE_NVRTC_CACHE") == NULL)
+        return false;
+    snprintf(name, MAX_NAME, "%016" PRIx64 ".so", hash_build(folder, words));
+    return true;
+}
+
+/* Under another name first: who reads it finds all or nothing. */
+static void keep(const char *name, const Text *image) {
+    const char *folder = getenv("FAKE_NVRTC_CACHE");
+    char unfinished[MAX_PATH], path[MAX_PATH], own[MAX_NAME + 16];
+    snprintf(own, sizeof own, "%s.%ld", name, (long)getpid());
+    snprintf(unfinished, sizeof unfinished, "%s/%s", folder, own);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = open_to_write(folder, own);
+    if (file == NULL)
+        return;
+    bool good = fwrite(image->data, 1, image->size, file) == image->size;
+    good = fclose(file) == 0 && good;
+    if (!good || rename(unfinished, path) != 0)
+        unlink(unfinished);
+}
+
+static bool build(const char *folder, Words words, Text *image) {
+    static const char *const more[] = {"-std=c++17",
+                                       "-O2",
+                                       "-fPIC",
+                                       "-shared",
+                                       "-fno-math-errno",
+                                       "-w",
+                                       "-s",
+                                       "-o",
+                                       "kernels.so",
+                                       "-include",
+                                       FAKE_CUDA_FOLDER "/device.h",
+                                       "kernels.cpp",
+                                       "-lm"};
     for (size_t i = 0; i < sizeof more / sizeof *more; i++)
         add(&words, more[i]);
 #ifdef __x86_64__
@@ -234,7 +298,15 @@ static bool build(const char *folder, Words words) {
 #endif
     if (getenv("FAKE_NVRTC_WRONG") != NULL)
         add(&words, "-DFAKE_WRONG");
-    return run(folder, &words);
+    char kept[MAX_NAME];
+    bool is_kept = name_kept(kept, folder, &words);
+    if (is_kept && read_file(getenv("FAKE_NVRTC_CACHE"), kept, image))
+        return true;
+    if (!run(folder, &words) || !read_file(folder, "kernels.so", image))
+        return false;
+    if (is_kept)
+        keep(kept, image);
+    return true;
 }
 
 HdNvrtcResult nvrtcCompileProgram(HdNvrtcProgram program, int option_count,
@@ -249,7 +321,7 @@ HdNvrtcResult nvrtcCompileProgram(HdNvrtcProgram program, int option_count,
     if (mkdtemp(folder) == NULL)
         return OUT_OF_MEMORY;
     bool good = expand(folder, program->source, words) && describe_kernels(folder) &&
-                build(folder, words) && read_file(folder, "kernels.so", &program->image);
+                build(folder, words, &program->image);
     read_file(folder, "log", &program->log);
     remove_folder(folder);
     return good ? 0 : COMPILATION;
