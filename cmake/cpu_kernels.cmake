@@ -17,6 +17,20 @@ else()
         generic:16:float:wide generic:16:double:wide generic:1:float:full generic:1:double:full)
 endif()
 
+# Sanitizers make a kernel several times as dear to compile, and what they build runs here: kernels that this
+# processor never takes are left out, and of the bundles they look at those taken where nobody asks for lanes.
+if(HEDRON_SANITIZE)
+    include(CheckCSourceRuns)
+    check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx512bw\"); }" HEDRON_RUNS_AVX512)
+    check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx2\"); }" HEDRON_RUNS_AVX2)
+    if(HEDRON_RUNS_AVX512)
+        list(FILTER HEDRON_KERNELS EXCLUDE REGEX "^avx2:8:|^generic:")
+        list(TRANSFORM HEDRON_KERNELS REPLACE "^avx2:4:double:full$" "avx2:4:double:compare")
+    elseif(HEDRON_RUNS_AVX2)
+        list(FILTER HEDRON_KERNELS EXCLUDE REGEX "^avx512:|^generic:")
+    endif()
+endif()
+
 # gcc takes vectors that are filled lane by lane for uninitialised.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     set(no_false_alarms -Wno-maybe-uninitialized)
