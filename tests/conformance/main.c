@@ -5,8 +5,9 @@
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
    other launches (variants.h). Each renderer also has frames under way together (flights.h). With
    --few each renders only what the least of the variants do, and no truths are checked. With
-   --brief so do processors with more lanes than they take by themselves, and the variants that
-   differ from another only in how the work is cut, which are left out in double.
+   --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
+   than they take by themselves, and the variants that differ from another only in how the work is
+   cut, which are left out in double.
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -238,9 +239,13 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .math = (HdMath)options->math,
             .pipeline = HD_PIPELINE_MEGA,
         };
-        bool one_build = options->one_build || (device->is_cpu && lane_counts[i] != OWN_BUILDS);
+        bool own_builds = !options->one_build && (!device->is_cpu || lane_counts[i] == OWN_BUILDS);
         bool only_few = options->few || lane_counts[i] > most_for_all;
-        check_renderer(device, &wanted, only_few, one_build, options, golden, tally);
+        if (options->brief || !own_builds)
+            check_renderer(device, &wanted, only_few, true, options, golden, tally);
+        if (own_builds)
+            check_renderer(device, &wanted, only_few || options->brief, false, options, golden,
+                           tally);
     }
 }
 
