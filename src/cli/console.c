@@ -43,7 +43,7 @@ void hd_progress_line(int done, int total, double elapsed_seconds, char text[128
 
 void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]) {
     char bar[BAR_WIDTH + 1];
-    int filled = (int)((long long)done * BAR_WIDTH / total);
+    int filled = total > 0 ? (int)((long long)done * BAR_WIDTH / total) : BAR_WIDTH;
     bool has_room = BAR_WIDTH + 3 + (int)strlen(line) <= columns;
     memset(bar, '.', BAR_WIDTH);
     memset(bar, '#', (size_t)filled);
@@ -281,9 +281,10 @@ void hd_console_tell_frame(HdConsole *console, const HdStoredFrame *stored) {
     if (console->form == HD_PROGRESS_FRAMES && hd_wait_to_write(STDERR_FILENO))
         fprintf(stderr, "hedron: frame %d stored, %d of %d\n", stored->number, stored->done,
                 console->total);
-    if (!stored->was_finished)
+    if (!stored->was_finished) {
         count_frame(console, stored->frame);
-    update(console);
+        update(console);
+    }
     pthread_mutex_unlock(&console->mutex);
 }
 

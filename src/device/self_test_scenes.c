@@ -226,13 +226,17 @@ static void place_meshes(HdScene *scene, bool *has_room) {
 
 static void add_meshes(HdScene *scene, bool refracts, bool lit_from_behind, bool *has_room) {
     HdMesh meshes[MESHES];
-    const HdPicture picture = {.texture = texture(has_room)};
+    HdPicture picture = {.texture = texture(has_room)};
     make_meshes(meshes, refracts, lit_from_behind, has_room);
     place_meshes(scene, has_room);
     scene->meshes = copy_of(meshes, sizeof meshes, has_room);
     scene->mesh_count = scene->meshes != NULL ? MESHES : 0;
     scene->pictures = copy_of(&picture, sizeof picture, has_room);
     scene->picture_count = scene->pictures != NULL ? 1 : 0;
+    for (int i = scene->mesh_count; i < MESHES; i++)
+        hd_mesh_free(&meshes[i]);
+    if (scene->pictures == NULL)
+        hd_texture_clear(&picture.texture);
 }
 
 static HdStatus build_meshes(HdScene *scene, HdError *error) {

@@ -94,8 +94,9 @@ typedef struct Pairs {
     char other[32];
 } Pairs;
 
-static void count_pair(Pairs *pairs, int solid, const char *what, int other) {
-    if (pairs->count++ > 0)
+static void count_pairs(Pairs *pairs, int solid, const char *what, int other, int count) {
+    pairs->count += count;
+    if (pairs->count > count)
         return;
     pairs->solid = solid;
     snprintf(pairs->other, sizeof pairs->other, "%s", what);
@@ -106,9 +107,9 @@ static void count_pair(Pairs *pairs, int solid, const char *what, int other) {
 static void count_contact(HdContact contact, int solid, const char *what, int other,
                           Pairs *touching, Pairs *overlapping) {
     if (hd_contact_coincides(contact))
-        count_pair(touching, solid, what, other);
+        count_pairs(touching, solid, what, other, 1);
     if (contact == HD_CONTACT_OVERLAPS || contact == HD_CONTACT_SHARES)
-        count_pair(overlapping, solid, what, other);
+        count_pairs(overlapping, solid, what, other, 1);
 }
 
 /* ", the first of 3 such pairs" */
@@ -128,9 +129,9 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
         if (scene->floor.present)
             count_contact(hd_floor_contact(solid, &scene->floor), i, "the floor", -1, &touching,
                           &overlapping);
-        for (int j = 0; j < scene->light_count; j++)
-            count_contact(hd_light_contact(solid, scene->lights[j].position), i, "lights", j,
-                          &touching, &overlapping);
+        int first, lights = hd_touching_lights(solid, scene->lights, scene->light_count, &first);
+        if (lights > 0)
+            count_pairs(&touching, i, "lights", first, lights);
     }
     if (touching.count > 0)
         hd_problem(

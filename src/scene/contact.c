@@ -75,17 +75,23 @@ HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor) {
     return depth <= near ? HD_CONTACT_TOUCHES : HD_CONTACT_OVERLAPS;
 }
 
-HdContact hd_light_contact(const HdSolid *solid, HdVec3 light) {
-    const double near = near_share * scale_of(solid, light, 0.0);
-    const HdVec3 place = hd_sub(light, solid->centre);
-    if (hd_length(place) > solid->circumradius + near)
-        return HD_CONTACT_NONE;
+int hd_touching_lights(const HdSolid *solid, const HdLight *lights, int count, int *first) {
     const HdPlatonic shape = shape_of(solid);
-    double farthest = -solid->circumradius;
-    for (int i = 0; i < shape.face_count; i++)
-        farthest = fmax(farthest, hd_dot(place, shape.face_normal[i]));
-    const bool touches = fabs(farthest - shape.inradius * solid->circumradius) <= near;
-    return touches ? HD_CONTACT_TOUCHES : HD_CONTACT_NONE;
+    const double near = near_share * solid->circumradius;
+    const double inradius = shape.inradius * solid->circumradius;
+    int touching = 0;
+    for (int i = 0; i < count; i++) {
+        const HdVec3 place = hd_sub(lights[i].position, solid->centre);
+        const double distance = hd_length(place);
+        if (distance < inradius - near || distance > solid->circumradius + near)
+            continue;
+        double farthest = -distance;
+        for (int f = 0; f < shape.face_count; f++)
+            farthest = fmax(farthest, hd_dot(place, shape.face_normal[f]));
+        if (fabs(farthest - inradius) <= near && touching++ == 0)
+            *first = i;
+    }
+    return touching;
 }
 
 bool hd_contact_coincides(HdContact contact) {
@@ -125,11 +131,11 @@ static bool touches_fixed(Parting *parting, int index) {
         raise_step(parting, index, scale_of(solid, hd_floor_centre(&scene->floor), 0.0));
         touches = true;
     }
-    for (int i = 0; i < scene->light_count; i++)
-        if (hd_contact_coincides(hd_light_contact(solid, scene->lights[i].position))) {
-            raise_step(parting, index, scale_of(solid, scene->lights[i].position, 0.0));
-            touches = true;
-        }
+    int first;
+    if (hd_touching_lights(solid, scene->lights, scene->light_count, &first) > 0) {
+        raise_step(parting, index, solid->circumradius);
+        touches = true;
+    }
     return touches;
 }
 

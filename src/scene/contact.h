@@ -17,8 +17,8 @@ typedef enum HdContact {
    radii and of the distance of their centres counts as the same place. */
 HdContact hd_solids_contact(const HdSolid *a, const HdSolid *b);
 HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor);
-/* A light may touch a solid, and nothing else. */
-HdContact hd_light_contact(const HdSolid *solid, HdVec3 light);
+/* How many of the lights are on the solid's surface, and the number of the first one of them. */
+int hd_touching_lights(const HdSolid *solid, const HdLight *lights, int count, int *first);
 
 /* Whether anything of the two is in the same place. */
 bool hd_contact_coincides(HdContact contact);

@@ -173,11 +173,12 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
 
 enum { STALE_SECONDS = 3600 };
 
-/* All entries together, and the one that has not been used for the longest time. */
+/* All entries together, and the one that has not been used for the longest time, of those that were
+   used after `stuck`, which cannot be removed. */
 typedef struct Usage {
     int64_t bytes;
     char oldest[256];
-    struct timespec used;
+    struct timespec used, stuck;
 } Usage;
 
 static bool ends_in(const char *name, const char *ending) {
@@ -185,14 +186,17 @@ static bool ends_in(const char *name, const char *ending) {
     return length >= tail && strcmp(name + length - tail, ending) == 0;
 }
 
+static bool is_later(const struct timespec *a, const struct timespec *b) {
+    return a->tv_sec != b->tv_sec ? a->tv_sec > b->tv_sec : a->tv_nsec > b->tv_nsec;
+}
+
 static void add_entry(Usage *usage, const char *name, const struct stat *found) {
-    const struct timespec *used = &found->st_mtim, *least = &usage->used;
+    const struct timespec *used = &found->st_mtim;
     if (strlen(name) >= sizeof usage->oldest)
         return;
     usage->bytes += (int64_t)found->st_size;
-    if (usage->oldest[0] != '\0' &&
-        (used->tv_sec != least->tv_sec ? used->tv_sec > least->tv_sec
-                                       : used->tv_nsec >= least->tv_nsec))
+    if (!is_later(used, &usage->stuck) ||
+        (usage->oldest[0] != '\0' && !is_later(&usage->used, used)))
         return;
     memcpy(usage->oldest, name, strlen(name) + 1);
     usage->used = *used;
@@ -209,19 +213,25 @@ static void look_at(Usage *usage, int folder, const char *name) {
         unlinkat(folder, name, 0);
 }
 
+static Usage usage_of(DIR *stream, struct timespec stuck) {
+    Usage usage = {.stuck = stuck};
+    rewinddir(stream);
+    for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
+        look_at(&usage, dirfd(stream), found->d_name);
+    return usage;
+}
+
 void hd_cache_limit(const char *folder, int64_t most) {
     DIR *stream = opendir(folder);
-    bool is_over = stream != NULL;
-    while (is_over) {
-        Usage usage = {0};
-        rewinddir(stream);
-        for (const struct dirent *found = readdir(stream); found != NULL; found = readdir(stream))
-            look_at(&usage, dirfd(stream), found->d_name);
-        is_over = usage.bytes > most &&
-                  (unlinkat(dirfd(stream), usage.oldest, 0) == 0 || errno == ENOENT);
+    if (stream == NULL)
+        return;
+    Usage usage = usage_of(stream, (struct timespec){0});
+    while (usage.bytes > most && usage.oldest[0] != '\0') {
+        if (unlinkat(dirfd(stream), usage.oldest, 0) != 0 && errno != ENOENT)
+            usage.stuck = usage.used;
+        usage = usage_of(stream, usage.stuck);
     }
-    if (stream != NULL)
-        closedir(stream);
+    closedir(stream);
 }
 
 /* ---- writing ---- */

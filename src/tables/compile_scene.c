@@ -54,7 +54,14 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         tables->table[i].bytes = rows[i] * row_bytes[i];
 }
 
+/* Kernels count the two words of a texel in an int. */
+enum { MOST_TEXELS = (1 << 30) - 2 };
+
 static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdError *error) {
+    if (builder->texels > MOST_TEXELS)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the scene's textures have %zu texels, expected at most %d", builder->texels,
+                       MOST_TEXELS);
     builder->centres = calloc((size_t)builder->object_count + 1, sizeof *builder->centres);
     builder->sources = calloc((size_t)builder->light_count + 1, sizeof *builder->sources);
     if (builder->centres == NULL || builder->sources == NULL)

@@ -59,6 +59,9 @@ static void the_bar_is_no_wider_than_the_terminal(void **state) {
     check_bar(10, "1/2 frames");
     check_bar(4, "1/2 ");
     check_bar(0, "");
+    char text[160];
+    hd_progress_bar(0, 0, "0/0 frames", 79, text); /* all were finished before */
+    assert_string_equal(text, "[########################] 0/0 frames");
 }
 
 int main(void) {

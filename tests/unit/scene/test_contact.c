@@ -48,10 +48,15 @@ static void contacts_of_floors_and_lights(void **state) {
     assert_int_equal(hd_floor_contact(&cube, &below), HD_CONTACT_TOUCHES);
     assert_int_equal(hd_floor_contact(&cube, &under), HD_CONTACT_NONE);
     assert_int_equal(hd_floor_contact(&cube, &within), HD_CONTACT_OVERLAPS);
-    assert_int_equal(hd_light_contact(&cube, (HdVec3){1.0, 0.5, 0.5}), HD_CONTACT_TOUCHES);
-    assert_int_equal(hd_light_contact(&cube, (HdVec3){1.0, 1.0, 2.0}), HD_CONTACT_TOUCHES);
-    assert_int_equal(hd_light_contact(&cube, (HdVec3){1.0, 1.5, 0.5}), HD_CONTACT_NONE);
-    assert_int_equal(hd_light_contact(&cube, (HdVec3){0.0, 0.0, 1.0}), HD_CONTACT_NONE);
+    const HdLight lights[] = {
+        {.position = {1.0, 1.5, 0.5}},        {.position = {0.0, 0.0, 1.0}},
+        {.position = {1.0, 0.5, 0.5}},        {.position = {0.5, 0.5, 0.3}},
+        {.position = {1.0, 1.0, 2.0}},        {.position = {1.0 + 3e-6, 0.0, 1.0}},
+        {.position = {0.0, 1.0 - 2e-7, 1.0}}, {.position = {9.0, 0.0, 1.0}}};
+    int first = -1;
+    assert_int_equal(hd_touching_lights(&cube, lights, 8, &first), 3);
+    assert_int_equal(first, 2);
+    assert_int_equal(hd_touching_lights(&cube, lights, 2, &first), 0);
 }
 
 /* Nothing coincides any more, and nothing has moved by more than a few millionths. */
@@ -67,8 +72,8 @@ static void expect_parted(HdScene *scene) {
         assert_false(hd_contact_coincides(hd_floor_contact(solid, &scene->floor)));
         for (int j = 0; j < i; j++)
             assert_false(hd_contact_coincides(hd_solids_contact(&scene->solids[j], solid)));
-        for (int j = 0; j < scene->light_count; j++)
-            assert_false(hd_contact_coincides(hd_light_contact(solid, scene->lights[j].position)));
+        int first;
+        assert_int_equal(hd_touching_lights(solid, scene->lights, scene->light_count, &first), 0);
     }
 }
 

@@ -11,6 +11,7 @@
 #include "device/self_test_scenes.h"
 #include "expect.h"
 #include "kernels/host/shared.h"
+#include "tables/tables.h"
 
 /* Sanitizers take more of the address space than this test leaves. gcc tells of them by macros,
    clang by features. */
@@ -177,8 +178,21 @@ static void opencl_tells_what_is_too_large(void **state) {
     expect_contains(error.message, " allows 268 MB of its 1.07 GB; fewer triangles, ");
 }
 
+static void textures_end_where_kernels_count_no_further(void **state) {
+    (void)state;
+    HdPicture pictures[] = {{.texture = {.width = 1 << 15, .height = 1 << 14}},
+                            {.texture = {.width = 1 << 15, .height = 1 << 14}}};
+    HdScene scene = {.picture_count = 2, .pictures = pictures};
+    HdSceneTables tables;
+    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error),
+                     HD_BAD_INPUT);
+    assert_string_equal(error.message, "the scene's textures have 1073840130 texels, expected at "
+                                       "most 1073741822");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(textures_end_where_kernels_count_no_further),
         cmocka_unit_test(bytes_are_told_shortly),
         cmocka_unit_test(what_fits_passes),
         cmocka_unit_test(a_table_may_be_too_large),
