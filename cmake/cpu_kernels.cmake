@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # The builds of the plain C kernels, the one list of them: instruction set, lanes, precision, kind. The first
 # that a processor can run is the one that its renderers take where nobody asks for lanes. Kinds:
-#   full     lanes that fill a register, and single lanes: strict and fast arithmetic
-#   compare  fewer lanes than that, there to compare bytes: the strict kernel stands in for the fast one
+#   full     lanes that fill a register, and single lanes
+#   compare  fewer lanes than that, there to compare bytes
 #   wide     more lanes than that, to compare as well: at -O1 and without a pass that vectors of many
 #            registers make slow, which bounds gcc's compile time
 # Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
@@ -43,7 +43,6 @@ set(flags_avx2 -mavx2 -mfma)
 set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
     -mprefer-vector-width=512)
 set(flags_strict -ffp-contract=off)
-set(flags_fast -ffp-contract=fast -freciprocal-math -fno-signed-zeros)
 set(level_full -O3)
 set(level_compare -O3)
 set(level_wide -O1 ${no_slow_pass})
@@ -58,32 +57,23 @@ foreach(kernel IN LISTS HEDRON_KERNELS)
     string(REPLACE ":" ";" parts ${kernel})
     list(POP_FRONT parts set lanes precision kind)
     # Sanitizers look at memory and not at rounding, and at one build of each kind of bundle.
-    set(arithmetics strict)
     set(sanitizers "")
     if(NOT kind STREQUAL full OR (HEDRON_SANITIZE MATCHES thread AND precision STREQUAL double))
         set(sanitizers -fno-sanitize=all) # threads share the same with either precision
-    elseif(NOT HEDRON_SANITIZE)
-        list(APPEND arithmetics fast)
     endif()
-    foreach(math strict fast)
-        set(name ${set}_${lanes}_${precision}_${math})
-        if(math IN_LIST arithmetics)
-            set(symbol hd_kernel_${name})
-            add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
-            target_compile_definitions(hedron_kernel_${name} PRIVATE
-                HD_KERNEL_NAME=${symbol} HD_LANES=${lanes} HD_DOUBLE=$<STREQUAL:${precision},double>)
-            target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
-                ${level_${kind}} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_${math}}
-                ${sanitizers})
-            target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
-        endif()
-        string(TOUPPER "${precision}, ${math}" constants)
-        string(APPEND rows " \\\n    X(${set}, ${lanes}, ${constants}, ${symbol})")
-    endforeach()
+    set(name ${set}_${lanes}_${precision})
+    add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
+    target_compile_definitions(hedron_kernel_${name} PRIVATE
+        HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes} HD_DOUBLE=$<STREQUAL:${precision},double>)
+    target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
+        ${level_${kind}} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_strict} ${sanitizers})
+    target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
+    string(TOUPPER "${precision}" constant)
+    string(APPEND rows " \\\n    X(${set}, ${lanes}, ${constant}, hd_kernel_${name})")
 endforeach()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/cpu_builds.h CONTENT
 "/* SPDX-License-Identifier: MIT */
-/* X(instruction set, lanes, precision, arithmetic, kernel), the best first; of cmake/cpu_kernels.cmake. */
+/* X(instruction set, lanes, precision, kernel), the best first; of cmake/cpu_kernels.cmake. */
 #define HD_CPU_BUILDS(X)@rows@
 " @ONLY)
 target_include_directories(hedron_core PRIVATE ${PROJECT_BINARY_DIR})

@@ -15,6 +15,7 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "system/warnings.h"
 #include "tables/room.h"
 
 /* A thread's rays should stay in its processor's own cache. */
@@ -78,7 +79,10 @@ static HdStatus c_open(const HdDevice *device, const HdRenderOptions *options, v
     c->threads = options->threads > 0 ? options->threads : hd_processor_count();
     c->pipeline = options->pipeline;
     c->queue_budget = options->test.queue_bytes > 0 ? options->test.queue_bytes : QUEUE_BYTES;
-    c->build = hd_cpu_find_build(options->lanes, options->precision, options->math);
+    c->build = hd_cpu_find_build(options->lanes, options->precision);
+    if (options->math == HD_MATH_FAST)
+        hd_fallback_note(
+            "plain C has strict arithmetic alone, so --math fast changes nothing there");
     HdStatus status = HD_OK;
     if (hd_pipeline_is_wavefront(c->pipeline))
         status = create_queues(c, error);

@@ -8,11 +8,10 @@
 
 #include "generated/cpu_builds.h"
 
-#define DECLARE_BUILD(set, lanes, precision, math, kernel) HdCpuKernel kernel;
+#define DECLARE_BUILD(set, lanes, precision, kernel) HdCpuKernel kernel;
 HD_CPU_BUILDS(DECLARE_BUILD)
 
-#define LIST_BUILD(set, lanes, precision, math, kernel)                                            \
-    {#set, lanes, HD_PRECISION_##precision, HD_MATH_##math, kernel},
+#define LIST_BUILD(set, lanes, precision, kernel) {#set, lanes, HD_PRECISION_##precision, kernel},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 enum { BUILD_COUNT = sizeof builds / sizeof builds[0] };
 
@@ -34,10 +33,10 @@ const char *hd_cpu_best_instruction_set(void) {
             return builds[i].instruction_set;
 }
 
-const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math) {
+const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision) {
     for (const HdCpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
         if ((lanes == 0 || build->lanes == lanes) && build->precision == precision &&
-            build->math == math && is_supported(build->instruction_set))
+            is_supported(build->instruction_set))
             return build;
     return NULL;
 }

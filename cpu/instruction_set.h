@@ -10,13 +10,12 @@ typedef struct HdCpuBuild {
     const char *instruction_set; /* "avx512", "avx2" or "generic" */
     int lanes;
     HdPrecision precision;
-    HdMath math;
     HdCpuKernel *kernel;
 } HdCpuBuild;
 
 /* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: it can run none
    of those with more lanes than hd_cpu_most_lanes. */
-const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision, HdMath math);
+const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision);
 
 int hd_cpu_most_lanes(void);
 

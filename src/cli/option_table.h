@@ -103,8 +103,9 @@ OPTION(HdAccel accel, "--accel", NULL, "NAME",
 ROW("--precision", NULL, "P", "float or double (default float)", MEASURING,
     CHOICE(render.precision, "float", "double"))
 ROW("--math", NULL, "M",
-    "strict: the same bytes everywhere; fast: the device's own (default strict)", MEASURING,
-    CHOICE(render.math, "strict", "fast"))
+    "strict: the same bytes everywhere; fast: the device's own, which plain C has not (default "
+    "strict)",
+    MEASURING, CHOICE(render.math, "strict", "fast"))
 OPTION(const char *statistics, "--stats", NULL, "FILE",
        "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
        "which then has nothing else",

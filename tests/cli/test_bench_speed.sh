@@ -117,7 +117,7 @@ expect_value '["key", "what", "device", "unit", "least", "aim", "more_is_better"
     'list(r["rows"][0])'
 expect_value '[true, null, 2]' '[rows["headline c:0"]["figure"] > 0, rows["headline c:0"]["verdict"], rows["headline c:0"]["count"] // 2]'
 expect_value '[1, 0.4, "no H200 here"]' '[rows["headline nowhere"][key] for key in ("least", "aim", "reason")]'
-expect_value true 'rows["math c:0"]["figure"] > 0 and rows["math c:0"]["least"] == 1.15'
+expect_value true '"math c:0" not in rows'
 if [[ -x $(dirname "$hedron")/bench/hedron_kernel_rates ]]; then
     expect_value '[true, true, true]' '[min(r["kernel_rates"]["rates"][k]) > 0 for k in ("search:meeting", "light:lights-200", "peak:fma")]'
 fi

@@ -10,7 +10,7 @@ ARITHMETIC = [(precision, math) for precision in ("float", "double") for math in
 def add(plan):
     for label, device, view, scale in plan.each():
         for place, (precision, math) in enumerate(ARITHMETIC):
-            if precision == "float" or device["has_double"]:
+            if (precision == "float" or device["has_double"]) and (math == "strict" or device["backend"] != "c"):
                 plan.point("", place, label, DEFAULT, (*view, "--precision", precision, "--math", math), scale=scale)
 
 

@@ -203,7 +203,7 @@ class Speed(Bench):
             self.against("pocl", what, pocl, plain, target)
 
     def math(self):
-        for label in self.runnable:
+        for label in (label for label, device in self.runnable.items() if device["backend"] != "c"):  # it has one
             self.against("math", "time of strict against fast arithmetic", label, label, Target(1.15, 1.02, False),
                          base_more=("--math", "fast"))
 

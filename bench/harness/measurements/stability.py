@@ -47,12 +47,11 @@ def add_rows(plan, result):
             these = known([each for each in counts if each["study"] == study and each["method"] in methods.OURS] or None)
             return [sum(methods.tally(these, wrong)[0] for wrong in (study, *["misplaced"] * (study == "crossings")))]
         plan.row(study, f"{what}, ours", "pixels" if study == "sums" else "count", figure, target=NONE)
-    for what, target in ((pictures.FLOAT, NEAR), (pictures.FAST, None)):
-        for geometry in pictures.GEOMETRIES:
-            near, pixels = pictures.total(precision, what, geometry)
-            plan.row("precision", f"pixels within 1 of 255, {what}, all scenes, {geometry}", "%",
-                     lambda near=near, pixels=pixels: percent(near, pixels), target=target,
-                     note=f"{what}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None)
+    for geometry in pictures.GEOMETRIES:
+        near, pixels = pictures.total(precision, pictures.FLOAT, geometry)
+        plan.row("precision", f"pixels within 1 of 255, {pictures.FLOAT}, all scenes, {geometry}", "%",
+                 lambda near=near, pixels=pixels: percent(near, pixels), target=NEAR,
+                 note=f"{pictures.FLOAT}, {geometry}: {pixels - near} of {pixels} pixels off" if pixels else None)
     plan.row("odd", "pixels that are no numbers or infinite, all frames", "pixels",
              lambda: [sum(each["nan"] for each in known([*precision, *odd] or None))], target=NONE)
     plan.row("odd", "odd scenes that neither render nor are refused with a clear error", "scenes",

@@ -104,24 +104,23 @@ PANELS = {
 
 def precision(result):
     """A chart: pixels that are off, for each scene."""
-    entries = result["precision"]
+    entries = [each for each in result["precision"] if each["what"] == pictures.FLOAT]
     scenes = list(dict.fromkeys(each["scene"] for each in entries))
-    kinds = [(what, geometry) for what in (pictures.FLOAT, pictures.FAST) for geometry in pictures.GEOMETRIES]
-    shares = {kind: [1 - pictures.share([each]) for each in entries if (each["what"], each["geometry"]) == kind]
-              for kind in kinds}
+    shares = {geometry: [1 - pictures.share([each]) for each in entries if each["geometry"] == geometry]
+              for geometry in pictures.GEOMETRIES}
     floor = min([y for each in shares.values() for y in each if y > 0], default=1e-4) / 3
     near, pixels = pictures.total(entries, pictures.FLOAT)
-    chart = Chart(result, "Float against double, fast against strict",
+    chart = Chart(result, "Float against double",
                   f"Share of pixels that are off by more than 1 of 255 on the sRGB curve; in all {100 * near / pixels:.3f} % of "
                   "those in float are within it of those in double. A scene without a bar had none.", 2)
     chart.add("set style data histograms", "set style histogram clustered gap 1", "set style fill solid 0.85 noborder",
               "set logscale y", f"set yrange [{floor!r}:1]", "set format y '%g'", "set ylabel 'share of pixels (logarithmic)'",
               "set xtics rotate by -20 noenhanced")
     chart.legend(2)
-    chart.data("data", ((plain(scene, 30).replace(" ", "_"), *(max(shares[kind][place], floor) for kind in kinds))
+    chart.data("data", ((plain(scene, 30).replace(" ", "_"), *(max(each[place], floor) for each in shares.values()))
                         for place, scene in enumerate(scenes)))
-    for place, (what, geometry) in enumerate(kinds):
-        chart.plot(f"$data using {place + 2}:xtic(1) linecolor rgb '{colour(place)}' title {quoted(f'{what}, {geometry}')}")
+    for place, geometry in enumerate(shares):
+        chart.plot(f"$data using {place + 2}:xtic(1) linecolor rgb '{colour(place)}' title {quoted(geometry)}")
     return chart.finished(600)
 
 

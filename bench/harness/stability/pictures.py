@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of one scene in float and in double, in strict and in fast arithmetic; and of odd scenes, each of which must come to
+"""Pictures of one scene in float and in double; and of odd scenes, each of which must come to
 its end or be refused with an error that says why."""
 from harness.measure.scenes import read_scene, write_scene
 from harness.run import pfm
@@ -8,9 +8,9 @@ from harness.run.program import Problem
 DEVICE = {"backend": "c", "index": 0}
 GEOMETRIES = ("solids", "triangles")
 PICTURES = "#######.pfm"
-KINDS = {"double": ("--precision", "double"), "float": (), "fast": ("--math", "fast")}
+KINDS = {"double": ("--precision", "double"), "float": ()}
 REFUSED = 2  # an exit code
-FLOAT, FAST = "float against double", "fast against strict"
+FLOAT = "float against double"
 
 
 def render(program, scene, frames, options, folder):
@@ -46,9 +46,8 @@ def study_scene(program, file, options, folder):
             runs[kind] = render(program, file, frames, ("--geometry", geometry, *own, *options), folder)
             if runs[kind]["message"]:
                 raise Problem(runs[kind]["code"], f"{name}: {runs[kind]['message']}")
-        for what, one, other in ((FLOAT, "float", "double"), (FAST, "fast", "float")):
-            entries.append({"scene": name, "geometry": geometry, "what": what,
-                            "nan": odd_numbers([runs[one], runs[other]]), **compare(runs[one], runs[other])})
+        entries.append({"scene": name, "geometry": geometry, "what": FLOAT, "nan": odd_numbers(runs.values()),
+                        **compare(runs["float"], runs["double"])})
     return entries
 
 

@@ -68,17 +68,14 @@ def method_rows(counts, study, cases, what, words, test):
 
 
 def picture_rows(entries):
-    for what, method in ((pictures.FLOAT, "float"), (pictures.FAST, "fast arithmetic")):
-        these = [each for each in entries if each["what"] == what]
-        if not these:
-            continue
-        found = min(these, key=lambda each: pictures.share([each]))
-        worst, is_fast = 1 - pictures.share([found]), what == pictures.FAST
-        yield [f"pixels off by more than 1 of 255, {what}, shipped scenes", method, percent(1 - pictures.share(these)),
-               percent(worst), f"{found['scene']}, {found['geometry']}" if worst else "",
-               "strict by default: the same bytes on every device" if is_fast else
-               f"float by default, --precision double; {sum(each['nan'] for each in these)} NaN",
-               "conformance_c, conformance_notices_fast_math" if is_fast else HERE]
+    entries = [each for each in entries if each["what"] == pictures.FLOAT]
+    if not entries:
+        return
+    found = min(entries, key=lambda each: pictures.share([each]))
+    worst = 1 - pictures.share([found])
+    yield [f"pixels off by more than 1 of 255, {pictures.FLOAT}, shipped scenes", "float", percent(1 - pictures.share(entries)),
+           percent(worst), f"{found['scene']}, {found['geometry']}" if worst else "",
+           f"float by default, --precision double; {sum(each['nan'] for each in entries)} NaN", HERE]
 
 
 def scene_rows(entries):
