@@ -111,12 +111,11 @@ if has_opencl; then
 fi
 
 # ---- on a terminal, where some frames are there, and all of them
-on_terminal() {
-    TERM=xterm python3 -c 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))' "$@"
-}
+on_terminal=(env TERM=xterm python3 -c
+    'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))')
 if python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
     for frames in 0-1 0-3 0-3; do
-        expect_exit 0 on_terminal "${render[@]}" --frames "$frames" -o 'd%d.png'
+        expect_exit 0 "${on_terminal[@]}" "${render[@]}" --frames "$frames" -o 'd%d.png'
     done
     expect_stdout_contains '4 of 4 frames were finished already'
     rm d?.png
