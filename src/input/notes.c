@@ -99,8 +99,9 @@ static void count_pairs(Pairs *pairs, int solid, const char *what, int other, in
     if (pairs->count > count)
         return;
     pairs->solid = solid;
-    snprintf(pairs->other, sizeof pairs->other, "%s", what);
-    if (other >= 0)
+    if (other < 0)
+        snprintf(pairs->other, sizeof pairs->other, "%s", what);
+    else
         snprintf(pairs->other, sizeof pairs->other, "%s[%d]", what, other);
 }
 

@@ -110,6 +110,7 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
                                .renderer = renderer,
                                .samples = &r->samples,
                                .budget = hd_error_budget(curve),
+                               .most_left_out = hd_most_left_out(scene),
                                .threads = r->threads};
     r->order = calloc(pixels, sizeof *r->order);
     r->pixels = calloc(pixels, sizeof *r->pixels);

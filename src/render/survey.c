@@ -102,6 +102,7 @@ static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, 
         .grid_side = surveyor->samples->grid_side,
         .samples = samples,
         .bound_cutoff = cutoff,
+        .most_left_out = surveyor->most_left_out,
     };
     HdStatus status = hd_compile_listed_frame(&tables, surveyor->scene, camera, surveyor->precision,
                                               &list, error);

@@ -47,6 +47,7 @@ typedef struct HdSurveyor {
     HdRenderer *renderer; /* no frame is under way */
     const HdSampleSet *samples;
     HdErrorBudget budget;
+    double most_left_out;  /* hd_most_left_out of the scene */
     HdThreadPool *threads; /* for the host's work */
     HdFrame sums;          /* counts and time of all passes so far; without pixels */
     int *entries, *open;   /* the surveyor's own from here on */

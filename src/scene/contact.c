@@ -15,13 +15,6 @@ static double scale_of(const HdSolid *a, HdVec3 b_centre, double b_radius) {
     return fmax(hd_length(hd_sub(a->centre, b_centre)), fmax(a->circumradius, b_radius));
 }
 
-static HdPlatonic shape_of(const HdSolid *solid) {
-    HdPlatonic shape;
-    hd_platonic(solid->kind, &shape);
-    hd_platonic_rotate(&shape, solid->rotation_degrees);
-    return shape;
-}
-
 /* Of the circle about a face. */
 static double face_radius(const HdSolid *solid, const HdPlatonic *shape) {
     return solid->circumradius * sqrt(1.0 - shape->inradius * shape->inradius);
@@ -44,7 +37,7 @@ static bool is_in_plane(const HdSolid *solid, const HdPlatonic *shape, int face,
 /* By the circles about the faces: some that only lie beside each other count too, which costs a
    step and nothing else. */
 static bool faces_coincide(const HdSolid *a, const HdSolid *b, double near) {
-    const HdPlatonic shape_a = shape_of(a), shape_b = shape_of(b);
+    const HdPlatonic shape_a = hd_solid_shape(a), shape_b = hd_solid_shape(b);
     const double reach = face_radius(a, &shape_a) + face_radius(b, &shape_b);
     for (int i = 0; i < shape_a.face_count; i++) {
         const HdVec3 middle = middle_of_face(a, &shape_a, i);
@@ -76,7 +69,7 @@ HdContact hd_floor_contact(const HdSolid *solid, const HdFloor *floor) {
 }
 
 int hd_touching_lights(const HdSolid *solid, const HdLight *lights, int count, int *first) {
-    const HdPlatonic shape = shape_of(solid);
+    const HdPlatonic shape = hd_solid_shape(solid);
     const double near = near_share * solid->circumradius;
     const double inradius = shape.inradius * solid->circumradius;
     int touching = 0;

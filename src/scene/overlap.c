@@ -34,9 +34,7 @@ static void add_axis(Axes *axes, HdVec3 axis) {
 }
 
 static void body_of_solid(Body *body, const HdSolid *solid) {
-    HdPlatonic shape;
-    hd_platonic(solid->kind, &shape);
-    hd_platonic_rotate(&shape, solid->rotation_degrees);
+    const HdPlatonic shape = hd_solid_shape(solid);
     *body = (Body){
         .centre = solid->centre, .radius = solid->circumradius, .point_count = shape.vertex_count};
     for (int i = 0; i < shape.vertex_count; i++)

@@ -23,6 +23,13 @@ void hd_scene_drop_survey(HdScene *scene) {
     scene->max_error = 0.0;
 }
 
+HdPlatonic hd_solid_shape(const HdSolid *solid) {
+    HdPlatonic shape;
+    hd_platonic(solid->kind, &shape);
+    hd_platonic_rotate(&shape, solid->rotation_degrees);
+    return shape;
+}
+
 int hd_edge_light_count(const HdSolid *solid) {
     HdPlatonic platonic;
     hd_platonic(solid->kind, &platonic);

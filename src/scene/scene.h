@@ -138,6 +138,9 @@ typedef struct HdScene {
     HdPicture *pictures; /* owned; textures of meshes */
 } HdScene;
 
+/* Its corners, edges and faces about its centre, turned as it is, with circumradius 1. */
+HdPlatonic hd_solid_shape(const HdSolid *solid);
+
 /* The lights on the edges of a solid whose values are valid. */
 int hd_edge_light_count(const HdSolid *solid);
 

@@ -93,6 +93,9 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
 
+/* No ray sees more radiance, contributions being clamped. */
+HdVec3 hd_most_radiance(const HdScene *scene);
+
 /* ---- meshes (mesh_places.c) ---- */
 
 /* Where each mesh's entries begin, the box about all instances and the hierarchy over them. */

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/light_bound.h"
 #include "tables/room.h"
 
 static int ceil_log2(int n) {
@@ -19,29 +18,13 @@ static real power_of_two(int exponent) {
     return (real)ldexp(1.0, exponent);
 }
 
-static double greatest(HdVec3 a) {
-    return fmax(a.x, fmax(a.y, a.z));
-}
-
-typedef char levels_are_those_of_the_deepest_tree
-    [HD_RADIANCE_LIMIT == HD_CONTRIBUTION_LIMIT * (HD_MAX_DEPTH + 1) ? 1 : -1];
-
-/* The weights of rays that end, and those of the hits of a level, add up to at most 1 in each
-   channel; so no more than this is left out of a sample, the greatest channel being taken at each
-   of them. */
-static double most_left_out(const HdScene *scene) {
-    double rays = fmin(greatest(hd_radiance_bound(scene)) * scene->exposure, HD_RADIANCE_LIMIT);
-    double lights = greatest(hd_surface_bound(scene)) * scene->exposure;
-    return 3.0 * (rays + (scene->depth + 1) * lights);
-}
-
 /* Bounds are small where they matter, so they have the more bits after the point the less can be
    left out. */
 enum { MOST_BOUND_BITS = 44 };
 
-static void fill_fixed_bound(View *view, const HdScene *scene, int samples) {
+static void fill_fixed_bound(View *view, double most_left_out, int samples) {
     int exponent;
-    frexp(most_left_out(scene), &exponent);
+    frexp(most_left_out, &exponent);
     int bits = exponent + MOST_BOUND_BITS <= 61 ? MOST_BOUND_BITS : 61 - exponent;
     int excess = exponent + bits + ceil_log2(samples) - 62;
     view->bound_shift = excess > 0 ? excess : 0;
@@ -82,7 +65,7 @@ static void fill_view(View *view, const HdFrameTables *tables, const HdScene *sc
     fill_fixed_point(view, scene, tables->samples);
     if (list != NULL) {
         view->bound_cutoff = (real)list->bound_cutoff;
-        fill_fixed_bound(view, scene, tables->samples);
+        fill_fixed_bound(view, list->most_left_out, tables->samples);
     }
 }
 

@@ -2,7 +2,10 @@
 /* The solids, the floor and the lights that tables are made of, before anything is rounded. */
 #include "tables/builder.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+#include "scene/light_bound.h"
 
 int hd_faces_per_plane(const HdPlatonic *shape) {
     return shape->face_count == 4 ? 1 : 2;
@@ -18,10 +21,8 @@ HdStatus hd_builder_shape_solids(HdBuilder *builder, HdError *error) {
     if (builder->shapes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d solids",
                        scene->solid_count);
-    for (int s = 0; s < scene->solid_count; s++) {
-        hd_platonic(scene->solids[s].kind, &builder->shapes[s]);
-        hd_platonic_rotate(&builder->shapes[s], scene->solids[s].rotation_degrees);
-    }
+    for (int s = 0; s < scene->solid_count; s++)
+        builder->shapes[s] = hd_solid_shape(&scene->solids[s]);
     return HD_OK;
 }
 
@@ -152,4 +153,12 @@ HdFloorFrame hd_floor_frame(const HdFloor *floor) {
     frame.axis_a = hd_normalize(along);
     frame.axis_b = hd_cross(frame.normal, frame.axis_a);
     return frame;
+}
+
+/* ---- radiance ---- */
+
+HdVec3 hd_most_radiance(const HdScene *scene) {
+    HdVec3 most = hd_radiance_bound(scene);
+    double limit = HD_RADIANCE_LIMIT / scene->exposure;
+    return (HdVec3){fmin(most.x, limit), fmin(most.y, limit), fmin(most.z, limit)};
 }

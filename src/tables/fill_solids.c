@@ -13,10 +13,7 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
     header->refracts = tables->refracts;
     header->lit_from_behind = tables->lit_from_behind;
     header->surveyed = tables->surveyed;
-    HdVec3 most = hd_radiance_bound(builder->scene);
-    double limit = HD_RADIANCE_LIMIT / builder->scene->exposure;
-    hd_store3(header->radiance_bound,
-              (HdVec3){fmin(most.x, limit), fmin(most.y, limit), fmin(most.z, limit)});
+    hd_store3(header->radiance_bound, hd_most_radiance(builder->scene));
     hd_store3(header->light_bound, hd_light_bound(builder->scene));
     header->solid_count = builder->solid_count;
     header->floor_end = builder->solid_count + (builder->has_floor ? 1 : 0);

@@ -48,6 +48,7 @@ typedef struct HdSampleList {
     int samples;   /* of each entry: those that follow the first one */
     double
         bound_cutoff; /* rays and lights that cannot add more than this to a sample are left out */
+    double most_left_out; /* of a sample, in all: hd_most_left_out */
 } HdSampleList;
 
 enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */

@@ -1,15 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 #include "tables/tables.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "image/frame.h"
 #include "kernels/host/shared.h"
+#include "scene/light_bound.h"
 #include "tables/builder.h"
 
 _Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
                    (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
                "a float comes of each sum");
+
+_Static_assert(HD_RADIANCE_LIMIT == HD_CONTRIBUTION_LIMIT * (HD_MAX_DEPTH + 1),
+               "the deepest tree has so many levels");
+
+static double greatest(HdVec3 a) {
+    return fmax(a.x, fmax(a.y, a.z));
+}
+
+/* The weights of rays that end, and those of the hits of a level, add up to at most 1 in each
+   channel; the greatest channel is taken at each of them. */
+double hd_most_left_out(const HdScene *scene) {
+    double rays = greatest(hd_most_radiance(scene));
+    double lights = greatest(hd_surface_bound(scene));
+    return 3.0 * scene->exposure * (rays + (scene->depth + 1) * lights);
+}
 
 HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecision precision,
                           int lanes, HdError *error) {

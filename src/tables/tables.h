@@ -18,6 +18,10 @@ HdStatus hd_compile_scene(HdSceneTables *tables, const HdScene *scene, HdPrecisi
 HdStatus hd_compile_frame(HdFrameTables *tables, const HdScene *scene, const HdCamera *camera,
                           HdPrecision precision, HdError *error);
 
+/* Of a surveyed scene: no more than this, after exposure, is left out of a sample in all. It goes
+   through all lights and materials, so ask once for a scene. */
+double hd_most_left_out(const HdScene *scene);
+
 /* The same with the listed samples, 1 or more, of a surveyed scene. */
 HdStatus hd_compile_listed_frame(HdFrameTables *tables, const HdScene *scene,
                                  const HdCamera *camera, HdPrecision precision,

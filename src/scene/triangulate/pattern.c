@@ -120,8 +120,7 @@ void hd_pattern_prepare(HdPattern *pattern, const HdSolid *solid, int disc_sides
         pattern->rim_width = rim;
     if (solid->lights.per_edge > 0 && disc * 2.0 * HD_PI / disc_sides > LEAST_LENGTH)
         pattern->disc_radius = disc;
-    hd_platonic(solid->kind, &pattern->shape);
-    hd_platonic_rotate(&pattern->shape, solid->rotation_degrees);
+    pattern->shape = hd_solid_shape(solid);
     for (int f = 0; f < pattern->shape.face_count; f++)
         prepare_face(&pattern->face[f], &pattern->shape, f);
     if (inset_share(&pattern->face[0], rim) <= LEAST_LENGTH)
