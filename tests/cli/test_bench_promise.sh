@@ -33,4 +33,14 @@ chmod +x liar/hedron
 expect_exit 1 "${bench[@]}" --hedron liar/hedron --first 215 --scenes 10
 expect_stdout_contains 'FAILED: --max-error, scene '
 expect_exit 2 "${bench[@]}" --hedron "$hedron" --scenes 0
+
+# The study's page has it.
+expect_python "1 ['Of 2 random scenes none missed more than was stated.'] ['3', '2', '0', '0.3750', '0.5000']
+['Of 1 random scenes 1 missed more than was stated.']
+0" 'from harness.measurements.promise import PART' 'from harness.page.section import sections' \
+    'def drawn(*scenes): return sections({"promise": PART}, [{"left_out": {}, "devices": [], "machine": {"name": "m"}, "promise": [' \
+    '    {"seed": 1, "options": [], "missed": missed, "stated": stated} for missed, stated in scenes]}])' \
+    'found = drawn((1.0, 2.0), (1.0, 4.0), (None, None))' \
+    'print(len(found), found[0].notes, found[0].table[1])' \
+    'print(drawn((3.0, 2.0))[0].notes)' 'print(len(drawn()))'
 finish
