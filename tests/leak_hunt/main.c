@@ -2,10 +2,13 @@
 /* The leak hunt: aims rays at edges and corners of closed meshes (hunt.h) on every backend and
    device that opens, in float and double, with both pipelines and on CPUs with every number of
    lanes, and counts those that cross a surface too seldom (leaks) or too often (double hits). RAYS
-   are aimed, or somewhat more, for each backend and precision.
+   are aimed, or somewhat more, for each backend and precision; another --seed aims other ones, so
+   that a long hunt can be made in parts.
 
    Ends with 0 where there are none, 1 where there are some or rendering fails, 2 where it is called
    wrongly, and 77 where nothing of the backend in --backend opens. */
+#include <ctype.h>
+#include <errno.h>
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -25,7 +28,7 @@ static const double many_rays = 2e7;
 
 static const char usage[] =
     "usage: hedron_leak_hunt RAYS [--backend cuda|opencl|c]\n"
-    "                        [--precision float|double] [--lanes 1|4|8|16]\n"
+    "                        [--precision float|double] [--lanes 1|4|8|16] [--seed N]\n"
     "RAYS may be written as 1e9\n";
 static const char *const precision_names[2] = {"float", "double"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
@@ -36,6 +39,7 @@ typedef struct Options {
     double rays;
     const HdBackend *backend; /* NULL: all */
     int precision, lanes;     /* an HdPrecision, an index into lane_counts; or ALL */
+    uint32_t seed;
 } Options;
 
 typedef struct Total {
@@ -49,6 +53,7 @@ typedef struct Party {
     int count;
     HdPrecision precision;
     int side;
+    uint32_t seed;
     double share; /* of rays for each renderer, placement and kind */
 } Party;
 
@@ -109,7 +114,7 @@ static void hunt_placement(const Party *party, int number, Catch *caught) {
     for (int kind = 0; kind < HUNT_KINDS; kind++) {
         Hunt hunt;
         hunt_begin(&hunt, (HuntKind)kind, &placements[number], party->side,
-                   (uint64_t)(1 + number * HUNT_KINDS + kind));
+                   (uint64_t)party->seed << 32 | (uint32_t)(1 + number * HUNT_KINDS + kind));
         for (int i = 0; i < party->count; i++)
             hunt_with(party->renderers[i], &hunt, party, caught);
         hunt_end(&hunt);
@@ -153,7 +158,7 @@ static void gather(Party *party, const HdDevice *device, const Options *options)
 
 static void hunt_device(const HdDevice *device, HdPrecision precision, const Options *options,
                         Total *total) {
-    Party party = {.precision = precision};
+    Party party = {.precision = precision, .seed = options->seed};
     Catch sum = {0};
     printf("%s %s, %s\n", device->backend->name, precision_names[precision], device->name);
     gather(&party, device, options);
@@ -191,6 +196,14 @@ static bool parse_rays(const char *text, double *rays) {
     return end != text && *end == '\0' && *rays >= 1.0 && *rays <= 1e15;
 }
 
+static bool parse_seed(const char *text, uint32_t *seed) {
+    char *end;
+    errno = 0;
+    unsigned long value = strtoul(text, &end, 10);
+    *seed = (uint32_t)value;
+    return isdigit((unsigned char)*text) && *end == '\0' && errno == 0 && value <= UINT32_MAX;
+}
+
 static bool parse_option(Options *options, const char *name, const char *value) {
     if (strcmp(name, "--backend") == 0)
         return (options->backend = hd_backend_find(value)) != NULL;
@@ -198,6 +211,8 @@ static bool parse_option(Options *options, const char *name, const char *value) 
         return (options->precision = choose(value, precision_names, 2)) >= 0;
     if (strcmp(name, "--lanes") == 0)
         return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
+    if (strcmp(name, "--seed") == 0)
+        return parse_seed(value, &options->seed);
     return false;
 }
 
