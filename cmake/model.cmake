@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The program 'hedron_model', which makes meshes of any size for scenes and measurements; not installed.
+# The program 'hedron_model', which makes meshes of any size for scenes and measurements.
 add_executable(hedron_model
     scenes/models/knot.c
     scenes/models/main.c
@@ -8,3 +8,4 @@ add_executable(hedron_model
     scenes/models/sphere.c)
 target_link_libraries(hedron_model PRIVATE hedron_core)
 hedron_compile_options(hedron_model)
+install(TARGETS hedron_model RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -11,7 +11,8 @@ add_library(hedron_program STATIC
     src/cli/load_scene.c
     src/cli/command_table.c
     src/cli/tune.c
-    src/cli/completion.c
+    src/cli/complete.c
+    src/cli/new.c
     src/input/json/json_device_text.c
     src/cli/man_page.c
     src/cli/command_line.c
@@ -32,8 +33,14 @@ install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/hedron-task
         DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# The man page and the completion script are what the program prints, written whenever it is built, so that
-# it can be installed where nothing else was. With the thread sanitizer it starts
+install(FILES completions/hedron.bash RENAME hedron
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
+install(FILES completions/hedron.zsh RENAME _hedron
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions)
+install(FILES completions/hedron.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d)
+
+# The man page is what the program prints, written whenever it is built, so that it can be installed where
+# nothing else was. With the thread sanitizer it starts
 # on some systems only with help, so there are none of it.
 if(HEDRON_SANITIZE MATCHES thread)
     return()
@@ -53,4 +60,3 @@ function(hedron_text topic file)
 endfunction()
 
 hedron_text(man man/man1/hedron.1)
-hedron_text(completion bash-completion/completions/hedron)

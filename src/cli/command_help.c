@@ -3,7 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "cli/commands.h"
+#include "input/fields.h"
+
+/* Made by the build from completions/. */
+extern const unsigned char hd_bash_completion[], hd_zsh_completion[], hd_fish_completion[];
+extern const size_t hd_bash_completion_size, hd_zsh_completion_size, hd_fish_completion_size;
 
 enum { LINE_WIDTH = 96, OPTION_COLUMN = 22, USAGE_COLUMN = 34, EXAMPLE_COLUMN = 6 };
 
@@ -93,11 +99,90 @@ static void print_command(const HdCommandSpec *spec) {
     print_options(spec->command);
 }
 
+/* ---- scenes ---- */
+
+static const char least_scene[] =
+    "  {\n"
+    "    \"hedron\": 1,\n"
+    "    \"camera\": {\"eye\": [4, -3, 2]},\n"
+    "    \"materials\": {\"blue\": {\"colour\": [0.2, 0.5, 1], \"diffuse\": 0.8}},\n"
+    "    \"solids\": [{\"kind\": \"cube\", \"material\": \"blue\"}],\n"
+    "    \"lights\": [{\"position\": [3, -4, 5]}]\n"
+    "  }\n";
+
+/* "default 60"; "" where there is none that can be told. */
+static void format_default(const HdField *field, char text[128]) {
+    char numbers[3][HD_NUMBER_SIZE];
+    for (int i = 0; i < 3; i++)
+        hd_short_number(field->standard[i], numbers[i]);
+    text[0] = '\0';
+    if (field->required)
+        snprintf(text, 128, "; required");
+    else if (hd_field_may_be_absent(field) || field->object != NULL)
+        return;
+    else if (field->type == HD_FIELD_CHOICE)
+        snprintf(text, 128, "; default %s", hd_field_choice(field, (int)field->standard[0]));
+    else if (field->type == HD_FIELD_BOOLEAN)
+        snprintf(text, 128, "; default %s", field->standard[0] != 0.0 ? "true" : "false");
+    else if (hd_field_parts(field) == 3)
+        snprintf(text, 128, "; default [%s, %s, %s]", numbers[0], numbers[1], numbers[2]);
+    else
+        snprintf(text, 128, "; default %s", numbers[0]);
+}
+
+static void print_keys(const HdObjectType *type) {
+    char expected[HD_EXPECTED_SIZE], standard[128], text[1024];
+    for (int i = 0; i < type->field_count; i++) {
+        const HdField *field = &type->fields[i];
+        hd_field_expected(field, 0, expected);
+        format_default(field, standard);
+        snprintf(text, sizeof text, "%s (%s%s)", field->about, expected, standard);
+        print_entry(field->key, OPTION_COLUMN, text);
+    }
+}
+
+/* An object's keys, then those of its parts. `path` is where it stands; "" is the scene. */
+static void print_scene_object(const HdObjectType *type, const char *path) {
+    const HdObjectType *before = NULL; /* eye and target are paths both */
+    char part[128];
+    if (path[0] != '\0')
+        printf("\n%s:\n", path);
+    print_keys(type);
+    for (int i = 0; i < type->field_count; i++) {
+        const HdField *field = &type->fields[i];
+        if (field->object == NULL || field->object == before)
+            continue;
+        before = field->object;
+        snprintf(part, sizeof part, "%s%s%s%s", path, path[0] != '\0' ? "." : "", field->key,
+                 field->type == HD_FIELD_LIST        ? "[0]"
+                 : field->type == HD_FIELD_MATERIALS ? ".NAME"
+                                                     : "");
+        print_scene_object(field->object, part);
+    }
+}
+
+static void print_scene_format(void) {
+    printf("A scene is a file in JSON. A small one:\n\n%s\n", least_scene);
+    print_wrapped("'hedron new' writes a larger one with comments, 'hedron check' finds mistakes, "
+                  "'hedron check --schema' prints the JSON Schema for editors. The z axis points "
+                  "up. Colours are linear. Any object may have a comment, \"$comment\": \"...\". "
+                  "--set reaches each value by its path: --set solids[0].kind=cube.",
+                  0, 0);
+    printf("\nKeys:\n");
+    print_scene_object(&hd_scene_fields, "");
+}
+
 void hd_command_help(const HdHelpTopic *topic) {
     if (topic->form == HD_HELP_MAN)
         hd_print_man_page();
-    else if (topic->form == HD_HELP_COMPLETION)
-        hd_print_completion();
+    else if (topic->form == HD_HELP_SCENE)
+        print_scene_format();
+    else if (topic->form == HD_HELP_BASH)
+        fwrite(hd_bash_completion, 1, hd_bash_completion_size, stdout);
+    else if (topic->form == HD_HELP_ZSH)
+        fwrite(hd_zsh_completion, 1, hd_zsh_completion_size, stdout);
+    else if (topic->form == HD_HELP_FISH)
+        fwrite(hd_fish_completion, 1, hd_fish_completion_size, stdout);
     else if (topic->command == HD_COMMAND_CLASSIC)
         print_program();
     else

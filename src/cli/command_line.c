@@ -96,7 +96,7 @@ static HdStatus add_operand(Parser *parser, char *argument, HdError *error) {
     const int most = parser->command->most_operands;
     if (name == NULL)
         return fail_unknown_command(parser, argument, error);
-    if (argument[0] == '\0')
+    if (argument[0] == '\0' && options->command != HD_COMMAND_COMPLETE)
         return hd_fail(error, HD_BAD_INPUT, "'hedron %s' was given an empty name", name);
     if (most == 0)
         return hd_fail(error, HD_BAD_INPUT, "'hedron %s' takes options only, but '%s' was given",
@@ -157,7 +157,7 @@ static HdStatus find_topic(HdOptions *options, HdError *error) {
     if (command != NULL || options->help_topic.form != HD_HELP_TEXT)
         return HD_OK;
     for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
-        hd_nearest_offer(&nearest, hd_help_forms[i]);
+        hd_nearest_offer(&nearest, hd_help_forms[i].text);
     offer_commands(&nearest);
     suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);

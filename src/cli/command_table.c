@@ -26,6 +26,11 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
      "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
      "--samples, --depth and --cutoff come last."},
+    {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
+     "write a scene to start from, with comments",
+     "Writes a small scene in which comments tell what is what, to SCENE.json (default: "
+     "scene.json), "
+     "and never over a file that is there. 'hedron help scene' explains every key."},
     {HD_COMMAND_CHECK, "check", "SCENE.json...", ".json", -1,
      "look for mistakes in scenes without rendering",
      "Reads each scene (-: standard input) and its texture, and prints a line about each that is "
@@ -63,20 +68,32 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "yellow (128) and pale yellow (255), lighter by the same step with each doubling; cyan for "
      "NaN and infinite values."},
     {HD_COMMAND_HELP, "help", "[TOPIC]", NULL, 1, "explain a command",
-     "TOPIC is a command, 'man' for the man page (in troff), or 'completion' for bash's completion "
-     "of this program."},
+     "TOPIC is a command; 'scene' for every key of a scene file; 'man' for the man page (in "
+     "troff); "
+     "or 'completion', 'completion-zsh' or 'completion-fish' for what completes this program's "
+     "arguments in bash, zsh or fish."},
+    {HD_COMMAND_COMPLETE, "complete", "-- WORD...", NULL, -1, "tell shells what may follow",
+     "Prints how the last WORD of a command line, which may be empty, can go on: a line for each "
+     "way, with a tab and what it is about; ':.json' stands for the names of files that end so, "
+     "':' "
+     "for those of all files. For the scripts of 'hedron help completion'."},
     {HD_COMMAND_CLASSIC, NULL, "< INPUT", NULL, 0,
      "the classic mode: a configuration on standard input",
      "In the classic mode standard output has one line for each frame and nothing else: frame TAB "
      "milliseconds TAB rays."},
 };
 
-const char *const hd_help_forms[HD_HELP_FORM_COUNT] = {
-    [HD_HELP_TEXT] = "", [HD_HELP_MAN] = "man", [HD_HELP_COMPLETION] = "completion"};
+const HdExplained hd_help_forms[HD_HELP_FORM_COUNT] = {
+    [HD_HELP_TEXT] = {"", ""},
+    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
+    [HD_HELP_MAN] = {"man", "the man page"},
+    [HD_HELP_BASH] = {"completion", "completion for bash"},
+    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
+    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
 
 HdHelpForm hd_help_form_named(const char *name) {
     int form = HD_HELP_FORM_COUNT - 1;
-    while (form > HD_HELP_TEXT && strcmp(hd_help_forms[form], name) != 0)
+    while (form > HD_HELP_TEXT && strcmp(hd_help_forms[form].text, name) != 0)
         form--;
     return (HdHelpForm)form;
 }
@@ -112,6 +129,7 @@ const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
      "values of the scene replaced"},
     {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
      "times and rays of each frame, a line of JSON each"},
+    {"hedron new first.json && hedron render first.json -o first.mp4", "a scene of your own"},
     {"hedron check scene.json", "mistakes of a scene"},
     {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
     {"hedron compare a.png b.png --diff heat.png --fail-above 1",

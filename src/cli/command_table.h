@@ -13,19 +13,28 @@ typedef enum HdCommand {
     HD_COMMAND_TUNE = 32,
     HD_COMMAND_HELP = 64,
     HD_COMMAND_VERSION = 128,
-    HD_COMMAND_COMPARE = 256
+    HD_COMMAND_COMPARE = 256,
+    HD_COMMAND_NEW = 512,
+    HD_COMMAND_COMPLETE = 1024
 } HdCommand;
 
-/* What there is help about, apart from commands: the man page and the completion script. */
+typedef struct HdExplained {
+    const char *text, *meaning;
+} HdExplained;
+
+/* What there is help about, apart from commands. */
 typedef enum HdHelpForm {
     HD_HELP_TEXT,
+    HD_HELP_SCENE,
     HD_HELP_MAN,
-    HD_HELP_COMPLETION,
+    HD_HELP_BASH,
+    HD_HELP_ZSH,
+    HD_HELP_FISH,
     HD_HELP_FORM_COUNT
 } HdHelpForm;
 
 /* Their names; that of HD_HELP_TEXT is empty. */
-extern const char *const hd_help_forms[HD_HELP_FORM_COUNT];
+extern const HdExplained hd_help_forms[HD_HELP_FORM_COUNT];
 
 /* HD_HELP_TEXT where no other form has that name. */
 HdHelpForm hd_help_form_named(const char *name);
@@ -45,7 +54,7 @@ typedef struct HdCommandSpec {
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
-enum { HD_COMMAND_SPEC_COUNT = 8 };
+enum { HD_COMMAND_SPEC_COUNT = 10 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
 /* NULL where no command has that name. */
@@ -55,11 +64,7 @@ const HdCommandSpec *hd_command_spec(HdCommand command);
 /* The program in half a sentence. */
 extern const char hd_program_summary[];
 
-typedef struct HdExplained {
-    const char *text, *meaning;
-} HdExplained;
-
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 11, HD_VARIABLE_COUNT = 4 };
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 12, HD_VARIABLE_COUNT = 4 };
 extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
 extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */

@@ -26,13 +26,16 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error);
 /* Prints how far two pictures are apart; HD_FAILED where that is too far. */
 HdStatus hd_command_compare(const HdOptions *options, HdError *error);
 
+/* Writes the scene to start from. */
+HdStatus hd_command_new(const HdOptions *options, HdError *error);
+
+/* Prints how the last word of a command line may go on, for the scripts in completions/. */
+void hd_command_complete(const HdOptions *options);
+
 /* Prints help, the man page or the completion script on standard output. */
 void hd_command_help(const HdHelpTopic *topic);
 
 /* A man page in troff, on standard output. */
 void hd_print_man_page(void);
-
-/* The same of a script for bash that completes the program's arguments. */
-void hd_print_completion(void);
 
 #endif

@@ -24,6 +24,11 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_command_tune(options, error);
     case HD_COMMAND_COMPARE:
         return hd_command_compare(options, error);
+    case HD_COMMAND_NEW:
+        return hd_command_new(options, error);
+    case HD_COMMAND_COMPLETE:
+        hd_command_complete(options);
+        return HD_OK;
     case HD_COMMAND_HELP:
         hd_command_help(&options->help_topic);
         return HD_OK;

@@ -29,7 +29,7 @@ OPTION(const char *changes[HD_MAX_CHANGES];
        HD_COMMAND_RENDER | HD_COMMAND_TUNE,
        TEXTS(HD_OPTION_CHANGES, changes, change_count, HD_MAX_CHANGES),
        .expected = "PATH=VALUE such as camera.field_of_view=40")
-OPTION(const char *frames, "--frames", NULL, "LIST", "render these frames only, for example 0-9,20",
+OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
        MEASURING, TEXT(frames, NULL))
 OPTION(
     bool again, "--again", NULL, NULL,
@@ -76,7 +76,7 @@ ROW("--device", NULL, "DEVICE",
 ROW("--lanes", NULL, "N",
     "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
     MEASURING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
-ROW("--threads", NULL, "N", "threads of the C backend (default: one for each core)", MEASURING,
+ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", MEASURING,
     INTEGER(render.threads, 1, HD_MAX_THREADS))
 ROW("--pipeline", NULL, "NAME",
     "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
@@ -110,9 +110,9 @@ OPTION(const char *statistics, "--stats", NULL, "FILE",
        "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
        "which then has nothing else",
        RENDERING, TEXT(statistics, "a file or -"), .takes_file = true)
-OPTION(bool verbose, "--verbose", NULL, NULL, "tell what was chosen and why", RENDERING,
+OPTION(bool verbose, "--verbose", "-v", NULL, "tell what was chosen and why", RENDERING,
        FLAG(verbose), .only_one_of = loudness)
-OPTION(bool quiet, "--quiet", NULL, NULL, "no progress and no notes; errors only", RENDERING,
+OPTION(bool quiet, "--quiet", "-q", NULL, "no progress and no notes; errors only", RENDERING,
        FLAG(quiet), .only_one_of = loudness)
 OPTION(
     bool tells_frames, "--frame-lines", NULL, NULL,
@@ -122,7 +122,7 @@ OPTION(
 OPTION(bool schema, "--schema", NULL, NULL, "print the JSON Schema of scene files, and exit",
        HD_COMMAND_CHECK, FLAG(schema))
 OPTION(bool json, "--json", NULL, NULL, "print the list as JSON",
-       HD_COMMAND_DEVICES | HD_COMMAND_TUNE, FLAG(json))
+       HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_TUNE, FLAG(json))
 ROW("--json", NULL, NULL, "print the figures as JSON", HD_COMMAND_COMPARE, FLAG(json))
 OPTION(const char *diff, "--diff", NULL, "OUT.png", "write a heat map of the display error",
        HD_COMMAND_COMPARE, TEXT(diff, NULL), .check = check_diff, .takes_file = true)

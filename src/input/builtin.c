@@ -6,13 +6,20 @@
 #include "image/picture.h"
 #include "system/path.h"
 
-/* Made by the build from scenes/default.json, scenes/classic.in and scenes/floor.png. */
-extern const unsigned char hd_default_scene[], hd_default_classic[], hd_default_texture[];
-extern const size_t hd_default_scene_size, hd_default_classic_size, hd_default_texture_size;
+/* Made by the build from default.json, starter.json, classic.in and floor.png of scenes/. */
+extern const unsigned char hd_default_scene[], hd_starter_scene[], hd_default_classic[],
+    hd_default_texture[];
+extern const size_t hd_default_scene_size, hd_starter_scene_size, hd_default_classic_size,
+    hd_default_texture_size;
 
 const char *hd_default_scene_text(size_t *size) {
     *size = hd_default_scene_size;
     return (const char *)hd_default_scene;
+}
+
+const char *hd_starter_scene_text(size_t *size) {
+    *size = hd_starter_scene_size;
+    return (const char *)hd_starter_scene;
 }
 
 HdStatus hd_default_input(HdSceneFile *input, HdError *error) {

@@ -18,6 +18,9 @@ bool hd_texture_path_is_relative(const char *path);
 /* The default scene, JSON (docs/formats.md) of `*size` bytes. */
 const char *hd_default_scene_text(size_t *size);
 
+/* The scene that people start from, likewise, with comments. */
+const char *hd_starter_scene_text(size_t *size);
+
 /* The most colourful configuration that the classic input can tell, without its texture. */
 HdStatus hd_default_input(HdSceneFile *input, HdError *error);
 

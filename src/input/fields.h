@@ -11,6 +11,9 @@
 
 enum { HD_MAX_MATERIALS = 1024, HD_EXPECTED_SIZE = 256, HD_SAID_SIZE = 48 };
 
+/* The key that every object may have, with a text for people. */
+#define HD_COMMENT_KEY "$comment"
+
 /* What a field is in JSON, and in the struct at its offset. */
 typedef enum HdFieldType {
     HD_FIELD_BOOLEAN,  /* bool */

@@ -39,10 +39,23 @@ static bool is_classic(const char *text, size_t size) {
     return start < size && text[start] >= '0' && text[start] <= '9';
 }
 
+static bool is_mesh(const char *name) {
+    static const char *const endings[] = {".obj", ".stl", ".ply", ".gltf", ".glb"};
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (hd_path_has_ending(name, endings[i]))
+            return true;
+    return false;
+}
+
 static HdStatus check_text(const char *text, size_t size, const char *name, HdError *error) {
     if (size > HD_MAX_SCENE_BYTES)
         return hd_fail(error, HD_BAD_INPUT, "%s has %zu bytes, expected at most %d", name, size,
                        (int)HD_MAX_SCENE_BYTES);
+    if (is_mesh(name))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is no scene by its name: a mesh, as Wavefront OBJ, is part of one; see "
+                       "\"meshes\" in 'hedron help scene'",
+                       name);
     if (size == 0)
         return hd_fail(error, HD_BAD_INPUT, "%s is empty, expected a scene in JSON", name);
     /* JSON text has no zero bytes, and the parser takes one for the end of a token. */

@@ -174,6 +174,11 @@ static void print_object(HdJsonPrinter *printer, const HdObjectType *type) {
     hd_json_open(printer, '{');
     for (int i = 0; i < type->field_count; i++)
         print_field(printer, &type->fields[i]);
+    hd_json_key(printer, HD_COMMENT_KEY);
+    hd_json_open(printer, '{');
+    print_pair(printer, "description", "For people");
+    print_pair(printer, "type", "string");
+    hd_json_close(printer, '}');
     hd_json_close(printer, '}');
 }
 
@@ -181,6 +186,7 @@ HdStatus hd_scene_schema_print(FILE *out, HdError *error) {
     HdJsonPrinter printer = {.out = out};
     hd_json_open(&printer, '{');
     print_pair(&printer, "$schema", "https://json-schema.org/draft/2020-12/schema");
+    print_pair(&printer, "$id", "urn:hedron:scene:1");
     print_pair(&printer, "title", "A scene of hedron");
     print_object(&printer, &hd_scene_fields);
     hd_json_close(&printer, '}');

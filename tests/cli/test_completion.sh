@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The completion script, called as bash calls it.
+# Completion in bash, called as bash calls it, and in zsh and fish where they are there.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -22,7 +22,7 @@ fi
 expect_completions() {
     local expected=$1 found
     shift
-    COMP_WORDS=(hedron "$@")
+    COMP_WORDS=("$hedron" "$@")
     COMP_CWORD=$#
     _hedron
     found=$(printf '%s\n' "${COMPREPLY[@]}" | tr -s ' ' '\n' | sort | tr '\n' ' ')
@@ -32,7 +32,7 @@ expect_completions() {
     fi
 }
 
-commands='render check convert devices tune compare help'
+commands='render new check convert devices tune compare help'
 touch a.json b.json c.in 'with space.json'
 mkdir scenes
 
@@ -42,6 +42,7 @@ expect_completions 'check convert compare' c
 expect_completions '' x
 expect_completions '--geometry --gpu --grid' --g
 expect_completions '--variant --verbose --version' --v
+expect_completions '-v' -v
 expect_completions '' --cpu ''
 # ---- a command's own options, which are those of its help
 for command in $commands; do
@@ -58,7 +59,7 @@ expect_completions '--fail-above' compare --f
 expect_completions 'linear srgb' compare --curve ''
 expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
 expect_completions '' devices ''
-expect_completions "$commands man completion" help ''
+expect_completions "$commands scene man completion completion-zsh completion-fish" help ''
 expect_completions 'man' help m
 # ---- values
 expect_completions 'auto c opencl cuda' render --backend ''
@@ -70,7 +71,22 @@ expect_completions 'strict fast' --math ''
 expect_completions 'double' --precision d
 expect_completions '1 16' render --lanes 1
 expect_completions '' render --size ''
-expect_completions '' render --set c
+expect_completions 'camera.' render --set c
+expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.target=' render --set camera.
+expect_completions 'grid adaptive' render --set image.aa = ''
+expect_completions 'adaptive' render --set image.aa = a
+# ---- the scene's own materials and solids
+rm a.json
+"$hedron" new a.json >"$logs/new"
+expect_completions 'materials.glass. materials.frame. materials.floor.' render a.json --set mat
+expect_completions 'materials.glass.mirror_tint=' render a.json --set materials.glass.m
+expect_completions 'solids[0].rim.width= solids[0].rim.material=' render a.json --set 'solids[0].rim.' # ]
+expect_completions 'cube' render a.json --set 'solids[0].kind' = c
+expect_completions '' render a.json --set 'solids[1].'
+# ---- devices
+expect_completions 'all' render --device a
+expect_completions '0' render --device c : ''
+expect_completions '0' tune --device c : 0
 # ---- files: scenes for 'render' and 'check', any for the rest
 expect_completions 'a.json b.json scenes with space.json' render ''
 expect_completions 'a.json' check a
@@ -79,10 +95,52 @@ expect_completions 'a.json b.json c.in scenes with space.json' convert ''
 expect_completions 'c.in' convert -o c
 expect_completions 'c.in' render --output = c
 expect_completions 'scenes' render --stats s
-COMP_WORDS=(hedron render w) COMP_CWORD=2
+COMP_WORDS=("$hedron" render w) COMP_CWORD=2
 _hedron
 if [[ ${#COMPREPLY[@]} != 1 || ${COMPREPLY[0]} != 'with space.json' ]]; then
     fail "a name with a space gives ${#COMPREPLY[@]} completions"
+fi
+
+# ---- zsh, whose own functions tell here what they are asked for, and fish
+"$hedron" help completion-zsh >"$work/completion.zsh"
+"$hedron" help completion-fish >"$work/completion.fish"
+# expect_words SHELL EXPECTED: what its completion offered, in $logs/offered.
+expect_words() {
+    if [[ $(sort "$logs/offered" | tr '\n' ' ') != "$2 " ]]; then
+        fail "$1 offers '$(tr '\n' ' ' <"$logs/offered")', expected '$2'"
+    fi
+}
+if command -v zsh >"$logs/which"; then
+    zsh_completes() {
+        # shellcheck disable=SC2016 # for zsh
+        zsh -f -c 'compdef() { echo "$*" >&2 }; compadd() { print -r -- "${@[-1]}" }; _files() { print -r -- "files$*" }
+            script=$1; shift; source $script; words=("$@"); CURRENT=$#; _hedron' \
+            zsh "$work/completion.zsh" "$hedron" "$@" >"$logs/offered" 2>"$logs/zsh"
+    }
+    zsh_completes render --backend c
+    expect_words zsh 'c cuda'
+    [[ $(cat "$logs/zsh") == '_hedron hedron' ]] || fail "zsh says $(cat "$logs/zsh")"
+    zsh_completes check ''
+    expect_words zsh 'files-g *.json'
+    zsh_completes render a.json --set 'solids\[0\].ki'
+    expect_words zsh 'solids[0].kind='
+else
+    echo "not tested: there is no zsh"
+fi
+if command -v fish >"$logs/which"; then
+    # shellcheck disable=SC2016 # for fish
+    fish_completes() {
+        PATH=${hedron%/*}:$PATH fish --no-config -c 'source $argv[1]; complete -C $argv[2]' \
+            "$work/completion.fish" "$1" | cut -f 1 >"$logs/offered"
+    }
+    fish_completes 'hedron render --backend c'
+    expect_words fish 'c cuda'
+    fish_completes 'hedron check a'
+    expect_words fish 'a.json'
+    fish_completes 'hedron render a.json --set materials.glass.m'
+    expect_words fish 'materials.glass.mirror_tint='
+else
+    echo "not tested: there is no fish"
 fi
 
 rm -r ./*

@@ -52,17 +52,32 @@ for command in "$hedron devices --help" "$hedron devices -h" "$hedron help devic
     # shellcheck disable=SC2086
     expect_help '--help --json' $command
 done
-expect_help '--help --schema' "$hedron" check --help
-expect_help '--help --schema' "$hedron" help check
+expect_help '--help --schema --json' "$hedron" check --help
+expect_help '--help --schema --json' "$hedron" help check
 expect_help '--help --output --variant' "$hedron" convert --help
 expect_help '--help --output --variant' "$hedron" help convert
 expect_help '--help --json --diff --fail-above --curve' "$hedron" compare --help
+expect_help '--help' "$hedron" new --help
+expect_help '--help' "$hedron" complete --help
 expect_help '--help' "$hedron" help --help
 expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render check convert devices tune compare help --default '[OPTIONS] < INPUT'; do
+for usage in render new check convert devices tune compare help complete --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
+
+# ---- scenes: every key of the schema; the small scene in the text is one
+expect_exit 0 "$hedron" help scene
+expect_silent_stderr
+# shellcheck disable=SC2016 # not variables
+if command -v jq >"$logs/which"; then
+    "$hedron" check --schema | jq -r '.. | .properties? // empty | keys[]' | sort -u | grep -v -F '$comment' >"$work/keys"
+    sed -n 's/^  \([a-z_$0-9]*\)\( .*\)*$/\1/p' "$logs/stdout" | grep . | sort -u >"$work/told"
+    expect_same "$work/told" "$work/keys"
+fi
+sed -n '/^  {/,/^  }/p' "$logs/stdout" >small.json
+expect_exit 0 "$hedron" check small.json
+rm small.json
 
 expect_refusal 2 "$hedron" help nonsense
 expect_refusal 2 "$hedron" help --gpu

@@ -28,8 +28,24 @@ if [[ -z $(find "$prefix" -type f -name LICENSE) ]]; then
 fi
 if ! grep -q -a __tsan_init "$hedron"; then
     expect_same "$prefix/share/man/man1/hedron.1" <("$hedron" help man)
-    expect_same "$prefix/share/bash-completion/completions/hedron" <("$hedron" help completion)
 fi
+expect_same "$prefix/share/bash-completion/completions/hedron" <("$hedron" help completion)
+expect_same "$prefix/share/zsh/site-functions/_hedron" <("$hedron" help completion-zsh)
+expect_same "$prefix/share/fish/vendor_completions.d/hedron.fish" <("$hedron" help completion-fish)
+
+# ---- documents, whose links lead to what is there, and scenes, which need nothing else
+documents=$prefix/share/doc/hedron
+while IFS= read -r found; do
+    document=${found%%:*} link=${found#*](}
+    link=${link%)*}
+    if [[ ! -e $(dirname "$document")/${link%%#*} ]]; then
+        fail "$document leads to $link, which is not installed"
+    fi
+done < <(grep -r -o --include='*.md' ']([^h#)][^)]*)' "$documents")
+expect_exit 0 "$installed" check "$documents"/scenes/*.json
+expect_stdout_contains 'five.json: fine'
+expect_exit 0 "${installed%/*}/hedron_model" sphere 12 -o sphere.obj
+rm sphere.obj
 
 # A bare environment: nothing but PATH, a home folder that is empty or not there, and the root folder.
 small+=(--quiet)

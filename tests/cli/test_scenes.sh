@@ -220,5 +220,51 @@ expect_refusal 2 "$hedron" convert "$work/official.in" --variant 11
 expect_refusal 2 "$hedron" convert "$work/official.in" -o /dev/full
 rm old.json ./*.in
 
+# ---- a scene to start from, which is never written over another
+expect_exit 0 "$hedron" new first
+expect_stdout_lines 1 'first\.json'
+expect_same first.json "$project/scenes/starter.json"
+expect_exit 0 "$hedron" check first.json
+expect_stdout_lines 1 'first\.json: fine, 1 solid, .*'
+render first.json --frames 0 --size 8x6 --samples 1 -o first.png
+printf 'mine' >first.json
+expect_refusal 2 "$hedron" new first.json
+expect_stderr_contains 'first.json is there already'
+[[ $(cat first.json) == mine ]] || fail "'hedron new' wrote over a file"
+expect_refusal 1 "$hedron" new missing/first
+rm first.json first.png
+
+# ---- comments
+# shellcheck disable=SC2016 # not a variable
+sed 's/"glass": {/"glass": {"$comment": "of old windows", /' scenes/cube.json >scenes/told.json
+render scenes/told.json --frames 0 --size 8x6 -o told.data
+render scenes/cube.json --frames 0 --size 8x6 -o untold.data
+expect_same told.data untold.data
+sed -i 's/"of old windows"/5/' scenes/told.json
+expect_refusal 2 "$hedron" check scenes/told.json
+# shellcheck disable=SC2016
+expect_stderr_contains 'materials.glass["$comment"] is 5, expected a string'
+rm scenes/told.json ./*.data
+
+# ---- what is checked, for programs
+if command -v jq >"$logs/which"; then
+    printf '{"hedron": 1, "camera": {}, "solids": [{"kind": "ball", "material": "x"}]}' >wrong.json
+    expect_exit 2 "$hedron" check --json scenes/cube.json wrong.json missing.json
+    expect_stderr_contains '2 of 3 scenes are wrong'
+    if ! jq -e '.scenes | map(.scene) == ["scenes/cube.json", "wrong.json", "missing.json"]
+        and map(.fine) == [true, false, false] and .[0].lights == 25 and .[0].frames == 3
+        and .[0].problems == [] and (.[1].problems | length == 3 and any(startswith("camera.eye")))
+        and (.[2].problems | length == 1)' "$logs/stdout" >"$logs/jq"; then
+        fail "check --json says otherwise: $(cat "$logs/stdout")"
+    fi
+    rm wrong.json
+else
+    echo "not tested: what 'check --json' prints, for there is no jq"
+fi
+printf 'solid teapot' >teapot.stl
+expect_refusal 2 "$hedron" render teapot.stl
+expect_stderr_contains 'teapot.stl is no scene by its name'
+rm teapot.stl
+
 expect_files . scenes scenes/cube.json scenes/floor.data
 finish

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/text.h"
 
+#include <ctype.h>
 #include <jansson.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -72,6 +73,26 @@ static bool has_comma_before(const char *text, size_t end) {
     return end > 0 && text[end - 1] == ',';
 }
 
+/* The word, or what begins like a number, that ends there. */
+static const char *hint_of_word(const char *text, size_t end) {
+    static const char *const words[] = {"true", "false", "null", "none", "nil"};
+    static const char *const numbers[] = {"nan", "inf", "infinity"};
+    char word[16] = "";
+    size_t start = end;
+    while (start > 0 && (isalnum((unsigned char)text[start - 1]) || strchr("+-.", text[start - 1])))
+        start--;
+    for (size_t i = 0; i + 1 < sizeof word && start + i < end; i++)
+        word[i] = (char)tolower((unsigned char)text[start + i]);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(word, words[i]) == 0)
+            return "JSON says true, false or null";
+    bool is_number = word[0] != '\0' && strchr("+-.0123456789", word[0]) != NULL;
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        is_number |= strcmp(word, numbers[i]) == 0;
+    return is_number ? "a number in JSON looks like 0.5, -2 or 1e3, and none is NaN or infinite"
+                     : NULL;
+}
+
 const char *hd_json_hint(const char *text, size_t position) {
     if (position == 0)
         return NULL;
@@ -81,10 +102,10 @@ const char *hd_json_hint(const char *text, size_t position) {
     if (last == ']' && has_comma_before(text, position - 1))
         return "JSON has no comma before ']'";
     if (last == '/' || last == '#')
-        return "JSON has no comments";
+        return "JSON has no comments, but an object may have \"$comment\": \"...\"";
     if (last == '\'')
         return "use double quotes";
-    return NULL;
+    return hint_of_word(text, position);
 }
 
 static atomic_bool failed;

@@ -230,7 +230,9 @@ static HdStatus finish(HdObjText *text) {
     if (text->lines.status == HD_OK && text->face_count == 0)
         hd_obj_fail_reading(&text->lines, text->elements[HD_OBJ_VERTEX].count > 0
                                               ? "it has vertices, but no faces"
-                                              : "it has no faces, so it is empty or no OBJ file");
+                                              : "it has no faces, so it is empty or no OBJ file "
+                                                "(of other formats, such as STL, PLY and glTF, "
+                                                "Blender or assimp can make one)");
     return text->lines.status;
 }
 

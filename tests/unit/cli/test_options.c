@@ -158,7 +158,7 @@ static void help_has_topics(void **state) {
     assert_int_equal(parse("hedron help man"), HD_OK);
     assert_int_equal(options.help_topic.form, HD_HELP_MAN);
     assert_int_equal(parse("hedron help completion"), HD_OK);
-    assert_int_equal(options.help_topic.form, HD_HELP_COMPLETION);
+    assert_int_equal(options.help_topic.form, HD_HELP_BASH);
     assert_int_equal(parse("hedron check -h"), HD_OK);
     assert_int_equal(options.command, HD_COMMAND_HELP);
     assert_int_equal(options.help_topic.command, HD_COMMAND_CHECK);

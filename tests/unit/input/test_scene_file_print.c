@@ -338,7 +338,8 @@ static int expect_object_schema(const HdObjectType *type, const json_t *schema) 
     const json_t *properties = json_object_get(schema, "properties");
     int count = type->field_count;
     assert_true(json_is_false(json_object_get(schema, "additionalProperties")));
-    assert_int_equal(json_object_size(properties), type->field_count);
+    assert_int_equal(json_object_size(properties), type->field_count + 1);
+    assert_non_null(json_object_get(properties, HD_COMMENT_KEY));
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
         const json_t *own = json_object_get(properties, field->key);

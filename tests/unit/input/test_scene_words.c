@@ -147,6 +147,15 @@ static void test_hints_for_json(void **state) {
     expect_refused("{\"hedron\": 1 // one\n}", NULL, "; JSON has no comments");
     expect_refused("# a scene\n{}", NULL, "; JSON has no comments");
     expect_refused("{'hedron': 1}", NULL, "; use double quotes");
+    const char *const numbers[] = {"NaN", "Infinity", "-Infinity", "+1", ".5", "1.", "0x10", "inf"};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "{\"hedron\": %s}", numbers[i]);
+        expect_refused(text, NULL,
+                       "; a number in JSON looks like 0.5, -2 or 1e3, and none is NaN or infinite");
+    }
+    expect_refused("{\"hedron\": True}", NULL, "; JSON says true, false or null");
+    assert_null(strchr(expect_refused("{\"hedron\": nana}", NULL, "near 'nana'"), ';'));
     assert_null(strchr(expect_refused("{\"hedron\": }", NULL, "a.json:1:12: "), ';'));
     char marked[sizeof least_text + 3];
     snprintf(marked, sizeof marked, "\xef\xbb\xbf%s", least_text);

@@ -206,9 +206,11 @@ static void files_that_cannot_be_read_are_told_apart(void **state) {
                             "cannot read the mesh /proc/self/mem: Input/output error");
     }
     expect_refused("",
-                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file");
+                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file "
+                   "(of other formats, such as STL, PLY and glTF, Blender or assimp can make one)");
     expect_refused("<!DOCTYPE html>\n<p>",
-                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file");
+                   "cannot read the mesh a.obj: it has no faces, so it is empty or no OBJ file "
+                   "(of other formats, such as STL, PLY and glTF, Blender or assimp can make one)");
     expect_refused(TRIANGLE, "cannot read the mesh a.obj: it has vertices, but no faces");
     expect_refused_bytes("v 0 0 0\n\0f", 10,
                          "a.obj: line 2: it has a byte 0, so this is no OBJ file");

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/load_scene.h"
+#include "input/scene_paths.h"
+
+/* A command line up to the word that is being typed. */
+typedef struct Line {
+    const HdCommandSpec *command;
+    const HdOptionSpec *option; /* whose value is being typed; NULL: none's */
+    const char *operand;        /* the first one before it; NULL: there is none */
+    const char *kept, *typed;   /* of the word: "--name=", or "", and the rest */
+    int kept_length;
+    bool is_first;      /* a command may stand there */
+    bool only_operands; /* after "--" */
+} Line;
+
+/* ---- what the words before say ---- */
+
+static bool is_name(const HdOptionSpec *spec, const char *word, size_t length) {
+    const bool is_long = strlen(spec->name) == length && strncmp(spec->name, word, length) == 0;
+    return is_long || (spec->short_name != NULL && strcmp(spec->short_name, word) == 0);
+}
+
+/* The option of the command that the first `length` characters of a word name, or NULL. */
+static const HdOptionSpec *find_option(const HdCommandSpec *command, const char *word,
+                                       size_t length) {
+    const HdOptionSpec *spec = NULL;
+    do
+        spec = hd_option_next(spec, command->command);
+    while (spec != NULL && !is_name(spec, word, length));
+    return spec;
+}
+
+static void read_word(Line *line, const char *word) {
+    const bool is_value = line->option != NULL;
+    line->option = NULL;
+    if (is_value)
+        return;
+    if (line->only_operands || word[0] != '-' || word[1] == '\0') {
+        line->operand = line->operand == NULL ? word : line->operand;
+        return;
+    }
+    line->only_operands = strcmp(word, "--") == 0;
+    const HdOptionSpec *spec = find_option(line->command, word, strlen(word));
+    if (spec != NULL && spec->value != NULL)
+        line->option = spec;
+}
+
+static void read_typed(Line *line, const char *word) {
+    const size_t length = strcspn(word, "=");
+    line->kept = word;
+    line->typed = word;
+    if (line->option != NULL || line->only_operands || word[0] != '-' || word[length] == '\0')
+        return;
+    line->option = find_option(line->command, word, length);
+    line->kept_length = (int)length + 1;
+    line->typed = word + length + 1;
+}
+
+static Line read_line(char *const *words, int count) {
+    const HdCommandSpec *command = count > 1 ? hd_command_named(words[0]) : NULL;
+    Line line = {.command = command != NULL ? command : hd_command_spec(HD_COMMAND_CLASSIC),
+                 .is_first = count <= 1};
+    for (int i = command != NULL; i < count - 1; i++)
+        read_word(&line, words[i]);
+    read_typed(&line, count > 0 ? words[count - 1] : "");
+    return line;
+}
+
+/* ---- what may follow ---- */
+
+/* Prints it if it begins with what is typed. */
+static void offer(const void *of_line, const char *word, const char *about) {
+    const Line *line = of_line;
+    if (strncmp(word, line->typed, strlen(line->typed)) != 0)
+        return;
+    printf("%.*s%s", line->kept_length, line->kept, word);
+    printf(about[0] != '\0' ? "\t%s\n" : "%s\n", about);
+}
+
+static void offer_options(const Line *line) {
+    const HdOptionSpec *spec = NULL;
+    while ((spec = hd_option_next(spec, line->command->command)) != NULL) {
+        if (spec->short_name != NULL)
+            offer(line, spec->short_name, spec->help);
+        offer(line, spec->name, spec->help);
+    }
+}
+
+static void offer_commands(const Line *line) {
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        if (hd_command_specs[i].name != NULL && hd_command_specs[i].command != HD_COMMAND_COMPLETE)
+            offer(line, hd_command_specs[i].name, hd_command_specs[i].summary);
+}
+
+static void offer_topics(const Line *line) {
+    offer_commands(line);
+    for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
+        offer(line, hd_help_forms[i].text, hd_help_forms[i].meaning);
+}
+
+static void offer_devices(const Line *line) {
+    static HdDevice devices[HD_MAX_DEVICES];
+    HdError error;
+    char name[64];
+    offer(line, "all", "all GPUs and the CPU share the frames");
+    for (int i = 0; i < HD_BACKEND_COUNT; i++) {
+        int count = 0;
+        if (hd_backend_enumerate(hd_backends[i], devices, HD_MAX_DEVICES, &count, &error) != HD_OK)
+            continue;
+        for (int d = 0; d < count; d++) {
+            snprintf(name, sizeof name, "%s:%d", hd_backends[i]->name, devices[d].index);
+            offer(line, name, devices[d].name);
+        }
+    }
+}
+
+static void offer_value(const Line *line) {
+    const HdOptionSpec *spec = line->option;
+    if (spec->type == HD_OPTION_CHANGES)
+        hd_offer_scene_paths(line->operand, line->typed, offer, line);
+    else if (spec->choices != NULL)
+        for (const char *const *choice = spec->choices; *choice != NULL; choice++)
+            offer(line, *choice, "");
+    else if (spec->takes_file)
+        puts(":");
+    else if (strcmp(spec->name, "--device") == 0)
+        offer_devices(line);
+}
+
+static void offer_operands(const Line *line) {
+    const HdCommandSpec *command = line->command;
+    if (command->name == NULL) {
+        if (line->is_first)
+            offer_commands(line);
+    } else if (command->command == HD_COMMAND_HELP)
+        offer_topics(line);
+    else if (command->most_operands != 0)
+        printf(":%s\n", command->ending != NULL ? command->ending : "");
+}
+
+void hd_command_complete(const HdOptions *options) {
+    const Line line = read_line(options->operands, options->operand_count);
+    if (line.option != NULL)
+        offer_value(&line);
+    else if (line.typed[0] == '-' && !line.only_operands)
+        offer_options(&line);
+    else
+        offer_operands(&line);
+}
