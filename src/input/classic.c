@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "base/tokens.h"
 #include "input/check.h"
-#include "input/tokens.h"
 
 /* What the input leaves open. Lengths are in circumradii of the solid. */
 static const double classic_diffuse = 0.5;
@@ -20,6 +20,8 @@ static const double classic_rim_specular = 0.2;
 static const double classic_disc_radius = 0.02;
 static const double classic_disc_radiance = 4.0;
 static const double classic_edge_power = 0.7; /* of all edge lights of one solid together */
+
+_Static_assert((int)HD_MAX_TOKEN == (int)HD_MAX_PATH, "a token has room for any path");
 
 typedef void ReadComponent(HdTokenReader *reader, const char *what, double *value);
 

@@ -2,13 +2,14 @@
 /* Reads a text of tokens separated by white space, with messages that name the line, the value and
    what was expected. After the first failure nothing is read any more, so a list of reads needs no
    checks in between. */
-#ifndef HD_INPUT_TOKENS_H
-#define HD_INPUT_TOKENS_H
+#ifndef HD_BASE_TOKENS_H
+#define HD_BASE_TOKENS_H
 
 #include <stddef.h>
 
 #include "base/error.h"
-#include "system/path.h"
+
+enum { HD_MAX_TOKEN = 4096 }; /* bytes of a token, with the zero byte */
 
 typedef struct HdTokenReader {
     const char *text; /* need not end in a zero byte */
@@ -31,8 +32,8 @@ void hd_read_share(HdTokenReader *reader, const char *what, double *value);
 /* A whole number from `low` to `high`. */
 void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int *value);
 
-/* Any token. */
-void hd_read_path(HdTokenReader *reader, const char *what, char path[HD_MAX_PATH]);
+/* Any token, which names a file. */
+void hd_read_path(HdTokenReader *reader, const char *what, char path[HD_MAX_TOKEN]);
 
 /* Fails where a token is left. */
 void hd_read_end(HdTokenReader *reader);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "input/tokens.h"
+#include "base/tokens.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -41,7 +41,7 @@ static void skip_space(HdTokenReader *reader) {
 
 /* False where there is none, which is an error, or where an error came before. */
 static bool read_token(HdTokenReader *reader, const char *what, const char *expected,
-                       char token[HD_MAX_PATH]) {
+                       char token[HD_MAX_TOKEN]) {
     if (reader->status != HD_OK)
         return false;
     skip_space(reader);
@@ -52,8 +52,8 @@ static bool read_token(HdTokenReader *reader, const char *what, const char *expe
     reader->position += length;
     if (length == 0)
         refuse(reader, what, "is missing, expected %s", expected);
-    else if (length >= HD_MAX_PATH)
-        refuse(reader, what, "has %zu characters, expected at most %d", length, HD_MAX_PATH - 1);
+    else if (length >= HD_MAX_TOKEN)
+        refuse(reader, what, "has %zu characters, expected at most %d", length, HD_MAX_TOKEN - 1);
     else if (memchr(start, '\0', length) != NULL)
         refuse(reader, what, "holds a zero byte, expected %s", expected);
     if (reader->status != HD_OK)
@@ -73,7 +73,7 @@ static bool is_decimal(const char *s, double *number) {
 /* False where there is none, which is an error. */
 static bool next_number(HdTokenReader *reader, const char *what, double *number) {
     static const char *const expected = "a number";
-    char token[HD_MAX_PATH];
+    char token[HD_MAX_TOKEN];
     if (!read_token(reader, what, expected, token))
         return false;
     if (!is_decimal(token, number))
@@ -101,7 +101,7 @@ void hd_read_share(HdTokenReader *reader, const char *what, double *value) {
 
 void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int *value) {
     char expected[64], *end;
-    char token[HD_MAX_PATH];
+    char token[HD_MAX_TOKEN];
     snprintf(expected, sizeof expected, "a whole number from %d to %d", low, high);
     if (!read_token(reader, what, expected, token))
         return;
@@ -112,13 +112,13 @@ void hd_read_int(HdTokenReader *reader, const char *what, int low, int high, int
         *value = (int)number;
 }
 
-void hd_read_path(HdTokenReader *reader, const char *what, char path[HD_MAX_PATH]) {
+void hd_read_path(HdTokenReader *reader, const char *what, char path[HD_MAX_TOKEN]) {
     read_token(reader, what, "a path", path);
 }
 
 void hd_read_end(HdTokenReader *reader) {
     static const char *const what = "what follows the last value";
-    char token[HD_MAX_PATH];
+    char token[HD_MAX_TOKEN];
     if (reader->status != HD_OK)
         return;
     skip_space(reader);
