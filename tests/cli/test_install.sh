@@ -47,6 +47,21 @@ expect_stdout_contains 'five.json: fine'
 expect_exit 0 "${installed%/*}/hedron_model" sphere 12 -o sphere.obj
 rm sphere.obj
 
+# ---- the Debian package has the same files, and names what it needs
+if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; then
+    expect_exit 0 cpack --config "$build/CPackConfig.cmake" -B "$work/package"
+    package=("$work"/package/hedron_*.deb)
+    dpkg-deb -x "${package[0]}" "$work/root"
+    expect_same <(cd "$work/root/usr" && find . -type f | sort) <(cd "$prefix" && find . -type f | sort)
+    expect_exit 0 env -i "$work/root/usr/bin/hedron" --version
+    dpkg-deb -f "${package[0]}" Depends Recommends >"$logs/fields"
+    for needed in libpng16-16 libjansson4 ocl-icd-libopencl1 ffmpeg pocl-opencl-icd; do
+        grep -q "$needed" "$logs/fields" || fail "the package does not name $needed: $(cat "$logs/fields")"
+    done
+else
+    echo "not tested: the package, for there is no cpack or no dpkg-shlibdeps"
+fi
+
 # A bare environment: nothing but PATH, a home folder that is empty or not there, and the root folder.
 small+=(--quiet)
 expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 3 -o expected.data
