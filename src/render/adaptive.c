@@ -13,9 +13,9 @@
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
    neighbours that have one sample; of the quarters of a pixel's samples; of neighbours that have
    more. Measured on the scenes that ship (docs/performance.md). */
-#define FIRST_CONTRAST     1.5
-#define QUARTER_CONTRAST   3.0
-#define NEIGHBOUR_CONTRAST 8.0
+#define FIRST_CONTRAST     1.0
+#define QUARTER_CONTRAST   1.0
+#define NEIGHBOUR_CONTRAST 5.0
 
 /* The error that is aimed at where nobody said another. */
 #define USUAL_ERROR 2.0
