@@ -34,7 +34,7 @@ typedef struct HdDevice {
     bool
         has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
     bool has_timeout;     /* its driver may end long kernels, as where it draws a display */
-    char unusable[512];   /* why nothing can run there, say no compiler for it; empty: it can */
+    char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
     char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
 } HdDevice;
 

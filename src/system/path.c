@@ -70,6 +70,18 @@ bool hd_path_has_ending(const char *path, const char *ending) {
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+bool hd_path_of_program(char out[HD_MAX_PATH]) {
+    ssize_t length = readlink("/proc/self/exe", out, HD_MAX_PATH - 1);
+    if (length <= 0)
+        return false;
+    out[length] = '\0';
+    char *slash = strrchr(out, '/');
+    if (slash == NULL)
+        return false;
+    *slash = '\0';
+    return true;
+}
+
 HdStatus hd_path_make_parents(const char *path, HdError *error) {
     char folder[HD_MAX_PATH] = "";
     HdStatus status = join("", path, folder, error);

@@ -21,6 +21,9 @@ bool hd_path_is_same(const char *first, const char *second);
 /* True where `path` ends in `ending`, such as ".png", in upper or lower case. */
 bool hd_path_has_ending(const char *path, const char *ending);
 
+/* The folder that the running program's file is in. False where the system does not tell. */
+bool hd_path_of_program(char out[HD_MAX_PATH]);
+
 /* Makes every missing folder above the file `path`. */
 HdStatus hd_path_make_parents(const char *path, HdError *error);
 

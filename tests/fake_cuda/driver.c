@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
-   device: it runs what the fake NVRTC builds (nvrtc.c) on one processor. Its device is of sm_61. */
+   device: it runs what the fake NVRTC builds (nvrtc.c) on one processor. FAKE_CUDA_DRIVER is the
+   version of CUDA that it tells, FAKE_CUDA_CAPABILITY its device's, 61 for sm_61. */
 #include <stdio.h>
 
 #include "fake.h"
@@ -12,7 +13,7 @@ HdCuResult cuInit(unsigned int flags) {
 
 HdCuResult cuDriverGetVersion(int *version) {
     FAKE_CALL_ANYWHERE(cuDriverGetVersion);
-    *version = 12080;
+    *version = (int)fake_number("FAKE_CUDA_DRIVER", 12080);
     return HD_CU_SUCCESS;
 }
 
@@ -23,6 +24,7 @@ static const struct {
     {HD_CU_SUCCESS, "CUDA_SUCCESS", "no error"},
     {FAKE_INVALID_VALUE, "CUDA_ERROR_INVALID_VALUE", "invalid argument"},
     {HD_CU_ERROR_OUT_OF_MEMORY, "CUDA_ERROR_OUT_OF_MEMORY", "out of memory"},
+    {HD_CU_ERROR_NO_DEVICE, "CUDA_ERROR_NO_DEVICE", "no CUDA-capable device is detected"},
     {FAKE_INVALID_IMAGE, "CUDA_ERROR_INVALID_IMAGE", "device kernel image is invalid"},
     {FAKE_INVALID_CONTEXT, "CUDA_ERROR_INVALID_CONTEXT", "invalid device context"},
     {FAKE_INVALID_HANDLE, "CUDA_ERROR_INVALID_HANDLE", "invalid resource handle"},
@@ -31,6 +33,7 @@ static const struct {
     {HD_CU_ERROR_ILLEGAL_ADDRESS, "CUDA_ERROR_ILLEGAL_ADDRESS",
      "an illegal memory access was encountered"},
     {HD_CU_ERROR_CONTEXT_IS_DESTROYED, "CUDA_ERROR_CONTEXT_IS_DESTROYED", "context is destroyed"},
+    {HD_CU_ERROR_UNKNOWN, "CUDA_ERROR_UNKNOWN", "unknown error"},
     {HD_CU_ERROR_LAUNCH_FAILED, "CUDA_ERROR_LAUNCH_FAILED", "unspecified launch failure"},
 };
 
@@ -72,6 +75,10 @@ HdCuResult cuDeviceGetName(char *name, int capacity, HdCuDevice device) {
     return HD_CU_SUCCESS;
 }
 
+static int capability(void) {
+    return (int)fake_number("FAKE_CUDA_CAPABILITY", 61.0);
+}
+
 HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice device) {
     (void)device;
     FAKE_CALL_ANYWHERE(cuDeviceGetAttribute);
@@ -86,10 +93,10 @@ HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice 
         *value = 1;
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_CAPABILITY_MAJOR:
-        *value = 6;
+        *value = capability() / 10;
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_CAPABILITY_MINOR:
-        *value = 1;
+        *value = capability() % 10;
         return HD_CU_SUCCESS;
     default:
         return fake_misuse(FAKE_INVALID_VALUE, "attribute %u of a device", attribute);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Stands in for NVRTC 12: has the system's compiler build the text, with device.h before it, as a
-   shared object that the fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. What was
-   built of the same is taken from the folder that FAKE_NVRTC_CACHE names, which must be there. */
+/* Stands in for NVRTC 12.8, or with FAKE_NVRTC_MAJOR=13 for 13.0, which knows nothing before sm_75:
+   has the system's compiler build the text, with device.h before it, as a shared object that the
+   fake driver runs. With FAKE_NVRTC_WRONG it computes wrongly. What was built of the same is taken
+   from the folder that FAKE_NVRTC_CACHE names, which must be there. */
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
 #include <fcntl.h>
 #include <inttypes.h>
@@ -30,7 +31,7 @@ enum {
 };
 
 static const int archs[] = {50, 52, 60, 61, 70, 75, 80, 90};
-enum { ARCH_COUNT = sizeof archs / sizeof *archs };
+enum { ARCH_COUNT = sizeof archs / sizeof *archs, OLD_ARCHS = 5 };
 
 typedef struct Text {
     char *data;
@@ -63,19 +64,27 @@ const char *nvrtcGetErrorString(HdNvrtcResult code) {
     return code < sizeof names / sizeof *names ? names[code] : "NVRTC_ERROR unknown";
 }
 
+static bool is_13(void) {
+    const char *major = getenv("FAKE_NVRTC_MAJOR");
+    return major != NULL && strcmp(major, "13") == 0;
+}
+
 HdNvrtcResult nvrtcVersion(int *major, int *minor) {
-    *major = 12;
-    *minor = 8;
+    *major = is_13() ? 13 : 12;
+    *minor = is_13() ? 0 : 8;
     return 0;
 }
 
 HdNvrtcResult nvrtcGetNumSupportedArchs(int *count) {
-    *count = ARCH_COUNT;
+    *count = is_13() ? ARCH_COUNT - OLD_ARCHS : ARCH_COUNT;
     return 0;
 }
 
 HdNvrtcResult nvrtcGetSupportedArchs(int *list) {
-    memcpy(list, archs, sizeof archs);
+    if (is_13())
+        memcpy(list, archs + OLD_ARCHS, sizeof archs - OLD_ARCHS * sizeof *archs);
+    else
+        memcpy(list, archs, sizeof archs);
     return 0;
 }
 

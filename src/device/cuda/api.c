@@ -24,6 +24,30 @@ static HdStatus load_functions(HdCudaDriver *driver, void *library, HdError *err
     return HD_OK;
 }
 
+static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
+    enum { BRANCH_590 = 13010 }; /* what the first driver without cards before sm_75 tells */
+    int version = 0;
+    switch (code) {
+    case HD_CU_ERROR_NO_DEVICE:
+        return driver->cuDriverGetVersion(&version) == HD_CU_SUCCESS && version >= BRANCH_590
+                   ? "; it is of branch 590 or newer, which drives no card before sm_75: the "
+                     "branch "
+                     "580 is the last for older ones, such as a GTX 1050"
+                   : "; no card is there that it drives, or CUDA_VISIBLE_DEVICES hides it";
+    case HD_CU_ERROR_UNKNOWN:
+        return "; after the machine slept, this helps: sudo rmmod nvidia_uvm && sudo modprobe "
+               "nvidia_uvm, or a restart";
+    default:
+        return "";
+    }
+}
+
+static HdStatus fail_to_start(const HdCudaDriver *driver, HdCuResult code, HdError *error) {
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "the NVIDIA driver does not start: cuInit failed with %s (%u)%s",
+                   hd_cuda_error_name(driver, code), code, advise_start(driver, code));
+}
+
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     memset(driver, 0, sizeof *driver);
     void *library = hd_library_open("libcuda.so.1");
@@ -34,11 +58,7 @@ HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error) {
     if (status != HD_OK)
         return status;
     HdCuResult code = driver->cuInit(0);
-    if (code != HD_CU_SUCCESS)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "the NVIDIA driver does not start: cuInit failed with %s",
-                       hd_cuda_error_name(driver, code));
-    return HD_OK;
+    return code == HD_CU_SUCCESS ? HD_OK : fail_to_start(driver, code, error);
 }
 
 const char *hd_cuda_error_name(const HdCudaDriver *driver, HdCuResult code) {

@@ -43,6 +43,8 @@ enum {
     HD_CU_SUCCESS = 0,
     HD_CU_ERROR_OUT_OF_MEMORY = 2,
     HD_CU_ERROR_DEVICE_UNAVAILABLE = 46,
+    HD_CU_ERROR_NO_DEVICE = 100,
+    HD_CU_ERROR_UNKNOWN = 999,
     HD_CU_DEVICE_CLOCK_KHZ = 13,
     HD_CU_DEVICE_MULTIPROCESSOR_COUNT = 16,
     HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT = 17,
@@ -102,8 +104,8 @@ typedef struct HdCudaDriver {
 } HdCudaDriver;
 #undef HD_CUDA_MEMBER
 
-/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it does not start. The
-   library stays loaded. */
+/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it does not start, with
+   what may help. The library stays loaded. */
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
 
 /* Fails with the names of the function and of the error, and says so where it means that the device

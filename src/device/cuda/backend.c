@@ -293,12 +293,13 @@ static HdStatus load_module(Device *device, const HdKernelShape *shape, const vo
                             const char *maker, HdError *error) {
     HdCuModule module = NULL;
     HdCuResult result = device->driver.cuModuleLoadData(&module, cubin);
+    int arch = device->is.nvidia_arch, major = query_driver_version(&device->driver) / 1000;
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
-                       "(cuModuleLoadData: %s)",
-                       query_driver_version(&device->driver) / 1000, maker, device->is.nvidia_arch,
-                       hd_cuda_error_name(&device->driver, result));
+                       "(cuModuleLoadData: %s); what suits both is in Python's package %s",
+                       major, maker, arch, hd_cuda_error_name(&device->driver, result),
+                       hd_nvrtc_package(arch, major));
     device->module = module;
     return get_kernels(device, shape, error);
 }

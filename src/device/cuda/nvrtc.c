@@ -11,8 +11,13 @@
 
 #include "system/cache_folder.h"
 #include "system/dynamic_library.h"
+#include "system/path.h"
 
 enum { MAX_ARCHS = 256 };
+
+/* The virtual environment, below the home folder, that messages advise to make: the system's own
+   Python often lets nobody install into it. */
+#define HD_NVRTC_VENV ".local/share/hedron"
 
 typedef struct Search {
     int arch, driver_major;
@@ -111,8 +116,7 @@ static void consider_pattern(Search *search, const char *pattern) {
     globfree(&paths);
 }
 
-static void consider_below(Search *search, const char *variable, const char *pattern) {
-    const char *folder = getenv(variable);
+static void consider_below(Search *search, const char *folder, const char *pattern) {
     char path[HD_MAX_PATH];
     if (!folder || !folder[0])
         return;
@@ -121,35 +125,67 @@ static void consider_below(Search *search, const char *variable, const char *pat
         consider_pattern(search, path);
 }
 
-static void search_everywhere(Search *search) {
+#define PYTHON_PACKAGES "lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*"
+
+static void search_system(Search *search) {
     static const char *const names[] = {"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so.11.2",
                                         "libnvrtc.so"};
     static const char *const patterns[] = {
         "/usr/local/cuda*/lib64/libnvrtc.so*",
-        "/usr/local/lib/python3*/dist-packages/nvidia/*/lib/libnvrtc.so*",
-        "/usr/local/lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*",
-        "/usr/lib/python3*/*-packages/nvidia/*/lib/libnvrtc.so*",
-    };
-    static const char *const below[][2] = {
-        {"CUDA_HOME", "lib64/libnvrtc.so*"},
-        {"CUDA_PATH", "lib64/libnvrtc.so*"},
-        {"HOME", ".local/lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*"},
-        {"VIRTUAL_ENV", "lib/python3*/site-packages/nvidia/*/lib/libnvrtc.so*"},
+        "/usr/local/" PYTHON_PACKAGES,
+        "/usr/" PYTHON_PACKAGES,
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         consider(search, names[i]);
     for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
         consider_pattern(search, patterns[i]);
-    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
-        consider_below(search, below[i][0], below[i][1]);
 }
 
-static const char *package_for(int arch) {
+static void search_user(Search *search) {
+    static const char *const below[][2] = {
+        {"CUDA_HOME", "lib64/libnvrtc.so*"},
+        {"CUDA_PATH", "lib64/libnvrtc.so*"},
+        {"HOME", HD_NVRTC_VENV "/" PYTHON_PACKAGES},
+        {"HOME", ".local/" PYTHON_PACKAGES},
+        {"VIRTUAL_ENV", PYTHON_PACKAGES},
+        {"CONDA_PREFIX", "lib/libnvrtc.so*"},
+        {"CONDA_PREFIX", PYTHON_PACKAGES},
+    };
+    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
+        consider_below(search, getenv(below[i][0]), below[i][1]);
+}
+
+/* Where ./dev puts one, seen from a program in the build's folder or in one below it. */
+static void search_build(Search *search) {
+    static const char *const patterns[] = {"../nvrtc12/nvidia/*/lib/libnvrtc.so*",
+                                           "../../nvrtc12/nvidia/*/lib/libnvrtc.so*"};
+    char folder[HD_MAX_PATH];
+    if (!hd_path_of_program(folder))
+        return;
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        consider_below(search, folder, patterns[i]);
+}
+
+static void search_everywhere(Search *search) {
+    search_system(search);
+    search_user(search);
+    search_build(search);
+}
+
+/* NVRTC 11 is the last for cards before sm_50, NVRTC 12 for those before sm_75. */
+const char *hd_nvrtc_package(int arch, int driver_major) {
+    if (arch < 50 || driver_major == 11)
+        return "nvidia-cuda-nvrtc-cu11";
+    if (arch < 75 || driver_major == 12)
+        return "nvidia-cuda-nvrtc-cu12";
+    return "nvidia-cuda-nvrtc";
+}
+
+/* Which branch of the driver not to go beyond. */
+static const char *advise_driver(int arch) {
     if (arch < 50)
-        return "NVRTC 11 (of the CUDA toolkit 11)";
-    if (arch < 75)
-        return "NVRTC 12 (pip install nvidia-cuda-nvrtc-cu12)";
-    return "a current NVRTC (pip install nvidia-cuda-nvrtc)";
+        return "; the driver's branch 470 is the last for this card";
+    return arch < 75 ? "; the driver's branch 580 is the last for this card" : "";
 }
 
 static HdStatus fail(const Search *search, const char *device, const char *path, HdError *error) {
@@ -157,10 +193,11 @@ static HdStatus fail(const Search *search, const char *device, const char *path,
         return hd_fail(error, HD_UNAVAILABLE,
                        "%s cannot be loaded as an NVRTC library, version 11.2 or newer", path);
     return hd_fail(error, HD_UNAVAILABLE,
-                   "no NVRTC library here compiles for %s (sm_%d); found: %s; install %s or "
-                   "name its libnvrtc.so in HEDRON_NVRTC",
-                   device, search->arch, search->found[0] ? search->found : "none",
-                   package_for(search->arch));
+                   "no NVRTC library here compiles for %s (sm_%d); to install one that does: "
+                   "python3 -m venv ~/" HD_NVRTC_VENV " && ~/" HD_NVRTC_VENV
+                   "/bin/pip install %s, or name a libnvrtc.so in HEDRON_NVRTC%s; found: %s",
+                   device, search->arch, hd_nvrtc_package(search->arch, search->driver_major),
+                   advise_driver(search->arch), search->found[0] ? search->found : "none");
 }
 
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,

@@ -13,12 +13,15 @@ typedef struct HdNvrtc {
 
 /* Takes the newest library that compiles for sm_`arch`, one that is not newer than the driver
    (`driver_major`, 0: unknown) before one that is. Looked at: the file `path`; if that is NULL, the
-   file that HEDRON_NVRTC names; if there is none, the loader's folders, $CUDA_HOME, $CUDA_PATH,
-   /usr/local/cuda* and Python's packages. Where there is none, the message says what was found and
-   what to install. `device` is its name. */
+   file that HEDRON_NVRTC names; if there is none, the folders that docs/backends.md lists. Where
+   there is none, the message says what was found and what to install for that device and driver.
+   `device` is its name. */
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error);
 void hd_nvrtc_close(HdNvrtc *nvrtc);
+
+/* The package for Python whose NVRTC compiles for sm_`arch` what a driver for that CUDA takes. */
+const char *hd_nvrtc_package(int arch, int driver_major);
 
 /* Fails as hd_nvrtc_open does where nothing compiles for sm_`arch`. A library that did once is
    remembered in the cache folder (cache_folder.h); as long as the same file lies there and
