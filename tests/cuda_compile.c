@@ -137,7 +137,7 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
 
 static bool write_cubin(const char *path, const HdCudaCode *code) {
     FILE *file = fopen(path, "wb");
-    bool ok = file && fwrite(code->cubin, 1, code->size, file) == code->size;
+    bool ok = file && fwrite(code->image, 1, code->size, file) == code->size;
     if (file && fclose(file) != 0)
         ok = false;
     if (!ok)
@@ -161,11 +161,12 @@ int main(int argc, char **argv) {
         return SKIPPED;
     }
     HdCudaCode code;
+    const HdCudaTarget target = {.arch = options.arch};
     char flags[1024];
-    hd_cuda_options(flags, sizeof flags, options.arch, &options.shape);
+    hd_cuda_options(flags, sizeof flags, target, &options.shape);
     size_t length = strlen(flags); /* the log is to tell each kernel's registers and spills */
     snprintf(flags + length, sizeof flags - length, " --ptxas-options=-v");
-    bool ok = hd_cuda_compile(&code, &nvrtc, options.arch, flags, &error) == HD_OK;
+    bool ok = hd_cuda_compile(&code, &nvrtc, target, flags, &error) == HD_OK;
     if (!ok) {
         fprintf(stderr, "%s\n", error.message);
     } else {

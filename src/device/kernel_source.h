@@ -33,6 +33,8 @@ typedef struct HdKernelShape {
     HdPrecision precision;
     HdMath math;
     int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
+    int ptx_arch;       /* CUDA: compiled to PTX for compute_ of that number, and by the driver from
+                           there on; 0: to the device's machine code */
     bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 

@@ -52,7 +52,8 @@ typedef struct HdRenderOptions {
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
                                device */
         int launch_work;    /* of each launch on a GPU, in samples or rays; 0: by measurement */
-    } test;                 /* no option of the command line sets these */
+        int ptx_arch; /* as in HdKernelShape: 61 compiles for a Pascal card on any newer one */
+    } test;           /* no option of the command line sets these */
 } HdRenderOptions;
 
 /* True for both kinds of wavefront. */

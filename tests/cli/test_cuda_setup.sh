@@ -43,7 +43,7 @@ expect_package 120 12080 nvidia-cuda-nvrtc-cu12
 
 # ---- what the driver does not load: which package suits it
 expect_refusal 1 env HEDRON_NVRTC="$nvrtc" FAKE_CUDA_DRIVER=11040 FAKE_CUDA_REFUSES=1 "${render[@]}"
-expect_stderr_contains "the driver, of CUDA 11, does not load what NVRTC 12.8 compiled for sm_61 (cuModuleLoadData: CUDA_ERROR_OUT_OF_MEMORY); what suits both is in Python's package nvidia-cuda-nvrtc-cu11"
+expect_stderr_contains "the driver, of CUDA 11, does not load what NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); what suits both is in Python's package nvidia-cuda-nvrtc-cu11"
 
 # ---- where it is looked for: in what pip and conda make, and where ./dev fetches one to
 # expect_found_in FOLDER [ASSIGNMENT...]: the library there is loaded, with these variables.

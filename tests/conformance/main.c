@@ -7,7 +7,9 @@
    --few each renders only what the least of the variants do, and no truths are checked. With
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
-   cut, which are left out in double.
+   cut, which are left out in double. With --ptx 61 CUDA compiles to PTX for compute_61, of which
+   the driver makes machine code for the device: so the text for a Pascal card runs on any newer
+   one.
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -34,7 +36,8 @@ static const char usage[] =
     "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
     "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
-    "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n";
+    "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
+    "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
 static const char *const precision_names[2] = {"float", "double"};
 static const char *const math_names[2] = {"strict", "fast"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
@@ -54,6 +57,7 @@ typedef struct Options {
     int threads;              /* an index into thread_names; or ALL */
     bool one_build, few, brief, write_golden;
     int math;
+    int ptx_arch; /* 0: machine code */
 } Options;
 
 typedef struct Tally {
@@ -186,12 +190,16 @@ static bool is_left_out(const Options *options, const HdRenderOptions *wanted) {
 static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, bool only_few,
                            bool one_build, const Options *options, Golden *golden, Tally *tally) {
     HdError error;
+    HdRenderOptions chosen = *wanted;
     Target target = {.precision = wanted->precision, .one_build = one_build};
-    char text[256];
+    char text[256], ptx[32] = "";
     const char *precision = precision_names[wanted->precision];
     if (is_left_out(options, wanted))
         return;
-    HdStatus status = hd_renderer_open(&target.renderer, device, wanted, &error);
+    chosen.test.ptx_arch = options->ptx_arch;
+    if (options->ptx_arch > 0)
+        snprintf(ptx, sizeof ptx, ", PTX for compute_%d", options->ptx_arch);
+    HdStatus status = hd_renderer_open(&target.renderer, device, &chosen, &error);
     if (status == HD_UNAVAILABLE) {
         printf("skip            %s %s, %d lanes, %s: %s\n", device->backend->name, device->name,
                wanted->lanes, precision, error.message);
@@ -200,8 +208,8 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     if (status != HD_OK)
         fail(device->name, &error);
     hd_renderer_describe(target.renderer, text, (int)sizeof text);
-    snprintf(target.label, sizeof target.label, "%-6s %-6s %s (%s)%s", device->backend->name,
-             precision, device->name, text, one_build ? ", one build" : "");
+    snprintf(target.label, sizeof target.label, "%-6s %-6s %s (%s)%s%s", device->backend->name,
+             precision, device->name, text, ptx, one_build ? ", one build" : "");
     compare_frames(&target, only_few, options, golden, tally);
     if (!only_few)
         check_truths(&target, &tally->truths, &tally->untrue);
@@ -297,6 +305,10 @@ static bool parse_option(Options *options, const char *name, const char *value) 
         return (options->precision = choose(value, precision_names, 2)) >= 0;
     if (strcmp(name, "--threads") == 0)
         return (options->threads = choose(value, thread_names, 2)) >= 0;
+    if (strcmp(name, "--ptx") == 0) {
+        options->backend = &hd_backend_cuda;
+        return (options->ptx_arch = atoi(value)) > 0;
+    }
     return false;
 }
 

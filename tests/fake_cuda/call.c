@@ -26,6 +26,10 @@ double fake_number(const char *variable, double otherwise) {
     return value != NULL ? atof(value) : otherwise;
 }
 
+int fake_capability(void) {
+    return (int)fake_number("FAKE_CUDA_CAPABILITY", 61.0);
+}
+
 /* Makes the file, so that a test knows of it. */
 static void hang(const char *mark) {
     FILE *file = fopen(mark, "w");

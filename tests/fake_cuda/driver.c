@@ -27,6 +27,8 @@ static const struct {
     {HD_CU_ERROR_NO_DEVICE, "CUDA_ERROR_NO_DEVICE", "no CUDA-capable device is detected"},
     {FAKE_INVALID_IMAGE, "CUDA_ERROR_INVALID_IMAGE", "device kernel image is invalid"},
     {FAKE_INVALID_CONTEXT, "CUDA_ERROR_INVALID_CONTEXT", "invalid device context"},
+    {FAKE_NO_BINARY_FOR_GPU, "CUDA_ERROR_NO_BINARY_FOR_GPU",
+     "no kernel image is available for execution on the device"},
     {FAKE_INVALID_HANDLE, "CUDA_ERROR_INVALID_HANDLE", "invalid resource handle"},
     {FAKE_NOT_FOUND, "CUDA_ERROR_NOT_FOUND", "named symbol not found"},
     {FAKE_NOT_READY, "CUDA_ERROR_NOT_READY", "device not ready"},
@@ -75,10 +77,6 @@ HdCuResult cuDeviceGetName(char *name, int capacity, HdCuDevice device) {
     return HD_CU_SUCCESS;
 }
 
-static int capability(void) {
-    return (int)fake_number("FAKE_CUDA_CAPABILITY", 61.0);
-}
-
 HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice device) {
     (void)device;
     FAKE_CALL_ANYWHERE(cuDeviceGetAttribute);
@@ -93,10 +91,10 @@ HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice 
         *value = 1;
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_CAPABILITY_MAJOR:
-        *value = capability() / 10;
+        *value = fake_capability() / 10;
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_CAPABILITY_MINOR:
-        *value = capability() % 10;
+        *value = fake_capability() % 10;
         return HD_CU_SUCCESS;
     default:
         return fake_misuse(FAKE_INVALID_VALUE, "attribute %u of a device", attribute);

@@ -16,6 +16,7 @@ enum {
     FAKE_INVALID_VALUE = 1,
     FAKE_INVALID_IMAGE = 200,
     FAKE_INVALID_CONTEXT = 201,
+    FAKE_NO_BINARY_FOR_GPU = 209,
     FAKE_INVALID_HANDLE = 400,
     FAKE_NOT_FOUND = 500,
     FAKE_NOT_READY = 600
@@ -46,6 +47,9 @@ HdCuResult fake_lost(void);
 
 /* The value of an environment variable. */
 double fake_number(const char *variable, double otherwise);
+
+/* Of the device: 61 stands for sm_61. */
+int fake_capability(void);
 
 /* ---- what lives, by its address (living.c): a use of anything else is an error ---- */
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Modules, which are shared objects, their functions and their launches. FAKE_CUDA_REFUSES is the
-   number of modules that are not loaded at first. */
+   number of modules that are not loaded at first. As on a device, machine code is loaded if it is
+   of the device's architecture, and PTX if it is of no newer one. */
 #define _GNU_SOURCE /* pipe2 */
 #include <dlfcn.h>
 #include <elf.h>
@@ -19,6 +20,7 @@ struct CUmod_st {
     void *library;
     FakeThread *thread;
     const FakeShared *shared;
+    int registers; /* of a thread */
 };
 
 struct CUfunc_st {
@@ -68,13 +70,49 @@ static bool is_refused(void) {
     return count++ < (int)fake_number("FAKE_CUDA_REFUSES", 0.0);
 }
 
-HdCuResult cuModuleLoadData(HdCuModule *module, const void *image) {
-    FAKE_CALL(cuModuleLoadData);
+/* What kernels are built with, unless PTX is loaded with another limit. */
+enum { REGISTERS = 64 };
+
+/* Before PTX there is its head and a NUL, behind machine code its architecture. */
+static const void *find_object(const void *image, bool *suits) {
+    const char *head = image;
+    int arch = 0;
+    bool is_ptx = sscanf(head, ".version %*d.%*d\n.target sm_%d", &arch) == 1;
+    const char *object = is_ptx ? head + strlen(head) + 1 : head;
+    if (memcmp(object, ELFMAG, SELFMAG) != 0)
+        return NULL;
+    if (is_ptx)
+        *suits = arch <= fake_capability();
+    else
+        *suits = sscanf(head + image_size(image), "sm_%d", &arch) == 1 && arch == fake_capability();
+    return object;
+}
+
+static bool read_options(int *registers, bool is_ptx, unsigned int count,
+                         const HdCuJitOption *options, void **values) {
+    for (unsigned int i = 0; i < count; i++)
+        if (options[i] == HD_CU_JIT_MAX_REGISTERS)
+            *registers = (int)(uintptr_t)values[i];
+        else if (options[i] != HD_CU_JIT_OPTIMIZATION_LEVEL)
+            return false;
+    return is_ptx || count == 0;
+}
+
+HdCuResult cuModuleLoadDataEx(HdCuModule *module, const void *image, unsigned int count,
+                              HdCuJitOption *options, void **values) {
+    FAKE_CALL(cuModuleLoadDataEx);
+    bool suits = false;
+    int registers = REGISTERS;
     if (is_refused())
         return HD_CU_ERROR_OUT_OF_MEMORY;
-    if (memcmp(image, ELFMAG, SELFMAG) != 0)
+    const void *object = find_object(image, &suits);
+    if (object == NULL)
         return FAKE_INVALID_IMAGE;
-    struct CUmod_st loaded = {.library = load_image(image)};
+    if (!read_options(&registers, object != image, count, options, values))
+        return fake_misuse(FAKE_INVALID_VALUE, "options of a module");
+    if (!suits)
+        return FAKE_NO_BINARY_FOR_GPU;
+    struct CUmod_st loaded = {.library = load_image(object), .registers = registers};
     if (loaded.library == NULL)
         return FAKE_INVALID_IMAGE;
     loaded.thread = dlsym(loaded.library, "fake_thread");
@@ -127,8 +165,11 @@ static HdCuResult check_function(HdCuFunction function) {
 
 HdCuResult cuFuncGetAttribute(int *value, HdCuAttribute attribute, HdCuFunction function) {
     FAKE_CALL(cuFuncGetAttribute);
-    *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? MAX_BLOCK_THREADS : 64;
-    return check_function(function);
+    HdCuResult code = check_function(function);
+    if (code == HD_CU_SUCCESS)
+        *value = attribute == HD_CU_FUNCTION_MAX_THREADS ? MAX_BLOCK_THREADS
+                                                         : function->module->registers;
+    return code;
 }
 
 /* ---- launches ---- */

@@ -40,6 +40,7 @@ typedef struct Text {
 
 struct _nvrtcProgram {
     char *source;
+    int arch;
     Text log, image;
 };
 
@@ -131,7 +132,7 @@ static const struct {
     {"-D", ""},
     {"--fmad=false", "-ffp-contract=off"},
     {"--use_fast_math", "-ffp-contract=fast"},
-    {"--gpu-architecture=sm_61", NULL},
+    {"--gpu-architecture=", NULL},
     {"--maxrregcount=", NULL},
     {"--prec-div=true", NULL},
     {"--prec-sqrt=true", NULL},
@@ -148,6 +149,21 @@ static bool add_option(Words *words, const char *option) {
             add(words, meaning[0] != '\0' ? meaning : option);
         return true;
     }
+    return false;
+}
+
+/* 61 of sm_61 and of compute_61; 0: of neither. */
+static int find_arch(const char *option) {
+    int arch = 0;
+    if (sscanf(option, "--gpu-architecture=sm_%d", &arch) != 1)
+        (void)sscanf(option, "--gpu-architecture=compute_%d", &arch);
+    return arch;
+}
+
+static bool is_known(int arch) {
+    for (int i = is_13() ? OLD_ARCHS : 0; i < ARCH_COUNT; i++)
+        if (archs[i] == arch)
+            return true;
     return false;
 }
 
@@ -323,9 +339,14 @@ HdNvrtcResult nvrtcCompileProgram(HdNvrtcProgram program, int option_count,
     const char *where = getenv("TMPDIR");
     char folder[MAX_FOLDER];
     Words words = {.word = {FAKE_NVRTC_COMPILER, "-x", "c++"}, .count = 3};
-    for (int i = 0; i < option_count; i++)
+    for (int i = 0; i < option_count; i++) {
         if (!add_option(&words, options[i]))
             return INVALID_OPTION;
+        int arch = find_arch(options[i]);
+        program->arch = arch > 0 ? arch : program->arch;
+    }
+    if (!is_known(program->arch))
+        return INVALID_OPTION;
     snprintf(folder, sizeof folder, "%s/fake_nvrtc_XXXXXX", where != NULL ? where : "/tmp");
     if (mkdtemp(folder) == NULL)
         return OUT_OF_MEMORY;
@@ -348,12 +369,45 @@ HdNvrtcResult nvrtcGetProgramLog(HdNvrtcProgram program, char *log) {
     return 0;
 }
 
-HdNvrtcResult nvrtcGetCUBINSize(HdNvrtcProgram program, size_t *size) {
-    *size = program->image.size;
+enum { HEAD_SIZE = 64 };
+
+/* Of PTX, with its NUL. */
+static size_t write_head(HdNvrtcProgram program, char head[HEAD_SIZE]) {
+    return (size_t)snprintf(head, HEAD_SIZE, ".version 8.7\n.target sm_%d\n", program->arch) + 1;
+}
+
+/* Of machine code. */
+static size_t write_tail(HdNvrtcProgram program, char tail[HEAD_SIZE]) {
+    return (size_t)snprintf(tail, HEAD_SIZE, "sm_%d", program->arch) + 1;
+}
+
+static HdNvrtcResult tell_size(HdNvrtcProgram program, size_t more, size_t *size) {
+    *size = program->image.size + more;
     return program->image.size > 0 ? 0 : INVALID_PROGRAM;
 }
 
+HdNvrtcResult nvrtcGetCUBINSize(HdNvrtcProgram program, size_t *size) {
+    char tail[HEAD_SIZE];
+    return tell_size(program, write_tail(program, tail), size);
+}
+
 HdNvrtcResult nvrtcGetCUBIN(HdNvrtcProgram program, char *cubin) {
+    char tail[HEAD_SIZE];
+    size_t length = write_tail(program, tail);
     memcpy(cubin, program->image.data, program->image.size);
+    memcpy(cubin + program->image.size, tail, length);
+    return 0;
+}
+
+HdNvrtcResult nvrtcGetPTXSize(HdNvrtcProgram program, size_t *size) {
+    char head[HEAD_SIZE];
+    return tell_size(program, write_head(program, head), size);
+}
+
+HdNvrtcResult nvrtcGetPTX(HdNvrtcProgram program, char *ptx) {
+    char head[HEAD_SIZE];
+    size_t length = write_head(program, head);
+    memcpy(ptx, head, length);
+    memcpy(ptx + length, program->image.data, program->image.size);
     return 0;
 }

@@ -13,6 +13,7 @@
 
 typedef unsigned int HdCuResult; /* enumerations are as wide and as signed as this */
 typedef unsigned int HdCuAttribute;
+typedef unsigned int HdCuJitOption;
 typedef int HdCuDevice;
 typedef unsigned long long HdCuPointer; /* to memory of the device */
 typedef struct CUctx_st *HdCuContext;
@@ -55,7 +56,9 @@ enum {
     HD_CU_FUNCTION_REGISTERS = 4,
     HD_CU_EVENT_BLOCKING_SYNC = 1,
     HD_CU_EVENT_DISABLE_TIMING = 2,
-    HD_CU_STREAM_NON_BLOCKING = 1
+    HD_CU_STREAM_NON_BLOCKING = 1,
+    HD_CU_JIT_MAX_REGISTERS = 0,
+    HD_CU_JIT_OPTIMIZATION_LEVEL = 7
 };
 
 /* X(function, version, parameters); all return HdCuResult. The version belongs to the symbol: the
@@ -72,7 +75,9 @@ enum {
     X(cuDevicePrimaryCtxRetain, , (HdCuContext * context, HdCuDevice device))                      \
     X(cuDevicePrimaryCtxRelease, _v2, (HdCuDevice device))                                         \
     X(cuCtxSetCurrent, , (HdCuContext context))                                                    \
-    X(cuModuleLoadData, , (HdCuModule * module, const void *image))                                \
+    X(cuModuleLoadDataEx, ,                                                                        \
+      (HdCuModule * module, const void *image, unsigned int count, HdCuJitOption *options,         \
+       void **values))                                                                             \
     X(cuModuleUnload, , (HdCuModule module))                                                       \
     X(cuModuleGetFunction, , (HdCuFunction * function, HdCuModule module, const char *name))       \
     X(cuFuncGetAttribute, , (int *value, HdCuAttribute attribute, HdCuFunction function))          \
@@ -135,6 +140,8 @@ typedef struct _nvrtcProgram *HdNvrtcProgram;
       (HdNvrtcProgram program, int option_count, const char *const *options))                      \
     X(HdNvrtcResult, log_size, nvrtcGetProgramLogSize, (HdNvrtcProgram program, size_t * size))    \
     X(HdNvrtcResult, log, nvrtcGetProgramLog, (HdNvrtcProgram program, char *log))                 \
+    X(HdNvrtcResult, ptx_size, nvrtcGetPTXSize, (HdNvrtcProgram program, size_t * size))           \
+    X(HdNvrtcResult, ptx, nvrtcGetPTX, (HdNvrtcProgram program, char *ptx))                        \
     X(HdNvrtcResult, cubin_size, nvrtcGetCUBINSize, (HdNvrtcProgram program, size_t * size))       \
     X(HdNvrtcResult, cubin, nvrtcGetCUBIN, (HdNvrtcProgram program, char *cubin))
 

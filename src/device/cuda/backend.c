@@ -249,7 +249,7 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
     const Device *device = state;
-    hd_cuda_options(text, capacity, device->is.nvidia_arch, shape);
+    hd_cuda_options(text, capacity, hd_cuda_target(shape, device->is.nvidia_arch), shape);
 }
 
 /* The machine code depends on NVRTC's version as well. To ask for it would need NVRTC; an entry
@@ -289,15 +289,27 @@ static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError 
     return status;
 }
 
-static HdStatus load_module(Device *device, const HdKernelShape *shape, const void *cubin,
+/* Of PTX the driver makes machine code, as NVRTC would be asked to. */
+static HdCuResult load_image(const Device *device, const HdKernelShape *shape, const char *image,
+                             HdCuModule *module) {
+    enum { MOST_OPTIONS = 2 };
+    HdCuJitOption options[MOST_OPTIONS] = {HD_CU_JIT_MAX_REGISTERS, HD_CU_JIT_OPTIMIZATION_LEVEL};
+    uintptr_t limit = (uintptr_t)shape->register_limit;
+    void *values[MOST_OPTIONS] = {(void *)limit, NULL}; /* NOLINT(performance-no-int-to-ptr) */
+    bool is_ptx = memcmp(image, "\177ELF", 4) != 0;
+    unsigned int count = shape->is_cautious ? MOST_OPTIONS : 1;
+    return device->driver.cuModuleLoadDataEx(module, image, is_ptx ? count : 0, options, values);
+}
+
+static HdStatus load_module(Device *device, const HdKernelShape *shape, const char *image,
                             const char *maker, HdError *error) {
     HdCuModule module = NULL;
-    HdCuResult result = device->driver.cuModuleLoadData(&module, cubin);
+    HdCuResult result = load_image(device, shape, image, &module);
     int arch = device->is.nvidia_arch, major = query_driver_version(&device->driver) / 1000;
     if (result != HD_CU_SUCCESS)
         return hd_fail(error, HD_FAILED,
                        "the driver, of CUDA %d, does not load what %s compiled for sm_%d "
-                       "(cuModuleLoadData: %s); what suits both is in Python's package %s",
+                       "(cuModuleLoadDataEx: %s); what suits both is in Python's package %s",
                        major, maker, arch, hd_cuda_error_name(&device->driver, result),
                        hd_nvrtc_package(arch, major));
     device->module = module;
@@ -307,28 +319,29 @@ static HdStatus load_module(Device *device, const HdKernelShape *shape, const vo
 static HdStatus load(void *state, const HdKernelShape *shape, const char *options,
                      const unsigned char *binary, size_t size, const char *maker, HdError *error) {
     (void)options, (void)size;
-    return load_module(state, shape, binary, maker, error);
+    return load_module(state, shape, (const char *)binary, maker, error);
 }
 
-static HdStatus find_compiler(Device *device, HdError *error) {
+static HdStatus find_compiler(Device *device, HdCudaTarget target, HdError *error) {
     if (device->nvrtc.library)
         return HD_OK;
     int driver_major = query_driver_version(&device->driver) / 1000;
-    return hd_nvrtc_open(&device->nvrtc, device->is.name, device->is.nvidia_arch, driver_major,
-                         NULL, error);
+    return hd_nvrtc_open(&device->nvrtc, device->is.name, target.arch, driver_major, NULL, error);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
                         size_t capacity, HdError *error) {
     Device *device = state;
-    HdStatus status = find_compiler(device, error);
+    HdCudaTarget target = hd_cuda_target(shape, device->is.nvidia_arch);
+    HdStatus status = find_compiler(device, target, error);
     if (status == HD_OK)
-        status =
-            hd_cuda_compile(&device->code, &device->nvrtc, device->is.nvidia_arch, options, error);
+        status = hd_cuda_compile(&device->code, &device->nvrtc, target, options, error);
     if (status != HD_OK)
         return status;
-    snprintf(maker, capacity, "NVRTC %d.%d", device->nvrtc.major, device->nvrtc.minor);
-    return load_module(device, shape, device->code.cubin, maker, error);
+    int length = snprintf(maker, capacity, "NVRTC %d.%d", device->nvrtc.major, device->nvrtc.minor);
+    if (target.is_ptx)
+        snprintf(maker + length, capacity - (size_t)length, ", PTX for compute_%d", target.arch);
+    return load_module(device, shape, device->code.image, maker, error);
 }
 
 static unsigned char *copy_binary(const void *state, size_t *size) {
@@ -336,7 +349,7 @@ static unsigned char *copy_binary(const void *state, size_t *size) {
     *size = device->code.size;
     unsigned char *copy = malloc(*size);
     if (copy != NULL)
-        memcpy(copy, device->code.cubin, *size);
+        memcpy(copy, device->code.image, *size);
     return copy;
 }
 

@@ -25,36 +25,52 @@ static char *copy_log(const HdNvrtc *nvrtc, HdNvrtcProgram program) {
     return log;
 }
 
-static HdStatus copy_results(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program,
-                             HdError *error) {
-    HdNvrtcResult result = nvrtc->functions.cubin_size(program, &code->size);
+static HdStatus copy_image(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program,
+                           HdCudaTarget target, HdError *error) {
+    const HdNvrtcFunctions *functions = &nvrtc->functions;
+    HdNvrtcResult result = target.is_ptx ? functions->ptx_size(program, &code->size)
+                                         : functions->cubin_size(program, &code->size);
     if (result != 0 || code->size == 0)
-        return fail(nvrtc, "nvrtcGetCUBINSize", result, error);
-    code->cubin = malloc(code->size);
+        return fail(nvrtc, target.is_ptx ? "nvrtcGetPTXSize" : "nvrtcGetCUBINSize", result, error);
+    code->image = malloc(code->size);
     code->log = copy_log(nvrtc, program);
-    if (!code->cubin || !code->log)
+    if (!code->image || !code->log)
         return hd_fail(error, HD_FAILED, "out of memory: no room for compiled kernels");
-    result = nvrtc->functions.cubin(program, code->cubin);
-    return result == 0 ? HD_OK : fail(nvrtc, "nvrtcGetCUBIN", result, error);
+    result = target.is_ptx ? functions->ptx(program, code->image)
+                           : functions->cubin(program, code->image);
+    return result == 0
+               ? HD_OK
+               : fail(nvrtc, target.is_ptx ? "nvrtcGetPTX" : "nvrtcGetCUBIN", result, error);
 }
 
-static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, int arch,
+static const char *prefix_of(HdCudaTarget target) {
+    return target.is_ptx ? "compute" : "sm";
+}
+
+static HdStatus fail_with_log(const HdNvrtc *nvrtc, HdNvrtcProgram program, HdCudaTarget target,
                               HdNvrtcResult result, HdError *error) {
     char *log = copy_log(nvrtc, program);
-    hd_fail(error, HD_FAILED, "NVRTC %d.%d refused the kernels for sm_%d (%s):\n%s", nvrtc->major,
-            nvrtc->minor, arch, nvrtc->functions.error_string(result),
+    hd_fail(error, HD_FAILED, "NVRTC %d.%d refused the kernels for %s_%d (%s):\n%s", nvrtc->major,
+            nvrtc->minor, prefix_of(target), target.arch, nvrtc->functions.error_string(result),
             log && log[0] ? log : "(it left no log)");
     free(log);
     return HD_FAILED;
 }
 
-void hd_cuda_options(char *options, size_t capacity, int arch, const HdKernelShape *shape) {
+HdCudaTarget hd_cuda_target(const HdKernelShape *shape, int arch) {
+    bool is_ptx = shape->ptx_arch > 0;
+    return (HdCudaTarget){.arch = is_ptx ? shape->ptx_arch : arch, .is_ptx = is_ptx};
+}
+
+void hd_cuda_options(char *options, size_t capacity, HdCudaTarget target,
+                     const HdKernelShape *shape) {
     static const char strict[] = "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false";
     char defines[HD_KERNEL_DEFINES_SIZE];
     hd_kernel_defines(shape, defines);
-    snprintf(options, capacity, "--gpu-architecture=sm_%d --maxrregcount=%d %s%s%s", arch,
-             shape->register_limit, shape->math == HD_MATH_FAST ? "--use_fast_math" : strict,
-             defines, shape->is_cautious ? " --ptxas-options=-O0" : "");
+    snprintf(options, capacity, "--gpu-architecture=%s_%d --maxrregcount=%d %s%s%s",
+             prefix_of(target), target.arch, shape->register_limit,
+             shape->math == HD_MATH_FAST ? "--use_fast_math" : strict, defines,
+             shape->is_cautious ? " --ptxas-options=-O0" : "");
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */
@@ -67,26 +83,26 @@ static int split(char *text, const char *parts[MOST_PARTS]) {
     return count;
 }
 
-static HdStatus compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program, int arch,
-                        const char *options, HdError *error) {
+static HdStatus compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdNvrtcProgram program,
+                        HdCudaTarget target, const char *options, HdError *error) {
     char text[MOST_TEXT];
     const char *parts[MOST_PARTS];
     snprintf(text, sizeof text, "%s", options);
     HdNvrtcResult result = nvrtc->functions.compile_program(program, split(text, parts), parts);
     if (result != 0)
-        return fail_with_log(nvrtc, program, arch, result, error);
-    return copy_results(code, nvrtc, program, error);
+        return fail_with_log(nvrtc, program, target, result, error);
+    return copy_image(code, nvrtc, program, target, error);
 }
 
-HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, int arch, const char *options,
-                         HdError *error) {
+HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, HdCudaTarget target,
+                         const char *options, HdError *error) {
     *code = (HdCudaCode){0};
     HdNvrtcProgram program = NULL;
     HdNvrtcResult result = nvrtc->functions.create_program(&program, (const char *)hd_cuda_source,
                                                            "kernels/cuda/hedron.cu", 0, NULL, NULL);
     if (result != 0)
         return fail(nvrtc, "nvrtcCreateProgram", result, error);
-    HdStatus status = compile(code, nvrtc, program, arch, options, error);
+    HdStatus status = compile(code, nvrtc, program, target, options, error);
     nvrtc->functions.destroy_program(&program);
     if (status != HD_OK)
         hd_cuda_code_free(code);
@@ -94,7 +110,7 @@ HdStatus hd_cuda_compile(HdCudaCode *code, const HdNvrtc *nvrtc, int arch, const
 }
 
 void hd_cuda_code_free(HdCudaCode *code) {
-    free(code->cubin);
+    free(code->image);
     free(code->log);
     *code = (HdCudaCode){0};
 }

@@ -47,7 +47,7 @@ static bool load_cached(HdGpuProgram *program, const HdGpu *gpu, const char *opt
 
 static HdStatus compile(HdGpuProgram *program, const HdGpu *gpu, const char *options,
                         HdError *error) {
-    char maker[32] = "";
+    char maker[48] = "";
     double start = hd_monotonic_seconds();
     HdStatus status = gpu->driver->compile(gpu->handle, &program->cache.shape, options, maker,
                                            sizeof maker, error);

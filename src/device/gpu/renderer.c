@@ -59,6 +59,7 @@ static void choose_shape(Renderer *renderer) {
         .wavefront = hd_pipeline_is_wavefront(options->pipeline),
         .precision = options->precision,
         .math = options->math,
+        .ptx_arch = options->test.ptx_arch,
     };
     if (renderer->device.nvidia_arch > 0)
         shape->register_limit =
