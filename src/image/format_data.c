@@ -57,20 +57,22 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     return HD_OK;
 }
 
-/* Anything that is not PNG arrives here, so that wrong sizes most often mean another format. */
+/* Anything that is neither PNG nor JPEG arrives here, so that wrong sizes most often mean another
+ * format. */
 static HdStatus check_head(const unsigned char *bytes, size_t size, const char *name,
                            HdError *error) {
     if (size < HEAD_SIZE)
         return hd_fail(error, HD_BAD_INPUT,
-                       "%s is neither PNG nor the data format: it has %zu bytes, expected at "
+                       "%s is neither PNG, JPEG nor the data format: it has %zu bytes, expected at "
                        "least %d",
                        name, size, HEAD_SIZE);
     int64_t width = get_int32(bytes), height = get_int32(bytes + 4);
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "%s is neither PNG nor the data format: its first 8 bytes say %lld x %lld "
-                       "pixels, expected 1..%d each",
-                       name, (long long)width, (long long)height, HD_MAX_IMAGE_SIDE);
+        return hd_fail(
+            error, HD_BAD_INPUT,
+            "%s is neither PNG, JPEG nor the data format: its first 8 bytes say %lld x %lld "
+            "pixels, expected 1..%d each",
+            name, (long long)width, (long long)height, HD_MAX_IMAGE_SIDE);
     uint64_t expected = HEAD_SIZE + (uint64_t)width * (uint64_t)height * 4;
     if (size != expected)
         return hd_fail(error, HD_BAD_INPUT,
@@ -86,8 +88,6 @@ static bool has_bytes(const unsigned char *bytes, size_t size, size_t at, const 
 
 /* By the first bytes, where they are no picture in the data format; NULL: unknown. */
 static const char *foreign_format(const unsigned char *bytes, size_t size) {
-    if (has_bytes(bytes, size, 0, "\xff\xd8\xff"))
-        return "JPEG";
     if (has_bytes(bytes, size, 0, "GIF8"))
         return "GIF";
     if (has_bytes(bytes, size, 0, "RIFF") && has_bytes(bytes, size, 8, "WEBP"))
@@ -105,8 +105,8 @@ static HdStatus refuse_foreign(const unsigned char *bytes, size_t size, const ch
     const char *format = foreign_format(bytes, size);
     if (format == NULL)
         return HD_BAD_INPUT;
-    return hd_fail(error, HD_BAD_INPUT, "%s is a %s picture, expected PNG or the data format", name,
-                   format);
+    return hd_fail(error, HD_BAD_INPUT, "%s is a %s picture, expected PNG, JPEG or the data format",
+                   name, format);
 }
 
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,

@@ -15,6 +15,9 @@
 HD_FILM_FORMATS(HD_FORMAT_DECLARED, HD_FORMAT_DECLARED, HD_FORMAT_DECLARED)
 HD_PICTURE_FORMATS(HD_FORMAT_DECLARED, HD_FORMAT_DECLARED, HD_FORMAT_DECLARED)
 
+/* Of textures alone. */
+HD_FORMAT_DECLARED(jpeg)
+
 /* The endings for messages and help, as in ".png, .pfm or .data". */
 #define HD_ENDING(name)       "." #name
 #define HD_COMMA_ENDING(name) ", ." #name

@@ -35,11 +35,19 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
     return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
 }
 
+/* What is neither PNG nor JPEG may be in the data format, which has no signature. */
+static const HdFormat *format_of_texture(const unsigned char *bytes, size_t size) {
+    if (hd_image_is_png(bytes, size))
+        return &hd_format_png;
+    const bool is_jpeg = size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+    return is_jpeg ? &hd_format_jpeg : &hd_format_data;
+}
+
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                            const char *name, HdCurve curve, HdError *error) {
     *texture = (HdTexture){0};
-    const HdFormat *format = hd_image_is_png(bytes, size) ? &hd_format_png : &hd_format_data;
-    HdStatus status = format->decode(texture, bytes, size, name, curve, error);
+    HdStatus status =
+        format_of_texture(bytes, size)->decode(texture, bytes, size, name, curve, error);
     if (status != HD_OK)
         hd_texture_clear(texture);
     return status;

@@ -23,8 +23,9 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFo
 HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, const char *path,
                           HdError *error);
 
-/* Reads a texture, PNG of any kind or the data format, told apart by the first bytes, and takes its
-   values off the curve; alpha is dropped. At most 65535 pixels a side, and 2^28 in all. */
+/* Reads a texture, PNG of any kind, JPEG of 8 bits that is grey or of three colours, or the data
+   format, told apart by the first bytes, and takes its values off the curve; alpha is dropped. At
+   most 65535 pixels a side, and 2^28 in all. */
 HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, HdError *error);
 
 /* The same from memory; `name` is for messages. */

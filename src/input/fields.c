@@ -257,7 +257,8 @@ static const HdObjectType light = TYPE(HdLight, light_fields);
 
 static const HdField texture_fields[] = {
     {AT(HdSceneFile, texture_path, "file",
-        "PNG or the data format; counts from the scene's folder; \"builtin:floor\" is built in"),
+        "PNG, JPEG or the data format; counts from the scene's folder; \"builtin:floor\" is built "
+        "in"),
      TEXT, REQUIRED},
     {AT(HdSceneFile, texture_curve, "curve", "Transfer curve of the numbers in the file"),
      CHOICE(curves, HD_CURVE_SRGB)},

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The floor's texture in the classic mode: both formats, and files that are no textures.
+# The floor's texture in the classic mode: every format, and files that are no textures.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -30,7 +30,7 @@ refuse() {
     expect_stderr_contains "$2"
 }
 
-# ---- both formats, and where the file is
+# ---- the formats, and where the file is
 # shellcheck disable=SC2088 # the program itself is to replace the tilde
 accept '~/floor.data' home.data
 cp "$HOME/floor.data" here.texture
@@ -50,6 +50,14 @@ for kind in png data; do
 done
 expect_same from_png.data from_data.data
 expect_different from_png.data home.data
+
+# A JPEG; its file in the corpus stands behind a byte of the fuzz target's own.
+tail -c +2 "$(dirname "${BASH_SOURCE[0]}")/../fuzz/corpus/texture/jpeg_420" >photo.jpg
+accept photo.jpg photo.data
+expect_different photo.data home.data
+cp photo.jpg photo.png
+accept photo.png misnamed.data
+expect_same misnamed.data photo.data
 
 # Alpha carries no meaning.
 {
@@ -142,6 +150,24 @@ for size in '0 0' '1 0' '1000000 1000000' '2147483647 2147483647' '4294967295 1'
     refuse bad.texture bad.texture
 done
 
-expect_files . bad.texture clear.texture here.texture misnamed.png pipe solid.texture \
+# And in JPEG.
+bytes=$(stat -c %s photo.jpg)
+for part in 3 20 200 $((bytes / 2)) $((bytes - 2)); do
+    head -c "$part" photo.jpg >bad.texture
+    refuse bad.texture 'cannot read bad.texture as JPEG: Premature end of JPEG file'
+done
+# Where the frame begins, its length, bits, height and width follow.
+frame=$(grep -obUaP '\xff\xc0' photo.jpg | head -n 1 | cut -d : -f 1)
+for size in '\377\377\377\377' '\360\0\360\0' '\0\0\0\0'; do
+    {
+        head -c $((frame + 5)) photo.jpg
+        # shellcheck disable=SC2059 # the format is made of bytes
+        printf "$size"
+        tail -c +$((frame + 10)) photo.jpg
+    } >bad.texture
+    refuse bad.texture bad.texture
+done
+
+expect_files . bad.texture clear.texture here.texture misnamed.png photo.jpg photo.png pipe solid.texture \
     texture.png wide.texture
 finish

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Textures: PNG, or else the data format. Input: a byte that picks the curve, and the file. */
+/* Textures: PNG, JPEG, or else the data format. Input: a byte that picks the curve, and the file.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,25 @@ static void touch(const HdTexture *texture) {
         sum = (uint16_t)(sum + texture->texels[i]);
 }
 
+/* The most pixels that a frame's head of a JPEG says: SOF0 to SOF15, its length, its bits, and two
+   bytes each of height and width. */
+static uint64_t pixels_of_jpeg(const unsigned char *bytes, size_t size) {
+    uint64_t most = 0;
+    for (size_t i = 0; i + 9 <= size; i++) {
+        if (bytes[i] != 0xff || (bytes[i + 1] & 0xf0) != 0xc0)
+            continue;
+        const uint64_t height = (uint64_t)bytes[i + 5] << 8 | bytes[i + 6];
+        const uint64_t width = (uint64_t)bytes[i + 7] << 8 | bytes[i + 8];
+        most = height * width > most ? height * width : most;
+    }
+    return most;
+}
+
+static bool is_small(unsigned char *bytes, size_t size) {
+    return (hd_image_is_png(bytes, size) ? fuzz_mend_png(bytes, size)
+                                         : pixels_of_jpeg(bytes, size)) <= MOST_PIXELS;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static HdError error;
     HdTexture texture;
@@ -25,9 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         return 0;
     unsigned char *bytes = (unsigned char *)fuzz_text(data + 1, size - 1);
     const HdCurve curve = (data[0] & 1) != 0 ? HD_CURVE_LINEAR : HD_CURVE_SRGB;
-    const bool is_small =
-        !hd_image_is_png(bytes, size - 1) || fuzz_mend_png(bytes, size - 1) <= MOST_PIXELS;
-    if (is_small) {
+    if (is_small(bytes, size - 1)) {
         const HdStatus status =
             hd_texture_decode(&texture, bytes, size - 1, "a.png", curve, &error);
         fuzz_expect_input_status(status, &error);

@@ -370,10 +370,8 @@ static void wrong_data_is_refused(void **state) {
     check_refused(bytes, 13, "has 13 bytes, expected 12");
     check_refused(bytes, 7, "has 7 bytes");
     check_refused("", 0, "has 0 bytes");
-    check_refused("# A picture as text", 19, "neither PNG nor the data format");
-    check_refused("\xff\xd8\xff\xe0\0\x10JFIF", 10,
-                  " is a JPEG picture, expected PNG or the data format");
-    check_refused("GIF89a\1\0\1\0", 10, "is a GIF picture");
+    check_refused("# A picture as text", 19, "neither PNG, JPEG nor the data format");
+    check_refused("GIF89a\1\0\1\0", 10, " is a GIF picture, expected PNG, JPEG or the data format");
     check_refused("RIFF\x24\0\0\0WEBPVP8 ", 16, "is a WebP picture");
     check_refused("BM\x46\0\0\0\0\0\0\0", 10, "is a BMP picture");
     check_refused("II*\0\x08\0\0\0\0\0", 10, "is a TIFF picture");

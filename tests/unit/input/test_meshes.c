@@ -297,7 +297,7 @@ static void test_textures(void **state) {
     hd_scene_file_free(&file);
     write_text("t/none.png", "this is no picture");
     expect_loaded(SCENE("{\"file\": \"t/t.obj\"}"));
-    expect_contains(notes.text, "t/none.png is neither PNG nor the data format");
+    expect_contains(notes.text, "t/none.png is neither PNG, JPEG nor the data format");
     assert_int_equal(file.scene.picture_count, 1);
     hd_scene_file_free(&file);
 }

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* Textures as JPEG: grey and colour, 8 bits. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <setjmp.h>
+#include <stdio.h>
+
+#include <jerror.h> /* after its types */
+#include <jpeglib.h>
+
+#include "image/formats.h"
+
+/* Encoders make a dozen; each goes over the whole picture, however few bytes it has. */
+enum { MAX_SCANS = 64 };
+
+/* libjpeg reports an error by a jump. Everything that must outlive it lives here, not in local
+   variables. */
+typedef struct Reader {
+    struct jpeg_decompress_struct jpeg;
+    struct jpeg_error_mgr errors;
+    struct jpeg_progress_mgr progress;
+    jmp_buf back;
+    bool is_memory_short;
+    char message[JMSG_LENGTH_MAX];
+} Reader;
+
+static void on_error(j_common_ptr jpeg) {
+    Reader *reader = jpeg->client_data;
+    reader->is_memory_short = reader->errors.msg_code == JERR_OUT_OF_MEMORY;
+    reader->errors.format_message(jpeg, reader->message);
+    longjmp(reader->back, 1);
+}
+
+/* libjpeg would go on with grey where pixels are missing or wrong. The warnings that are passed
+   over change none. */
+static void on_message(j_common_ptr jpeg, int level) {
+    const int code = jpeg->err->msg_code;
+    if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_JFIF_MAJOR)
+        on_error(jpeg);
+}
+
+static void on_progress(j_common_ptr jpeg) {
+    Reader *reader = jpeg->client_data;
+    if (reader->jpeg.input_scan_number <= MAX_SCANS)
+        return;
+    snprintf(reader->message, sizeof reader->message, "more than %d scans", MAX_SCANS);
+    longjmp(reader->back, 1);
+}
+
+static bool try_head(Reader *reader, const unsigned char *bytes, size_t size) {
+    reader->jpeg.err = jpeg_std_error(&reader->errors);
+    reader->errors.error_exit = on_error;
+    reader->errors.emit_message = on_message;
+    reader->progress.progress_monitor = on_progress;
+    reader->jpeg.client_data = reader;
+    if (setjmp(reader->back) != 0)
+        return false;
+    jpeg_create_decompress(&reader->jpeg);
+    reader->jpeg.progress = &reader->progress;
+    jpeg_mem_src(&reader->jpeg, bytes, (unsigned long)size);
+    jpeg_read_header(&reader->jpeg, TRUE);
+    return true;
+}
+
+/* So decoded, a file has the same pixels with every libjpeg and on every processor: this inverse
+   transform is one of whole numbers, a coarser colour counts for all the pixels that share it, and
+   nothing is made up between blocks. */
+static void set_exact(struct jpeg_decompress_struct *jpeg) {
+    jpeg->dct_method = JDCT_ISLOW;
+    jpeg->do_fancy_upsampling = FALSE;
+    jpeg->do_block_smoothing = FALSE;
+    jpeg->out_color_space = JCS_RGB;
+}
+
+/* The bytes lie at the begin of the row that they become, so that the way goes from the end. The
+   last row is followed by the end of the file, which has to be there. */
+static bool try_rows(Reader *reader, HdTexture *texture, const uint16_t decoded[256]) {
+    struct jpeg_decompress_struct *jpeg = &reader->jpeg;
+    const size_t values = (size_t)texture->width * 3;
+    if (setjmp(reader->back) != 0)
+        return false;
+    set_exact(jpeg);
+    jpeg_start_decompress(jpeg);
+    while (jpeg->output_scanline < jpeg->output_height) {
+        uint16_t *row = texture->texels + values * jpeg->output_scanline;
+        unsigned char *bytes = (unsigned char *)row;
+        jpeg_read_scanlines(jpeg, &bytes, 1);
+        for (size_t i = values; i-- > 0;)
+            row[i] = decoded[bytes[i]];
+    }
+    jpeg_finish_decompress(jpeg);
+    return true;
+}
+
+static HdStatus fail_reading(const Reader *reader, const char *name, HdError *error) {
+    return hd_fail(error, reader->is_memory_short ? HD_FAILED : HD_BAD_INPUT,
+                   "cannot read %s as JPEG: %s", name, reader->message);
+}
+
+static HdStatus decode_with(Reader *reader, HdTexture *texture, const unsigned char *bytes,
+                            size_t size, const char *name, HdCurve curve, HdError *error) {
+    const struct jpeg_decompress_struct *jpeg = &reader->jpeg;
+    uint16_t decoded[256];
+    if (!try_head(reader, bytes, size))
+        return fail_reading(reader, name, error);
+    if (jpeg->num_components != 1 && jpeg->num_components != 3)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the texture %s is a JPEG of %d colours (4 are those of print, CMYK), "
+                       "expected 1 or 3",
+                       name, jpeg->num_components);
+    const HdStatus status =
+        hd_texture_create(texture, jpeg->image_width, jpeg->image_height, name, error);
+    if (status != HD_OK)
+        return status;
+    hd_curve_decode8(curve, decoded);
+    return try_rows(reader, texture, decoded) ? HD_OK : fail_reading(reader, name, error);
+}
+
+static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
+                       const char *name, HdCurve curve, HdError *error) {
+    Reader reader = {.is_memory_short = false};
+    const HdStatus status = decode_with(&reader, texture, bytes, size, name, curve, error);
+    jpeg_destroy_decompress(&reader.jpeg);
+    return status;
+}
+
+const HdFormat hd_format_jpeg = {.name = "JPEG", .decode = decode};
