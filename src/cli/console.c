@@ -181,10 +181,13 @@ static void note_outputs(const HdOutputPlan *plan, int frame_count) {
 
 void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
                          const HdOutputPlan *plan, int frame_count) {
-    if (!console->verbose)
-        return;
-    note_scene(name, scene);
-    note_outputs(plan, frame_count);
+    if (console->verbose) {
+        note_scene(name, scene);
+        note_outputs(plan, frame_count);
+    }
+    if (!console->quiet && plan->film_count > 0 && plan->style.picture.bits > 8)
+        fprintf(stderr, "hedron: films have 8 bits a channel, though output.bits is %d\n",
+                plan->style.picture.bits);
 }
 
 void hd_console_prepare(const HdConsole *console, const char *what) {

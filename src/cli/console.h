@@ -35,7 +35,7 @@ typedef struct HdConsole {
    close. */
 void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_lines);
 
-/* Before anything is done. `name` is the scene's, for people. */
+/* Before anything is done, and what films lack of the style. `name` is the scene's, for people. */
 void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,
                          const HdOutputPlan *plan, int frame_count);
 

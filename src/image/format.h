@@ -29,8 +29,10 @@ typedef struct HdOutputStyle {
 typedef struct HdFormat {
     const char *name; /* for people */
 
-    /* Of films: the arguments by which FFmpeg makes one of that size; NULL ends them. */
-    const char *const *(*film_arguments)(int width, int height);
+    /* Of films: the arguments by which FFmpeg makes one of that size, which says that its values
+       are on that curve; NULL ends them. */
+    const char *const *(*film_arguments)(int width, int height, HdCurve curve);
+    bool is_srgb_alone; /* no other curve can be said */
 
     /* Of pictures: writes a frame to an open stream, a row at a time, with the mark of
        `fingerprint` (mark.h); NULL: without one. */

@@ -5,23 +5,31 @@
 enum { MIN_SLICED_SIDE = 64 };
 
 /* clang-format off */
-static const char *const mp4_arguments[] = {
-    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
-    "-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p",
-    "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-    "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL};
+#define MP4_ARGUMENTS(CURVE) \
+    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", \
+    "-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p", \
+    "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", CURVE, \
+    "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL
+
+/* Players show BT.709 as they show sRGB. */
+static const char *const mp4_arguments[] = {MP4_ARGUMENTS("bt709")};
+static const char *const linear_mp4_arguments[] = {MP4_ARGUMENTS("linear")};
 
 /* Every frame is a key frame, so that players can jump to it. The container is given no random
    number, so that the same frames make the same bytes. */
-#define MKV_ARGUMENTS \
+#define MKV_ARGUMENTS(CURVE) \
     "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb", \
-    "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "pc", \
+    "-color_primaries", "bt709", "-color_trc", CURVE, "-color_range", "pc", \
     "-fflags", "+bitexact", "-f", "matroska", NULL
 
 /* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
-static const char *const sliced_mkv_arguments[] = {
-    "-level", "3", "-slices", "16", "-slicecrc", "1", MKV_ARGUMENTS};
-static const char *const whole_mkv_arguments[] = {"-level", "1", MKV_ARGUMENTS};
+#define SLICED "-level", "3", "-slices", "16", "-slicecrc", "1"
+#define WHOLE "-level", "1"
+#define MKV_CURVES(SLICES) \
+    {[HD_CURVE_LINEAR] = {SLICES, MKV_ARGUMENTS("linear")}, \
+     [HD_CURVE_SRGB] = {SLICES, MKV_ARGUMENTS("iec61966-2-1")}}
+static const char *const sliced_mkv_arguments[][32] = MKV_CURVES(SLICED);
+static const char *const whole_mkv_arguments[][32] = MKV_CURVES(WHOLE);
 
 /* A palette for each frame: one for all would keep every frame in memory until the last. The ordered
    dither keeps still what does not move, and compresses well. */
@@ -33,23 +41,24 @@ static const char *const gif_arguments[] = {
     "-filter_complex", gif_filters, "-loop", "0", "-f", "gif", NULL};
 /* clang-format on */
 
-static const char *const *mp4(int width, int height) {
+static const char *const *mp4(int width, int height, HdCurve curve) {
     (void)width;
     (void)height;
-    return mp4_arguments;
+    return curve == HD_CURVE_LINEAR ? linear_mp4_arguments : mp4_arguments;
 }
 
-static const char *const *mkv(int width, int height) {
+static const char *const *mkv(int width, int height, HdCurve curve) {
     bool is_sliced = width >= MIN_SLICED_SIDE && height >= MIN_SLICED_SIDE;
-    return is_sliced ? sliced_mkv_arguments : whole_mkv_arguments;
+    return is_sliced ? sliced_mkv_arguments[curve] : whole_mkv_arguments[curve];
 }
 
-static const char *const *gif(int width, int height) {
+static const char *const *gif(int width, int height, HdCurve curve) {
     (void)width;
     (void)height;
+    (void)curve;
     return gif_arguments;
 }
 
 const HdFormat hd_format_mp4 = {.name = "MP4", .film_arguments = mp4};
 const HdFormat hd_format_mkv = {.name = "MKV", .film_arguments = mkv};
-const HdFormat hd_format_gif = {.name = "GIF", .film_arguments = gif};
+const HdFormat hd_format_gif = {.name = "GIF", .film_arguments = gif, .is_srgb_alone = true};

@@ -20,3 +20,13 @@ const HdFormat *hd_format_of(const char *path) {
 bool hd_format_is_film(const HdFormat *format) {
     return format != NULL && format->film_arguments != NULL;
 }
+
+HdStatus hd_film_check_curve(const char *path, HdCurve curve, HdError *error) {
+    const HdFormat *format = hd_format_of(path);
+    if (format == NULL || !format->is_srgb_alone || curve == HD_CURVE_SRGB)
+        return HD_OK;
+    return hd_fail(error, HD_BAD_INPUT,
+                   "%s cannot be linear, for a %s has no way to say so: expected output.curve "
+                   "\"srgb\", or another film",
+                   path, format->name);
+}

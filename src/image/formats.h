@@ -31,4 +31,8 @@ const HdFormat *hd_format_of(const char *path);
 /* NULL is none. */
 bool hd_format_is_film(const HdFormat *format);
 
+/* HD_BAD_INPUT where the path is that of a film that cannot say that its values are on that curve.
+ */
+HdStatus hd_film_check_curve(const char *path, HdCurve curve, HdError *error);
+
 #endif

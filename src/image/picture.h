@@ -11,10 +11,11 @@
 /* Writes a frame as a picture, under a temporary name beside `path`, for hd_atomic_file_commit or
    hd_atomic_file_discard to end; missing folders are made. A film's format is an error. The data
    format: int32 width, int32 height, then r g b a, 8 bits each, little endian. PNG: RGB, with an
-   sRGB chunk where the values are on that curve. PFM: float, little endian, rows from the bottom. A
-   frame that is encoded already must be so on the style's curve; only what has 8 bits can be made
-   of it. Formats that bear marks get that of `fingerprint` (mark.h); NULL: none. On failure nothing
-   is left of `file`, and a file that was there before is untouched. */
+   sRGB chunk where the values are on that curve, and a gAMA chunk of 1 where they are linear. PFM:
+   float, little endian, rows from the bottom. A frame that is encoded already must be so on the
+   style's curve; only what has 8 bits can be made of it. Formats that bear marks get that of
+   `fingerprint` (mark.h); NULL: none. On failure nothing is left of `file`, and a file that was
+   there before is untouched. */
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
                             const HdPictureStyle *style, const uint64_t *fingerprint,
                             const char *path, HdError *error);

@@ -198,6 +198,8 @@ static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts) {
                  PNG_FILTER_TYPE_DEFAULT);
     if (facts->is_srgb)
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else
+        png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
     png_write_info(png, writer->info);
     return true;
 }

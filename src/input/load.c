@@ -106,11 +106,11 @@ static HdStatus build(HdSceneFile *file, json_t *root, const HdSceneSource *sour
     if (status == HD_OK && source->loads_files)
         status = load_files(file, source, &problems, error);
     if (status == HD_OK && source->notes != NULL)
-        hd_scene_check_sequence(file, &problems);
+        hd_scene_check_output(file, &problems);
     if (status == HD_OK)
         status = hd_problems_status(&problems, source->name, error);
     if (status == HD_OK && source->notes != NULL)
-        hd_scene_notes(&file->scene, source->notes);
+        hd_scene_notes(file, source->notes);
     return status;
 }
 

@@ -145,7 +145,8 @@ static void note_contacts(const HdScene *scene, HdProblems *notes) {
                    overlapping.solid, overlapping.other, others_of(&overlapping, others));
 }
 
-void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
+void hd_scene_notes(const HdSceneFile *file, HdProblems *notes) {
+    const HdScene *scene = &file->scene;
     if (!gives_light(scene))
         hd_problem(notes, "every picture is black: there is no light, no ambient material, no disc "
                           "of an edge light, and the background is black");
@@ -156,10 +157,17 @@ void hd_scene_notes(const HdScene *scene, HdProblems *notes) {
     for (int i = 0; i < scene->solid_count; i++)
         note_edge_lights(&scene->solids[i], i, notes);
     note_contacts(scene, notes);
+    if (file->output.style.picture.bits > 8 && hd_format_is_film(hd_format_of(file->output.path)))
+        hd_problem(notes,
+                   "output.bits is %d, but output.path is a film, which has 8 bits a channel",
+                   file->output.style.picture.bits);
 }
 
-void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems) {
+void hd_scene_check_output(const HdSceneFile *file, HdProblems *problems) {
     const char *path = file->output.path;
+    HdError error;
+    if (hd_film_check_curve(path, file->output.style.picture.curve, &error) != HD_OK)
+        hd_problem(problems, "output.path: %s", error.message);
     if (path[0] == '\0' || file->scene.frame_count == 1 || hd_format_is_film(hd_format_of(path)) ||
         hd_pattern_has_number(path))
         return;

@@ -6,10 +6,10 @@
 #include "input/scene_file.h"
 
 /* Adds a sentence for each such thing in a valid scene to `notes`. */
-void hd_scene_notes(const HdScene *scene, HdProblems *notes);
+void hd_scene_notes(const HdSceneFile *file, HdProblems *notes);
 
-/* Adds a problem where the scene's output is one picture and its frames are many: a rendering may
-   still choose one of them. */
-void hd_scene_check_sequence(const HdSceneFile *file, HdProblems *problems);
+/* Adds a problem where the scene's output is one picture and its frames are many, or a film that
+   cannot be on the output's curve: a rendering may still choose one frame, or another output. */
+void hd_scene_check_output(const HdSceneFile *file, HdProblems *problems);
 
 #endif

@@ -281,8 +281,8 @@ static HdStatus open_film(HdFrameStore *store, int index, HdError *error) {
     *film = (Film){.store = store, .index = index};
     HdStatus status = hd_path_expand_home(plan->outputs->list[index].name, path, error);
     if (status == HD_OK)
-        status = hd_video_open(&film->video, path, plan->width, plan->height,
-                               plan->outputs->style.frames_per_second, error);
+        status = hd_video_open(&film->video, path, plan->width, plan->height, &plan->outputs->style,
+                               error);
     return status;
 }
 

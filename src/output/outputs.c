@@ -13,7 +13,8 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
     return HD_OK;
 }
 
-static HdStatus settle_output(HdOutput *output, const char *name, int frame_count, HdError *error) {
+static HdStatus settle_output(HdOutput *output, const char *name, HdCurve curve, int frame_count,
+                              HdError *error) {
     const HdFormat *format = hd_format_of(name);
     char file[HD_MAX_PATH];
     *output = (HdOutput){
@@ -28,7 +29,7 @@ static HdStatus settle_output(HdOutput *output, const char *name, int frame_coun
                        "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
     if (output->is_film)
-        return HD_OK;
+        return hd_film_check_curve(name, curve, error);
     if (output->is_numbered)
         return hd_pattern_check(name, error);
     if (frame_count == 1)
@@ -98,7 +99,7 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
         .wish = {.curve = style->picture.curve},
     };
     for (int i = 0; i < count && status == HD_OK; i++) {
-        status = settle_output(&plan->list[i], names[i], frame_count, error);
+        status = settle_output(&plan->list[i], names[i], style->picture.curve, frame_count, error);
         for (int j = 0; j < i && status == HD_OK; j++)
             status = check_different(&plan->list[i], &plan->list[j], frame_count, error);
     }

@@ -25,7 +25,7 @@ struct HdVideo {
     char ffprobe[HD_MAX_PATH];
 };
 
-static HdStatus check_settings(const char *path, int width, int height, int frames_per_second,
+static HdStatus check_settings(const char *path, int width, int height, const HdOutputStyle *style,
                                HdError *error) {
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
@@ -33,11 +33,11 @@ static HdStatus check_settings(const char *path, int width, int height, int fram
     if (!hd_format_is_film(hd_format_of(path)))
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
-    if (frames_per_second < 1)
+    if (style->frames_per_second < 1)
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has %d frames a second, expected at least 1", path,
-                       frames_per_second);
-    return HD_OK;
+                       style->frames_per_second);
+    return hd_film_check_curve(path, style->picture.curve, error);
 }
 
 enum { MAX_ARGUMENTS = 64 };
@@ -53,11 +53,11 @@ static void append(Arguments *arguments, const char *const *words) {
 }
 
 /* "file:" keeps FFmpeg from reading a protocol or an option into the name. */
-static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_second,
+static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, const HdOutputStyle *style,
                              HdError *error) {
     char size[32], rate[16], target[HD_MAX_PATH + 8];
     snprintf(size, sizeof size, "%dx%d", video->width, video->height);
-    snprintf(rate, sizeof rate, "%d", frames_per_second);
+    snprintf(rate, sizeof rate, "%d", style->frames_per_second);
     snprintf(target, sizeof target, "file:%s", video->temporary);
     /* clang-format off */
     const char *const start[] = {
@@ -68,7 +68,8 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, int frames_per_
     const char *const end[] = {target, NULL};
     Arguments arguments = {0};
     append(&arguments, start);
-    append(&arguments, hd_format_of(video->path)->film_arguments(video->width, video->height));
+    append(&arguments, hd_format_of(video->path)
+                           ->film_arguments(video->width, video->height, style->picture.curve));
     append(&arguments, end);
     return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
 }
@@ -92,7 +93,8 @@ static HdStatus reserve_file(HdVideo *video, HdError *error) {
     return status;
 }
 
-static HdStatus open_film(HdVideo *video, const char *path, int frames_per_second, HdError *error) {
+static HdStatus open_film(HdVideo *video, const char *path, const HdOutputStyle *style,
+                          HdError *error) {
     char ffmpeg[HD_MAX_PATH];
     HdStatus status = hd_child_find("ffmpeg", ffmpeg, error);
     if (status == HD_OK)
@@ -106,14 +108,14 @@ static HdStatus open_film(HdVideo *video, const char *path, int frames_per_secon
     memcpy(video->path, path, strlen(path) + 1);
     status = reserve_file(video, error);
     if (status == HD_OK)
-        status = start_ffmpeg(video, ffmpeg, frames_per_second, error);
+        status = start_ffmpeg(video, ffmpeg, style, error);
     return status;
 }
 
 HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
-                       int frames_per_second, HdError *error) {
+                       const HdOutputStyle *style, HdError *error) {
     *video = NULL;
-    HdStatus status = check_settings(path, width, height, frames_per_second, error);
+    HdStatus status = check_settings(path, width, height, style, error);
     if (status != HD_OK)
         return status;
     HdVideo *film = calloc(1, sizeof *film);
@@ -122,7 +124,7 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
     film->width = width;
     film->height = height;
     film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
-    status = open_film(film, path, frames_per_second, error);
+    status = open_film(film, path, style, error);
     if (status == HD_OK)
         *video = film;
     else

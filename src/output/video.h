@@ -4,7 +4,7 @@
 #define HD_OUTPUT_VIDEO_H
 
 #include "base/error.h"
-#include "image/frame.h"
+#include "image/format.h"
 
 typedef struct HdVideo HdVideo;
 
@@ -12,10 +12,11 @@ typedef struct HdVideo HdVideo;
    shell, writing to a temporary name beside `path`. The path's ending (hd_format_of) must be a
    film's and tells what is made: MP4, H.264, yuv420p, BT.709, an odd width or height padded by one
    pixel; MKV, FFV1, the frames' RGB without loss; GIF, a palette for each frame, ordered dither,
-   repeating for ever, times rounded to centiseconds. Frames are 8-bit RGBA of one size, alpha 255.
-   HD_UNAVAILABLE where FFmpeg is missing. */
+   repeating for ever, times rounded to centiseconds. Frames are 8-bit RGBA of one size, alpha 255,
+   on the style's curve, as the film says; a GIF can only say sRGB, and with another curve is
+   HD_BAD_INPUT. HD_UNAVAILABLE where FFmpeg is missing. */
 HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
-                       int frames_per_second, HdError *error);
+                       const HdOutputStyle *style, HdError *error);
 
 /* Hands over `rgba` of one frame; blocks while FFmpeg is busy. An FFmpeg that ended early is an
    error that quotes the end of what it said, never a signal. */

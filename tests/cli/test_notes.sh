@@ -66,6 +66,15 @@ expect_silent_stderr
 rm -r out
 expect_refusal 1 "${render[@]}" --quiet --frames 0 -o /dev/null/x.png
 
+# ---- a film of 16 bits has 8, which is told; pictures alone have them
+expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o film.mkv -o deep.png
+expect_note 'hedron: films have 8 bits a channel, though output.bits is 16'
+expect_exit 0 "${render[@]}" --frames 0 --set output.bits=16 -o deep.png
+if grep -q 'films have' "$logs/stderr"; then
+    fail "there is no film, and yet standard error tells of its bits"
+fi
+rm film.mkv deep.png
+
 # ---- --frame-lines: a line for each frame, in their order, and no other progress
 frame_lines=$'hedron: frame 1 stored, 1 of 3\nhedron: frame 2 stored, 2 of 3\nhedron: frame 7 stored, 3 of 3'
 expect_exit 0 "${render[@]}" --quiet --frame-lines --frames 1-2,7 -o '%d.data'

@@ -181,6 +181,13 @@ rm picture.data
 jq '.output.path = "####.data"' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json
 
+# ---- films and what they can say
+wrong '.output.path = "film.gif" | .output.curve = "linear"' \
+    'output.path: film.gif cannot be linear, for a GIF has no way to say so'
+jq '.output.path = "film.mp4" | .output.bits = 16' good.json >bad.json
+expect_exit 0 "$hedron" check bad.json
+expect_stdout_contains 'bad.json: note: output.bits is 16, but output.path is a film, which has 8 bits a channel'
+
 # ---- what is seldom meant is a note, and no mistake
 jq '.camera.field_of_view = 1.2 | .materials.paper = {}' good.json >bad.json
 expect_exit 0 "$hedron" check bad.json

@@ -191,7 +191,7 @@ static void png_files_name_the_curve(void **state) {
     assert_true(has_chunk("srgb.png", "\0\0\0\1sRGB\0", 9));
     assert_false(has_chunk("srgb.png", "gAMA", 4));
     assert_int_equal(hd_picture_write(&frame, &LINEAR_8, "linear.png", &error), HD_OK);
-    assert_false(has_chunk("linear.png", "gAMA", 4));
+    assert_true(has_chunk("linear.png", "gAMA\0\1\x86\xa0", 8));
     assert_false(has_chunk("linear.png", "sRGB", 4));
     hd_frame_free(&frame);
 }

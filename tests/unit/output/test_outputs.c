@@ -30,7 +30,7 @@ static void outputs_suit_the_number_of_frames(void **state) {
     (void)state;
     check_accepted("a.png", 1);
     check_accepted("a.mp4", 1);
-    check_accepted("a.GIF", 7);
+    check_accepted("a.MKV", 7);
     check_accepted("a_%04d.png", 7);
     check_accepted("a_####.pfm", 7);
     check_accepted("a_%d.data", 1);
@@ -38,6 +38,7 @@ static void outputs_suit_the_number_of_frames(void **state) {
     check_refused("a.pfm", NULL, 7, "'a.pfm'");
     check_refused("a_%d.mkv", NULL, 7, "numbered films");
     check_refused("a_##.gif", NULL, 7, "numbered films");
+    check_refused("a_##.png", "b.GIF", 7, "b.GIF cannot be linear, for a GIF has no way to say so");
     check_refused("%d_%d.png", NULL, 7, "%d_%d.png");
     check_refused("%s.png", NULL, 7, "%s.png");
     check_refused("100%.png", NULL, 1, "100%.png");

@@ -86,12 +86,15 @@ static HdFrame make_frame(int width, int height, const uint8_t colour[4]) {
     return frame;
 }
 
+static const HdOutputStyle STYLE = {{HD_CURVE_SRGB, 8}, 25};
+static const HdOutputStyle LINEAR = {{HD_CURVE_LINEAR, 8}, 25};
+
 static const uint8_t RED[4] = {255, 0, 0, 255};
 
 /* Makes a film and ends it as a caller would, whatever happens. */
 static HdStatus make_film(const char *path, int width, int height, int frames, HdError *error) {
     HdVideo *video = NULL;
-    HdStatus status = hd_video_open(&video, path, width, height, 25, error);
+    HdStatus status = hd_video_open(&video, path, width, height, &STYLE, error);
     assert_true((status == HD_OK) == (video != NULL));
     if (status != HD_OK)
         return status;
@@ -149,10 +152,11 @@ static void odd_sizes_are_padded(void **state) {
 }
 
 /* Makes a film of these frames, which are of one size. */
-static void film_frames(const char *path, const HdFrame *frames, int count, int rate) {
+static void film_frames(const char *path, const HdFrame *frames, int count,
+                        const HdOutputStyle *style) {
     HdError error = {0};
     HdVideo *video = NULL;
-    HdStatus status = hd_video_open(&video, path, frames[0].width, frames[0].height, rate, &error);
+    HdStatus status = hd_video_open(&video, path, frames[0].width, frames[0].height, style, &error);
     for (int i = 0; i < count && status == HD_OK; i++)
         status = hd_video_add(video, &frames[i], &error);
     if (status == HD_OK)
@@ -184,7 +188,7 @@ static void film_colours(const char *path) {
     HdFrame frames[FLAT_COLOURS];
     for (int i = 0; i < FLAT_COLOURS; i++)
         frames[i] = make_frame(FLAT_SIDE, FLAT_SIDE, flat_colours[i]);
-    film_frames(path, frames, FLAT_COLOURS, 25);
+    film_frames(path, frames, FLAT_COLOURS, &STYLE);
     for (int i = 0; i < FLAT_COLOURS; i++)
         hd_frame_free(&frames[i]);
 }
@@ -254,6 +258,21 @@ static void mkv_files_are_tagged(void **state) {
                  "ffv1\n33\n17\npc\ngbr\niec61966-2-1\nbt709\n25/1\n7\n");
 }
 
+static void films_say_that_they_are_linear(void **state) {
+    (void)state;
+    need_ffmpeg();
+    HdFrame frame = make_frame(64, 64, RED);
+    film_frames("out/film.mp4", &frame, 1, &LINEAR);
+    film_frames("out/film.mkv", &frame, 1, &LINEAR);
+    check_output("ffprobe -v error -show_entries stream=color_range,color_space,color_transfer,"
+                 "color_primaries -of default=nk=1:nw=1 out/film.mp4",
+                 "tv\nbt709\nlinear\nbt709\n");
+    check_output("ffprobe -v error -show_entries stream=color_range,color_space,color_transfer,"
+                 "color_primaries -of default=nk=1:nw=1 out/film.mkv",
+                 "pc\ngbr\nlinear\nbt709\n");
+    hd_frame_free(&frame);
+}
+
 static void mkv_loses_nothing(void **state) {
     (void)state;
     const int sizes[][2] = {{1, 1}, {1, 100}, {4, 4}, {33, 17}, {63, 200}, {64, 64}, {101, 67}};
@@ -263,7 +282,7 @@ static void mkv_loses_nothing(void **state) {
         HdFrame frames[NOISE_FRAMES];
         size_t size = (size_t)(sizes[s][0] * sizes[s][1] * 4);
         make_noise(frames, sizes[s][0], sizes[s][1]);
-        film_frames("out/film.mkv", frames, NOISE_FRAMES, 30);
+        film_frames("out/film.mkv", frames, NOISE_FRAMES, &STYLE);
         decode_film("out/film.mkv", "rgba", rgba, NOISE_FRAMES * size);
         for (size_t i = 0; i < NOISE_FRAMES; i++)
             assert_memory_equal(rgba + i * size, frames[i].rgba, size);
@@ -304,7 +323,8 @@ static void gif_keeps_the_time(void **state) {
     need_ffmpeg();
     make_noise(frames, 33, 17);
     for (size_t i = 0; i < sizeof films / sizeof *films; i++) {
-        film_frames("out/film.gif", frames, NOISE_FRAMES, films[i].rate);
+        const HdOutputStyle style = {STYLE.picture, films[i].rate};
+        film_frames("out/film.gif", frames, NOISE_FRAMES, &style);
         check_output("ffprobe -v error -min_delay 0 -show_entries packet=duration -of csv=p=0 "
                      "out/film.gif",
                      films[i].durations);
@@ -325,7 +345,7 @@ static void gif_is_close_to_the_frame(void **state) {
         frame.rgba[4 * i + 1] = (uint8_t)(i / SIDE);
         frame.rgba[4 * i + 2] = 60;
     }
-    film_frames("out/film.gif", &frame, 1, 25);
+    film_frames("out/film.gif", &frame, 1, &STYLE);
     decode_film("out/film.gif", "rgba", rgba, sizeof rgba);
     for (int i = 0; i < SIDE * SIDE * 4; i++)
         sum += abs(rgba[i] - frame.rgba[i]);
@@ -370,7 +390,7 @@ static void aborted_films_leave_nothing(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     need_ffmpeg();
     write_file("out/film.mp4", "older", 0666);
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, &STYLE, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
     assert_int_equal(count_entries("out"), 2);
     hd_video_abort(video);
@@ -385,7 +405,7 @@ static void frames_of_another_size_are_refused(void **state) {
     HdVideo *video;
     HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
     need_ffmpeg();
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, 25, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, &STYLE, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
     expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
@@ -398,12 +418,15 @@ static void wrong_settings_are_refused(void **state) {
     (void)state;
     HdError error = {0};
     HdVideo *video;
+    const HdOutputStyle none = {STYLE.picture, 0};
     check_failure(0, 16, 1, HD_BAD_INPUT, "0 x 16 pixels, expected 1..65535");
     check_failure(16, 65536, 1, HD_BAD_INPUT, "16 x 65536 pixels, expected 1..65535");
-    assert_int_equal(hd_video_open(&video, "out/a.mp4", 16, 16, 0, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_video_open(&video, "out/a.mp4", 16, 16, &none, &error), HD_BAD_INPUT);
     expect_contains(error.message, "0 frames a second");
-    assert_int_equal(hd_video_open(&video, "out/a.png", 16, 16, 25, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_video_open(&video, "out/a.png", 16, 16, &STYLE, &error), HD_BAD_INPUT);
     expect_contains(error.message, "out/a.png has another ending, expected .mp4, .mkv or .gif");
+    assert_int_equal(hd_video_open(&video, "out/a.gif", 16, 16, &LINEAR, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "out/a.gif cannot be linear, for a GIF has no way to say so");
 }
 
 static void missing_programs_are_unavailable(void **state) {
@@ -453,7 +476,7 @@ static void failed_films_take_no_more_frames(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "exit 1");
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, 25, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, &STYLE, &error), HD_OK);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     expect_contains(error.message, "takes no more frames");
@@ -518,7 +541,7 @@ static void programs_that_hang_are_stopped(void **state) {
     HdVideo *video;
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "sleep 600; exit 0");
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 64, 48, 25, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", 64, 48, &STYLE, &error), HD_OK);
     hd_video_abort(video);
     fake("ffmpeg", "exec <&-; sleep 600");
     check_failure(640, 480, 10, HD_FAILED, "(signal 9)");
@@ -581,6 +604,7 @@ int main(int argc, char **argv) {
         VIDEO_TEST(colours_follow_bt709),
         VIDEO_TEST(colours_come_back),
         VIDEO_TEST(mkv_files_are_tagged),
+        VIDEO_TEST(films_say_that_they_are_linear),
         VIDEO_TEST(mkv_loses_nothing),
         VIDEO_TEST(gif_repeats_for_ever),
         VIDEO_TEST(gif_keeps_the_time),
