@@ -83,25 +83,6 @@ HdStatus hd_read_scene_file(HdSceneFile *file, const char *path, const HdSceneSo
                                   : hd_scene_file_read(file, path, source, error);
 }
 
-/* As they stand on the command line; nothing where none was given. */
-enum { SPELLED = 256 };
-
-static void spell_scene_options(const HdOptions *options, char text[SPELLED]) {
-    char size[32] = "", samples[32] = "", depth[32] = "", cutoff[48] = "", crop[64] = "";
-    if (options->size.width > 0)
-        snprintf(size, sizeof size, " --size %dx%d", options->size.width, options->size.height);
-    if (options->samples > 0)
-        snprintf(samples, sizeof samples, " --samples %d", options->samples);
-    if (options->depth >= 0)
-        snprintf(depth, sizeof depth, " --depth %d", options->depth);
-    if (options->cutoff >= 0.0)
-        snprintf(cutoff, sizeof cutoff, " --cutoff %g", options->cutoff);
-    if (options->crop.width > 0)
-        snprintf(crop, sizeof crop, " --crop %dx%d+%d+%d", options->crop.width,
-                 options->crop.height, options->crop.left, options->crop.top);
-    snprintf(text, SPELLED, "%s%s%s%s%s", size, samples, depth, cutoff, crop);
-}
-
 static HdStatus crop(HdScene *scene, const HdOptions *options, HdError *error) {
     if (options->crop.width == 0)
         return HD_OK;
@@ -150,14 +131,14 @@ static void set_by_error(HdScene *scene, const HdOptions *options) {
 }
 
 HdStatus hd_apply_scene_options(HdScene *scene, const HdOptions *options, HdError *error) {
-    char given[SPELLED];
-    spell_scene_options(options, given);
+    char given[256];
+    hd_options_spell(options, false, given, sizeof given);
     set_numbers(scene, options);
     HdStatus status = given[0] != '\0' ? hd_scene_validate(scene, error) : HD_OK;
     if (status == HD_OK)
         status = crop(scene, options, error);
     if (status != HD_OK)
-        hd_error_prefix(error, given + 1);
+        hd_error_prefix(error, given);
     else
         set_by_error(scene, options);
     return status;

@@ -14,7 +14,7 @@ OPTION(bool prints_default, "--default", NULL, NULL,
 OPTION(int variant, "--variant", NULL, "1..10",
        "which three solids the input means (default 4: tetrahedron, octahedron, dodecahedron)",
        HD_COMMAND_CLASSIC | HD_COMMAND_CONVERT, INTEGER(variant, 1, HD_CLASSIC_VARIANTS),
-       .unset = HD_CLASSIC_DEFAULT_VARIANT)
+       .unset = HD_CLASSIC_DEFAULT_VARIANT, .role = HD_DECIDES_PIXELS)
 OPTION(const char *outputs[HD_MAX_OUTPUTS];
        int output_count, "--output", "-o", "OUT",
        "film.mp4, picture.png or a sequence such as out/%04d.png; up to 8 times", HD_COMMAND_RENDER,
@@ -28,7 +28,7 @@ OPTION(const char *changes[HD_MAX_CHANGES];
        "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
        HD_COMMAND_RENDER | HD_COMMAND_TUNE,
        TEXTS(HD_OPTION_CHANGES, changes, change_count, HD_MAX_CHANGES),
-       .expected = "PATH=VALUE such as camera.field_of_view=40")
+       .expected = "PATH=VALUE such as camera.field_of_view=40", .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
        MEASURING, TEXT(frames, NULL))
 OPTION(
@@ -38,31 +38,33 @@ OPTION(
     HD_COMMAND_RENDER, FLAG(again))
 OPTION(HdOptionSize size, "--size", NULL, "WxH", "size of the picture in pixels", MEASURING,
        .type = HD_OPTION_SIZE, AT(size),
-       .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535")
+       .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535", .role = HD_DECIDES_NUMBERS)
 OPTION(int samples, "--samples", NULL, "N", "N x N samples for each pixel", MEASURING,
-       INTEGER(samples, 1, HD_MAX_SAMPLES_PER_SIDE))
+       INTEGER(samples, 1, HD_MAX_SAMPLES_PER_SIDE), .role = HD_DECIDES_NUMBERS)
 OPTION(int depth, "--depth", NULL, "N", "how often a ray may be mirrored or pass a face", MEASURING,
-       INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1)
+       INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1, .role = HD_DECIDES_NUMBERS)
 OPTION(double cutoff, "--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)",
-       MEASURING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1)
+       MEASURING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1,
+       .role = HD_DECIDES_NUMBERS)
 OPTION(
     int sampling, "--aa", NULL, "NAME",
     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
     "an estimate and no promise (default grid)",
-    RENDERING, CHOICE(sampling, "grid", "adaptive"), .unset = -1)
+    RENDERING, CHOICE(sampling, "grid", "adaptive"), .unset = -1, .role = HD_DECIDES_PIXELS)
 OPTION(
     double max_error, "--max-error", NULL, "E",
     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
     "sampling aims at",
-    RENDERING, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR))
+    RENDERING, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR), .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
        "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
        "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
-       HD_COMMAND_RENDER, FLAG(reference))
+       HD_COMMAND_RENDER, FLAG(reference), .role = HD_DECIDES_PIXELS)
 OPTION(HdOptionCrop crop, "--crop", NULL, "WxH+X+Y",
        "render only so many pixels from column X and row Y on", HD_COMMAND_RENDER,
-       .type = HD_OPTION_CROP, AT(crop), .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200")
+       .type = HD_OPTION_CROP, AT(crop), .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200",
+       .role = HD_DECIDES_NUMBERS)
 OPTION(const char *backend, "--backend", NULL, "NAME",
        "auto, c, opencl or cuda (default auto: the best one found)", MEASURING,
        ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda"))
@@ -91,21 +93,21 @@ ROW("--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: 
 OPTION(HdGeometry geometry, "--geometry", NULL, "NAME",
        "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
        "gives nearly the same picture (default solids)",
-       MEASURING, CHOICE(geometry, "solids", "triangles"))
+       MEASURING, CHOICE(geometry, "solids", "triangles"), .role = HD_DECIDES_PIXELS)
 OPTION(int divisions, "--divisions", NULL, "N",
        "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
        "(default 1)",
-       MEASURING, INTEGER(divisions, 1, HD_MAX_DIVISIONS))
+       MEASURING, INTEGER(divisions, 1, HD_MAX_DIVISIONS), .role = HD_DECIDES_PIXELS)
 OPTION(HdAccel accel, "--accel", NULL, "NAME",
        "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
        "(default auto: brute for a handful)",
-       MEASURING, CHOICE(accel, "auto", "brute", "bvh"))
+       MEASURING, CHOICE(accel, "auto", "brute", "bvh"), .role = HD_DECIDES_PIXELS)
 ROW("--precision", NULL, "P", "float or double (default float)", MEASURING,
-    CHOICE(render.precision, "float", "double"))
+    CHOICE(render.precision, "float", "double"), .role = HD_DECIDES_PIXELS)
 ROW("--math", NULL, "M",
     "strict: the same bytes everywhere; fast: the device's own, which plain C has not (default "
     "strict)",
-    MEASURING, CHOICE(render.math, "strict", "fast"))
+    MEASURING, CHOICE(render.math, "strict", "fast"), .role = HD_DECIDES_PIXELS)
 OPTION(const char *statistics, "--stats", NULL, "FILE",
        "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
        "which then has nothing else",

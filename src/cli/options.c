@@ -2,7 +2,9 @@
 #include "cli/options.h"
 
 #include <stdio.h>
+#include <string.h>
 
+#include "base/text.h"
 #include "input/classic.h"
 #include "output/outputs.h"
 
@@ -66,4 +68,67 @@ void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
     snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",
              spec->value ? spec->value : "");
+}
+
+/* The value of an option that was given; false: it was not, or is at its default. */
+static bool spell_value(const HdOptionSpec *spec, const void *member, char *value, size_t size) {
+    const HdOptionSize *area = member;
+    const HdOptionCrop *crop = member;
+    const int *number = member;
+    const double *real = member;
+    char text[HD_NUMBER_SIZE];
+    switch (spec->type) {
+    case HD_OPTION_FLAG:
+        value[0] = '\0';
+        return *(const bool *)member;
+    case HD_OPTION_INTEGER:
+        snprintf(value, size, " %d", *number);
+        return *number != spec->unset;
+    case HD_OPTION_REAL:
+        hd_short_number(*real, text);
+        snprintf(value, size, " %s", text);
+        return *real != spec->unset;
+    case HD_OPTION_CHOICE:
+        snprintf(value, size, " %s", spec->choices[*number > 0 ? *number : 0]);
+        return *number > 0;
+    case HD_OPTION_SIZE:
+        snprintf(value, size, " %dx%d", area->width, area->height);
+        return area->width > 0;
+    case HD_OPTION_CROP:
+        snprintf(value, size, " %dx%d+%d+%d", crop->width, crop->height, crop->left, crop->top);
+        return crop->width > 0;
+    default:
+        return false;
+    }
+}
+
+static void append(char *text, size_t size, const char *more) {
+    const size_t length = strlen(text);
+    hd_escape(more, text + length, size - length);
+}
+
+static void spell_changes(const HdOptions *options, const char *name, char *text, size_t size) {
+    for (int i = 0; i < options->change_count; i++) {
+        append(text, size, text[0] != '\0' ? " " : "");
+        append(text, size, name);
+        append(text, size, " ");
+        append(text, size, options->changes[i]);
+    }
+}
+
+void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size) {
+    const HdOptionSpec *spec = NULL;
+    char value[64];
+    text[0] = '\0';
+    while ((spec = hd_option_next(spec, options->command)) != NULL) {
+        if (spec->role == HD_DECIDES_NO_PIXEL || (spec->role == HD_DECIDES_PIXELS && !all))
+            continue;
+        if (spec->type == HD_OPTION_CHANGES)
+            spell_changes(options, spec->name, text, size);
+        else if (spell_value(spec, (const char *)options + spec->offset, value, sizeof value)) {
+            append(text, size, text[0] != '\0' ? " " : "");
+            append(text, size, spec->name);
+            append(text, size, value);
+        }
+    }
 }

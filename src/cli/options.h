@@ -53,12 +53,20 @@ typedef enum HdOptionType {
     HD_OPTION_CHANGES /* the same, PATH=VALUE each */
 } HdOptionType;
 
+/* What an option decides. */
+typedef enum HdOptionRole {
+    HD_DECIDES_NO_PIXEL, /* devices, outputs, what is told */
+    HD_DECIDES_NUMBERS,  /* pixels, by numbers of the scene */
+    HD_DECIDES_PIXELS    /* pixels, in another way */
+} HdOptionRole;
+
 typedef struct HdOptionSpec {
     const char *name;       /* NULL ends the table */
     const char *short_name; /* NULL: none */
     const char *value;      /* what stands for the value in the help; NULL: takes none */
     const char *help;
     unsigned commands; /* those that take it */
+    HdOptionRole role;
     HdOptionType type;
     size_t offset;              /* of its member of HdOptions */
     size_t count_offset;        /* of texts */
@@ -85,5 +93,10 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
 
 /* "-o, --output OUT" */
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
+
+/* The options that were given to the command, in the table's order and not at their defaults, as
+   they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
+   HD_DECIDES_PIXELS too. Escaped (text.h), and cut to `size` bytes with the zero byte. */
+void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size);
 
 #endif

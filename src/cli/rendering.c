@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "cli/rendering.h"
 
+#include <string.h>
+
+#include "base/text.h"
 #include "cli/console.h"
 #include "cli/statistics.h"
 #include "output/fingerprint.h"
@@ -13,6 +16,7 @@ typedef struct Run {
     HdConsole console;
     HdStatistics statistics; /* stream NULL: not wanted */
     HdDeviceTeam team;
+    char scene_name[HD_MAX_PATH], spelled[8192];   /* what pictures say */
     char lines[HD_MOST_TRACERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
 } Run;
 
@@ -119,6 +123,16 @@ static HdStatus render_missing(Run *run, HdError *error) {
 
 /* ---- what is to be rendered ---- */
 
+/* Names of folders are nobody else's matter, and differ between machines. */
+static void label_outputs(Run *run) {
+    const char *name = run->rendering->name;
+    const char *slash = strrchr(name, '/');
+    hd_escape(slash != NULL ? slash + 1 : name, run->scene_name, sizeof run->scene_name);
+    hd_options_spell(run->options, true, run->spelled, sizeof run->spelled);
+    run->rendering->outputs->scene = run->scene_name;
+    run->rendering->outputs->options = run->spelled;
+}
+
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
 static void mark_outputs(const HdRendering *rendering, const HdRenderOptions *render) {
     HdOutputPlan *outputs = rendering->outputs;
@@ -142,6 +156,7 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
     hd_console_tell_run(&run.console, rendering->name, &rendering->file->scene, rendering->outputs,
                         rendering->frames->count);
     hd_stale_files_remove(rendering->outputs, rendering->frames);
+    label_outputs(&run);
     mark_outputs(rendering, &options->render);
     status = hd_resume_find(&run.resume, rendering->outputs, rendering->frames, error);
     if (status == HD_OK) {

@@ -25,6 +25,16 @@ typedef struct HdOutputStyle {
     int frames_per_second;  /* of films */
 } HdOutputStyle;
 
+/* What a picture says of how it was made, where its format has a place for it, beside the program's
+   version: the same on every device and at any time. */
+typedef struct HdPictureLabel {
+    const char *scene;   /* its name; this and the options are UTF-8 without control characters */
+    const char *options; /* of the command line, those that decide pixels; "": none */
+    int frame;
+    bool is_marked;
+    uint64_t fingerprint; /* of a mark (mark.h), where it gets one */
+} HdPictureLabel;
+
 /* Functions are NULL where the format has no such thing; `path` and `name` are for messages. */
 typedef struct HdFormat {
     const char *name; /* for people */
@@ -34,10 +44,10 @@ typedef struct HdFormat {
     const char *const *(*film_arguments)(int width, int height, HdCurve curve);
     bool is_srgb_alone; /* no other curve can be said */
 
-    /* Of pictures: writes a frame to an open stream, a row at a time, with the mark of
-       `fingerprint` (mark.h); NULL: without one. */
+    /* Of pictures: writes a frame to an open stream, a row at a time, with what it says of itself;
+       NULL: nothing. */
     HdStatus (*write)(const HdFrame *frame, const HdPictureStyle *style,
-                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error);
+                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error);
     int most_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
                               written of one that is encoded, on the style's curve */
 

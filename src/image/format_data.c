@@ -44,8 +44,8 @@ static bool write_all(const HdFrame *frame, HdCurve curve, FILE *stream, uint8_t
 }
 
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
-                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
-    (void)fingerprint; /* there is no place for a mark */
+                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
+    (void)label; /* there is no place for it */
     uint8_t *row = malloc((size_t)frame->width * 4);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);

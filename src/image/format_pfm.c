@@ -100,9 +100,9 @@ static bool write_all(const HdFrame *frame, FILE *stream, unsigned char *row) {
 }
 
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
-                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
-    (void)style;       /* radiance is on no curve */
-    (void)fingerprint; /* there is no place for a mark */
+                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
+    (void)style; /* radiance is on no curve */
+    (void)label; /* there is no place for it */
     unsigned char *row = malloc((size_t)frame->width * 12);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);

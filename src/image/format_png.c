@@ -130,7 +130,7 @@ static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPi
 }
 
 static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
-                      const uint64_t *fingerprint, FILE *stream, const char *path, HdError *error) {
+                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
     const HdPngFacts facts = {.width = frame->width,
                               .height = frame->height,
                               .bits = style->bits,
@@ -139,11 +139,11 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     uint16_t *row = malloc((size_t)frame->width * 3 * sizeof *row);
     if (row == NULL)
         return hd_fail(error, HD_FAILED, "cannot write %s: out of memory", path);
-    HdStatus status = hd_png_begin(&writer, stream, path, &facts, error);
+    HdStatus status = hd_png_begin(&writer, stream, path, &facts, label, error);
     if (status == HD_OK)
         status = write_rows(writer, frame, style, row, error);
     if (status == HD_OK)
-        status = hd_png_end(writer, fingerprint, error);
+        status = hd_png_end(writer, label, error);
     hd_png_free(writer);
     free(row);
     return status;

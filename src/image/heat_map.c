@@ -62,7 +62,7 @@ HdStatus hd_heat_map_open(HdHeatMap **out, const char *path, int width, int heig
         free_map(map);
         return status;
     }
-    status = hd_png_begin(&map->png, map->file.stream, map->file.path, &facts, error);
+    status = hd_png_begin(&map->png, map->file.stream, map->file.path, &facts, NULL, error);
     if (status == HD_OK)
         *out = map;
     else

@@ -10,7 +10,7 @@
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
 
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
-                            const HdPictureStyle *style, const uint64_t *fingerprint,
+                            const HdPictureStyle *style, const HdPictureLabel *label,
                             const char *path, HdError *error) {
     if (format->write == NULL)
         return hd_fail(error, HD_BAD_INPUT,
@@ -20,7 +20,7 @@ HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFo
         status = hd_atomic_file_open(file, path, error);
     if (status != HD_OK)
         return status;
-    status = format->write(frame, style, fingerprint, file->stream, path, error);
+    status = format->write(frame, style, label, file->stream, path, error);
     if (status != HD_OK)
         hd_atomic_file_discard(file);
     return status;

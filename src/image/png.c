@@ -184,9 +184,32 @@ static void flush_nothing(png_structp png) {
     (void)png;
 }
 
+enum { MAX_TEXTS = 4, NUMBER_SIZE = 16 };
+
+/* Text in UTF-8 that is not compressed. libpng writes to none of it. */
+static png_text text_of(const char *keyword, const char *text) {
+    return (png_text){.compression = PNG_ITXT_COMPRESSION_NONE,
+                      .key = (char *)keyword,
+                      .text = (char *)text,
+                      .itxt_length = strlen(text)};
+}
+
+/* Returns how many there are. */
+static int make_texts(const HdPictureLabel *label, char number[NUMBER_SIZE],
+                      png_text texts[MAX_TEXTS]) {
+    if (label == NULL)
+        return 0;
+    snprintf(number, NUMBER_SIZE, "%d", label->frame);
+    texts[0] = text_of("Software", "hedron " HD_VERSION);
+    texts[1] = text_of("Scene", label->scene);
+    texts[2] = text_of("Frame", number);
+    texts[3] = text_of("Options", label->options);
+    return label->options[0] != '\0' ? MAX_TEXTS : MAX_TEXTS - 1;
+}
+
 /* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
    nothing else is both faster and smaller than level 1. */
-static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts) {
+static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *texts, int count) {
     png_structp png = writer->png;
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
@@ -200,6 +223,7 @@ static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts) {
         png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
+    png_set_text(png, writer->info, texts, count);
     png_write_info(png, writer->info);
     return true;
 }
@@ -211,15 +235,15 @@ static bool try_row(HdPngWriter *writer, const unsigned char *row) {
     return true;
 }
 
-static bool try_end(HdPngWriter *writer, const uint64_t *fingerprint) {
+static bool try_end(HdPngWriter *writer, const HdPictureLabel *label) {
     unsigned char end[HD_PICTURE_END_SIZE];
     if (setjmp(png_jmpbuf(writer->png)) != 0)
         return false;
-    if (fingerprint == NULL) {
+    if (label == NULL || !label->is_marked) {
         png_write_end(writer->png, NULL);
         return true;
     }
-    hd_picture_end(*fingerprint, writer->hash, end);
+    hd_picture_end(label->fingerprint, writer->hash, end);
     if (fwrite(end, 1, sizeof end, writer->stream) != sizeof end)
         png_error(writer->png, strerror(errno));
     return true;
@@ -231,7 +255,10 @@ static HdStatus status_of(bool good, const HdPngWriter *writer, HdError *error) 
 }
 
 HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path, const HdPngFacts *facts,
-                      HdError *error) {
+                      const HdPictureLabel *label, HdError *error) {
+    char number[NUMBER_SIZE];
+    png_text texts[MAX_TEXTS];
+    const int count = make_texts(label, number, texts);
     HdPngWriter *writer = malloc(sizeof *writer);
     if (writer == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
@@ -242,7 +269,7 @@ HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path, const H
     if (writer->png != NULL)
         writer->info = png_create_info_struct(writer->png);
     const HdStatus status =
-        status_of(writer->info != NULL && try_begin(writer, facts), writer, error);
+        status_of(writer->info != NULL && try_begin(writer, facts, texts, count), writer, error);
     if (status == HD_OK)
         *out = writer;
     else
@@ -254,8 +281,8 @@ HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError
     return status_of(try_row(writer, row), writer, error);
 }
 
-HdStatus hd_png_end(HdPngWriter *writer, const uint64_t *fingerprint, HdError *error) {
-    return status_of(try_end(writer, fingerprint), writer, error);
+HdStatus hd_png_end(HdPngWriter *writer, const HdPictureLabel *label, HdError *error) {
+    return status_of(try_end(writer, label), writer, error);
 }
 
 void hd_png_free(HdPngWriter *writer) {

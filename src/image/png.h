@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "base/error.h"
+#include "image/format.h"
 
 typedef struct HdPngFacts {
     int width, height; /* 1..65535 each */
@@ -46,16 +46,17 @@ void hd_png_close(HdPngReader *reader);
 typedef struct HdPngWriter HdPngWriter;
 
 /* Writes the head of a picture that is not interlaced. `path` is for messages, and has to live as
-   long as the writer; so has the stream, which remains the caller's. Speed comes before size. All
-   errors are HD_FAILED. */
+   long as the writer; so has the stream, which remains the caller's. Speed comes before size. What
+   the label says becomes texts (Software, Scene, Frame, Options); NULL: none. All errors are
+   HD_FAILED. */
 HdStatus hd_png_begin(HdPngWriter **writer, FILE *stream, const char *path, const HdPngFacts *facts,
-                      HdError *error);
+                      const HdPictureLabel *label, HdError *error);
 
 /* The next row from the top as the file has it: with 16 bits the high byte comes first. */
 HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error);
 
-/* Ends the file after its last row, with the mark of `fingerprint` (mark.h); NULL: none. */
-HdStatus hd_png_end(HdPngWriter *writer, const uint64_t *fingerprint, HdError *error);
+/* Ends the file after its last row, with the mark of a label that is marked (mark.h). */
+HdStatus hd_png_end(HdPngWriter *writer, const HdPictureLabel *label, HdError *error);
 
 /* In any case, at the end. NULL is allowed. */
 void hd_png_free(HdPngWriter *writer);

@@ -101,14 +101,19 @@ static HdStatus add_to_film(void *context, int item, HdError *error) {
 /* Under a temporary name. */
 static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *place, int number,
                               HdError *error) {
-    const uint64_t fingerprint = hd_picture_fingerprint(outputs->fingerprint, number);
+    const HdPictureLabel label = {
+        .scene = outputs->scene,
+        .options = outputs->options,
+        .frame = number,
+        .is_marked = outputs->is_marked,
+        .fingerprint = hd_picture_fingerprint(outputs->fingerprint, number),
+    };
     HdAtomicFile *file = &place->files[index];
     char path[HD_MAX_PATH];
     HdStatus status = hd_output_file(&outputs->list[index], number, path, error);
     if (status == HD_OK)
         status = hd_picture_prepare(file, &place->frame, outputs->list[index].format,
-                                    &outputs->style.picture,
-                                    outputs->is_marked ? &fingerprint : NULL, path, error);
+                                    &outputs->style.picture, &label, path, error);
     if (status != HD_OK)
         file->stream = NULL;
     return status;

@@ -97,6 +97,8 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
         .count = count,
         .style = *style,
         .wish = {.curve = style->picture.curve},
+        .scene = "",
+        .options = "",
     };
     for (int i = 0; i < count && status == HD_OK; i++) {
         status = settle_output(&plan->list[i], names[i], style->picture.curve, frame_count, error);

@@ -29,7 +29,9 @@ typedef struct HdOutputPlan {
     bool can_resume;      /* frames can be finished before the run (resume.h), once marked */
     bool is_marked;       /* those pictures get a mark */
     uint64_t fingerprint; /* of the run (fingerprint.h), where they do */
-    bool resumes;         /* frames whose marked pictures are there are finished */
+    const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
+    const char *options;
+    bool resumes; /* frames whose marked pictures are there are finished */
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */

@@ -53,6 +53,49 @@ for name in '#_##.data' '##########.data'; do
 done
 expect_files .
 
+# ---- a picture says what it is, and not where or when it was made
+# texts FILE: the texts of a PNG but for its mark, a line each.
+texts() {
+    python3 - "$1" <<'PYTHON'
+import struct, sys
+data = open(sys.argv[1], "rb").read()
+at = 8
+while at < len(data):
+    size, kind = struct.unpack(">I4s", data[at:at + 8])
+    if kind == b"iTXt":
+        keyword, rest = data[at + 8:at + 8 + size].split(b"\0", 1)
+        print(keyword.decode("latin-1"), rest[4:].decode("utf-8"), sep=": ")
+    at += 12 + size
+PYTHON
+}
+
+mkdir 'a b'
+"$hedron" new "$PWD/a b/lämp.json" >"$logs/new"
+expected="Software: $("$hedron" --version)
+Scene: lämp.json
+Frame: 3
+Options: --set output.bits=16 --size 32x24 --samples 1 --aa adaptive --max-error 0.5"
+options=(--frames 2-3 --size 32x24 --samples 1 --quiet --aa adaptive --max-error 0.5 --set output.bits=16)
+expect_exit 0 "$hedron" render --backend c --lanes 1 --threads 1 "a b/lämp.json" -o 'one/%d.png' "${options[@]}"
+cp "a b/lämp.json" .
+expect_exit 0 "$hedron" render lämp.json --backend c --lanes 4 --threads 2 -o 'two/###.png' "${options[@]}" --frames 3
+expect_same one/3.png two/003.png
+if has_opencl; then
+    expect_exit 0 "$hedron" render lämp.json --backend opencl -o 'three_#.png' "${options[@]}" --frames 3
+    expect_same one/3.png three_3.png
+fi
+if command -v python3 >"$logs/which"; then
+    expect_same <(texts one/3.png) - <<<"$expected"
+    expect_exit 0 "$hedron" render --backend c --size 32x24 --frames 0 -o plain.png
+    expect_same <(texts plain.png) - <<<"Software: $("$hedron" --version)
+Scene: the built-in scene
+Frame: 0
+Options: --size 32x24"
+else
+    echo "not tested: the texts of a PNG, for there is no python3"
+fi
+rm -rf ./*
+
 # ---- several outputs of one run; the names are told as they were given
 render --size 32x24 --frames 0-1 -o 'out/%04d.png' --output='out/##.data'
 expect_stdout_lines 2 'out/(%04d\.png|##\.data)'

@@ -161,7 +161,8 @@ done
 expect_exit 0 "$hedron" --cpu "${classic[@]}" <default.in
 expect_exit 0 "$hedron" convert default.in -o default.json
 render default.json "${classic[@]}" -o json.png
-expect_same json.png out/frame_5.png
+expect_exit 0 "$hedron" compare --json json.png out/frame_5.png
+expect_stdout_contains '"identical": true'
 rm -r out ./*.data ./*.png ./default.*
 # What the classic mode writes in the data format for want of an ending has one in the scene.
 for name in img_%d 'img_%d.jpg' 'img_%d.mp4'; do

@@ -11,6 +11,11 @@
 
 enum { WIDTH = 23, HEIGHT = 17 };
 static const uint64_t FINGERPRINT = UINT64_C(0x123456789abcdef0);
+static const HdPictureLabel MARKED = {.scene = "a.json",
+                                      .options = "--size 23x17",
+                                      .frame = 7,
+                                      .is_marked = true,
+                                      .fingerprint = UINT64_C(0x123456789abcdef0)};
 
 static HdError error;
 static unsigned char *bytes;
@@ -21,7 +26,7 @@ static bool is_whole(void) {
 }
 
 /* Into `bytes`. */
-static void write_picture(const uint64_t *fingerprint, int bits) {
+static void write_picture(const HdPictureLabel *label, int bits) {
     const HdPictureStyle style = {.curve = HD_CURVE_SRGB, .bits = bits};
     HdAtomicFile file;
     HdFrame frame;
@@ -29,8 +34,7 @@ static void write_picture(const uint64_t *fingerprint, int bits) {
     for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
         frame.rgb[i] = (float)(i % 251) / 251.0f;
     assert_int_equal(
-        hd_picture_prepare(&file, &frame, &hd_format_png, &style, fingerprint, "a.png", &error),
-        HD_OK);
+        hd_picture_prepare(&file, &frame, &hd_format_png, &style, label, "a.png", &error), HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
     hd_frame_free(&frame);
     free(bytes);
@@ -40,7 +44,7 @@ static void write_picture(const uint64_t *fingerprint, int bits) {
 static void every_other_byte_is_noticed(void **state) {
     (void)state;
     for (int bits = 8; bits <= 16; bits += 8) {
-        write_picture(&FINGERPRINT, bits);
+        write_picture(&MARKED, bits);
         assert_true(is_whole());
         for (size_t i = 0; i < size; i++) {
             for (int bit = 0; bit < 8; bit++) {
@@ -55,7 +59,7 @@ static void every_other_byte_is_noticed(void **state) {
 
 static void every_byte_less_or_more_is_noticed(void **state) {
     (void)state;
-    write_picture(&FINGERPRINT, 8);
+    write_picture(&MARKED, 8);
     const size_t all = size;
     for (size = 0; size < all; size++)
         assert_false(is_whole());
@@ -70,7 +74,7 @@ static void every_byte_less_or_more_is_noticed(void **state) {
 
 static void another_fingerprint_is_noticed(void **state) {
     (void)state;
-    write_picture(&FINGERPRINT, 8);
+    write_picture(&MARKED, 8);
     for (int bit = 0; bit < 64; bit++)
         assert_false(hd_picture_is_whole(bytes, size, FINGERPRINT ^ UINT64_C(1) << bit));
 }
@@ -79,11 +83,13 @@ static void the_picture_is_the_same_with_and_without(void **state) {
     (void)state;
     static const char text[] = "tEXthedron\0frame 123456789abcdef0 bytes ";
     HdTexture marked, plain;
-    write_picture(&FINGERPRINT, 8);
+    write_picture(&MARKED, 8);
     assert_memory_equal(bytes + size - HD_PICTURE_END_SIZE + 4, text, sizeof text - 1);
     const size_t marked_size = size;
     assert_int_equal(hd_texture_read(&marked, "a.png", HD_CURVE_SRGB, &error), HD_OK);
-    write_picture(NULL, 8);
+    HdPictureLabel label = MARKED;
+    label.is_marked = false;
+    write_picture(&label, 8);
     assert_false(is_whole());
     assert_int_equal(size + HD_PICTURE_END_SIZE - 12, marked_size);
     assert_int_equal(hd_texture_read(&plain, "a.png", HD_CURVE_SRGB, &error), HD_OK);

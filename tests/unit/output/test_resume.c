@@ -42,13 +42,19 @@ static HdFrame make_frame(int number) {
 
 /* As the run of that plan would. */
 static void write_frame(const HdOutputPlan *plan, int index, int number) {
-    const uint64_t fingerprint = hd_picture_fingerprint(plan->fingerprint, number);
+    const HdPictureLabel label = {
+        .scene = "",
+        .options = "",
+        .frame = number,
+        .is_marked = true,
+        .fingerprint = hd_picture_fingerprint(plan->fingerprint, number),
+    };
     char path[HD_MAX_PATH];
     HdAtomicFile file;
     HdFrame frame = make_frame(number);
     assert_int_equal(hd_output_file(&plan->list[index], number, path, &error), HD_OK);
     assert_int_equal(hd_picture_prepare(&file, &frame, plan->list[index].format,
-                                        &plan->style.picture, &fingerprint, path, &error),
+                                        &plan->style.picture, &label, path, &error),
                      HD_OK);
     assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
     hd_frame_free(&frame);
