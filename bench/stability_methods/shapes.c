@@ -57,6 +57,39 @@ void hd_shape_of_platonic(HdShape *shape, const HdPlatonic *solid) {
     }
 }
 
+/* The place of the edge's middle among the vertices, or -1: the face has none there. */
+static int middle_of_edge(const HdShape *shape, const HdPlatonic *solid, int face, int a, int b) {
+    for (int e = 0; e < solid->edge_count; e++) {
+        const HdPlatonicEdge *edge = &solid->edge[e];
+        if ((edge->vertex[0] == a && edge->vertex[1] == b) ||
+            (edge->vertex[0] == b && edge->vertex[1] == a))
+            return face == edge->face[0] ? shape->vertex_count - solid->edge_count + e : -1;
+    }
+    return -1;
+}
+
+void hd_shape_with_t_junctions(HdShape *shape, const HdPlatonic *solid) {
+    hd_shape_of_platonic(shape, solid);
+    shape->triangle_count = 0;
+    HdVec3 *v = shape->vertices;
+    for (int face = 0; face < solid->face_count; face++)
+        v[shape->vertex_count++] = hd_scale(solid->face_normal[face], solid->inradius);
+    for (int e = 0; e < solid->edge_count; e++)
+        v[shape->vertex_count++] =
+            hd_scale(hd_add(v[solid->edge[e].vertex[0]], v[solid->edge[e].vertex[1]]), 0.5);
+    for (int face = 0; face < solid->face_count; face++) {
+        int around[HD_MAX_VERTICES], centre = solid->vertex_count + face;
+        int count = vertices_of_face(solid, face, around);
+        for (int i = 0; i < count; i++) {
+            int a = around[i], b = around[(i + 1) % count];
+            int middle = middle_of_edge(shape, solid, face, a, b);
+            add(shape, centre, a, middle < 0 ? b : middle, face);
+            if (middle >= 0)
+                add(shape, centre, middle, b, face);
+        }
+    }
+}
+
 void hd_shape_needle(HdShape *shape) {
     enum { SIDES = 48 };
     memset(shape, 0, sizeof *shape);
@@ -139,19 +172,15 @@ HdVec3 hd_aim_point(const HdShape *shape, const HdAim *aim, const HdVec3 *vertic
     return point;
 }
 
-static bool names(const int *corners, int vertex) {
-    return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
-}
-
 double hd_aim_facing(const HdShape *shape, const HdAim *aim, HdVec3 away) {
-    const int *corner = shape->corners[aim->triangle];
+    const double on_plane = 1e-9;
+    HdVec3 point = hd_aim_point(shape, aim, shape->vertices);
     double least = 1.0;
     for (int i = 0; i < shape->triangle_count; i++) {
-        bool belongs = shape->face_of[i] >= 0;
-        for (int k = 0; k < 3 && belongs; k++)
-            belongs = aim->share[k] <= 0.0 || names(shape->corners[i], corner[k]);
+        HdVec3 from = hd_sub(point, shape->vertices[shape->corners[i][0]]);
         double facing = hd_dot(shape->normals[i], away);
-        least = belongs && facing < least ? facing : least;
+        if (shape->face_of[i] >= 0 && fabs(hd_dot(shape->normals[i], from)) < on_plane)
+            least = facing < least ? facing : least;
     }
     return least;
 }

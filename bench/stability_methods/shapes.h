@@ -30,6 +30,10 @@ typedef enum HdAimKind { HD_AIM_INTERIOR, HD_AIM_EDGE, HD_AIM_CORNER, HD_AIM_KIN
 /* Each face a fan of triangles. */
 void hd_shape_of_platonic(HdShape *shape, const HdPlatonic *solid);
 
+/* The same surface, each face a fan about its middle. Of two faces that share an edge only one has
+   the edge's middle for a vertex, so that its corner lies on the other's edge: a T-junction. */
+void hd_shape_with_t_junctions(HdShape *shape, const HdPlatonic *solid);
+
 /* Two pyramids with many sides, a hundred times as long as thick: slivers. */
 void hd_shape_needle(HdShape *shape);
 
@@ -49,7 +53,8 @@ HdAim hd_random_aim(const HdShape *shape, HdAimKind kind, uint64_t *random);
 /* Where it is, from other places of the shape's vertices. */
 HdVec3 hd_aim_point(const HdShape *shape, const HdAim *aim, const HdVec3 *vertices);
 
-/* The least cosine between `away` and the normals of the triangles that the point belongs to. */
+/* The least cosine between `away` and the normals of the triangles whose plane the point is on; for
+   a convex surface it belongs to them or to others of their face. */
 double hd_aim_facing(const HdShape *shape, const HdAim *aim, HdVec3 away);
 
 #endif

@@ -112,6 +112,7 @@ NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "sha
          "sums": ("differing",)}
 # Nor in double, where a light that is put on a face is on one side of it by rounding.
 DOUBLE_MAY = ("face_lights",)
+CRACKS = ("t_junctions",)  # the corners, as they are rounded, leave gaps, which nobody promises to close
 
 
 def failures(counts):
@@ -122,7 +123,7 @@ def failures(counts):
             for case in dict.fromkeys(each["case"] for each in select(counts, study, method=method)):
                 these = select(counts, study, [case], method)
                 wrong = {key: sum(each[key] for each in these) for key in keys}
-                if any(wrong.values()) and not (method == CHECK and case in DOUBLE_MAY):
+                if any(wrong.values()) and case not in CRACKS and not (method == CHECK and case in DOUBLE_MAY):
                     said = ", ".join(f"{count} {key}" for key, count in wrong.items() if count)
                     found.append(f"{study}, {case}, {NAMES[method]}: {said} of {sum(each['tried'] for each in these)}")
     return found

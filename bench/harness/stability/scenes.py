@@ -13,7 +13,8 @@ FACE = 3 ** -0.5  # half the side of a cube of circumradius 1
 LIMIT = 1e12  # of the numbers of a scene
 SCALES = (1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6)
 HAIR = 1e-9
-OFFSETS = (0.0, 1.0, 1e2, 1e4, 1e6)
+GAP = 1e-6
+OFFSETS = (0.0, 1.0, 1e2, 1e4, 1e6, 1e9)
 SIZE = 10.0  # of the default scene, in its own unit
 
 
@@ -63,7 +64,7 @@ def lights():
 
 
 def views():
-    for degrees in (1e-9, 1e-3, 178.999, 179):
+    for degrees in (1e-9, 1e-3, 0.01, 178.999, 179):
         yield Odd(f"field_of_view_{degrees:g}", base(camera=camera((2.6, -1.9, 1.3), field_of_view=degrees)))
 
 
@@ -73,6 +74,30 @@ def glass():
         scene = base(camera=view)
         scene["materials"]["glass"] = {"reflection": 0.05, "transmission": 0.9, "index_of_refraction": 1.5}
         yield Odd(f"critical_angle_{name}", scene)
+
+
+def touching():
+    """Solids that share a face, an edge's part or all of themselves; a hair: a gap, or a size."""
+    def stacked(gap):
+        return base(solids=[cube([0, 0, -0.8 + FACE + gap]), cube([0, 0, -0.8 + 3 * FACE + 2 * gap])])
+
+    def cube(centre, radius=1.0):
+        return {"kind": "cube", "material": "glass", "centre": centre, "circumradius": radius}
+
+    def beside(gap):
+        return base(solids=[cube([0, 0, 0]), cube([2 * FACE + gap, 0.3, 0.1])])
+
+    def doubled(more):
+        return base(solids=[cube([0, 0, 0]), cube([0, 0, 0], 1.0 + more)])
+    for name, make in (("stacked_on_the_floor", stacked), ("side_by_side", beside), ("doubled_solid", doubled)):
+        yield Odd(name, make(0.0), beside=(make(GAP), make(2 * GAP)))
+
+
+def deep():
+    scene = base(camera=camera((0.05, 0.1, 0.0), (1.0, 0.9, 0.3), 100))
+    scene["image"].update(depth=1000, cutoff=0)
+    scene["materials"]["glass"].update(reflection=1, transmission=0, diffuse=0, specular=0)
+    yield Odd("mirrors_of_depth_1000", scene)
 
 
 def colours():
@@ -155,6 +180,6 @@ def moves(scene, quick):
 
 
 def all_scenes(folder, quick):
-    for scenes in (eyes(), lights(), views(), glass(), colours(), textures(folder),
+    for scenes in (eyes(), lights(), views(), glass(), touching(), deep(), colours(), textures(folder),
                    moves(read_scene(ROOT / "scenes/default.json"), quick)):
         yield from scenes

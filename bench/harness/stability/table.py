@@ -17,6 +17,7 @@ PLACES = {
     ("crossings", "slivers"): ("rays at slivers miss or count twice", HERE),
     ("crossings", "zero_area"): ("triangles without an area", f"unit_test_mesh_mesh, {HERE}"),
     ("crossings", "duplicates"): ("coplanar duplicates are not met as one", HERE),
+    ("crossings", "t_junctions"): ("rays at T-junctions pass through or count twice", "none: the mesh has cracks"),
     ("paths", "inside"): ("mirror paths in a solid leave the double path within 30 bounces", HERE),
     ("paths", "between"): ("mirror paths between solids leave the double path within 30 bounces", HERE),
     ("shadows", "edge_lights"): ("lights on edges are blocked, or shine through", f"conformance_c (own edge lights), {HERE}"),
