@@ -12,7 +12,7 @@
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     return (vreal)_mm_sqrt_ps((__m128)a);
 }
 FN int any_lane(vint m) {
@@ -36,7 +36,7 @@ FN uint lane_bits(vint m) {
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)HD_REALS_256(fmadd)((Reals256)a, (Reals256)b, (Reals256)c);
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     return (vreal)HD_REALS_256(sqrt)((Reals256)a);
 }
 FN int any_lane(vint m) {

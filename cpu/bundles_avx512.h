@@ -43,7 +43,7 @@ FN vint pick_int(vmask m, vint a, vint b) {
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return (vreal)HD_REALS_512(fmadd, )((Reals512)a, (Reals512)b, (Reals512)c);
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     return (vreal)HD_REALS_512(sqrt, )((Reals512)a);
 }
 FN int any_lane(vmask m) {

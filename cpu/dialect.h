@@ -32,7 +32,7 @@ FN vreal from_bits(vbits a) {
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return HD_FMA_SCALAR(a, b, c);
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     return HD_SQRT_SCALAR(a);
 }
 
@@ -64,7 +64,7 @@ FN vreal multiply_add(vreal a, vreal b, vreal c) {
         r[lane] = HD_FMA_SCALAR(a[lane], b[lane], c[lane]);
     return r;
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     vreal r;
     for (int lane = 0; lane < HD_LANES; lane++)
         r[lane] = HD_SQRT_SCALAR(a[lane]);

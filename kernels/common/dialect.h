@@ -14,8 +14,9 @@
             if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
             fixed64; vbits of real_bits
 
-   Operators + - * / and, on integers and masks, & | ^ ~ >> work on bundles as on scalars; a scalar
-   real may stand beside a vreal. Everything else is a function. Of each language:
+   Operators + - * and, on integers and masks, & | ^ ~ >> work on bundles as on scalars; a scalar
+   real may stand beside a vreal. Everything else is a function, division too, which is correctly
+   rounded in strict builds like the rest. Of each language:
 
    splat(a), splat_int(a)         the same value in every lane
    lt(a, b), le(a, b)             mask of a < b, a <= b; false where either is NaN
@@ -25,7 +26,8 @@
    lane_real(&a, i), lane_int, lane_fix    read one lane; not of a mask
    set_lane_int(&a, i, x)         writes one lane
    multiply_add(a, b, c)          a * b + c with one rounding
-   square_root(a)                 correctly rounded in strict builds
+   built_in_root(a)               the square root as the language has it; the kernels ask for
+                                  square_root(a), and for quotient(a, b)
    absolute(a)                    without its sign
    to_int(a)                      truncates; a must be within the range of int: clamp first
    to_real(a)                     integer to real, rounded to nearest
@@ -137,6 +139,70 @@ FN real least_lane(vreal a, vmask m) {
 }
 FN real greatest_lane(vreal a, vmask m) {
     return -least_lane(-a, m);
+}
+#endif
+
+/* ---- division and roots ---- */
+
+/* 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place: a guess by
+   the exponent's bits (Blinn 1997, Floating-Point Tricks), then steps of third order, which on CPUs
+   cost a fraction of a division. */
+FN vreal reciprocal(vreal a) {
+    vreal one = splat(R(1.0));
+#if HD_DOUBLE
+    enum { STEPS = 3 };
+    vreal guess = from_bits(splat_bits(0x7fde623822fc16e6) - bits_of(a));
+#else
+    enum { STEPS = 2 };
+    vreal guess = from_bits(splat_bits(0x7ef311c3) - bits_of(a));
+#endif
+    for (int i = 0; i < STEPS; i++) {
+        vreal error = multiply_add(-a, guess, one);
+        guess = multiply_add(guess, multiply_add(error, error, error), guess);
+    }
+    return guess;
+}
+
+/* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
+FN vreal reciprocal_root(vreal a) {
+    vreal one = splat(R(1.0)), one_half = splat(R(0.5));
+#if HD_DOUBLE
+    enum { STEPS = 3 };
+    vreal guess = from_bits(splat_bits(0x5fe6eb50c7b537a9) - (bits_of(a) >> 1));
+#else
+    enum { STEPS = 2 };
+    vreal guess = from_bits(splat_bits(0x5f375a86) - (bits_of(a) >> 1));
+#endif
+    for (int i = 0; i < STEPS; i++) {
+        vreal error = multiply_add(-a, guess * guess, one);
+        guess = multiply_add(guess, error * multiply_add(error, splat(R(0.375)), one_half), guess);
+    }
+    return guess;
+}
+
+/* Correctly rounded: the device's own, or made of multiply_add where HD_ROUNDED_BY_FMA says that it
+   has none. shared_quotient is of numbers that all lanes share. */
+#if HD_ROUNDED_BY_FMA
+#include "rounded.h"
+FN vreal quotient(vreal a, vreal b) {
+    return quotient_by_fma(a, b);
+}
+FN vreal square_root(vreal a) {
+    return root_by_fma(a);
+}
+FN real shared_quotient(real a, real b) {
+    vreal found = quotient_by_fma(splat(a), splat(b));
+    return lane_real(&found, 0);
+}
+#else
+FN vreal quotient(vreal a, vreal b) {
+    return a / b;
+}
+FN vreal square_root(vreal a) {
+    return built_in_root(a);
+}
+FN real shared_quotient(real a, real b) {
+    return a / b;
 }
 #endif
 

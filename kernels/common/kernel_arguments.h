@@ -75,4 +75,61 @@
     X(INPUT, int, thresholds)                                                                      \
     LAST(BUFFER, uint, image)
 
+/* hedron_probe: each of `count` tuples of numbers (first, second, third), and of their bits, goes
+   through every primitive. `numbers` gets those results that are numbers, `integers` the others:
+   `count` of each primitive, in the order of the lists below. Where threads work in groups, `sums`
+   and `counters`, which all share, get what is added atomically. */
+#define HD_PROBE_ARGUMENTS(X, LAST)                                                                \
+    X(INPUT, real, first)                                                                          \
+    X(INPUT, real, second)                                                                         \
+    X(INPUT, real, third)                                                                          \
+    X(INPUT, fixed64, bits)                                                                        \
+    X(NUMBER, int, count)                                                                          \
+    X(BUFFER, real, numbers)                                                                       \
+    X(BUFFER, fixed64, integers)                                                                   \
+    X(BUFFER, fixed64, sums)                                                                       \
+    LAST(BUFFER, uint, counters)
+
+/* What a probe's results are: a name, and words for people. a, b and c are a tuple's numbers, x
+   its bits as an integer of 64, n those below 32. */
+#define HD_PROBE_NUMBERS(X)                                                                        \
+    X(sum, "a + b")                                                                                \
+    X(difference, "a - b")                                                                         \
+    X(product, "a * b")                                                                            \
+    X(negative, "-a")                                                                              \
+    X(quotient, "a / b")                                                                           \
+    X(root, "the square root of a")                                                                \
+    X(fused, "fma(a, b, c)")                                                                       \
+    X(apart, "a * b + c, rounded twice,")                                                          \
+    X(apart_from, "c - a * b, rounded twice,")                                                     \
+    X(in_order, "(a + b) + c")                                                                     \
+    X(lost, "(a + b) - a")                                                                         \
+    X(nothing, "a - a")                                                                            \
+    X(plus_zero, "a + 0")                                                                          \
+    X(absolute, "the absolute value of a")                                                         \
+    X(lesser, "the lesser of a and b")                                                             \
+    X(greater, "the greater of a and b")                                                           \
+    X(signed, "a times the sign of b")                                                             \
+    X(picked, "a <= b ? c : a")                                                                    \
+    X(of_int, "(real) n")                                                                          \
+    X(of_fixed, "(real) x")
+
+#define HD_PROBE_INTEGERS(X)                                                                       \
+    X(less, "a < b")                                                                               \
+    X(less_equal, "a <= b")                                                                        \
+    X(is_number, "a <= a")                                                                         \
+    X(to_int, "(int) a, within 2^30,")                                                             \
+    X(to_fixed, "(64-bit integer) of a, within 2^62,")                                             \
+    X(int_order, "n < (int) a ? n : (int) a")                                                      \
+    X(shifted, "n >> 5")                                                                           \
+    X(fixed_sum, "x + (x >> 7)")                                                                   \
+    X(lowest_bit, "the lowest bit of n | 2^31")                                                    \
+    X(bit_count, "the number of bits of n")
+
+enum {
+    HD_PROBE_SUMS = 8,     /* that threads add to */
+    HD_PROBE_COUNTERS = 8, /* likewise */
+    HD_PROBE_GRAIN = 16    /* tuples come in multiples of it: the most lanes */
+};
+
 #endif

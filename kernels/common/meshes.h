@@ -160,7 +160,7 @@ FN vreal passing_share(vint octaves, vint rest) {
     vreal x = (splat(R(0.5)) - part) * splat(R(0.69314718055994530942));
     vreal share = one;
     for (int k = 14; k > 0; k--)
-        share = multiply_add(share, x * splat(R(1.0) / (real)k), one);
+        share = multiply_add(share, x * splat(shared_quotient(R(1.0), (real)k)), one);
     share = share * splat(R(0.70710678118654752440));
     for (vint left = whole; any_lane(lt_int(splat_int(0), left)); left = left - 1)
         share = pick(lt_int(splat_int(0), left), share * splat(R(0.5)), share);

@@ -39,7 +39,7 @@ FN int in_picture(GLOBAL const View *view, Pixel pixel) {
 /* a / divisor, rounded down, of 0 <= a < 2^22: the half keeps it further from whole numbers than
    what is rounded. */
 FN vint divide_int(vint a, int divisor) {
-    return to_int((to_real(a) + splat(R(0.5))) * splat(R(1.0) / (real)divisor));
+    return to_int((to_real(a) + splat(R(0.5))) * splat(shared_quotient(R(1.0), (real)divisor)));
 }
 
 /* The samples `within` their entries of a listed frame whose pixels are x, y: these become the
@@ -195,10 +195,10 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
         uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
         GLOBAL float *out = pixels + number * (uint64)floats;
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
-            out[channel] = (float)((real)sums[channel] * view->from_fixed / samples);
+            out[channel] = (float)shared_quotient((real)sums[channel] * view->from_fixed, samples);
         if (SURVEYED(header)) {
-            out[HD_RADIANCE_SUMS] =
-                (float)((real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed / samples);
+            out[HD_RADIANCE_SUMS] = (float)shared_quotient(
+                (real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed, samples);
             out[HD_RADIANCE_SUMS + 1] = (float)(sums[HD_RADIANCE_SUMS + 1] & HD_IDENTITY_MASK);
         }
     }

@@ -83,12 +83,12 @@ FN void set_material(Surface *surface, vmask m, LaneMaterial material) {
 /* Lanes whose point is within the radius of one of the edge's lights. */
 FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point) {
     real count = (real)solid->lights_per_edge;
-    real spacing = R(2.0) * solid->edge_half_length / count;
+    real spacing = shared_quotient(R(2.0) * solid->edge_half_length, count);
     Vec3 direction = vec3_of(edge->direction);
     Vec3 middle = vec3_of(edge->middle);
     Vec3 offset = vec3_sub(point, middle);
     vreal along = vec3_dot(offset, direction);
-    vreal cell = (along + splat(solid->edge_half_length)) / splat(spacing);
+    vreal cell = quotient(along + splat(solid->edge_half_length), splat(spacing));
     cell = lesser(greater(cell, splat(R(0.0))), splat(count - R(1.0)));
     vreal light =
         (to_real(to_int(cell)) + splat(R(0.5))) * spacing - splat(solid->edge_half_length);

@@ -28,11 +28,12 @@ FN void floor_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vrea
     vreal discriminant = greater(multiply_add(k1, k1, k2 * k0 * R(-4.0)), splat(R(0.0)));
     vreal root = square_root(discriminant) * map->orientation;
     vmask same_sign = le(splat(R(0.0)), k1 * root);
-    *t = clamp_unit(pick(same_sign, (k0 * R(-2.0)) / (k1 + root), (root - k1) / (k2 * R(2.0))));
+    *t = clamp_unit(
+        pick(same_sign, quotient(k0 * R(-2.0), k1 + root), quotient(root - k1, k2 * R(2.0))));
     vreal da = multiply_add(*t, ga, ea), db = multiply_add(*t, gb, eb);
     vreal na = multiply_add(-*t, fa, ha), nb = multiply_add(-*t, fb, hb);
     vmask use_a = lt(db * db, da * da);
-    *s = clamp_unit(pick(use_a, na, nb) / pick(use_a, da, db));
+    *s = clamp_unit(quotient(pick(use_a, na, nb), pick(use_a, da, db)));
 }
 
 FN void parallelogram_coordinates(GLOBAL const FloorMap *map, Vec3 point, vreal *s, vreal *t) {
@@ -65,7 +66,7 @@ FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
 /* Between four texels, the upper two from number `upper`, the lower two from `lower` on. */
 FN Vec3 blend_texels(GLOBAL const uint *texels, vint upper, vint lower, vreal across, vreal down) {
     Vec3 above = blend_row(texels, upper, across), below = blend_row(texels, lower, across);
-    vreal scale = splat(R(1.0) / R(65535.0));
+    vreal scale = splat(R(1.5259021896696422e-5)); /* 1 / 65535 */
     return vec3(blend(above.x, below.x, down) * scale, blend(above.y, below.y, down) * scale,
                 blend(above.z, below.z, down) * scale);
 }

@@ -64,42 +64,6 @@ FN Vec3 vec3_pick(vmask m, Vec3 a, Vec3 b) {
     return vec3(pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z));
 }
 
-/* 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place: a guess by
-   the exponent's bits (Blinn 1997, Floating-Point Tricks), then steps of third order, which on CPUs
-   cost a fraction of a division. */
-FN vreal reciprocal(vreal a) {
-    vreal one = splat(R(1.0));
-#if HD_DOUBLE
-    enum { STEPS = 3 };
-    vreal guess = from_bits(splat_bits(0x7fde623822fc16e6) - bits_of(a));
-#else
-    enum { STEPS = 2 };
-    vreal guess = from_bits(splat_bits(0x7ef311c3) - bits_of(a));
-#endif
-    for (int i = 0; i < STEPS; i++) {
-        vreal error = multiply_add(-a, guess, one);
-        guess = multiply_add(guess, multiply_add(error, error, error), guess);
-    }
-    return guess;
-}
-
-/* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
-FN vreal reciprocal_root(vreal a) {
-    vreal one = splat(R(1.0)), one_half = splat(R(0.5));
-#if HD_DOUBLE
-    enum { STEPS = 3 };
-    vreal guess = from_bits(splat_bits(0x5fe6eb50c7b537a9) - (bits_of(a) >> 1));
-#else
-    enum { STEPS = 2 };
-    vreal guess = from_bits(splat_bits(0x5f375a86) - (bits_of(a) >> 1));
-#endif
-    for (int i = 0; i < STEPS; i++) {
-        vreal error = multiply_add(-a, guess * guess, one);
-        guess = multiply_add(guess, error * multiply_add(error, splat(R(0.375)), one_half), guess);
-    }
-    return guess;
-}
-
 FN Vec3 vec3_normalize(Vec3 a) {
     return vec3_scale(a, reciprocal_root(vec3_dot(a, a)));
 }

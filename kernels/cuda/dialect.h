@@ -38,7 +38,7 @@ FN vreal from_bits(vbits a) {
 FN vreal multiply_add(vreal a, vreal b, vreal c) {
     return HD_FMA(a, b, c);
 }
-FN vreal square_root(vreal a) {
+FN vreal built_in_root(vreal a) {
     return sqrt(a); /* overloaded */
 }
 FN vreal absolute(vreal a) {

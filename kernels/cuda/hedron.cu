@@ -2,15 +2,29 @@
 /* Entry points for CUDA; their parameters are those of kernel_arguments.h, by the names there. */
 #include "dialect.h"
 
+/* The text has each file once, where it is asked for first: what either part needs comes before. */
+#include "../common/dialect.h"
+#include "../common/scene_arguments.h"
+#if HD_PROBE
+#include "../common/probe.h"
+#else
 #include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT
 #include "../common/wavefront.h"
 #endif
+#endif
 
 #define KERNEL extern "C" __global__ void
 
-#if HD_WAVEFRONT
+#if HD_PROBE
+
+KERNEL hedron_probe(HD_PROBE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    probe_tuples(first, second, third, bits, count, numbers, integers, sums, counters,
+                 (int)(blockIdx.x * blockDim.x + threadIdx.x), (int)(gridDim.x * blockDim.x));
+}
+
+#elif HD_WAVEFRONT
 
 KERNEL hedron_trace_take(
     SCENE_PARAMETERS QUEUE_PARAMETERS HD_TRACE_TAKE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
@@ -37,6 +51,8 @@ KERNEL hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_
 
 #endif
 
+#if !HD_PROBE
+
 KERNEL hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
     if (worker < workers)
@@ -47,3 +63,5 @@ KERNEL hedron_encode(HD_ENCODE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
     encode_pixels(pixels, count, thresholds, worker, (int)(gridDim.x * blockDim.x), image);
 }
+
+#endif

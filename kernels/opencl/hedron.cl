@@ -3,13 +3,27 @@
    Without a group size every work item renders for itself, which suits CPUs. */
 #include "dialect.h"
 
+/* The text has each file once, where it is asked for first: what either part needs comes before. */
+#include "../common/dialect.h"
+#include "../common/scene_arguments.h"
+#if HD_PROBE
+#include "../common/probe.h"
+#else
 #include "../common/encode.h"
 #include "../common/render.h"
 #if HD_WAVEFRONT
 #include "../common/wavefront.h"
 #endif
+#endif
 
-#if HD_WAVEFRONT && HD_GROUP_SIZE
+#if HD_PROBE
+
+__kernel void hedron_probe(HD_PROBE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+    probe_tuples(first, second, third, bits, count, numbers, integers, sums, counters,
+                 (int)get_global_id(0), (int)get_global_size(0));
+}
+
+#elif HD_WAVEFRONT && HD_GROUP_SIZE
 
 __kernel void hedron_trace_take(
     SCENE_PARAMETERS QUEUE_PARAMETERS HD_TRACE_TAKE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
@@ -50,12 +64,16 @@ __kernel void hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, H
 
 #endif
 
+#if !HD_PROBE
+
 __kernel void hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     if ((int)get_global_id(0) < workers)
         sum_counts(counts, count, (int)get_global_id(0), workers, sums);
 }
 
-#if HD_GROUP_SIZE
+#endif
+
+#if HD_GROUP_SIZE && !HD_PROBE
 
 __kernel void hedron_encode(HD_ENCODE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     encode_pixels(pixels, count, thresholds, (int)get_global_id(0), (int)get_global_size(0), image);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "device/options.h"
+#include "device/probe_batch.h"
 #include "image/frame.h"
 #include "tables/tables.h"
 
@@ -78,6 +79,13 @@ typedef struct HdRendererFunctions {
     /* The kernels that uploads compile, and what the last one did to have them (kernel_cache.h).
        NULL instead of a function where they are compiled ahead. */
     HdKernelCache *(*kernels)(void *renderer);
+
+    /* Computes a batch of the arithmetic probe with kernels of the same shape, and tells all that
+       the results may depend on, apart from the number of tuples. The scene, if there is one, must
+       be uploaded again. NULL instead of functions as with `kernels`. */
+    HdStatus (*probe)(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
+                      HdError *error);
+    void (*probe_key)(void *renderer, char *text, size_t capacity);
 
     /* The lanes of such kernels' bundles; NULL instead of a function where `kernels` tells. */
     int (*lanes)(const void *renderer);

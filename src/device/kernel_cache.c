@@ -87,6 +87,19 @@ static void note_found(HdKernelCache *cache) {
 
 /* ---- finding and keeping ---- */
 
+bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
+                         const char *options, const char *driver, char *key, size_t capacity) {
+    int length =
+        snprintf(key, capacity,
+                 "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
+                 HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
+                 options, cache->device, driver);
+    if (length >= 0 && (size_t)length < capacity)
+        return true;
+    key[0] = '\0';
+    return false;
+}
+
 bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t source_size,
                           const char *options, const char *driver, unsigned char **binary,
                           size_t *size) {
@@ -94,13 +107,8 @@ bool hd_kernel_cache_find(HdKernelCache *cache, const void *source, size_t sourc
     cache->is_untested = false;
     cache->note[0] = cache->maker[0] = '\0';
     hd_self_test_stamp(&cache->shape, cache->stamp, sizeof cache->stamp);
-    int length =
-        snprintf(cache->key, sizeof cache->key,
-                 "hedron %s\nkernels %016" PRIx64 ", %zu bytes\noptions %s\ndevice %s\ndriver %s\n",
-                 HD_VERSION, hd_hash_bytes(HD_HASH_START, source, source_size), source_size,
-                 options, cache->device, driver);
-    if (length < 0 || length >= (int)sizeof cache->key) {
-        cache->key[0] = '\0';
+    if (!hd_kernel_cache_key(cache, source, source_size, options, driver, cache->key,
+                             sizeof cache->key)) {
         *binary = NULL;
         return false;
     }

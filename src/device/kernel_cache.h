@@ -33,6 +33,12 @@ struct HdKernelCache {
 /* For one device. There is nothing to free. */
 void hd_kernel_cache_begin(HdKernelCache *cache, const HdDevice *device);
 
+/* Writes the key of what depends on kernels; false where there is no room for all of it. `source`
+   and `options` are all that they are compiled from, `driver` what else they depend on, apart from
+   the device. */
+bool hd_kernel_cache_key(const HdKernelCache *cache, const void *source, size_t source_size,
+                         const char *options, const char *driver, char *key, size_t capacity);
+
 /* Looks for kernels: `source` and `options` are all that they are compiled from, `driver` what else
    they depend on, apart from the device. True where they are there; `*binary` is the caller's to
    free. Otherwise the caller compiles. */

@@ -26,6 +26,8 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_SURVEYED", shape->needs.surveyed},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
+        {"HD_ROUNDED_BY_FMA", shape->rounds_by_fma},
+        {"HD_PROBE", shape->is_probe},
     };
     int length = 0;
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
@@ -46,6 +48,8 @@ int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
 
 const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
     bool has_groups = shape->group_size > 0;
+    if (shape->is_probe)
+        return kernel == HD_KERNEL_TRACE ? "hedron_probe" : NULL;
     switch (kernel) {
     case HD_KERNEL_TRACE:
         if (!shape->wavefront)

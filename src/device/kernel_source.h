@@ -35,6 +35,9 @@ typedef struct HdKernelShape {
     int register_limit; /* of a thread on an NVIDIA device; 0: the compiler's own */
     int ptx_arch;       /* CUDA: compiled to PTX for compute_ of that number, and by the driver from
                            there on; 0: to the device's machine code */
+    bool is_probe;      /* the kernel of the probe (probe.h) and no others */
+    bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
+                           not correctly rounded */
     bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 
@@ -51,7 +54,7 @@ enum { HD_KERNEL_DEFINES_SIZE = 512 };
 void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_SIZE]);
 
 typedef enum HdKernel {
-    HD_KERNEL_TRACE,  /* traces rays */
+    HD_KERNEL_TRACE,  /* traces rays, or is the probe's */
     HD_KERNEL_STORE,  /* stores the pixels of a wavefront's batch, where threads work in groups */
     HD_KERNEL_SUM,    /* adds counts up */
     HD_KERNEL_ENCODE, /* makes 8 bits of pixels, where threads work in groups */

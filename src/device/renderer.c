@@ -8,6 +8,7 @@
 
 #include "base/limits.h"
 #include "device/kernel_cache.h"
+#include "device/probe.h"
 #include "device/self_test.h"
 #include "kernels/host/shared.h"
 
@@ -16,6 +17,7 @@ struct HdRenderer {
     void *state; /* of the backend */
     HdDevice device;
     HdRenderOptions options;
+    bool is_probed; /* or need not be */
     bool has_scene;
     bool has_failed;
     double longest_launch; /* seconds; negative: none is known */
@@ -92,6 +94,16 @@ static HdKernelCache *kernels_of(const HdRenderer *renderer) {
                : NULL;
 }
 
+/* Before the first kernels: whether the device is to be trusted, and how it divides. */
+static HdStatus settle_arithmetic(HdRenderer *renderer, HdError *error) {
+    if (renderer->is_probed || renderer->options.math != HD_MATH_STRICT ||
+        kernels_of(renderer) == NULL)
+        return HD_OK;
+    HdStatus status = hd_probe_settle(renderer->backend, renderer->state, &renderer->device, error);
+    renderer->is_probed = status == HD_OK;
+    return status;
+}
+
 /* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
 static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables *tables,
                                       HdError *error) {
@@ -157,7 +169,9 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
     if (status != HD_OK)
         return status;
     renderer->has_scene = false;
-    status = renderer->backend->functions->upload(renderer->state, tables, error);
+    status = settle_arithmetic(renderer, error);
+    if (status == HD_OK)
+        status = renderer->backend->functions->upload(renderer->state, tables, error);
     if (status == HD_OK)
         status = test_new_kernels(renderer, tables, error);
     renderer->has_scene = status == HD_OK;

@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "device/kernel_cache.h"
+#include "device/probe_operands.h"
 #include "device/renderer.h"
 #include "expect.h"
 
@@ -21,6 +22,8 @@ static struct {
     bool is_right_if_cautious; /* then not */
     bool refuses_binary;       /* what comes from the cache */
     bool hides_binary;         /* gives none away */
+    bool adds_wrongly;         /* in every precision */
+    bool divides_wrongly;      /* but by fused operations */
     const char *options;
     int slow_milliseconds; /* more, for each frame of the device with this number */
     int slow_index;
@@ -31,7 +34,7 @@ static struct {
     /* Called at each of these points, with the device's number, on the thread that is there; may
        wait, or let the device fail. NULL: nothing happens. */
     HdStatus (*event)(FakePoint point, int index, HdError *error);
-    atomic_int opened, compiled, loaded, rendered;
+    atomic_int opened, probed, compiled, loaded, rendered;
 } fake;
 
 typedef struct FakeRenderer {
@@ -153,6 +156,30 @@ static HdKernelCache *fake_kernels(void *state) {
     return &renderer->kernels;
 }
 
+/* In float. */
+static HdStatus fake_probe(void *state, const HdProbeBatch *batch, HdProbeResults *results,
+                           HdError *error) {
+    FakeRenderer *renderer = state;
+    float *numbers = results->numbers;
+    (void)error;
+    fake.probed++;
+    if (batch->precision == HD_PRECISION_DOUBLE)
+        hd_probe_expect_double(batch, results);
+    else
+        hd_probe_expect_float(batch, results);
+    if (fake.adds_wrongly)
+        numbers[HD_PROBE_NUMBER_sum * batch->count + 7] = 0.125f;
+    if (fake.divides_wrongly && !renderer->kernels.shape.rounds_by_fma)
+        numbers[HD_PROBE_NUMBER_quotient * batch->count + 7] = 0.125f;
+    return HD_OK;
+}
+
+static void fake_probe_key(void *state, char *text, size_t capacity) {
+    const FakeRenderer *renderer = state;
+    hd_kernel_cache_key(&renderer->kernels, "text", 5, fake.options != NULL ? fake.options : "",
+                        "1", text, capacity);
+}
+
 static void fake_describe(const void *renderer, char *text, int capacity) {
     (void)renderer;
     (void)capacity;
@@ -171,6 +198,8 @@ static const HdRendererFunctions fake_functions = {
     .submit = fake_submit,
     .collect = fake_collect,
     .kernels = fake_kernels,
+    .probe = fake_probe,
+    .probe_key = fake_probe_key,
     .describe = fake_describe,
     .close = fake_close,
 };

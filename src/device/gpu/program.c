@@ -61,9 +61,10 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
                       HdError *error) {
     char options[OPTIONS_LENGTH];
     HdKernelShape *shape = &program->cache.shape;
-    if (program->is_built && hd_kernel_needs_equal(&shape->needs, needs))
+    if (program->is_built && !shape->is_probe && hd_kernel_needs_equal(&shape->needs, needs))
         return HD_OK;
     program->is_built = false;
+    shape->is_probe = false;
     gpu->driver->unload(gpu->handle);
     hd_kernel_shape_set_needs(shape, needs);
     gpu->driver->write_options(gpu->handle, shape, options, sizeof options);
@@ -75,4 +76,42 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
         gpu->driver->unload(gpu->handle);
     program->is_built = status == HD_OK;
     return status;
+}
+
+/* The bounds of a scene are nothing to the probe. */
+static HdKernelShape probe_shape(const HdGpuProgram *program) {
+    HdKernelShape shape = program->cache.shape;
+    shape.needs = (HdKernelNeeds){0};
+    shape.is_probe = true;
+    return shape;
+}
+
+HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
+    const HdGpuDriver *driver = gpu->driver;
+    char options[OPTIONS_LENGTH], maker[32];
+    HdKernelShape *shape = &program->cache.shape;
+    if (program->is_built && shape->is_probe && shape->rounds_by_fma == program->probes_by_fma)
+        return HD_OK;
+    program->is_built = false;
+    driver->unload(gpu->handle);
+    *shape = probe_shape(program);
+    driver->write_options(gpu->handle, shape, options, sizeof options);
+    HdStatus status = driver->compile(gpu->handle, shape, options, maker, sizeof maker, error);
+    if (status == HD_OK)
+        status = limit_group_size(program, gpu, error);
+    if (status != HD_OK)
+        driver->unload(gpu->handle);
+    program->is_built = status == HD_OK;
+    program->probes_by_fma = shape->rounds_by_fma;
+    return status;
+}
+
+void hd_gpu_probe_key(const HdGpuProgram *program, const HdGpu *gpu, char *text, size_t capacity) {
+    const HdGpuDriver *driver = gpu->driver;
+    const HdKernelShape shape = probe_shape(program);
+    char options[OPTIONS_LENGTH], version[VERSION_LENGTH];
+    driver->write_options(gpu->handle, &shape, options, sizeof options);
+    driver->write_version(gpu->handle, version, sizeof version);
+    hd_kernel_cache_key(&program->cache, driver->source, *driver->source_size, options, version,
+                        text, capacity);
 }

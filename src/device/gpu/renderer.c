@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "device/gpu/arguments.h"
 #include "device/gpu/flight.h"
+#include "device/gpu/probe.h"
 #include "device/gpu/program.h"
 #include "device/gpu/wave_queue.h"
 #include "kernels/host/shared.h"
@@ -169,42 +171,15 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
 _Static_assert(HD_SCENE_TABLE_COUNT + HD_FRAME_TABLE_COUNT + 16 <= HD_GPU_MOST_ARGUMENTS,
                "a launch has room for the tables and for what follows them");
 
-static void add(HdGpuLaunch *launch, const void *value, size_t bytes) {
-    launch->arguments[launch->argument_count++] = (HdGpuArgument){value, bytes};
-}
-
-static void add_memory(HdGpuLaunch *launch, const HdGpuMemory *memory) {
-    add(launch, &memory->handle, sizeof memory->handle);
-}
-
-#define MEMBER_INPUT(type, name)  const HdGpuMemory *name;
-#define MEMBER_BUFFER(type, name) const HdGpuMemory *name;
-#define MEMBER_NUMBER(type, name) type name;
-#define MEMBER(kind, type, name)  MEMBER_##kind(type, name)
-#define ADD_INPUT(name)           add_memory(launch, from->name);
-#define ADD_BUFFER(name)          add_memory(launch, from->name);
-#define ADD_NUMBER(name)          add(launch, &from->name, sizeof from->name);
-#define ADD(kind, type, name)     ADD_##kind(name)
-
-/* A struct with a member for each entry of a list of arguments, and a function that adds them all
-   in the kernel's order; it must live until the launch. */
-#define ARGUMENTS(Struct, function, LIST)                                                          \
-    typedef struct Struct {                                                                        \
-        LIST(MEMBER, MEMBER)                                                                       \
-    } Struct;                                                                                      \
-    static void function(HdGpuLaunch *launch, const Struct *from) {                                \
-        LIST(ADD, ADD)                                                                             \
-    }
-
 #define QUEUE_LIST(X, LAST) HD_QUEUE_ARGUMENTS(X)
 
-ARGUMENTS(Render, add_render, HD_RENDER_ARGUMENTS)
-ARGUMENTS(Queue, add_queue, QUEUE_LIST)
-ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
-ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
-ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
-ARGUMENTS(SumCounts, add_sum_counts, HD_SUM_COUNTS_ARGUMENTS)
-ARGUMENTS(Encode, add_encode, HD_ENCODE_ARGUMENTS)
+HD_GPU_ARGUMENTS(Render, add_render, HD_RENDER_ARGUMENTS)
+HD_GPU_ARGUMENTS(Queue, add_queue, QUEUE_LIST)
+HD_GPU_ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
+HD_GPU_ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
+HD_GPU_ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
+HD_GPU_ARGUMENTS(SumCounts, add_sum_counts, HD_SUM_COUNTS_ARGUMENTS)
+HD_GPU_ARGUMENTS(Encode, add_encode, HD_ENCODE_ARGUMENTS)
 
 /* ---- launches ---- */
 
@@ -215,9 +190,9 @@ static HdGpuLaunch launch_of(const Renderer *renderer, HdKernel kernel) {
 static HdGpuLaunch tracing_of(const Renderer *renderer) {
     HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_TRACE);
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
-        add_memory(&launch, &renderer->scene[i]);
+        hd_gpu_add_memory(&launch, &renderer->scene[i]);
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
-        add_memory(&launch, &renderer->frame[i]);
+        hd_gpu_add_memory(&launch, &renderer->frame[i]);
     return launch;
 }
 
@@ -540,6 +515,24 @@ static void gpu_drop(void *state) {
     renderer->flights.count = 0;
 }
 
+/* ---- the arithmetic probe ---- */
+
+static HdStatus gpu_probe(void *state, const HdProbeBatch *batch, HdProbeResults *results,
+                          HdError *error) {
+    Renderer *renderer = state;
+    HdGpuProgram *program = &renderer->program;
+    HdStatus status = enter(renderer, error);
+    if (status == HD_OK)
+        status = hd_gpu_build_probe(program, &renderer->gpu, error);
+    return status == HD_OK ? hd_gpu_run_probe(program, &renderer->gpu, batch, results, error)
+                           : status;
+}
+
+static void gpu_probe_key(void *state, char *text, size_t capacity) {
+    const Renderer *renderer = state;
+    hd_gpu_probe_key(&renderer->program, &renderer->gpu, text, capacity);
+}
+
 /* ---- what was chosen ---- */
 
 static HdKernelCache *gpu_kernels(void *state) {
@@ -566,6 +559,8 @@ const HdRendererFunctions hd_gpu_functions = {
     .longest_launch = gpu_longest_launch,
     .drop = gpu_drop,
     .kernels = gpu_kernels,
+    .probe = gpu_probe,
+    .probe_key = gpu_probe_key,
     .describe = gpu_describe,
     .close = gpu_close,
 };

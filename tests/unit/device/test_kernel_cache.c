@@ -250,6 +250,39 @@ static void fast_arithmetic_is_not_tested(void **state) {
     assert_int_equal(upload(), HD_UNAVAILABLE);
 }
 
+/* What came of the probe is remembered with all that it depends on, good or bad. */
+static void arithmetic_is_probed_once(void **state) {
+    (void)state;
+    assert_int_equal(upload(), HD_OK);
+    assert_int_equal(fake.probed, 1);
+    assert_int_equal(upload(), HD_OK);
+    assert_int_equal(fake.probed, 1);
+    snprintf(device.driver, sizeof device.driver, "driver 8");
+    fake.adds_wrongly = true;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(upload(), HD_UNAVAILABLE);
+        expect_contains(error.message, "(driver 8) computes wrongly: a + b of a = ");
+        expect_contains(error.message, " is 0x1p-3, expected ");
+        assert_int_equal(fake.probed, 2);
+    }
+    expect_counts(1, 1);
+    options.math = HD_MATH_FAST;
+    assert_int_equal(upload(), HD_OK);
+    assert_int_equal(fake.probed, 2);
+}
+
+static void division_that_was_healed_stays_so(void **state) {
+    (void)state;
+    fake.divides_wrongly = true;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(upload(), HD_OK);
+        assert_int_equal(fake.probed, 2);
+    }
+    remove_folder("cache");
+    assert_int_equal(upload(), HD_OK);
+    assert_int_equal(fake.probed, 4);
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
 int main(void) {
@@ -265,6 +298,8 @@ int main(void) {
         TEST(wrong_kernels_render_nothing),
         TEST(kernels_with_meshes_pass_one_more_frame),
         TEST(fast_arithmetic_is_not_tested),
+        TEST(arithmetic_is_probed_once),
+        TEST(division_that_was_healed_stays_so),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

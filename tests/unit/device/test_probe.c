@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+/* What the arithmetic probe makes of devices that compute rightly and of others. */
+#include "device/probe.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "device/kernel_cache.h"
+#include "device/probe_operands.h"
+#include "expect.h"
+
+typedef enum Fault {
+    NONE,
+    OTHER_NAN,
+    DIVISION,
+    DIVISION_FOR_GOOD,
+    FLUSHED_RESULTS,
+    FLUSHED_OPERANDS,
+    CONTRACTED,
+    ZERO_WITHOUT_SIGN,
+    LOST_ADDITION,
+    ROUNDED_TO_INT
+} Fault;
+
+static HdError error;
+static HdKernelCache kernels;
+static Fault fault;
+
+static HdKernelCache *fake_kernels(void *renderer) {
+    (void)renderer;
+    return &kernels;
+}
+
+static float *number_of(HdProbeResults *results, const HdProbeBatch *batch, int primitive, int i) {
+    return (float *)results->numbers + primitive * batch->count + i;
+}
+
+static float flushed(float a) {
+    return fabsf(a) < 0x1p-126f ? copysignf(0.0f, a) : a;
+}
+
+static void spoil_tuple(const HdProbeBatch *batch, HdProbeResults *results, int i) {
+    const float *const *operands = (const float *const *)batch->operands;
+    float a = operands[0][i], b = operands[1][i], c = operands[2][i];
+    float *quotient = number_of(results, batch, HD_PROBE_NUMBER_quotient, i);
+    float *apart = number_of(results, batch, HD_PROBE_NUMBER_apart, i);
+    float *plus_zero = number_of(results, batch, HD_PROBE_NUMBER_plus_zero, i);
+    float *product = number_of(results, batch, HD_PROBE_NUMBER_product, i);
+    bool divides =
+        fault == DIVISION_FOR_GOOD || (fault == DIVISION && !kernels.shape.rounds_by_fma);
+    if (divides && isnormal(*quotient))
+        *quotient = nextafterf(*quotient, INFINITY);
+    if (fault == CONTRACTED)
+        *apart = fmaf(a, b, c);
+    if (fault == ZERO_WITHOUT_SIGN && a == 0.0f)
+        *plus_zero = a;
+    if (fault == FLUSHED_RESULTS)
+        *product = flushed(*product);
+    if (fault == FLUSHED_OPERANDS)
+        *product = flushed(a) * flushed(b);
+    if (fault == OTHER_NAN && isnan(*product))
+        *product = -nanf("77");
+}
+
+static HdStatus fake_probe(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
+                           HdError *ignored) {
+    (void)renderer, (void)ignored;
+    if (batch->precision == HD_PRECISION_DOUBLE)
+        hd_probe_expect_double(batch, results);
+    else
+        hd_probe_expect_float(batch, results);
+    for (int i = 0; fault != NONE && i < batch->count; i++)
+        spoil_tuple(batch, results, i);
+    if (fault == LOST_ADDITION)
+        results->sums[3] -= batch->bits[3];
+    if (fault == ROUNDED_TO_INT)
+        results->integers[HD_PROBE_INTEGER_to_fixed * batch->count + 5]++;
+    return HD_OK;
+}
+
+static const HdRendererFunctions functions = {.kernels = fake_kernels, .probe = fake_probe};
+static const HdBackend backend = {.name = "fake", .functions = &functions};
+
+static HdProbeReport probe(Fault of, HdPrecision precision, int tuples) {
+    HdProbeReport report;
+    fault = of;
+    kernels.shape = (HdKernelShape){.precision = precision, .lanes = 1, .group_size = 64};
+    assert_int_equal(hd_probe(&backend, NULL, tuples, &report, &error), HD_OK);
+    assert_int_equal(report.tuples, tuples);
+    return report;
+}
+
+/* Plain C's results on every processor; they change with the operands, on purpose only. */
+static void expectations_are_known(void **state) {
+    (void)state;
+    static const uint64_t hashes[] = {0x9bf3ba83459a70f2, 0x66a6c98427664fdd};
+    for (int precision = 0; precision < 2; precision++) {
+        HdProbeReport report = probe(NONE, (HdPrecision)precision, HD_PROBE_QUICK);
+        assert_string_equal(report.difference, "");
+        assert_false(report.rounds_by_fma);
+        assert_true(report.hash == report.expected);
+        if (report.hash != hashes[precision])
+            fail_msg("precision %d has the hash %016" PRIx64, precision, report.hash);
+    }
+}
+
+static void nan_is_nan(void **state) {
+    (void)state;
+    HdProbeReport report = probe(OTHER_NAN, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+    assert_string_equal(report.difference, "");
+    assert_true(report.hash == report.expected);
+}
+
+static void wrong_division_is_made_of_fma(void **state) {
+    (void)state;
+    HdProbeReport report = probe(DIVISION, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+    assert_string_equal(report.difference, "");
+    assert_true(report.rounds_by_fma);
+    report = probe(DIVISION_FOR_GOOD, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+    expect_contains(report.difference, "a / b of a = ");
+    expect_contains(report.difference, " in float is ");
+    expect_contains(report.difference, "(it is not correctly rounded)");
+    assert_true(report.hash != report.expected);
+}
+
+static void other_faults_are_told(void **state) {
+    (void)state;
+    static const struct {
+        Fault fault;
+        const char *primitive, *cause;
+    } list[] = {
+        {FLUSHED_RESULTS, "a * b of a = ", "(denormal numbers are flushed to 0)"},
+        {FLUSHED_OPERANDS, "a * b of a = ", "(denormal "},
+        {CONTRACTED, "a * b + c, rounded twice, of a = ",
+         "(a product and a sum are contracted into one operation)"},
+        {ZERO_WITHOUT_SIGN, "a + 0 of a = -0x0p+0", "is -0x0p+0, expected 0x0p+0"},
+        {LOST_ADDITION, "the sum 3 that all threads add to atomically", "in 64 bits"},
+        {ROUNDED_TO_INT, "(64-bit integer) of a", "expected"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        HdProbeReport report = probe(list[i].fault, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+        expect_contains(report.difference, list[i].primitive);
+        expect_contains(report.difference, list[i].cause);
+        assert_false(report.rounds_by_fma);
+    }
+}
+
+/* Of the tuples a good many are as hard as they are meant to be: quotients and roots whose digits
+   go on for as long again with nothing but zeros or ones after the middle of two numbers. */
+static void operands_are_hard(void **state) {
+    (void)state;
+    enum { COUNT = HD_PROBE_QUICK };
+    static float numbers[3][COUNT];
+    static int64_t bits[COUNT];
+    HdProbeBatch batch = {
+        .count = COUNT, .operands = {numbers[0], numbers[1], numbers[2]}, .bits = bits};
+    int quotients = 0, roots = 0, small = 0, nans = 0, ties = 0;
+    hd_probe_operands_float(&batch, 0);
+    for (int i = 0; i < COUNT; i++) {
+        int exponent;
+        double a = (double)numbers[0][i], b = (double)numbers[1][i], c = (double)numbers[2][i];
+        double in_places = frexp(fabs(a / b), &exponent) * 0x1p24;
+        quotients += fabs(in_places - floor(in_places) - 0.5) < 0x1p-20;
+        in_places = frexp(sqrt(fabs(a)), &exponent) * 0x1p24;
+        roots += fabs(in_places - floor(in_places) - 0.5) < 0x1p-16;
+        small += isfinite(a) && a != 0.0 && fabs(a) < 0x1p-126;
+        nans += isnan(a) || isnan(b) || isnan(c);
+        ties += (float)(a * b + c) != (float)(a * b) + (float)c;
+    }
+    assert_true(quotients > COUNT / 32);
+    assert_true(roots > COUNT / 32);
+    assert_true(small > COUNT / 64);
+    assert_true(nans > COUNT / 128);
+    assert_true(ties > COUNT / 16);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(expectations_are_known),
+        cmocka_unit_test(nan_is_nan),
+        cmocka_unit_test(wrong_division_is_made_of_fma),
+        cmocka_unit_test(other_faults_are_told),
+        cmocka_unit_test(operands_are_hard),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
