@@ -142,8 +142,9 @@ const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
 const HdExplained hd_variables[HD_VARIABLE_COUNT] = {
     {"HEDRON_CACHE", "folder of compiled kernels and of what was measured (default "
                      "$XDG_CACHE_HOME/hedron, else ~/.cache/hedron); off: none"},
-    {"HEDRON_NVRTC", "file of the NVRTC library that compiles for CUDA (default: the newest one "
-                     "that suits the driver)"},
+    {"HEDRON_NVRTC",
+     "file of the NVRTC library that compiles for CUDA, or off (default: the newest one "
+     "that suits the driver)"},
     {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 120)"},
     {"HEDRON_STOP_PATIENCE", "seconds from a signal to the end, whatever hangs (default 1.5)"},
 };

@@ -70,5 +70,39 @@ cp "$hedron" "$work/build/release/hedron"
 program=$work/build/release/hedron
 expect_found_in "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 
+# ---- without any NVRTC: what the program brings, where it is strict and not too much is asked
+export HEDRON_NVRTC=off
+strict=(--size 32x24 --samples 1 --depth 2 --frames 0)
+expect_refusal 3 env FAKE_CUDA_CAPABILITY=60 "$hedron" render "${strict[@]}" --backend cuda --quiet -o picture.data
+expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_60)'
+with_ptx=$build/tests/fake_cuda/hedron_with_fake_ptx
+if [[ -e $with_ptx ]]; then
+    "$hedron" render "${strict[@]}" --backend c --quiet -o expected.data >"$logs/stdout"
+    for card in '61 64' '90 128'; do
+        expect_exit 0 env FAKE_CUDA_CAPABILITY="${card% *}" "$with_ptx" render "${strict[@]}" --backend cuda --verbose -o picture.data
+        expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test ('
+        expect_stderr_contains ", ${card#* } registers and "
+        expect_same picture.data expected.data
+        rm picture.data
+    done
+    for more in '--math fast' '--precision double' '--depth 100' '--block 256'; do
+        # shellcheck disable=SC2086
+        expect_refusal 3 "$with_ptx" render "${strict[@]}" --backend cuda --quiet $more -o picture.data
+        expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_61)'
+        expect_stderr_contains 'found: none; the PTX in this program is for strict arithmetic, at most 128 planes, depth 64, and blocks of 128 threads'
+    done
+    expect_refusal 3 env FAKE_CUDA_REFUSES=1 "$with_ptx" render "${strict[@]}" --backend cuda --quiet -o picture.data
+    expect_stderr_contains 'does not load what the driver from PTX of NVRTC 12.8 compiled for sm_61 (cuModuleLoadDataEx: CUDA_ERROR_OUT_OF_MEMORY); what suits both is in'
+    expect_refusal 3 env FAKE_CUDA_CAPABILITY=60 "$with_ptx" render "${strict[@]}" --backend cuda --quiet -o picture.data
+    expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_60)'
+    # A file that is named is that one or none.
+    expect_refusal 3 env HEDRON_NVRTC="$work/nothing.so" "$with_ptx" render "${strict[@]}" --backend cuda --quiet -o picture.data
+    expect_stderr_contains 'nothing.so cannot be loaded as an NVRTC library'
+    # NVRTC comes first where it is there.
+    expect_exit 0 env HEDRON_NVRTC="$nvrtc" "$with_ptx" render "${strict[@]}" --backend cuda --verbose -o picture.data
+    expect_stderr_contains ' ms by NVRTC 12.8; passed the self-test ('
+    rm -f picture.data expected.data
+fi
+
 expect_files .
 finish

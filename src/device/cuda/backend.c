@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "device/cuda/compile.h"
+#include "device/cuda/ptx.h"
 #include "device/gpu/renderer.h"
 
 enum { BLOCK_THREADS = 128 };
@@ -48,6 +49,11 @@ static int query_driver_version(const HdCudaDriver *driver) {
     return driver->cuDriverGetVersion(&version) == HD_CU_SUCCESS ? version : 0;
 }
 
+/* Whether what the program brings will do. */
+static bool takes_ptx(int arch) {
+    return !hd_nvrtc_is_named() && hd_cuda_ptx_suits(arch);
+}
+
 static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int index,
                              HdError *error) {
     HdCuDevice handle = 0;
@@ -63,7 +69,8 @@ static HdStatus query_device(HdDevice *device, const HdCudaDriver *driver, int i
     snprintf(device->driver, sizeof device->driver, "sm_%d, driver for CUDA %d.%d", arch,
              version / 1000, version % 1000 / 10);
     /* Fails where there is no compiler, so that a choice among devices can pass it over. */
-    return hd_nvrtc_check(device->name, arch, version / 1000, error);
+    status = hd_nvrtc_check(device->name, arch, version / 1000, error);
+    return status != HD_OK && takes_ptx(arch) ? HD_OK : status;
 }
 
 /* A device that fails is listed with the reason; it does not hide the others. */
@@ -329,11 +336,32 @@ static HdStatus find_compiler(Device *device, HdCudaTarget target, HdError *erro
     return hd_nvrtc_open(&device->nvrtc, device->is.name, target.arch, driver_major, NULL, error);
 }
 
+/* What the program brings, in place of what no NVRTC is there to compile; the error tells that. */
+static HdStatus load_ptx(Device *device, const HdKernelShape *shape, char *maker, size_t capacity,
+                         HdError *error) {
+    const HdCudaPtx *ptx = hd_cuda_ptx_find(shape, device->is.nvidia_arch);
+    size_t length = strlen(error->message);
+    if (ptx == NULL) {
+        snprintf(error->message + length, sizeof error->message - length,
+                 "; the PTX in this program is for strict arithmetic, at most %d planes, depth %d, "
+                 "and blocks of %d threads",
+                 (int)HD_CUDA_PTX_PLANES, (int)HD_CUDA_PTX_DEPTH, (int)HD_CUDA_PTX_BLOCK);
+        return HD_UNAVAILABLE;
+    }
+    snprintf(maker, capacity, "the driver from PTX of %s", ptx->maker);
+    HdStatus status = load_module(device, shape, (const char *)ptx->text, maker, error);
+    if (status == HD_FAILED)
+        status = error->status = HD_UNAVAILABLE;
+    return status;
+}
+
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
                         size_t capacity, HdError *error) {
     Device *device = state;
     HdCudaTarget target = hd_cuda_target(shape, device->is.nvidia_arch);
     HdStatus status = find_compiler(device, target, error);
+    if (status == HD_UNAVAILABLE && !target.is_ptx && takes_ptx(target.arch))
+        return load_ptx(device, shape, maker, capacity, error);
     if (status == HD_OK)
         status = hd_cuda_compile(&device->code, &device->nvrtc, target, options, error);
     if (status != HD_OK)
@@ -347,6 +375,8 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
 static unsigned char *copy_binary(const void *state, size_t *size) {
     const Device *device = state;
     *size = device->code.size;
+    if (*size == 0) /* the driver made it of PTX */
+        return NULL;
     unsigned char *copy = malloc(*size);
     if (copy != NULL)
         memcpy(copy, device->code.image, *size);

@@ -200,15 +200,22 @@ static HdStatus fail(const Search *search, const char *device, const char *path,
                    advise_driver(search->arch), search->found[0] ? search->found : "none");
 }
 
+static bool is_off(const char *named) {
+    return named != NULL && strcmp(named, "off") == 0;
+}
+
+bool hd_nvrtc_is_named(void) {
+    const char *named = getenv("HEDRON_NVRTC");
+    return named != NULL && named[0] != '\0' && !is_off(named);
+}
+
 HdStatus hd_nvrtc_open(HdNvrtc *nvrtc, const char *device, int arch, int driver_major,
                        const char *path, HdError *error) {
     Search search = {.arch = arch, .driver_major = driver_major};
-    const char *named = path ? path : getenv("HEDRON_NVRTC");
-    if (named && !named[0])
-        named = NULL;
+    const char *named = path ? path : hd_nvrtc_is_named() ? getenv("HEDRON_NVRTC") : NULL;
     if (named)
         consider(&search, named);
-    else
+    else if (!is_off(getenv("HEDRON_NVRTC")))
         search_everywhere(&search);
     if (!search.has_best)
         return fail(&search, device, named, error);

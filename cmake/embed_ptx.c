@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/* Compiles the kernels to PTX while the program is built, as a C file of what src/device/cuda/ptx.h
+   declares:
+
+       embed_ptx OUTPUT.c [NVRTC [COUNT]]
+
+   Without an NVRTC, or where it does not compile for the card, there are none, and a line says why.
+   COUNT: only so many of the shapes. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "device/cuda/compile.h"
+#include "device/cuda/ptx.h"
+
+enum { SHAPES = 8 };
+
+/* By number: of each precision and pipeline kernels without and with surveys. */
+static HdKernelShape shape_of(int index) {
+    return (HdKernelShape){
+        .lanes = 1,
+        .pixels_per_item = 1,
+        .group_size = HD_CUDA_PTX_BLOCK,
+        .wavefront = (index & 2) != 0,
+        .precision = (index & 4) != 0 ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
+        .math = HD_MATH_STRICT,
+        .ptx_arch = HD_CUDA_PTX_ARCH,
+        .needs = {.plane_bound = HD_CUDA_PTX_PLANES,
+                  .depth_bound = HD_CUDA_PTX_DEPTH,
+                  .node_stack_bound = HD_CUDA_PTX_NODE_STACK,
+                  .refracts = true,
+                  .lit_from_behind = true,
+                  .surveyed = (index & 1) != 0},
+    };
+}
+
+static void write_bytes(FILE *file, int index, const HdCudaCode *code) {
+    enum { PER_LINE = 32 };
+    fprintf(file, "static const unsigned char text_%d[] = {", index);
+    for (size_t i = 0; i < code->size; i++)
+        fprintf(file, "%s%d,", i % PER_LINE == 0 ? "\n" : "", (unsigned char)code->image[i]);
+    fprintf(file, "\n};\n");
+}
+
+/* False where it does not compile. */
+static bool write_text(FILE *file, int index, const HdNvrtc *nvrtc, HdError *error) {
+    enum { OPTIONS_LENGTH = 1024 };
+    char options[OPTIONS_LENGTH];
+    const HdKernelShape shape = shape_of(index);
+    const HdCudaTarget target = hd_cuda_target(&shape, HD_CUDA_PTX_ARCH);
+    HdCudaCode code;
+    hd_cuda_options(options, sizeof options, target, &shape);
+    if (hd_cuda_compile(&code, nvrtc, target, options, error) != HD_OK)
+        return false;
+    write_bytes(file, index, &code);
+    hd_cuda_code_free(&code);
+    return true;
+}
+
+static void write_table(FILE *file, int count, const HdNvrtc *nvrtc) {
+    fprintf(file, "const HdCudaPtx hd_cuda_ptx[] = {\n");
+    for (int i = 0; i < count; i++) {
+        const HdKernelShape shape = shape_of(i);
+        fprintf(file,
+                "    {.shape = {.wavefront = %d, .precision = (HdPrecision)%d, .math = (HdMath)%d, "
+                ".group_size = %d, .ptx_arch = %d,\n"
+                "               .needs = {.plane_bound = %d, .depth_bound = %d, "
+                ".node_stack_bound = %d, .surveyed = %d}},\n"
+                "     .maker = \"NVRTC %d.%d\", .text = text_%d, .size = sizeof text_%d},\n",
+                shape.wavefront, (int)shape.precision, (int)shape.math, shape.group_size,
+                shape.ptx_arch, shape.needs.plane_bound, shape.needs.depth_bound,
+                shape.needs.node_stack_bound, shape.needs.surveyed, nvrtc->major, nvrtc->minor, i,
+                i);
+    }
+    fprintf(file, "%s};\nconst int hd_cuda_ptx_count = %d;\n", count > 0 ? "" : "    {.size = 0}\n",
+            count);
+}
+
+static bool write_all(FILE *file, int count, const HdNvrtc *nvrtc, HdError *error) {
+    fprintf(file, "/* Written by embed_ptx. */\n#include \"device/cuda/ptx.h\"\n\n");
+    for (int i = 0; i < count; i++)
+        if (!write_text(file, i, nvrtc, error))
+            return false;
+    write_table(file, count, nvrtc);
+    return true;
+}
+
+int main(int argc, char **argv) {
+    static HdError error;
+    HdNvrtc nvrtc = {0};
+    int count = argc > 2 ? SHAPES : 0;
+    if (argc < 2 || argc > 4) {
+        fprintf(stderr, "usage: embed_ptx OUTPUT.c [NVRTC [COUNT]]\n");
+        return 2;
+    }
+    if (argc > 3 && atoi(argv[3]) < count)
+        count = atoi(argv[3]);
+    if (count > 0 &&
+        hd_nvrtc_open(&nvrtc, "the program", HD_CUDA_PTX_ARCH, 0, argv[2], &error) != HD_OK) {
+        fprintf(stderr, "embed_ptx: no PTX is embedded: %s\n", error.message);
+        count = 0;
+    }
+    FILE *file = fopen(argv[1], "w");
+    bool good = file != NULL && write_all(file, count, &nvrtc, &error);
+    if (file == NULL)
+        perror(argv[1]);
+    else if (!good)
+        fprintf(stderr, "embed_ptx: %s\n", error.message);
+    if (file != NULL && (fclose(file) != 0 || !good)) {
+        remove(argv[1]);
+        good = false;
+    }
+    return good ? 0 : 1;
+}

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+# PTX of the CUDA kernels, for users without an NVRTC, made by NVRTC 12: the last that compiles for a Pascal
+# card. ./dev test fetches one. Where there is none, or with -DHEDRON_NVRTC12=OFF, no PTX is embedded.
+set(HEDRON_NVRTC12 ${PROJECT_SOURCE_DIR}/build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
+    CACHE FILEPATH "NVRTC 12 for the PTX that is embedded and for the compile tests")
+
+# What compiles the kernels, apart from the rest of the program, which PTX becomes a part of.
+add_library(hedron_cuda_compiler STATIC
+    src/base/error.c
+    src/base/hash.c
+    src/base/text.c
+    src/device/cuda/compile.c
+    src/device/cuda/nvrtc.c
+    src/device/kernel_source.c
+    src/system/atomic_file.c
+    src/system/cache_folder.c
+    src/system/dynamic_library.c
+    src/system/file_bytes.c
+    src/system/leftovers.c
+    src/system/path.c
+    ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)
+target_compile_definitions(hedron_cuda_compiler PRIVATE HD_VERSION="${PROJECT_VERSION}")
+target_link_libraries(hedron_cuda_compiler PUBLIC Threads::Threads ${CMAKE_DL_LIBS})
+hedron_compile_options(hedron_cuda_compiler)
+list(REMOVE_ITEM HEDRON_EMBEDDED ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)
+
+add_executable(hedron_embed_ptx cmake/embed_ptx.c)
+target_link_libraries(hedron_embed_ptx PRIVATE hedron_cuda_compiler)
+hedron_compile_options(hedron_embed_ptx)
+
+set(nvrtc "")
+if(EXISTS "${HEDRON_NVRTC12}" AND NOT HEDRON_SANITIZE)
+    set(nvrtc ${HEDRON_NVRTC12})
+endif()
+set(HEDRON_PTX ${PROJECT_BINARY_DIR}/embedded/hd_cuda_ptx.c)
+add_custom_command(
+    OUTPUT ${HEDRON_PTX}
+    COMMAND ${CMAKE_COMMAND} -E env HEDRON_CACHE=off $<TARGET_FILE:hedron_embed_ptx> ${HEDRON_PTX} ${nvrtc}
+    DEPENDS hedron_embed_ptx ${nvrtc}
+    VERBATIM)
