@@ -14,8 +14,10 @@ add_library(hedron_cuda_compiler STATIC
     src/device/kernel_source.c
     src/system/atomic_file.c
     src/system/cache_folder.c
+    src/system/durable.c
     src/system/dynamic_library.c
     src/system/file_bytes.c
+    src/system/folder_set.c
     src/system/leftovers.c
     src/system/path.c
     ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)

@@ -113,7 +113,7 @@ static HdStatus run(char **arguments, HdError *error) {
         return status;
     status = write_model(&order, file.stream, error);
     if (status == HD_OK)
-        return hd_atomic_file_commit(&file, error);
+        return hd_atomic_file_commit(&file, HD_DURABLE, error);
     hd_atomic_file_discard(&file);
     return status;
 }

@@ -51,7 +51,7 @@ static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *
         return status;
     status = hd_scene_file_print(out.stream, file, error);
     if (status == HD_OK)
-        return hd_atomic_file_commit(&out, error);
+        return hd_atomic_file_commit(&out, HD_DURABLE, error);
     hd_atomic_file_discard(&out);
     return status;
 }

@@ -36,6 +36,10 @@ OPTION(
     "render all frames; otherwise those of numbered PNG pictures that are finished already, with "
     "the same pixels, are left as they are",
     HD_COMMAND_RENDER, FLAG(again))
+OPTION(bool no_sync, "--no-sync", NULL, NULL,
+       "do not wait until files are on the disk: what was stored outlives the program, but not a "
+       "power cut",
+       HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(no_sync))
 OPTION(HdOptionSize size, "--size", NULL, "WxH", "size of the picture in pixels", MEASURING,
        .type = HD_OPTION_SIZE, AT(size),
        .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535", .role = HD_DECIDES_NUMBERS)

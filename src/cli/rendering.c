@@ -91,6 +91,7 @@ static HdStatus render_all(Run *run, HdError *error) {
         .resume = &run->resume,
         .precision = run->options->render.precision,
         .outputs = rendering->outputs,
+        .durability = run->options->no_sync ? HD_FLEETING : HD_DURABLE,
         .team = &run->team,
         .uploaded = scene_uploaded,
         .dropped = device_dropped,
@@ -114,7 +115,8 @@ static HdStatus render_missing(Run *run, HdError *error) {
     if (status == HD_OK)
         status = render_all(run, error);
     if (run->statistics.stream != NULL) {
-        HdStatus closed = hd_statistics_close(&run->statistics, status == HD_OK ? error : &ignored);
+        HdStatus closed = hd_statistics_close(&run->statistics, !run->options->no_sync,
+                                              status == HD_OK ? error : &ignored);
         status = status == HD_OK ? closed : status;
     }
     hd_close_devices(&run->team);

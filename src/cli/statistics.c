@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "input/json/json_device_text.h"
+#include "system/durable.h"
 #include "system/interrupt.h"
 
 /* Nanoseconds are enough for a run of days. */
@@ -158,9 +159,21 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
     return HD_OK;
 }
 
-HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error) {
+static HdStatus sync_file(const HdStatistics *statistics, HdError *error) {
+    HdFolderSet synced = {0};
+    HdStatus status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
+    return status == HD_OK ? hd_sync_folder(&synced, statistics->name, error) : status;
+}
+
+HdStatus hd_statistics_close(HdStatistics *statistics, bool is_durable, HdError *error) {
     if (statistics->is_standard_output)
         return HD_OK;
     errno = 0;
-    return fclose(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
+    HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
+    if (status == HD_OK && is_durable)
+        status = sync_file(statistics, error);
+    errno = 0;
+    if (fclose(statistics->stream) != 0 && status == HD_OK)
+        status = fail_to_write(statistics, error);
+    return status;
 }

@@ -37,6 +37,7 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error);
 HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
                            const HdStoredFrame *stored, HdError *error);
 
-HdStatus hd_statistics_close(HdStatistics *statistics, HdError *error);
+/* With `is_durable` the file and its name are on the disk afterwards. */
+HdStatus hd_statistics_close(HdStatistics *statistics, bool is_durable, HdError *error);
 
 #endif

@@ -79,7 +79,7 @@ HdStatus hd_heat_map_add_row(HdHeatMap *map, const double *errors, HdError *erro
 HdStatus hd_heat_map_commit(HdHeatMap *map, HdError *error) {
     HdStatus status = hd_png_end(map->png, NULL, error);
     if (status == HD_OK)
-        status = hd_atomic_file_commit(&map->file, error);
+        status = hd_atomic_file_commit(&map->file, HD_DURABLE, error);
     else
         hd_atomic_file_discard(&map->file);
     free_map(map);

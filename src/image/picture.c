@@ -32,7 +32,7 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
     HdAtomicFile file;
     HdStatus status = hd_picture_prepare(&file, frame, format != NULL ? format : &hd_format_data,
                                          style, NULL, path, error);
-    return status == HD_OK ? hd_atomic_file_commit(&file, error) : status;
+    return status == HD_OK ? hd_atomic_file_commit(&file, HD_DURABLE, error) : status;
 }
 
 /* What is neither PNG nor JPEG may be in the data format, which has no signature. */

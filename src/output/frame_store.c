@@ -12,7 +12,8 @@
 #include "system/machine.h"
 
 enum {
-    MOST_OPEN_PICTURES = 256, /* each takes two descriptors until it has its name */
+    MOST_OPEN_PICTURES = 128, /* each takes two descriptors until it has its name, and as many wait
+                                 for theirs */
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
     /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
@@ -44,6 +45,7 @@ struct HdFrameStore {
     Place *places; /* a frame's is its place in the list modulo their number */
     int place_count;
     int stored;
+    HdPublisher *publisher;
     Film films[HD_MAX_OUTPUTS]; /* by output; without a video: pictures */
     HdStage list[HD_MAX_STAGES];
     int stage_count;
@@ -156,15 +158,8 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
 static HdStatus publish(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     Place *place = place_of(store, item);
-    HdStatus status = HD_OK;
-    for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++)
-        if (place->files[i].stream != NULL)
-            status = hd_atomic_file_commit(&place->files[i], error);
-    if (status != HD_OK)
-        return status;
-    store->stored = item + 1;
     place->times.film = span_of_films(store, place);
-    HdStoredFrame stored = {
+    const HdStoredFrame stored = {
         .number = number_of(store, item),
         .tracer = place->tracer,
         .done = item + 1,
@@ -172,7 +167,18 @@ static HdStatus publish(void *context, int item, HdError *error) {
         .was_finished = was_finished(store, item),
         .times = place->times,
     };
-    return store->plan.stored(store->plan.context, &stored, error);
+    return hd_publisher_add(store->publisher, &stored, place->files, error);
+}
+
+static HdStatus settle(void *context, HdError *error) {
+    HdFrameStore *store = context;
+    return hd_publisher_settle(store->publisher, error);
+}
+
+static HdStatus tell_stored(void *context, const HdStoredFrame *stored, HdError *error) {
+    HdFrameStore *store = context;
+    store->stored = stored->done;
+    return store->plan.stored(store->plan.context, stored, error);
 }
 
 /* ---- which stages, and how many frames at a time ---- */
@@ -230,7 +236,9 @@ static void list_stages(HdFrameStore *store) {
     if (encoders > 0)
         add_stage(store, (HdStage){.work = write_pictures, .context = store, .threads = encoders});
     unsigned all = (1u << store->stage_count) - 1;
-    add_stage(store, (HdStage){.work = publish, .context = store, .threads = 1, .after = all});
+    add_stage(
+        store,
+        (HdStage){.work = publish, .settle = settle, .context = store, .threads = 1, .after = all});
 }
 
 static bool has_image(const HdOutputPlan *outputs) {
@@ -320,6 +328,7 @@ static HdStatus create_places(HdFrameStore *store, HdError *error) {
 
 /* Drops pictures that were written but not published. */
 static void free_places(HdFrameStore *store) {
+    hd_publisher_free(store->publisher);
     for (int i = 0; i < store->place_count; i++) {
         Place *place = &store->places[i];
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
@@ -342,6 +351,15 @@ static HdStatus start_stages(HdFrameStore *store, HdError *error) {
     const HdResume *resume = store->plan.resume;
     list_stages(store);
     HdStatus status = create_places(store, error);
+    const HdPublisherPlan plan = {
+        .outputs = store->plan.outputs,
+        .durability = store->plan.durability,
+        .most = store->place_count,
+        .stored = tell_stored,
+        .context = store,
+    };
+    if (status == HD_OK)
+        status = hd_publisher_create(&store->publisher, &plan, error);
     if (status == HD_OK)
         status =
             hd_stages_start(&store->stages, store->list, store->stage_count, resume->all->count,
@@ -392,7 +410,7 @@ static HdStatus close_films(HdFrameStore *store, HdError *error) {
     for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
         if (store->films[i].video == NULL)
             continue;
-        status = hd_video_close(store->films[i].video, error);
+        status = hd_video_close(store->films[i].video, store->plan.durability, error);
         store->films[i].video = NULL;
     }
     return status;

@@ -138,26 +138,49 @@ static void note_success(HdStages *stages, int stage, int item) {
     }
 }
 
+/* Called with the mutex, which is not held during the work. */
+static bool work(HdStages *stages, const HdStage *stage, int number, int item) {
+    HdError error;
+    take_work(stages, number, item);
+    pthread_mutex_unlock(&stages->mutex);
+    HdStatus status = stage->work(stage->context, item, &error);
+    pthread_mutex_lock(&stages->mutex);
+    if (status == HD_OK)
+        note_success(stages, number, item);
+    else
+        note_failure(stages, item, &error);
+    return status == HD_OK;
+}
+
+/* The same. */
+static void settle(HdStages *stages, const HdStage *stage, int last_item) {
+    HdError error;
+    pthread_mutex_unlock(&stages->mutex);
+    HdStatus status = stage->settle(stage->context, &error);
+    pthread_mutex_lock(&stages->mutex);
+    if (status != HD_OK)
+        note_failure(stages, last_item, &error);
+}
+
 static void *worker_main(void *argument) {
     const Worker *worker = argument;
     HdStages *stages = worker->stages;
     const HdStage *stage = &stages->list[worker->stage];
-    HdError error;
+    int unsettled = -1; /* the last item that may have been put off; negative: none */
     pthread_mutex_lock(&stages->mutex);
-    while (!is_over(stages, worker->stage)) {
-        int item = find_work(stages, worker->stage);
-        if (item < 0) {
+    for (;;) {
+        const bool over = is_over(stages, worker->stage);
+        const int item = over ? -1 : find_work(stages, worker->stage);
+        if (item >= 0) {
+            unsettled = work(stages, stage, worker->stage, item) ? item : -1;
+        } else if (unsettled >= 0 && stage->settle != NULL) {
+            settle(stages, stage, unsettled);
+            unsettled = -1;
+        } else if (over) {
+            break;
+        } else {
             pthread_cond_wait(&stages->work_made[worker->stage], &stages->mutex);
-            continue;
         }
-        take_work(stages, worker->stage, item);
-        pthread_mutex_unlock(&stages->mutex);
-        HdStatus status = stage->work(stage->context, item, &error);
-        pthread_mutex_lock(&stages->mutex);
-        if (status == HD_OK)
-            note_success(stages, worker->stage, item);
-        else
-            note_failure(stages, item, &error);
     }
     pthread_mutex_unlock(&stages->mutex);
     return NULL;

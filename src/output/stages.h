@@ -13,6 +13,10 @@ enum { HD_MAX_STAGES = 16 };
 typedef struct HdStage {
     /* Called once for each item, on a thread of the stage. */
     HdStatus (*work)(void *context, int item, HdError *error);
+    /* For a stage of one thread that may put its work off: called after items once the next one is
+       not there yet, and once there are no more. A failure counts as that of the last item. NULL:
+       nothing is put off. */
+    HdStatus (*settle)(void *context, HdError *error);
     void *context;
     int threads;    /* at least 1; with 1 the items come in order and one at a time */
     unsigned after; /* a bit for each earlier stage of the list that must be done with the item */

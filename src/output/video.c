@@ -3,6 +3,8 @@
 
 #include "output/video.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +15,7 @@
 #include "image/formats.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
+#include "system/durable.h"
 #include "system/interrupt.h"
 
 struct HdVideo {
@@ -232,16 +235,36 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     return HD_OK;
 }
 
-HdStatus hd_video_close(HdVideo *video, HdError *error) {
+/* By its name, for FFmpeg may have put another file in the place of ours. */
+static HdStatus sync_file(const HdVideo *video, HdError *error) {
+    int descriptor = open(video->temporary, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return hd_fail(error, HD_FAILED, "cannot open %s: %s", video->temporary, strerror(errno));
+    HdStatus status = hd_sync_file(descriptor, video->path, error);
+    close(descriptor);
+    return status;
+}
+
+static HdStatus publish(HdVideo *video, HdDurability durability, HdError *error) {
+    HdFolderSet synced = {0};
+    HdStatus status = durability == HD_DURABLE ? sync_file(video, error) : HD_OK;
+    if (status != HD_OK)
+        return status;
+    status = hd_temporary_publish(video->temporary, video->path, error);
+    video->temporary[0] = '\0';
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_folder(&synced, video->path, error);
+    return status;
+}
+
+HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error) {
     HdStatus status = end_ffmpeg(video, error);
     if (status == HD_OK)
         status = count_frames(video, error);
     if (status == HD_FAILED)
         blame_folder(video, error);
-    if (status == HD_OK) {
-        status = hd_temporary_publish(video->temporary, video->path, error);
-        video->temporary[0] = '\0';
-    }
+    if (status == HD_OK)
+        status = publish(video, durability, error);
     hd_video_abort(video);
     return status;
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "image/format.h"
+#include "system/atomic_file.h"
 
 typedef struct HdVideo HdVideo;
 
@@ -23,9 +24,9 @@ HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
 HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error);
 
 /* Ends the film: waits for FFmpeg, checks its exit code, counts the frames of the file with ffprobe
-   against the frames added, renames the file to its final name. Frees `video` in every case; on
-   failure no file is left. */
-HdStatus hd_video_close(HdVideo *video, HdError *error);
+   against the frames added, renames the file to its final name; with HD_DURABLE it is on the disk
+   before, and its name afterwards. Frees `video` in every case; on failure no file is left. */
+HdStatus hd_video_close(HdVideo *video, HdDurability durability, HdError *error);
 
 /* Stops FFmpeg, removes the temporary file, frees `video`. */
 void hd_video_abort(HdVideo *video);

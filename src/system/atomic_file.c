@@ -11,54 +11,41 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/hash.h"
+#include "system/durable.h"
+#include "system/folder_set.h"
 #include "system/leftovers.h"
 
 enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
 
-/* As many as a run has outputs, and more. A sequence whose folders are numbered has countless ones,
-   but it asks for each but once. */
-enum { MAX_FOLDERS = 32 };
-
-/* What of `path` is before the name, with the slash. */
-static int folder_length(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash == NULL ? 0 : (int)(slash - path) + 1;
-}
-
 static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
-    const int length = folder_length(path);
+    const int length = (int)hd_folder_length(path);
     snprintf(folder, HD_MAX_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
     return folder;
 }
 
 /* The folders that this run has written to, so that one that goes away is missed instead of made
    anew without what was in it. */
-static struct {
-    uint64_t hashes[MAX_FOLDERS]; /* of their names; 0: none */
-    int next;
-    pthread_mutex_t mutex;
-} known = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+static HdFolderSet known;
+static pthread_mutex_t known_mutex = PTHREAD_MUTEX_INITIALIZER;
 
-/* Whether the run has written to the file's folder; with `from_now_on` it has. */
-static bool knows_folder(const char *path, bool from_now_on) {
-    const uint64_t hash = hd_hash_bytes(HD_HASH_START, path, (size_t)folder_length(path));
-    bool is_known = false;
-    pthread_mutex_lock(&known.mutex);
-    for (int i = 0; i < MAX_FOLDERS; i++)
-        is_known |= known.hashes[i] == hash;
-    if (from_now_on && !is_known) {
-        known.hashes[known.next] = hash;
-        known.next = (known.next + 1) % MAX_FOLDERS;
-    }
-    pthread_mutex_unlock(&known.mutex);
+/* Whether the run has written to the file's folder. */
+static bool knows_folder(const char *path) {
+    pthread_mutex_lock(&known_mutex);
+    const bool is_known = hd_folder_set_has(&known, path);
+    pthread_mutex_unlock(&known_mutex);
     return is_known;
 }
 
+static void know_folder(const char *path) {
+    pthread_mutex_lock(&known_mutex);
+    hd_folder_set_add(&known, path);
+    pthread_mutex_unlock(&known_mutex);
+}
+
 void hd_known_folders_forget(void) {
-    pthread_mutex_lock(&known.mutex);
-    memset(known.hashes, 0, sizeof known.hashes);
-    pthread_mutex_unlock(&known.mutex);
+    pthread_mutex_lock(&known_mutex);
+    known = (HdFolderSet){0};
+    pthread_mutex_unlock(&known_mutex);
 }
 
 static HdStatus check_target(const char *path, HdError *error) {
@@ -80,7 +67,7 @@ static HdStatus check_target(const char *path, HdError *error) {
 /* The name is cut because many file systems end at 255 bytes, and the suffix must fit as well. */
 static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
                                HdError *error) {
-    int folder = folder_length(path);
+    int folder = (int)hd_folder_length(path);
     int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder, path, MAX_NAME,
                           path + folder, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
@@ -93,7 +80,7 @@ static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_
 /* The temporary name is cut to fit, so that the final one would be found too long only at the end.
  */
 static HdStatus check_length(const char *path, HdError *error) {
-    const size_t length = strlen(path + folder_length(path));
+    const size_t length = strlen(path + hd_folder_length(path));
     char folder[HD_MAX_PATH];
     long most = pathconf(folder_of(path, folder), _PC_NAME_MAX);
     if (most > 0 && length > (size_t)most)
@@ -149,7 +136,7 @@ static HdStatus fail_without(const char *path, const char *temporary, HdError *e
 
 static HdStatus fail_to_create(const char *path, const char *temporary, int reason,
                                HdError *error) {
-    if (reason == ENOENT && knows_folder(path, false))
+    if (reason == ENOENT && knows_folder(path))
         return fail_without(path, temporary, error);
     return hd_fail(error, HD_FAILED, "cannot write %s: cannot create %s: %s", path, temporary,
                    strerror(reason));
@@ -158,7 +145,7 @@ static HdStatus fail_to_create(const char *path, const char *temporary, int reas
 HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
                              HdError *error) {
     HdStatus status = check_target(path, error);
-    if (status == HD_OK && !knows_folder(path, false))
+    if (status == HD_OK && !knows_folder(path))
         status = hd_path_make_parents(path, error);
     if (status == HD_OK)
         status = check_length(path, error);
@@ -170,7 +157,7 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
-            knows_folder(path, true);
+            know_folder(path);
             return HD_OK;
         }
         if (*descriptor >= 0)
@@ -226,24 +213,58 @@ HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *erro
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
 
-HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error) {
+static void unlock(HdAtomicFile *file) {
+    close(file->lock);
+    file->lock = -1;
+}
+
+static void drop(HdAtomicFile *file) {
+    hd_temporary_remove(file->temporary);
+    unlock(file);
+}
+
+HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     /* The stream remembers a write that failed, but not why; closing may succeed after it. */
     int reason = ferror(file->stream) ? EIO : 0;
     if (fclose(file->stream) != 0)
         reason = errno;
     file->stream = NULL;
-    HdStatus status = reason == 0 ? hd_temporary_publish(file->temporary, file->path, error)
-                                  : hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path,
-                                            strerror(reason));
-    if (reason != 0)
-        hd_temporary_remove(file->temporary);
-    close(file->lock);
+    if (reason == 0)
+        return HD_OK;
+    drop(file);
+    return hd_fail(error, HD_FAILED, "cannot write %s: %s", file->path, strerror(reason));
+}
+
+HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error) {
+    HdStatus status = hd_sync_file(file->lock, file->path, error);
+    if (status != HD_OK)
+        drop(file);
+    return status;
+}
+
+HdStatus hd_atomic_file_publish(HdAtomicFile *file, HdError *error) {
+    HdStatus status = hd_temporary_publish(file->temporary, file->path, error);
+    unlock(file);
+    return status;
+}
+
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdError *error) {
+    HdFolderSet synced = {0};
+    HdStatus status = hd_atomic_file_close(file, error);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_atomic_file_sync(file, error);
+    if (status == HD_OK)
+        status = hd_atomic_file_publish(file, error);
+    if (status == HD_OK && durability == HD_DURABLE)
+        status = hd_sync_folder(&synced, file->path, error);
     return status;
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {
-    fclose(file->stream);
+    if (file->lock < 0)
+        return;
+    if (file->stream != NULL)
+        fclose(file->stream);
     file->stream = NULL;
-    hd_temporary_remove(file->temporary);
-    close(file->lock);
+    drop(file);
 }

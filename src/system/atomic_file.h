@@ -36,18 +36,29 @@ void hd_known_folders_forget(void);
 
 typedef struct HdAtomicFile {
     FILE *stream; /* for the caller to write to */
-    int lock;     /* a descriptor */
+    int lock;     /* a descriptor; -1: it has its name, or is gone */
     char path[HD_MAX_PATH];
     char temporary[HD_MAX_PATH];
 } HdAtomicFile;
 
 HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error);
 
-/* Closes the file and gives it its final name. On failure, a write that failed earlier included,
-   the temporary file is gone and a file that was there before is untouched. */
-HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdError *error);
+/* The three steps to the final name. After one that failed, a write that failed earlier included,
+   the temporary file is gone and a file that was there before is untouched. Closing the stream
+   comes first; syncing, which waits until the bytes are on the disk (durable.h), may be left out.
+ */
+HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error);
+HdStatus hd_atomic_file_sync(HdAtomicFile *file, HdError *error);
+HdStatus hd_atomic_file_publish(HdAtomicFile *file, HdError *error);
 
-/* Closes and removes the temporary file. */
+/* Whether a file outlives a power cut once it has its name. */
+typedef enum HdDurability { HD_FLEETING, HD_DURABLE } HdDurability;
+
+/* All steps; HD_DURABLE: with the syncing of the file and of its folders. */
+HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdError *error);
+
+/* Closes and removes the temporary file; after the last step, or one that failed, nothing is left
+   to be done. */
 void hd_atomic_file_discard(HdAtomicFile *file);
 
 #endif

@@ -268,7 +268,7 @@ static HdStatus write_entry(const char *path, const char *key, const void *bytes
     fwrite(&header, sizeof header, 1, file.stream); /* committing finds what fails */
     fwrite(key, 1, header.key_bytes, file.stream);
     fwrite(bytes, 1, size, file.stream);
-    return hd_atomic_file_commit(&file, error);
+    return hd_atomic_file_commit(&file, HD_FLEETING, error);
 }
 
 HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size_t size,

@@ -26,8 +26,8 @@ expect_help() {
 rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size --samples --depth
     --cutoff --aa --max-error --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
-classic="--gpu --cpu --default --variant ${rendering% }"
-render="--frame-lines --output --set --again --crop --reference ${rendering% }"
+classic="--no-sync --gpu --cpu --default --variant ${rendering% }"
+render="--no-sync --frame-lines --output --set --again --crop --reference ${rendering% }"
 
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"

@@ -116,10 +116,11 @@ rmdir folder
 expect_files .
 expect_refusal 1 "${render[@]}" --frames 0-1 -o '##.data' --stats /dev/full
 expect_stderr_contains 'cannot write the statistics to /dev/full: No space left on device'
-# The frame was stored before its line.
-expect_files . 00.data
-expect_data 00.data 32 24
-rm 00.data
+# The frame was stored before its line, and the other one may be that was ready with it.
+for file in 00.data ./*.data; do
+    expect_data "$file" 32 24
+done
+rm ./*.data
 if command -v ffmpeg >"$logs/which"; then
     expect_refusal 1 "${render[@]}" --frames 0-1 -o film.mkv --stats /dev/full
     expect_files .

@@ -56,7 +56,7 @@ static json_t *read_line_about(const char *device_name) {
     assert_int_equal(line[strlen(line) - 1], '\n');
     assert_int_equal(fgetc(file), EOF);
     fclose(file);
-    assert_int_equal(hd_statistics_close(&statistics, &error), HD_OK);
+    assert_int_equal(hd_statistics_close(&statistics, true, &error), HD_OK);
     return json_loads(line, 0, NULL);
 }
 
@@ -176,7 +176,7 @@ static void files_that_take_nothing_are_told(void **state) {
     assert_int_equal(open_statistics(&statistics, "/dev/full", &error), HD_OK);
     assert_int_equal(hd_statistics_add(&statistics, &facts, &stored, &error), HD_FAILED);
     assert_non_null(strstr(error.message, "/dev/full"));
-    hd_statistics_close(&statistics, &error);
+    hd_statistics_close(&statistics, true, &error);
 }
 
 int main(void) {

@@ -35,7 +35,7 @@ static void write_picture(const HdPictureLabel *label, int bits) {
         frame.rgb[i] = (float)(i % 251) / 251.0f;
     assert_int_equal(
         hd_picture_prepare(&file, &frame, &hd_format_png, &style, label, "a.png", &error), HD_OK);
-    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
     hd_frame_free(&frame);
     free(bytes);
     assert_int_equal(hd_file_read("a.png", "picture", 1 << 20, &bytes, &size, &error), HD_OK);

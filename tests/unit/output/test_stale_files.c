@@ -90,7 +90,7 @@ static void those_that_are_being_written_stay(void **state) {
     remove_stale("c/%d.png", "film.mkv");
     expect_there(temporary, true);
     expect_there(file.temporary, true);
-    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
     expect_there("c/1.png", true);
     close(descriptor);
     remove_stale("c/%d.png", "film.mkv");

@@ -103,7 +103,7 @@ static HdStatus make_film(const char *path, int width, int height, int frames, H
         status = hd_video_add(video, &frame, error);
     hd_frame_free(&frame);
     if (status == HD_OK)
-        return hd_video_close(video, error);
+        return hd_video_close(video, HD_FLEETING, error);
     hd_video_abort(video);
     return status;
 }
@@ -160,7 +160,7 @@ static void film_frames(const char *path, const HdFrame *frames, int count,
     for (int i = 0; i < count && status == HD_OK; i++)
         status = hd_video_add(video, &frames[i], &error);
     if (status == HD_OK)
-        status = hd_video_close(video, &error);
+        status = hd_video_close(video, HD_FLEETING, &error);
     if (status != HD_OK)
         fail_msg("%s", error.message);
 }
@@ -409,7 +409,7 @@ static void frames_of_another_size_are_refused(void **state) {
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
     expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
-    assert_int_equal(hd_video_close(video, &error), HD_OK);
+    assert_int_equal(hd_video_close(video, HD_FLEETING, &error), HD_OK);
     hd_frame_free(&right);
     hd_frame_free(&wrong);
 }
@@ -480,7 +480,7 @@ static void failed_films_take_no_more_frames(void **state) {
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     expect_contains(error.message, "takes no more frames");
-    assert_int_equal(hd_video_close(video, &error), HD_FAILED);
+    assert_int_equal(hd_video_close(video, HD_FLEETING, &error), HD_FAILED);
     assert_int_equal(count_entries("out"), 0);
     hd_frame_free(&frame);
 }
