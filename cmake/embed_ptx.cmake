@@ -8,12 +8,14 @@ set(HEDRON_NVRTC12 ${PROJECT_SOURCE_DIR}/build/nvrtc12/nvidia/cuda_nvrtc/lib/lib
 add_library(hedron_cuda_compiler STATIC
     src/base/error.c
     src/base/hash.c
+    src/base/keyed_hash.c
     src/base/text.c
     src/device/cuda/compile.c
     src/device/cuda/nvrtc.c
     src/device/kernel_source.c
     src/system/atomic_file.c
     src/system/cache_folder.c
+    src/system/cache_trust.c
     src/system/durable.c
     src/system/dynamic_library.c
     src/system/file_bytes.c

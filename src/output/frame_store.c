@@ -267,7 +267,7 @@ static HdStatus probe_picture(const HdOutput *output, int number, HdError *error
     int descriptor;
     HdStatus status = hd_output_file(output, number, path, error);
     if (status == HD_OK)
-        status = hd_temporary_create(path, temporary, &descriptor, error);
+        status = hd_temporary_create(path, HD_MODE_USUAL, temporary, &descriptor, error);
     if (status != HD_OK)
         return status;
     close(descriptor);

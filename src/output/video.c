@@ -88,7 +88,8 @@ static void remove_file(HdVideo *video) {
 
 /* FFmpeg is given a name that exists: so it is taken against other processes. */
 static HdStatus reserve_file(HdVideo *video, HdError *error) {
-    HdStatus status = hd_temporary_create(video->path, video->temporary, &video->lock, error);
+    HdStatus status =
+        hd_temporary_create(video->path, HD_MODE_USUAL, video->temporary, &video->lock, error);
     if (status != HD_OK) {
         video->temporary[0] = '\0';
         video->lock = -1;

@@ -142,8 +142,8 @@ static HdStatus fail_to_create(const char *path, const char *temporary, int reas
                    strerror(reason));
 }
 
-HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
-                             HdError *error) {
+HdStatus hd_temporary_create(const char *path, unsigned mode, char temporary[HD_MAX_PATH],
+                             int *descriptor, HdError *error) {
     HdStatus status = check_target(path, error);
     if (status == HD_OK && !knows_folder(path))
         status = hd_path_make_parents(path, error);
@@ -154,7 +154,7 @@ HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int 
         status = temporary_name(path, attempt, temporary, error);
         if (status != HD_OK)
             break;
-        *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        *descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (*descriptor >= 0 && lock(*descriptor)) {
             hd_leftovers_add_file(temporary);
             know_folder(path);
@@ -195,9 +195,9 @@ HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *
                    strerror(reason));
 }
 
-HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error) {
+static HdStatus open_file(HdAtomicFile *file, const char *path, unsigned mode, HdError *error) {
     int descriptor = -1;
-    HdStatus status = hd_temporary_create(path, file->temporary, &descriptor, error);
+    HdStatus status = hd_temporary_create(path, mode, file->temporary, &descriptor, error);
     if (status != HD_OK)
         return status;
     memcpy(file->path, path, strlen(path) + 1);
@@ -213,6 +213,14 @@ HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *erro
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
 
+HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error) {
+    return open_file(file, path, HD_MODE_USUAL, error);
+}
+
+HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdError *error) {
+    return open_file(file, path, HD_MODE_PRIVATE, error);
+}
+
 static void unlock(HdAtomicFile *file) {
     close(file->lock);
     file->lock = -1;
@@ -223,10 +231,15 @@ static void drop(HdAtomicFile *file) {
     unlock(file);
 }
 
+/* The stream remembers a write that failed, but not why: one more byte mostly tells. */
+static int find_reason(const HdAtomicFile *file) {
+    return write(file->lock, "", 1) < 0 ? errno : EIO;
+}
+
 HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
-    /* The stream remembers a write that failed, but not why; closing may succeed after it. */
-    int reason = ferror(file->stream) ? EIO : 0;
-    if (fclose(file->stream) != 0)
+    /* Closing may succeed after a write that failed. */
+    int reason = ferror(file->stream) ? find_reason(file) : 0;
+    if (fclose(file->stream) != 0 && reason == 0)
         reason = errno;
     file->stream = NULL;
     if (reason == 0)

@@ -9,13 +9,16 @@
 #include "base/error.h"
 #include "system/path.h"
 
+/* Permissions of a file, from its first instant on, less what the umask takes. */
+enum { HD_MODE_USUAL = 0666, HD_MODE_PRIVATE = 0600 };
+
 /* Makes missing folders, but not one that was there earlier in the run and is gone, and an empty
    file beside `path`, "NAME.tmp-PID-N", that no other process uses. It does not outlive the program
    (leftovers.h), unless that is killed; then the descriptor, by which the file is locked, tells
    that it may be removed. The caller closes the descriptor, once the file has its final name. A
    `path` that stands for a folder or a device is refused, because renaming would replace it. */
-HdStatus hd_temporary_create(const char *path, char temporary[HD_MAX_PATH], int *descriptor,
-                             HdError *error);
+HdStatus hd_temporary_create(const char *path, unsigned mode, char temporary[HD_MAX_PATH],
+                             int *descriptor, HdError *error);
 
 /* HD_FAILED where somebody removed the temporary file, or its folder, which the message tells. */
 HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *error);
@@ -42,6 +45,9 @@ typedef struct HdAtomicFile {
 } HdAtomicFile;
 
 HdStatus hd_atomic_file_open(HdAtomicFile *file, const char *path, HdError *error);
+
+/* The same for a file that only this user may read and write. */
+HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdError *error);
 
 /* The three steps to the final name. After one that failed, a write that failed earlier included,
    the temporary file is gone and a file that was there before is untouched. Closing the stream

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* A folder that outlives the program, for what takes long to make: compiled kernels, measurements.
-   Nothing in it is needed. An entry is trusted only where every byte of it is in order and it
-   belongs to this user; whatever is wrong with the folder, the program goes on without. Entries are
-   found by a key, a text of everything they depend on, which is stored whole and compared.
+   Nothing in it is needed. An entry is trusted only where nobody but this user may write to it or
+   to the folder and every byte of it is in order, by a hash with a random key that is kept in the
+   folder (cache_trust.h); whatever is wrong with the folder, the program goes on without. Entries
+   are found by a key of another kind, a text of everything they depend on, which is stored whole
+   and compared.
 
    The folder is the one that HEDRON_CACHE names; else $XDG_CACHE_HOME/hedron; else
    $HOME/.cache/hedron, where there is that home. HEDRON_CACHE=off switches it off. It is made with
-   mode 0700, entries with 0600. */
+   mode 0700, files in it with 0600. */
 #ifndef HD_SYSTEM_CACHE_FOLDER_H
 #define HD_SYSTEM_CACHE_FOLDER_H
 

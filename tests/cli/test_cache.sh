@@ -57,7 +57,19 @@ expect_build "$refused it is no entry of hedron's; $compiled; cached" "${render[
 chmod 666 "$entry"
 expect_build "$refused other users may write to it; $compiled; cached" "${render[@]}"
 expect_build "taken from $work/cache" "${render[@]}"
-rm whole.entry
+mv whole.entry "$work/whole"
+# Another user's own: the same format, another key.
+cp "$work/cache/key" "$work/key"
+rm "$work/cache/key"
+expect_build "$refused the key $work/cache/key cannot be used: No such file or directory; $compiled; cached" "${render[@]}"
+cp "$work/whole" "$entry"
+expect_build "$refused its checksum is wrong; $compiled; cached" "${render[@]}"
+# A folder that others may write to.
+chmod 777 "$work/cache"
+shared="cannot use the folder $work/cache: other users may write to it"
+expect_build "$shared; $compiled; not cached; $shared" "${render[@]}"
+chmod 700 "$work/cache"
+expect_build "taken from $work/cache" "${render[@]}"
 
 # ---- other kernels are other entries
 expect_exit 0 "${render[@]}" --quiet --depth 20 -o picture.data
@@ -102,6 +114,15 @@ expect_build "$compiled; not cached; there is no home folder $work/nobody" \
     env -u HEDRON_CACHE HOME="$work/nobody" "${render[@]}"
 if [[ -e $work/nobody ]]; then
     fail "a home folder was made"
+fi
+
+# ---- a full disk is told as such
+if ((EUID == 0)) && mkdir "$work/full" && mount -t tmpfs -o size=16k tmpfs "$work/full" 2>"$logs/mount"; then
+    expect_build "$compiled; not cached; cannot write .*: No space left on device" \
+        env HEDRON_CACHE="$work/full/cache" "${render[@]}"
+    umount "$work/full"
+else
+    echo "not tested: a full disk, for only root can mount one"
 fi
 
 rm expected.data

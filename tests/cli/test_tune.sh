@@ -106,8 +106,8 @@ if [[ $(jq -c '[.remembered, .reason]' "$logs/stdout") != '[false,"HEDRON_CACHE 
     show_logs
 fi
 expect_exit 1 env HEDRON_CACHE=/dev/null "${tune[@]}" --lanes "$some"
-expect_stdout_contains '; not remembered: cannot make the folder /dev/null'
-expect_stderr_contains 'hedron: cannot make the folder /dev/null'
+expect_stdout_contains '; not remembered: cannot use the folder /dev/null: it is not a folder'
+expect_stderr_contains 'hedron: cannot use the folder /dev/null: it is not a folder'
 
 # ---- what is wrong
 expect_refusal 2 "${tune[@]}" none.json

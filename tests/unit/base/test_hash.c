@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* No bit of the data is lost on the way. */
 #include "base/hash.h"
+#include "base/keyed_hash.h"
 #include "expect.h"
 
 enum { SIZE = 27 };
@@ -39,10 +40,23 @@ static void bytes_are_hashed_as_fnv_1a_has_it(void **state) {
     assert_true(hd_hash_bytes(HD_HASH_START, "foobar", 6) == UINT64_C(0x85944171f73967e8));
 }
 
+/* The first and the last of what SipHash's authors tell. */
+static void keyed_hashes_are_siphash(void **state) {
+    (void)state;
+    unsigned char key[HD_HASH_KEY_BYTES];
+    for (int i = 0; i < HD_HASH_KEY_BYTES; i++)
+        key[i] = (unsigned char)i;
+    assert_true(hd_keyed_hash(key, "", 0) == UINT64_C(0x726fdb47dd0e0e31));
+    assert_true(hd_keyed_hash(key, key, 15) == UINT64_C(0xa129ca6149be45e5));
+    key[15] ^= 1;
+    assert_true(hd_keyed_hash(key, "", 0) != UINT64_C(0x726fdb47dd0e0e31));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bit_counts),
         cmocka_unit_test(bytes_are_hashed_as_fnv_1a_has_it),
+        cmocka_unit_test(keyed_hashes_are_siphash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

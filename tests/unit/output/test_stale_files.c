@@ -73,7 +73,8 @@ static void long_names_are_known_by_their_begin(void **state) {
     int descriptor;
     memset(name, 'n', sizeof name);
     memcpy(name + sizeof name - 5, ".mkv", 5);
-    assert_int_equal(hd_temporary_create(name, temporary, &descriptor, &error), HD_OK);
+    assert_int_equal(hd_temporary_create(name, HD_MODE_USUAL, temporary, &descriptor, &error),
+                     HD_OK);
     close(descriptor);
     remove_stale(name, "b/%d.png");
     expect_there(temporary, false);
@@ -85,7 +86,8 @@ static void those_that_are_being_written_stay(void **state) {
     char temporary[HD_MAX_PATH];
     int descriptor;
     HdAtomicFile file;
-    assert_int_equal(hd_temporary_create("c/0.png", temporary, &descriptor, &error), HD_OK);
+    assert_int_equal(hd_temporary_create("c/0.png", HD_MODE_USUAL, temporary, &descriptor, &error),
+                     HD_OK);
     assert_int_equal(hd_atomic_file_open(&file, "c/1.png", &error), HD_OK);
     remove_stale("c/%d.png", "film.mkv");
     expect_there(temporary, true);

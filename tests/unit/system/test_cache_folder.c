@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <time.h>
 
+#include "system/atomic_file.h"
 #include "test_folder.h"
 
 static HdError error;
@@ -21,7 +22,7 @@ static const char *find_entry(void) {
     assert_non_null(entries);
     entry_file[0] = '\0';
     for (struct dirent *found = readdir(entries); found != NULL; found = readdir(entries))
-        if (found->d_name[0] != '.')
+        if (found->d_name[0] != '.' && strcmp(found->d_name, "key") != 0)
             snprintf(entry_file, sizeof entry_file, "cache/%s", found->d_name);
     closedir(entries);
     assert_string_not_equal(entry_file, "");
@@ -68,7 +69,7 @@ static void what_is_put_is_got(void **state) {
     put("a");
     assert_int_equal(get("a"), HD_OK);
     assert_int_equal(get("b"), HD_OK);
-    assert_int_equal(count_entries("cache"), 2);
+    assert_int_equal(count_entries("cache"), 3); /* with the key */
 }
 
 static void files_are_for_the_user_alone(void **state) {
@@ -88,6 +89,19 @@ static void files_are_for_the_user_alone(void **state) {
             assert_int_equal(found.st_mode & 0777, 0600);
         }
     closedir(entries);
+}
+
+static void files_are_private_from_the_first_instant(void **state) {
+    (void)state;
+    struct stat found;
+    HdAtomicFile file;
+    put("a");
+    const mode_t before = umask(0);
+    assert_int_equal(hd_atomic_file_open_private(&file, "cache/b", &error), HD_OK);
+    umask(before);
+    assert_int_equal(fstat(file.lock, &found), 0);
+    assert_int_equal(found.st_mode & 0777, 0600);
+    hd_atomic_file_discard(&file);
 }
 
 static void texts_are_kept(void **state) {
@@ -218,6 +232,61 @@ static void what_is_no_file_is_not_read(void **state) {
     assert_int_equal(remove("elsewhere"), 0);
 }
 
+static void folders_that_others_may_write_are_not_used(void **state) {
+    (void)state;
+    static const mode_t modes[] = {0720, 0702, 01777};
+    put("a");
+    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
+        assert_int_equal(chmod("cache", modes[i]), 0);
+        expect_untrusted("cannot use the folder cache: other users may write to it");
+        assert_int_equal(hd_cache_put("test", "b", payload, sizeof payload, &error), HD_FAILED);
+        expect_contains(error.message, "other users may write to it");
+    }
+    assert_int_equal(chmod("cache", 0700), 0);
+    assert_int_equal(get("b"), HD_UNAVAILABLE);
+    assert_int_equal(get("a"), HD_OK);
+    if (geteuid() == 0) {
+        assert_int_equal(chown("cache", 12345, 12345), 0);
+        expect_untrusted("another user");
+    }
+}
+
+/* As by somebody who knows the format, but not the key. */
+static void entries_of_another_users_key_are_noticed(void **state) {
+    (void)state;
+    unsigned char bytes[512];
+    put("a");
+    const size_t size = load(bytes, sizeof bytes);
+    assert_int_equal(rename("cache/key", "cache/before"), 0);
+    expect_untrusted("key cache/key cannot be used: No such file");
+    put("a");
+    rewrite(bytes, size);
+    expect_untrusted("checksum");
+    assert_int_equal(rename("cache/before", "cache/key"), 0);
+    assert_int_equal(get("a"), HD_OK);
+}
+
+static void keys_that_others_know_are_made_anew(void **state) {
+    (void)state;
+    static const struct {
+        mode_t mode;
+        off_t size;
+        const char *reason;
+    } cases[] = {{0640, 16, "other users may read it"},
+                 {0604, 16, "other users may read it"},
+                 {0620, 16, "other users may write to it"},
+                 {0600, 15, "its size is wrong"},
+                 {0600, 17, "its size is wrong"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        put("a");
+        assert_int_equal(chmod("cache/key", cases[i].mode), 0);
+        assert_int_equal(truncate("cache/key", cases[i].size), 0);
+        expect_untrusted(cases[i].reason);
+        put("a");
+        assert_int_equal(get("a"), HD_OK);
+    }
+}
+
 /* ---- folders ---- */
 
 static void expect_folder(const char *expected) {
@@ -287,7 +356,7 @@ static void a_write_that_fails_leaves_nothing(void **state) {
     HdStatus status = hd_cache_put("test", "a", large, sizeof large, &error);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_int_equal(status, HD_FAILED);
-    assert_int_equal(count_entries("cache"), 1);
+    assert_int_equal(count_entries("cache"), 2);
     assert_int_equal(get("a"), HD_OK);
 }
 
@@ -332,7 +401,7 @@ static void several_writers_do_not_mix(void **state) {
         assert_int_equal(waitpid(children[i], &code, 0), children[i]);
         assert_int_equal(code, 0);
     }
-    assert_int_equal(count_entries("cache"), 1);
+    assert_int_equal(count_entries("cache"), 2);
 }
 
 static void make_older(const char *path, int seconds) {
@@ -358,6 +427,8 @@ static bool exists(const char *name) {
 static void the_longest_unused_go_first(void **state) {
     (void)state;
     assert_int_equal(mkdir("cache", 0700), 0);
+    make_file("key", 16, 5000);
+    make_file("key.tmp-3-0", 16, 4000);
     make_file("new.entry", 400, 10);
     make_file("old.entry", 400, 300);
     make_file("middle.entry", 400, 200);
@@ -372,7 +443,8 @@ static void the_longest_unused_go_first(void **state) {
     hd_cache_limit("cache", 400);
     assert_false(exists("middle.entry"));
     assert_true(exists("new.entry") && exists("foreign") && exists("fresh.entry.tmp-1-0"));
-    assert_false(exists("stale.entry.tmp-2-0"));
+    assert_false(exists("stale.entry.tmp-2-0") || exists("key.tmp-3-0"));
+    assert_true(exists("key"));
     hd_cache_limit("nowhere", 0);
 }
 
@@ -419,6 +491,10 @@ int main(void) {
         TEST(entries_of_another_key_are_noticed),
         TEST(entries_that_others_may_write_are_not_trusted),
         TEST(what_is_no_file_is_not_read),
+        TEST(folders_that_others_may_write_are_not_used),
+        TEST(entries_of_another_users_key_are_noticed),
+        TEST(keys_that_others_know_are_made_anew),
+        TEST(files_are_private_from_the_first_instant),
         TEST(the_folder_is_found_in_order),
         TEST(a_folder_that_cannot_be_made_is_told),
         TEST(a_write_that_fails_leaves_nothing),
