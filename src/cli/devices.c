@@ -10,9 +10,11 @@ static void print_device(const HdDevice *device) {
     printf("     %s\n", device->driver);
     if (device->unusable[0] != '\0')
         printf("     cannot be used: %s\n", device->unusable);
+    const char *strict = device->not_strict[0] != '\0' ? "no, " : "yes";
     printf("     %s, double precision: %s, strict arithmetic: %s%s\n",
            device->is_cpu ? "CPU" : "GPU", device->has_double ? "yes" : "no",
-           device->not_strict[0] == '\0' ? "yes" : "no, ", device->not_strict);
+           device->is_measured ? strict : "not measured yet (hedron selftest does)",
+           device->not_strict);
 }
 
 static void print_backend(const HdBackend *backend, const HdDevice *devices, int count,
@@ -29,12 +31,13 @@ static json_t *text_or_null(const char *text) {
 }
 
 static json_t *describe_device(const HdDevice *device) {
-    return json_pack(
-        "{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:o}", "backend", device->backend->name,
-        "index", device->index, "name", hd_json_device_text(device->name), "driver",
-        hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
-        device->compute_units, "clock_mhz", device->clock_mhz, "has_double", device->has_double,
-        "unusable", text_or_null(device->unusable), "not_strict", text_or_null(device->not_strict));
+    return json_pack("{s:s, s:i, s:o, s:o, s:b, s:i, s:i, s:b, s:o, s:b, s:o}", "backend",
+                     device->backend->name, "index", device->index, "name",
+                     hd_json_device_text(device->name), "driver",
+                     hd_json_device_text(device->driver), "is_cpu", device->is_cpu, "compute_units",
+                     device->compute_units, "clock_mhz", device->clock_mhz, "has_double",
+                     device->has_double, "unusable", text_or_null(device->unusable), "is_measured",
+                     device->is_measured, "not_strict", text_or_null(device->not_strict));
 }
 
 static json_t *describe_backend(const HdBackend *backend, const HdDevice *devices, int count,

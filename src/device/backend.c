@@ -1,13 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 #include "device/backend.h"
 
+#include <stdio.h>
 #include <string.h>
+
+#include "device/verdict.h"
+
+static void recall(HdDevice *device) {
+    char difference[512];
+    device->is_measured =
+        device->backend->needs_no_driver ||
+        hd_verdict_get(device->name, device->driver, difference, sizeof difference);
+    if (device->is_measured && !device->backend->needs_no_driver && difference[0] != '\0')
+        snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
+                 difference);
+}
 
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error) {
     HdStatus status = backend->enumerate(devices, capacity, count, error);
-    for (int i = 0; i < *count; i++)
+    for (int i = 0; i < *count; i++) {
         devices[i].backend = backend;
+        recall(&devices[i]);
+    }
     return status;
 }
 

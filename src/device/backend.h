@@ -36,7 +36,8 @@ typedef struct HdDevice {
         has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
     bool has_timeout;     /* its driver may end long kernels, as where it draws a display */
     char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
-    char not_strict[256]; /* why the device cannot do strict arithmetic; empty: it can */
+    bool is_measured;     /* its arithmetic is known, being plain C's or remembered (verdict.h) */
+    char not_strict[640]; /* then why it cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
 /* What a backend's renderers do. Arguments are checked before a function is called (renderer.c);
@@ -122,7 +123,7 @@ const HdBackend *hd_backend_find(const char *name);
 /* The one that needs no driver. */
 const HdBackend *hd_backend_always_there(void);
 
-/* The backend's devices, with the backend filled in. */
+/* The backend's devices, with the backend and what is remembered of them filled in. */
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,
                               HdError *error);
 

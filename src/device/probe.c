@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "device/kernel_cache.h"
 #include "device/probe_operands.h"
+#include "device/verdict.h"
 #include "system/cache_folder.h"
 
 #define WORDS(name, words) words,
@@ -102,25 +103,33 @@ static uint64_t hash_number(uint64_t hash, double number) {
 
 /* ---- what differs ---- */
 
-/* What the first difference looks like. */
-static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
-                               double found, double expected) {
-    const bool is_double = probe->precision == HD_PRECISION_DOUBLE;
-    bool is_apart = primitive == HD_PROBE_NUMBER_apart || primitive == HD_PROBE_NUMBER_apart_from;
-    double first = primitive == HD_PROBE_NUMBER_apart_from ? -a : a;
-    double fused = is_double ? fma(first, b, c) : (double)fmaf((float)first, (float)b, (float)c);
-    if (is_apart && is_same(found, fused))
-        return "a product and a sum are contracted into one operation";
-    if (is_small(probe, expected) && found == 0.0)
-        return "denormal numbers are flushed to 0";
-    if (is_small(probe, a) || is_small(probe, b) || is_small(probe, c))
-        return "denormal operands are taken for 0";
-    if (primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root)
-        return "it is not correctly rounded";
-    return "it is wrong";
+static double rounded_twice(const Probe *probe, double a, double b, double c) {
+    float product = (float)a * (float)b;
+    return probe->precision == HD_PRECISION_DOUBLE ? a * b + c : (double)(product + (float)c);
 }
 
-/* Flushing shows everywhere; what it makes of divisions is not what is wrong with them. */
+static double rounded_once(const Probe *probe, double a, double b, double c) {
+    return probe->precision == HD_PRECISION_DOUBLE ? fma(a, b, c)
+                                                   : (double)fmaf((float)a, (float)b, (float)c);
+}
+
+/* What a difference looks like, in brackets; "" where it looks like nothing that is known. */
+static const char *guess_cause(const Probe *probe, int primitive, double a, double b, double c,
+                               double found, double expected) {
+    double first = primitive == HD_PROBE_NUMBER_apart_from ? -a : a;
+    bool is_apart = primitive == HD_PROBE_NUMBER_apart || primitive == HD_PROBE_NUMBER_apart_from;
+    bool is_rounded = primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root;
+    if (is_apart && is_same(found, rounded_once(probe, first, b, c)))
+        return " (a product and a sum are contracted into one operation)";
+    if (primitive == HD_PROBE_NUMBER_fused && is_same(found, rounded_twice(probe, a, b, c)))
+        return " (it is rounded twice)";
+    if (is_small(probe, expected) && found == 0.0)
+        return " (denormal numbers are flushed to 0)";
+    if (is_small(probe, a) || is_small(probe, b) || is_small(probe, c))
+        return " (denormal operands are taken for 0)";
+    return is_rounded ? " (it is not correctly rounded)" : "";
+}
+
 static void note_difference(Probe *probe, const char *text) {
     char *first = probe->report->difference;
     if (first[0] == '\0')
@@ -143,7 +152,7 @@ static void compare_number(Probe *probe, int primitive, size_t i) {
         probe->only_rounding_differs &&
         (primitive == HD_PROBE_NUMBER_quotient || primitive == HD_PROBE_NUMBER_root);
     snprintf(text, sizeof text,
-             "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a (%s)",
+             "%s of a = %a, b = %a, c = %a, x = 0x%016" PRIx64 " in %s is %a, expected %a%s",
              number_words[primitive], a, b, c, (uint64_t)probe->batch.bits[i],
              precision_name(probe), found, expected,
              guess_cause(probe, primitive, a, b, c, found, expected));
@@ -161,13 +170,12 @@ static void compare_integer(Probe *probe, int primitive, size_t i) {
     double a = number_at(probe, probe->batch.operands[0], i);
     double b = number_at(probe, probe->batch.operands[1], i);
     probe->only_rounding_differs = false;
-    snprintf(text, sizeof text,
-             "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64 ", expected %" PRId64
-             " (%s)",
-             integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i], precision_name(probe),
-             found, expected,
-             is_small(probe, a) || is_small(probe, b) ? "denormal operands are taken for 0"
-                                                      : "it is wrong");
+    snprintf(
+        text, sizeof text,
+        "%s of a = %a, b = %a, x = 0x%016" PRIx64 " in %s is %" PRId64 ", expected %" PRId64 "%s",
+        integer_words[primitive], a, b, (uint64_t)probe->batch.bits[i], precision_name(probe),
+        found, expected,
+        is_small(probe, a) || is_small(probe, b) ? " (denormal operands are taken for 0)" : "");
     note_difference(probe, text);
 }
 
@@ -233,16 +241,29 @@ static HdStatus probe_once(const HdBackend *backend, void *renderer, int tuples,
     return status;
 }
 
+/* What is still wrong then is told as it was without. */
+static void try_by_fma(const HdBackend *backend, void *renderer, int tuples,
+                       HdProbeReport *report) {
+    HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
+    HdProbeReport healed;
+    HdError ignored;
+    bool only_rounding_differs;
+    shape->rounds_by_fma = true;
+    HdStatus status =
+        probe_once(backend, renderer, tuples, &healed, &only_rounding_differs, &ignored);
+    shape->rounds_by_fma = status == HD_OK && healed.difference[0] == '\0';
+    if (shape->rounds_by_fma)
+        *report = healed;
+}
+
 HdStatus hd_probe(const HdBackend *backend, void *renderer, int tuples, HdProbeReport *report,
                   HdError *error) {
     HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
     bool only_rounding_differs = false;
     HdStatus status = probe_once(backend, renderer, tuples, report, &only_rounding_differs, error);
-    if (status == HD_OK && report->difference[0] != '\0' && only_rounding_differs &&
-        !shape->rounds_by_fma) {
-        shape->rounds_by_fma = true;
-        status = probe_once(backend, renderer, tuples, report, &only_rounding_differs, error);
-    }
+    bool is_wrong = status == HD_OK && report->difference[0] != '\0';
+    if (is_wrong && only_rounding_differs && !shape->rounds_by_fma)
+        try_by_fma(backend, renderer, tuples, report);
     report->rounds_by_fma = shape->rounds_by_fma;
     return status;
 }
@@ -286,5 +307,7 @@ HdStatus hd_probe_settle(const HdBackend *backend, void *renderer, const HdDevic
     if (status != HD_OK)
         return status;
     remember(key, &report);
+    if (kernels->shape.precision == HD_PRECISION_FLOAT)
+        hd_verdict_put(device->name, device->driver, report.difference);
     return report.difference[0] == '\0' ? HD_OK : fail(device, report.difference, error);
 }

@@ -282,7 +282,7 @@ has_other_gpu() {
 }
 
 has_opencl() {
-    "${no_nvidia[@]}" "$hedron" devices | sed -n '/^opencl$/,/^c$/p' | grep -q 'strict arithmetic: yes'
+    "${no_nvidia[@]}" "$hedron" devices | sed -n '/^opencl$/,/^c$/p' | grep -q -E 'strict arithmetic: (yes|not measured)'
 }
 
 # wait_until SECONDS COMMAND...: true as soon as the command succeeds, false when time is up.

@@ -62,11 +62,11 @@ if command -v jq >"$logs/which"; then
             fail "the JSON has $found, the list has $listed devices, and $missing backends are missing"
         fi
         fields=$(jq -c '[.backends[].devices[] | keys_unsorted] | unique' devices.json)
-        if [[ $fields != '[["backend","index","name","driver","is_cpu","compute_units","clock_mhz","has_double","unusable","not_strict"]]' ]]; then
+        if [[ $fields != '[["backend","index","name","driver","is_cpu","compute_units","clock_mhz","has_double","unusable","is_measured","not_strict"]]' ]]; then
             fail "the devices have the fields $fields"
         fi
-        if [[ $(jq -c '.backends[2].devices[0] | [.backend, .index, .is_cpu, .has_double, .unusable, .not_strict]' \
-            devices.json) != '["c",0,true,true,null,null]' ]]; then
+        if [[ $(jq -c '.backends[2].devices[0] | [.backend, .index, .is_cpu, .has_double, .unusable, .is_measured, .not_strict]' \
+            devices.json) != '["c",0,true,true,null,true,null]' ]]; then
             fail "the C backend's device is not as expected"
         fi
     done

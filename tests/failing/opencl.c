@@ -3,7 +3,8 @@
    function, FAILING_OPENCL_AT the number of its first call that fails, from 1, FAILING_OPENCL_TIMES
    how many of them fail, else all from there, and FAILING_OPENCL_CODE what they fail with.
    FAILING_OPENCL_HANGS, if it is there, is a file that is made before the call then waits for ever.
- */
+   FAILING_OPENCL_TEXT is what a compiler of it takes for something else, FAILING_OPENCL_FOR: all of
+   it in the text of a program. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -91,9 +92,39 @@ MADE(cl_command_queue, clCreateCommandQueue,
      (cl_context context, cl_device_id device, cl_command_queue_properties properties,
       cl_int *code),
      (context, device, properties, code))
-MADE(cl_program, clCreateProgramWithSource,
-     (cl_context context, cl_uint count, const char **texts, const size_t *lengths, cl_int *code),
-     (context, count, texts, lengths, code))
+
+/* The caller's, with every `from` replaced. */
+static char *replaced(const char *text, const char *from, const char *by) {
+    size_t room = strlen(text) + 1;
+    for (const char *at = text; (at = strstr(at, from)) != NULL; at += strlen(from))
+        room += strlen(by);
+    char *whole = calloc(room, 1), *end = whole;
+    for (const char *at = text; whole != NULL && *at != '\0';) {
+        bool is_met = strncmp(at, from, strlen(from)) == 0;
+        size_t length = is_met ? strlen(by) : 1;
+        memcpy(end, is_met ? by : at, length);
+        end += length;
+        at += is_met ? strlen(from) : 1;
+    }
+    return whole;
+}
+
+/* Hedron's programs are one text each. */
+cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const char **texts,
+                                     const size_t *lengths, cl_int *code) {
+    cl_program (*real)(cl_context, cl_uint, const char **, const size_t *, cl_int *);
+    void *found = dlsym(RTLD_NEXT, "clCreateProgramWithSource");
+    const char *from = getenv("FAILING_OPENCL_TEXT"), *by = getenv("FAILING_OPENCL_FOR");
+    memcpy(&real, &found, sizeof real);
+    if (from == NULL || by == NULL)
+        return real(context, count, texts, lengths, code);
+    char *text = replaced(texts[0], from, by);
+    const char *changed[] = {text};
+    cl_program program = real(context, 1, changed, NULL, code);
+    free(text);
+    return program;
+}
+
 CODED(clBuildProgram,
       (cl_program program, cl_uint count, const cl_device_id *devices, const char *options,
        OnProgram notify, void *user),

@@ -547,6 +547,8 @@ static void gpu_describe(const void *state, char *text, int capacity) {
     int length = gpu->driver->describe(gpu->handle, &program->cache.shape, program->group_size,
                                        hd_pipeline_names[renderer->options.pipeline],
                                        program->cache.maker, text, capacity);
+    if (program->cache.shape.rounds_by_fma && length > 0 && length < capacity)
+        length += snprintf(text + length, (size_t)(capacity - length), ", division by fma");
     if (renderer->queue.is_cut && length > 0 && length < capacity)
         hd_wave_tell_cut(renderer->queue.bytes, text + length, capacity - length);
 }

@@ -2,12 +2,13 @@
 /* OpenCL as a driver of GPUs (device/gpu/driver.h), and of CPUs. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/text.h"
 #include "device/gpu/renderer.h"
 #include "device/opencl/devices.h"
 
-enum { GPU_GROUP_SIZE = 64 };
+enum { GPU_GROUP_SIZE = 64, OPTIONS_LENGTH = 1024 };
 
 typedef struct Device {
     cl_device_id id;
@@ -143,16 +144,20 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 
 /* ---- kernels ---- */
 
+/* Not every driver knows it; how one divides is measured (device/probe.h). */
+static const char rounding[] = " -cl-fp32-correctly-rounded-divide-sqrt";
+
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
     const Device *device = state;
     const char *cautious = device->is.nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
-    const char *math = shape->math == HD_MATH_FAST ? "-cl-fast-relaxed-math"
-                                                   : "-cl-fp32-correctly-rounded-divide-sqrt";
+    const char *math = shape->math == HD_MATH_FAST ? " -cl-fast-relaxed-math"
+                       : shape->rounds_by_fma      ? ""
+                                                   : rounding;
     char defines[HD_KERNEL_DEFINES_SIZE], limit[40] = "";
     hd_kernel_defines(shape, defines);
     if (shape->register_limit > 0)
         snprintf(limit, sizeof limit, " -cl-nv-maxrregcount=%d", shape->register_limit);
-    snprintf(text, capacity, "-cl-std=CL1.2 %s%s%s%s", math, defines, limit,
+    snprintf(text, capacity, "-cl-std=CL1.2%s%s%s%s", math, defines, limit,
              shape->is_cautious ? cautious : "");
 }
 
@@ -202,6 +207,17 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     return HD_FAILED;
 }
 
+static cl_int build(const Device *device, const char *options) {
+    cl_int code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+    const char *refused = strstr(options, rounding);
+    if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
+        return code;
+    char without[OPTIONS_LENGTH];
+    snprintf(without, sizeof without, "%.*s%s", (int)(refused - options), options,
+             refused + strlen(rounding));
+    return clBuildProgram(device->program, 1, &device->id, without, NULL, NULL);
+}
+
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
                         size_t capacity, HdError *error) {
     Device *device = state;
@@ -211,7 +227,7 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
         clCreateProgramWithSource(device->context, 1, &text, &hd_opencl_source_size, &code);
     if (!device->program)
         return hd_opencl_fail(error, "clCreateProgramWithSource", code);
-    code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+    code = build(device, options);
     if (code != CL_SUCCESS)
         return fail_with_log(device, code, error);
     snprintf(maker, capacity, "%s", shape->is_cautious ? "the driver" : "");
@@ -229,7 +245,7 @@ static HdStatus load(void *state, const HdKernelShape *shape, const char *option
         code = loaded;
     if (!device->program || code != CL_SUCCESS)
         return hd_opencl_fail(error, "clCreateProgramWithBinary", code);
-    code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+    code = build(device, options);
     return code == CL_SUCCESS ? create_kernels(device, shape, error)
                               : hd_opencl_fail(error, "clBuildProgram", code);
 }

@@ -83,22 +83,6 @@ static void find_obstacles(cl_device_id device, char *reasons, size_t capacity) 
                "it is not little-endian");
 }
 
-static bool is_full_profile(cl_device_id device) {
-    char profile[64];
-    query_text((Entry){.device = device}, CL_DEVICE_PROFILE, profile, sizeof profile);
-    return strcmp(profile, "FULL_PROFILE") == 0;
-}
-
-static void find_strict_obstacles(cl_device_id device, char *reasons, size_t capacity) {
-    find_obstacles(device, reasons, capacity);
-    cl_ulong single = query(device, CL_DEVICE_SINGLE_FP_CONFIG);
-    add_reason(reasons, capacity, is_full_profile(device), "it has the embedded profile only");
-    add_reason(reasons, capacity, single & CL_FP_FMA, "no fused multiply-add");
-    add_reason(reasons, capacity, single & CL_FP_DENORM, "no denormal numbers");
-    add_reason(reasons, capacity, single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT,
-               "no correctly rounded division and square root");
-}
-
 static bool has_extension(cl_device_id device, const char *name) {
     char extensions[8192];
     query_text((Entry){.device = device}, CL_DEVICE_EXTENSIONS, extensions, sizeof extensions);
@@ -139,7 +123,6 @@ static void describe_device(HdDevice *device, Entry entry, int index) {
     device->has_wide_atomics = has_extension(entry.device, "cl_khr_int64_base_atomics");
     device->has_timeout = has_timeout(entry.device);
     find_obstacles(entry.device, device->unusable, sizeof device->unusable);
-    find_strict_obstacles(entry.device, device->not_strict, sizeof device->not_strict);
 }
 
 static HdStatus list_platforms(cl_platform_id platforms[MAX_PLATFORMS], cl_uint *count,
