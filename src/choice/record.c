@@ -36,7 +36,7 @@ static int write_job(const HdScene *scene, const HdRenderOptions *options, char 
         "2^%d places, %s floor, 2^%d lights, 2^%d endless ones, depth 2^%d\nprecision %d, "
         "math %d, pipeline %d, %d lanes, %d "
         "threads, block %d, grid "
-        "%d%s\n",
+        "%d%s, launches of %g ms\n",
         HD_VERSION, hd_hash_bytes(HD_HASH_START, hd_opencl_source, hd_opencl_source_size),
         power_of_two(samples), power_of_two(count_planes(scene)),
         power_of_two((double)hd_scene_triangle_count(scene)), power_of_two(scene->instance_count),
@@ -44,7 +44,7 @@ static int write_job(const HdScene *scene, const HdRenderOptions *options, char 
         power_of_two(hd_scene_endless_light_count(scene)), power_of_two(scene->depth),
         (int)options->precision, (int)options->math, (int)options->pipeline, options->lanes,
         options->threads, options->block, options->grid,
-        options->has_deep_trees ? ", deep trees" : "");
+        options->has_deep_trees ? ", deep trees" : "", options->launch_ms);
 }
 
 static void write_key(const HdScene *scene, const HdRenderOptions *options, const char *devices,

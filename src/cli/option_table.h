@@ -94,6 +94,10 @@ ROW("--block", NULL, "N",
     INTEGER(render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP)
 ROW("--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: what suits it)",
     MEASURING, INTEGER(render.grid, 1, HD_MAX_GRID))
+ROW("--max-launch", NULL, "MS",
+    "longest launch on a GPU in milliseconds, 1 to 10000: while it runs, a display that the GPU "
+    "draws stands still (default 50 where one may be there, else 500)",
+    MEASURING, REAL(render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS))
 OPTION(HdGeometry geometry, "--geometry", NULL, "NAME",
        "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
        "gives nearly the same picture (default solids)",

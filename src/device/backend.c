@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "device/launch_size.h"
 #include "device/verdict.h"
 
 static void recall(HdDevice *device) {
@@ -64,8 +65,15 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
  * queue. */
 enum { MANY_LIGHTS = 100 };
 
+double hd_longest_launch(const HdDevice *device, const HdRenderOptions *options) {
+    if (options->launch_ms > 0.0)
+        return 1e-3 * options->launch_ms;
+    return device->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+}
+
 bool hd_megakernel_is_too_long(const HdDevice *device, const HdRenderOptions *options) {
-    return options->has_deep_trees && device->has_timeout && !device->is_cpu;
+    return options->has_deep_trees && !device->is_cpu &&
+           hd_longest_launch(device, options) < HD_LAUNCH_SECONDS_FREE;
 }
 
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,

@@ -34,7 +34,8 @@ typedef struct HdDevice {
     bool has_double;
     bool
         has_wide_atomics; /* adds 64-bit integers atomically, where it works in groups of threads */
-    bool has_timeout;     /* its driver may end long kernels, as where it draws a display */
+    bool has_timeout;     /* its driver may end long kernels, as where it draws a display; or does
+                             not tell, and a display may be there */
     char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
     bool is_measured;     /* its arithmetic is known, being plain C's or remembered (verdict.h) */
     char not_strict[640]; /* then why it cannot do strict arithmetic; empty: it can */
@@ -144,10 +145,13 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
 
 /* What `options` come to on that device: never HD_PIPELINE_AUTO. Where they leave the choice, a CPU
    takes the wavefront for a scene whose shading has most of the time (docs/performance.md), a GPU
-   with 64-bit atomics whose driver may end long kernels for deep trees (docs/backends.md,
-   Launches), and otherwise the megakernel is taken. `scene` may be NULL: not known. */
+   with 64-bit atomics whose launches must be short for deep trees (docs/backends.md, Launches), and
+   otherwise the megakernel is taken. `scene` may be NULL: not known. */
 HdPipeline hd_choose_pipeline(const HdDevice *device, const HdRenderOptions *options,
                               const HdScene *scene);
+
+/* Seconds that launches on a GPU should stay below. */
+double hd_longest_launch(const HdDevice *device, const HdRenderOptions *options);
 
 /* Whether the megakernel could keep that device, which may be drawing a display, for too long: it
    traces a whole tree in one launch, which nothing can cut. */

@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-/* What launches should stay below on a device whose driver ends those that take too long, as it
-   does where a display hangs on it, and on others, where only the program itself waits. */
+/* What launches should stay below on a device that may be drawing a display, whose driver ends
+   those that take too long, and on others, where only the program itself waits. */
 #define HD_LAUNCH_SECONDS      0.05
 #define HD_LAUNCH_SECONDS_FREE 0.5
 
@@ -31,8 +31,8 @@ typedef struct HdLaunchSize {
 enum { HD_MOST_LAUNCH_WORK = 1 << 28 };
 
 /* For kernels that nothing is known of, on a device with so many compute units: a first launch that
-   gives each of the device's threads about one piece of work. `longest` is one of the two times
-   above. */
+   gives each of the device's threads about one piece of work. `longest` is in seconds, one
+   of the two times above unless somebody asks for another. */
 HdLaunchSize hd_launch_size_start(int compute_units, double longest);
 
 /* Launches of so much work, whatever they take. */

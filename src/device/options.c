@@ -24,6 +24,11 @@ HdStatus hd_render_options_check(const HdRenderOptions *options, HdError *error)
         return hd_fail(error, HD_BAD_INPUT,
                        "the registers of a thread must be 0 or %d to %d, not %d",
                        (int)HD_MIN_REGISTERS, (int)HD_MAX_REGISTERS, registers);
+    if (options->launch_ms != 0.0 &&
+        !(options->launch_ms >= HD_MIN_LAUNCH_MS && options->launch_ms <= HD_MAX_LAUNCH_MS))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "the milliseconds of a launch must be 0 or %d to %d, not %g",
+                       (int)HD_MIN_LAUNCH_MS, (int)HD_MAX_LAUNCH_MS, options->launch_ms);
     if ((int)options->pipeline < 0 || options->pipeline >= HD_PIPELINE_COUNT)
         return hd_fail(error, HD_BAD_INPUT, "unknown pipeline %d", (int)options->pipeline);
     if (options->precision != HD_PRECISION_FLOAT && options->precision != HD_PRECISION_DOUBLE)

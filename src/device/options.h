@@ -27,7 +27,9 @@ enum {
     HD_MAX_BLOCK = 1024,
     HD_MAX_GRID = 1 << 20,
     HD_MIN_REGISTERS = 16,
-    HD_MAX_REGISTERS = 255
+    HD_MAX_REGISTERS = 255,
+    HD_MIN_LAUNCH_MS = 1,
+    HD_MAX_LAUNCH_MS = 10000
 };
 
 /* X(lanes): how many rays a bundle may have; and the same in words. */
@@ -42,6 +44,8 @@ typedef struct HdRenderOptions {
     int grid;      /* work groups of one launch on a GPU, at most this; 0: what suits the device */
     int registers; /* of a thread on an NVIDIA device, at most this, HD_MIN_REGISTERS to
                       HD_MAX_REGISTERS; 0: what suits the device. No option of the command line */
+    double launch_ms; /* milliseconds that a GPU's launches should stay below, HD_MIN_LAUNCH_MS to
+                         HD_MAX_LAUNCH_MS; 0: what suits the device */
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;

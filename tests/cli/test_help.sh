@@ -23,7 +23,7 @@ expect_help() {
     fi
 }
 
-rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size --samples --depth
+rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --frames --size --samples --depth
     --cutoff --aa --max-error --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
 classic="--no-sync --gpu --cpu --default --variant ${rendering% }"

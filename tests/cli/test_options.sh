@@ -124,6 +124,13 @@ for value in 0 -1 1048577 abc ''; do
     wrong --grid "$value"
 done
 
+for value in 1 12.5 10000; do
+    right --max-launch "$value"
+done
+for value in 0 0.5 -1 10001 abc ''; do
+    wrong --max-launch "$value"
+done
+
 right --precision float
 right --precision=double
 for value in single Float '' 64; do
@@ -216,12 +223,12 @@ for option in --help --version; do
     expect_refusal 2 "$hedron" render "$option=1"
     expect_stderr_contains "$option"
 done
-for option in --variant --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size \
+for option in --variant --backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --frames --size \
     --samples --depth --cutoff; do
     expect_refusal 2 "$hedron" --cpu "$option" <"$input"
     expect_stderr_contains "$option needs a value"
 done
-for option in --output --backend --device --lanes --threads --pipeline --block --grid --geometry --divisions --accel --precision --math --frames --size \
+for option in --output --backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --frames --size \
     --samples --depth --cutoff --set --stats; do
     expect_refusal 2 "$hedron" render "$option"
     expect_stderr_contains "$option needs a value"
@@ -251,7 +258,7 @@ for option in --output=x.png '-o x.png'; do
     expect_stderr_contains --output
 done
 for option in --output=x.png --backend=c --device=0 --lanes=1 --threads=1 --pipeline=mega \
-    --geometry=solids --divisions=1 --accel=auto --block=32 --grid=1 --precision=float --math=fast \
+    --geometry=solids --divisions=1 --accel=auto --block=32 --grid=1 --max-launch=50 --precision=float --math=fast \
     --frames=0 --size=1x1 --samples=1 --depth=1 --cutoff=0 --set=a=1 --stats=x --verbose --quiet; do
     expect_refusal 2 "$hedron" devices "$option"
     expect_stderr_contains "${option%%=*}"

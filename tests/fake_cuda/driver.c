@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Stands in for NVIDIA's driver (libcuda.so.1), so that the CUDA backend can be tested without a
    device: it runs what the fake NVRTC builds (nvrtc.c) on one processor. FAKE_CUDA_DRIVER is the
-   version of CUDA that it tells, FAKE_CUDA_CAPABILITY its device's, 61 for sm_61. */
+   version of CUDA that it tells, FAKE_CUDA_CAPABILITY its device's, 61 for sm_61;
+   with FAKE_CUDA_TIMEOUT=0 it ends no long kernels. */
 #include <stdio.h>
 
 #include "fake.h"
@@ -88,7 +89,7 @@ HdCuResult cuDeviceGetAttribute(int *value, HdCuAttribute attribute, HdCuDevice 
         *value = (int)fake_number("FAKE_CUDA_UNITS", 200);
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_KERNEL_EXEC_TIMEOUT:
-        *value = 1;
+        *value = (int)fake_number("FAKE_CUDA_TIMEOUT", 1.0);
         return HD_CU_SUCCESS;
     case HD_CU_DEVICE_CAPABILITY_MAJOR:
         *value = fake_capability() / 10;

@@ -7,6 +7,7 @@
 #include "device/cuda/compile.h"
 #include "device/cuda/ptx.h"
 #include "device/gpu/renderer.h"
+#include "system/display.h"
 
 enum { BLOCK_THREADS = 128 };
 
@@ -40,7 +41,7 @@ static HdStatus query_attributes(HdDevice *device, const HdCudaDriver *driver, H
             CALL(*driver, cuDeviceGetAttribute, (list[i].value, list[i].attribute, handle), error);
     device->nvidia_arch = 10 * major + minor;
     device->clock_mhz = khz / 1000;
-    device->has_timeout = has_timeout != 0;
+    device->has_timeout = has_timeout != 0 || hd_display_may_be_there(HD_DISPLAY_FOLDER);
     return status;
 }
 

@@ -157,7 +157,7 @@ static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError 
 static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *error) {
     Renderer *renderer = state;
     const HdDevice *device = &renderer->device;
-    const double longest = device->has_timeout ? HD_LAUNCH_SECONDS : HD_LAUNCH_SECONDS_FREE;
+    const double longest = hd_longest_launch(device, &renderer->options);
     const int work = renderer->options.test.launch_work;
     renderer->depth = tables->depth;
     renderer->flights.size = work > 0 ? hd_launch_size_fixed(work)

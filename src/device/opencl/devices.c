@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "system/display.h"
+
 enum { MAX_PLATFORMS = 32 };
 
 typedef struct Entry {
@@ -102,7 +104,7 @@ static bool has_timeout(cl_device_id id) {
     enum { KERNEL_EXEC_TIMEOUT_NV = 0x4005 };
     cl_bool told = CL_FALSE;
     if (clGetDeviceInfo(id, KERNEL_EXEC_TIMEOUT_NV, sizeof told, &told, NULL) == CL_SUCCESS)
-        return told != CL_FALSE;
+        return told != CL_FALSE || hd_display_may_be_there(HD_DISPLAY_FOLDER);
     return (query(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) == 0;
 }
 

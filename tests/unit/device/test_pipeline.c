@@ -44,6 +44,10 @@ static void deep_trees_on_a_gpu_with_a_display_take_the_wavefront(void **state) 
     assert_int_equal(hd_choose_pipeline(&cpu, &options, NULL), HD_PIPELINE_MEGA);
     gpu.has_timeout = false;
     assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
+    options.launch_ms = 100.0;
+    assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(hd_choose_pipeline(&cpu, &options, NULL), HD_PIPELINE_MEGA);
+    options.launch_ms = 0.0;
     gpu.has_timeout = true;
     gpu.has_wide_atomics = false;
     assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
