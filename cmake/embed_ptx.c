@@ -12,26 +12,37 @@
 #include "device/cuda/compile.h"
 #include "device/cuda/ptx.h"
 
-enum { SHAPES = 8 };
+#define COMMON                                                                                     \
+    .lanes = 1, .pixels_per_item = 1, .group_size = HD_CUDA_PTX_BLOCK,                             \
+    .ptx_arch = HD_CUDA_PTX_ARCH, .math = HD_MATH_STRICT
+#define PROBE(is_double)                                                                           \
+    { COMMON, .precision = PRECISION(is_double), .is_probe = true }
+#define RENDERER(is_double, is_wavefront, has_survey)                                              \
+    {                                                                                              \
+        COMMON, .precision = PRECISION(is_double), .wavefront = (is_wavefront), .needs = {         \
+            .plane_bound = HD_CUDA_PTX_PLANES,                                                     \
+            .depth_bound = HD_CUDA_PTX_DEPTH,                                                      \
+            .node_stack_bound = HD_CUDA_PTX_NODE_STACK,                                            \
+            .refracts = true,                                                                      \
+            .lit_from_behind = true,                                                               \
+            .surveyed = (has_survey)                                                               \
+        }                                                                                          \
+    }
+#define PRECISION(is_double) ((is_double) ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT)
 
-/* By number: of each precision and pipeline kernels without and with surveys. */
-static HdKernelShape shape_of(int index) {
-    return (HdKernelShape){
-        .lanes = 1,
-        .pixels_per_item = 1,
-        .group_size = HD_CUDA_PTX_BLOCK,
-        .wavefront = (index & 2) != 0,
-        .precision = (index & 4) != 0 ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
-        .math = HD_MATH_STRICT,
-        .ptx_arch = HD_CUDA_PTX_ARCH,
-        .needs = {.plane_bound = HD_CUDA_PTX_PLANES,
-                  .depth_bound = HD_CUDA_PTX_DEPTH,
-                  .node_stack_bound = HD_CUDA_PTX_NODE_STACK,
-                  .refracts = true,
-                  .lit_from_behind = true,
-                  .surveyed = (index & 1) != 0},
-    };
-}
+static const HdKernelShape shapes[] = {
+    PROBE(false),
+    PROBE(true),
+    RENDERER(false, false, false),
+    RENDERER(false, false, true),
+    RENDERER(false, true, false),
+    RENDERER(false, true, true),
+    RENDERER(true, false, false),
+    RENDERER(true, false, true),
+    RENDERER(true, true, false),
+    RENDERER(true, true, true),
+};
+enum { SHAPES = sizeof shapes / sizeof *shapes };
 
 static void write_bytes(FILE *file, int index, const HdCudaCode *code) {
     enum { PER_LINE = 32 };
@@ -45,10 +56,10 @@ static void write_bytes(FILE *file, int index, const HdCudaCode *code) {
 static bool write_text(FILE *file, int index, const HdNvrtc *nvrtc, HdError *error) {
     enum { OPTIONS_LENGTH = 1024 };
     char options[OPTIONS_LENGTH];
-    const HdKernelShape shape = shape_of(index);
-    const HdCudaTarget target = hd_cuda_target(&shape, HD_CUDA_PTX_ARCH);
+    const HdKernelShape *shape = &shapes[index];
+    const HdCudaTarget target = hd_cuda_target(shape, HD_CUDA_PTX_ARCH);
     HdCudaCode code;
-    hd_cuda_options(options, sizeof options, target, &shape);
+    hd_cuda_options(options, sizeof options, target, shape);
     if (hd_cuda_compile(&code, nvrtc, target, options, error) != HD_OK)
         return false;
     write_bytes(file, index, &code);
@@ -59,17 +70,18 @@ static bool write_text(FILE *file, int index, const HdNvrtc *nvrtc, HdError *err
 static void write_table(FILE *file, int count, const HdNvrtc *nvrtc) {
     fprintf(file, "const HdCudaPtx hd_cuda_ptx[] = {\n");
     for (int i = 0; i < count; i++) {
-        const HdKernelShape shape = shape_of(i);
+        const HdKernelShape *shape = &shapes[i];
         fprintf(file,
-                "    {.shape = {.wavefront = %d, .precision = (HdPrecision)%d, .math = (HdMath)%d, "
+                "    {.shape = {.is_probe = %d, .wavefront = %d, .precision = (HdPrecision)%d, "
+                ".math = (HdMath)%d, "
                 ".group_size = %d, .ptx_arch = %d,\n"
                 "               .needs = {.plane_bound = %d, .depth_bound = %d, "
                 ".node_stack_bound = %d, .surveyed = %d}},\n"
                 "     .maker = \"NVRTC %d.%d\", .text = text_%d, .size = sizeof text_%d},\n",
-                shape.wavefront, (int)shape.precision, (int)shape.math, shape.group_size,
-                shape.ptx_arch, shape.needs.plane_bound, shape.needs.depth_bound,
-                shape.needs.node_stack_bound, shape.needs.surveyed, nvrtc->major, nvrtc->minor, i,
-                i);
+                shape->is_probe, shape->wavefront, (int)shape->precision, (int)shape->math,
+                shape->group_size, shape->ptx_arch, shape->needs.plane_bound,
+                shape->needs.depth_bound, shape->needs.node_stack_bound, shape->needs.surveyed,
+                nvrtc->major, nvrtc->minor, i, i);
     }
     fprintf(file, "%s};\nconst int hd_cuda_ptx_count = %d;\n", count > 0 ? "" : "    {.size = 0}\n",
             count);

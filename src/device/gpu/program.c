@@ -5,7 +5,7 @@
 
 #include "system/machine.h"
 
-enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH };
+enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH, MAKER_LENGTH = 48 };
 
 /* A kernel that needs many registers may allow smaller groups only. */
 static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
@@ -47,7 +47,7 @@ static bool load_cached(HdGpuProgram *program, const HdGpu *gpu, const char *opt
 
 static HdStatus compile(HdGpuProgram *program, const HdGpu *gpu, const char *options,
                         HdError *error) {
-    char maker[48] = "";
+    char maker[MAKER_LENGTH] = "";
     double start = hd_monotonic_seconds();
     HdStatus status = gpu->driver->compile(gpu->handle, &program->cache.shape, options, maker,
                                            sizeof maker, error);
@@ -88,7 +88,7 @@ static HdKernelShape probe_shape(const HdGpuProgram *program) {
 
 HdStatus hd_gpu_build_probe(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     const HdGpuDriver *driver = gpu->driver;
-    char options[OPTIONS_LENGTH], maker[32];
+    char options[OPTIONS_LENGTH], maker[MAKER_LENGTH];
     HdKernelShape *shape = &program->cache.shape;
     if (program->is_built && shape->is_probe && shape->rounds_by_fma == program->probes_by_fma)
         return HD_OK;
