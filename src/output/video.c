@@ -43,7 +43,7 @@ static HdStatus check_settings(const char *path, int width, int height, const Hd
     return hd_film_check_curve(path, style->picture.curve, error);
 }
 
-enum { MAX_ARGUMENTS = 64 };
+enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };
 
 typedef struct Arguments {
     size_t count;
@@ -206,9 +206,17 @@ static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {
                    hd_child_said(&video->ffmpeg));
 }
 
+/* What FFmpeg said although it ended with code 0, with room for it: a full disk, say. */
+static const char *excuse(HdVideo *video, char words[MAX_EXCUSE]) {
+    if (video->ffmpeg.said_length == 0)
+        return "";
+    snprintf(words, MAX_EXCUSE, "; FFmpeg had said: %.500s", hd_child_said(&video->ffmpeg));
+    return words;
+}
+
 /* FFmpeg ends with code 0 even where its input was cut short, so only the file itself tells. */
 static HdStatus count_frames(HdVideo *video, HdError *error) {
-    char target[HD_MAX_PATH + 8], how[64], *end;
+    char target[HD_MAX_PATH + 8], how[64], words[MAX_EXCUSE], *end;
     HdChild ffprobe;
     snprintf(target, sizeof target, "file:%s", video->temporary);
     /* clang-format off */
@@ -228,11 +236,12 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
     long found = strtol(answer, &end, 10);
     if (!done || *end != '\0')
         return hd_fail(error, HD_FAILED,
-                       "ffprobe could not count the frames of %s (%s), expected %ld; it said: %s",
-                       video->path, how, video->frames, answer);
+                       "ffprobe could not count the frames of %s (%s), expected %ld; it said: "
+                       "%.500s%s",
+                       video->path, how, video->frames, answer, excuse(video, words));
     if (found != video->frames)
-        return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld", found,
-                       video->path, video->frames);
+        return hd_fail(error, HD_FAILED, "FFmpeg wrote %ld frames to %s, expected %ld%s", found,
+                       video->path, video->frames, excuse(video, words));
     return HD_OK;
 }
 

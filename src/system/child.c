@@ -7,10 +7,12 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -24,6 +26,9 @@ extern char **environ;
 
 /* Where nothing tells that something happened, glances are shorter. */
 enum { GLANCE_MS = 200, SHORT_GLANCE_MS = 10 };
+
+/* Real-time ones included; where there are fewer, nothing is known of the rest. */
+enum { LAST_SIGNAL = 64 };
 
 /* Of computing: less may be a loop that waits. */
 static const int64_t LEAST_WORK_NS = 100000000;
@@ -64,55 +69,96 @@ static bool open_channel(int ends[2]) {
     return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
 }
 
-/* Where our own standard streams are closed, the channels have their numbers. Nothing is
-   overwritten before it is used even then: `output` comes after another end and is never 0. */
-static int prepare_streams(posix_spawn_file_actions_t *actions, int input, int output) {
-    int reason = input >= 0 ? posix_spawn_file_actions_adddup2(actions, input, STDIN_FILENO)
-                            : posix_spawn_file_actions_addopen(actions, STDIN_FILENO, "/dev/null",
-                                                               O_RDONLY, 0);
-    if (reason == 0)
-        reason = posix_spawn_file_actions_adddup2(actions, output, STDOUT_FILENO);
-    if (reason == 0)
-        reason = posix_spawn_file_actions_adddup2(actions, output, STDERR_FILENO);
-    return reason;
+/* ---- in the child, before it is another program: no memory is asked for, no lock taken ---- */
+
+/* Not closed on the way into the other program, as `from` may be. */
+static bool move_descriptor(int from, int to) {
+    return from == to ? fcntl(to, F_SETFD, 0) == 0 : dup2(from, to) >= 0;
 }
 
-/* The caller may have blocked signals in this thread, and ours ignores lost readers; the program
-   must inherit neither. */
-static int prepare_signals(posix_spawnattr_t *attributes) {
-    const short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP;
-    sigset_t none, usual;
+/* Where our own standard streams are closed, the channels have their numbers. Nothing is
+   overwritten before it is used even then: `output` comes after another end and is never 0. */
+static bool set_streams(int input, int output) {
+    if (input < 0)
+        input = open("/dev/null", O_RDONLY);
+    return input >= 0 && move_descriptor(input, STDIN_FILENO) &&
+           move_descriptor(output, STDOUT_FILENO) && move_descriptor(output, STDERR_FILENO);
+}
+
+/* All are blocked until now. Handlers would do our work a second time, the other program must not
+   inherit that signals are blocked, and ours ignores lost readers. */
+static bool set_signals(void) {
+    const struct sigaction usual = {.sa_handler = SIG_DFL};
+    struct sigaction now;
+    sigset_t none;
     sigemptyset(&none);
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    int reason = posix_spawnattr_setsigmask(attributes, &none);
-    if (reason == 0)
-        reason = posix_spawnattr_setsigdefault(attributes, &usual);
-    if (reason == 0)
-        reason = posix_spawnattr_setpgroup(attributes, 0);
-    if (reason == 0)
-        reason = posix_spawnattr_setflags(attributes, flags);
+    for (int signal = 1; signal <= LAST_SIGNAL; signal++)
+        if (sigaction(signal, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
+            sigaction(signal, &usual, NULL);
+    sigaction(SIGPIPE, &usual, NULL);
+    return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
+}
+
+/* A program that outlived ours would make its file again after the next run has removed it. Our end
+   may come before we ask for this. */
+static bool die_with(pid_t parent) {
+#ifdef __linux__
+    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
+        return false;
+#endif
+    if (getppid() != parent)
+        _exit(1);
+    return true;
+}
+
+static _Noreturn void become(const char *const arguments[], int input, int output, int report,
+                             pid_t parent) {
+    if (setpgid(0, 0) == 0 && die_with(parent) && set_streams(input, output) && set_signals())
+        /* the words are not changed, whatever the prototype says */
+        execve(arguments[0], (char *const *)arguments, environ);
+    const int reason = errno;
+    while (write(report, &reason, sizeof reason) < 0 && errno == EINTR)
+        continue;
+    _exit(127);
+}
+
+/* ---- */
+
+/* The channel closes by itself once the child is another program; else it tells why it is not. */
+static int read_report(int report) {
+    int reason = 0;
+    ssize_t count;
+    do
+        count = read(report, &reason, sizeof reason);
+    while (count < 0 && errno == EINTR);
+    return count == (ssize_t)sizeof reason ? reason : 0;
+}
+
+static int wait_for_failed(pid_t pid, int reason) {
+    while (reason != 0 && waitpid(pid, NULL, 0) < 0 && errno == EINTR)
+        continue;
     return reason;
 }
 
 /* Returns 0 or what went wrong, as errno would. */
 static int spawn(pid_t *pid, const char *const arguments[], int input, int output) {
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    int reason = posix_spawn_file_actions_init(&actions);
-    if (reason != 0)
-        return reason;
-    reason = posix_spawnattr_init(&attributes);
-    if (reason == 0) {
-        reason = prepare_streams(&actions, input, output);
-        if (reason == 0)
-            reason = prepare_signals(&attributes);
-        if (reason == 0) /* the words are not changed, whatever the prototype says */
-            reason = posix_spawn(pid, arguments[0], &actions, &attributes, (char *const *)arguments,
-                                 environ);
-        posix_spawnattr_destroy(&attributes);
-    }
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t parent = getpid();
+    int report[2], reason = 0;
+    sigset_t all, before;
+    if (!open_channel(report))
+        return errno;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    *pid = fork();
+    if (*pid == 0)
+        become(arguments, input, output, report[1], parent);
+    if (*pid < 0)
+        reason = errno;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    close(report[1]);
+    if (reason == 0)
+        reason = wait_for_failed(*pid, read_report(report[0]));
+    close(report[0]);
     if (reason == 0)
         hd_leftovers_add_group(*pid);
     else

@@ -28,6 +28,11 @@ wait_for() {
     fi
 }
 
+# An orphan may lie dead for long, until its new parent looks after it.
+is_dead() {
+    is_gone "$1" || [[ $(ps -o stat= -p "$1") == Z* ]]
+}
+
 # fake NAME BODY: a program of that name in the tools folder.
 fake() {
     printf '#!%s\n%s\n' "$bash_path" "$2" >"$tools/$1"
@@ -109,6 +114,17 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     fake ffprobe "echo \$\$ >'$work/leader'; exec sleep 1000"
     expect_stuck ffprobe
     rm "$tools/ffprobe"
+    # Nor does it outlive the program: what it wrote late would stay for ever.
+    for signal in KILL TERM; do
+        fake ffmpeg "echo \$\$ >'$work/leader.new'; mv '$work/leader.new' '$work/leader'; exec sleep 1000"
+        rm -f "$work/leader"
+        start "${stuck[@]}" --size 32x24 --frames 0-2 -o film.mkv
+        wait_for 'FFmpeg to be started' test -e "$work/leader"
+        kill "-$signal" "$pid"
+        wait_for "FFmpeg to be dead after SIG$signal" is_dead "$(<"$work/leader")"
+        wait "$pid" || true
+        rm -f ./*
+    done
     # Pictures that were finished stay, and a film of an earlier run.
     printf 'old' >film.mkv
     fake ffmpeg "exec sleep 1000"

@@ -190,12 +190,17 @@ if full_disk true 2>"$logs/unshare"; then
         rm -r disk_copy
     done
     if command -v ffmpeg >"$logs/which"; then
-        expect_exit 1 full_disk "$hedron" render --backend c --size 160x120 --samples 1 --depth 3 \
-            --frames 0-19 -o disk/x.mp4
-        expect_stderr_contains 'hedron: '
-        expect_stdout_lines 0
-        expect_files disk_copy
-        rm -r disk_copy
+        # The disk is full at once, or once the film is finished.
+        for film in '--size 160x120 x.mkv' '--size 160x120 x.mp4' '--size 96x72 x.mp4' '--size 64x48 x.gif'; do
+            # shellcheck disable=SC2086 # several words
+            expect_exit 1 full_disk "$hedron" render --backend c ${film% *} --samples 1 --depth 3 \
+                --frames 0-39 -o "disk/${film##* }"
+            expect_stderr_contains 'hedron: '
+            expect_stderr_contains 'No space left on device'
+            expect_stdout_lines 0
+            expect_files disk_copy
+            rm -r disk_copy
+        done
     fi
     expect_files . disk
 else
