@@ -54,7 +54,8 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "for scenes of this kind and size with the same options, and says so with --verbose. The "
      "bytes of strict pictures do not depend on it."},
     {HD_COMMAND_COMPARE, "compare", "FIRST SECOND", NULL, 2, "tell how far two pictures are apart",
-     "Compares two pictures of the same size, PNG (8 or 16 bits) or PFM, in two spaces. Display: "
+     "Compares two pictures of the same size, PNG (8 or 16 bits), OpenEXR or PFM, in two spaces. "
+     "Display: "
      "the "
      "values clamped to 0..1 and on the curve, in steps of 255. Linear: light, 1 is white; clamped "
      "to 0..1 as well if one of them is a PNG. Prints RMSE, PSNR, mean and largest error with its "

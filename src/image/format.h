@@ -13,10 +13,11 @@
 #include "image/frame.h"
 #include "image/texture.h"
 
-/* How a picture stores values; PFM is always linear, and only PNG has more than 8 bits. */
+/* How a picture stores values: PNG in 8 or 16 bits; OpenEXR in half, with 32 bits in float, and PFM
+   in float, both linear; all else in 8 bits. */
 typedef struct HdPictureStyle {
     HdCurve curve;
-    int bits; /* 8 or 16 */
+    int bits; /* 8, 16 or 32 */
 } HdPictureStyle;
 
 /* How the frames are stored. */

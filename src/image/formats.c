@@ -21,12 +21,17 @@ bool hd_format_is_film(const HdFormat *format) {
     return format != NULL && format->film_arguments != NULL;
 }
 
-HdStatus hd_film_check_curve(const char *path, HdCurve curve, HdError *error) {
+HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
     const HdFormat *format = hd_format_of(path);
-    if (format == NULL || !format->is_srgb_alone || curve == HD_CURVE_SRGB)
-        return HD_OK;
-    return hd_fail(error, HD_BAD_INPUT,
-                   "%s cannot be linear, for a %s has no way to say so: expected output.curve "
-                   "\"srgb\", or another film",
-                   path, format->name);
+    if (format != NULL && format->is_srgb_alone && style->curve != HD_CURVE_SRGB)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s cannot be linear, for a %s has no way to say so: expected output.curve "
+                       "\"srgb\", or another film",
+                       path, format->name);
+    if (format == &hd_format_png && style->bits > 16)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s cannot have %d bits a channel: expected output.bits 8 or 16, or another "
+                       "ending, such as .exr",
+                       path, style->bits);
+    return HD_OK;
 }

@@ -7,9 +7,9 @@
 
 /* Each format is hd_format_NAME, and the ending of its files .NAME.
    mp4: H.264, 4:2:0; mkv: FFV1, lossless RGB; gif: 256 colours, repeats for ever.
-   png: 8 or 16 bits, RGB; pfm: float, linear; data: 8 bits, RGBA. */
+   png: 8 or 16 bits, RGB; exr: half or float, linear; pfm: float, linear; data: 8 bits, RGBA. */
 #define HD_FILM_FORMATS(FIRST, NEXT, LAST)    FIRST(mp4) NEXT(mkv) LAST(gif)
-#define HD_PICTURE_FORMATS(FIRST, NEXT, LAST) FIRST(png) NEXT(pfm) LAST(data)
+#define HD_PICTURE_FORMATS(FIRST, NEXT, LAST) FIRST(png) NEXT(exr) NEXT(pfm) LAST(data)
 
 #define HD_FORMAT_DECLARED(name) extern const HdFormat hd_format_##name;
 HD_FILM_FORMATS(HD_FORMAT_DECLARED, HD_FORMAT_DECLARED, HD_FORMAT_DECLARED)
@@ -18,7 +18,7 @@ HD_PICTURE_FORMATS(HD_FORMAT_DECLARED, HD_FORMAT_DECLARED, HD_FORMAT_DECLARED)
 /* Of textures alone. */
 HD_FORMAT_DECLARED(jpeg)
 
-/* The endings for messages and help, as in ".png, .pfm or .data". */
+/* The endings for messages and help, as in ".png, .exr, .pfm or .data". */
 #define HD_ENDING(name)       "." #name
 #define HD_COMMA_ENDING(name) ", ." #name
 #define HD_OR_ENDING(name)    " or ." #name
@@ -31,8 +31,8 @@ const HdFormat *hd_format_of(const char *path);
 /* NULL is none. */
 bool hd_format_is_film(const HdFormat *format);
 
-/* HD_BAD_INPUT where the path is that of a film that cannot say that its values are on that curve.
- */
-HdStatus hd_film_check_curve(const char *path, HdCurve curve, HdError *error);
+/* HD_BAD_INPUT where the path is that of a film that cannot say that its values are on the style's
+   curve, or of a picture that cannot have so many bits. */
+HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error);
 
 #endif

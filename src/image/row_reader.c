@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "image/format_exr.h"
 #include "image/format_pfm.h"
 #include "image/png.h"
 
@@ -21,9 +22,10 @@ struct HdPictureReader {
     const char *path; /* the caller's */
     HdPictureFacts facts;
     HdCurve curve;
-    HdPngReader *png; /* owned; NULL: the other one is read */
+    HdPngReader *png; /* owned; this and the next NULL: PFM is read */
+    HdExrRows *exr;   /* owned */
     HdPfmRows pfm;
-    void *row;               /* owned; codes of PNG, radiances of PFM */
+    void *row;               /* owned; codes of PNG, radiances of the others */
     HdPictureValue *by_code; /* owned; of PNG: CODES of them */
 };
 
@@ -67,6 +69,19 @@ static HdStatus open_png(HdPictureReader *reader, HdError *error) {
     return HD_OK;
 }
 
+static HdStatus open_exr(HdPictureReader *reader, HdError *error) {
+    HdExrFacts facts = {0};
+    const HdStatus status = hd_exr_open(&reader->exr, reader->file, reader->path, &facts, error);
+    reader->facts = (HdPictureFacts){
+        .format = &hd_format_exr,
+        .width = facts.width,
+        .height = facts.height,
+        .bits = facts.bits,
+        .curve = HD_CURVE_LINEAR,
+    };
+    return status;
+}
+
 static HdStatus open_pfm(HdPictureReader *reader, HdError *error) {
     const HdStatus status = hd_pfm_open(&reader->pfm, reader->file, reader->path, error);
     reader->facts = (HdPictureFacts){
@@ -85,12 +100,14 @@ static HdStatus open_format(HdPictureReader *reader, HdError *error) {
     rewind(reader->file);
     if (hd_image_is_png(head, count))
         return open_png(reader, error);
+    if (hd_image_is_exr(head, count))
+        return open_exr(reader, error);
     if (count >= 2 && memcmp(head, "PF", 2) == 0)
         return open_pfm(reader, error);
     if (count >= 2 && memcmp(head, "Pf", 2) == 0)
         return hd_fail(error, HD_BAD_INPUT, "%s is a PFM without colour, expected one with r, g, b",
                        reader->path);
-    return hd_fail(error, HD_BAD_INPUT, "%s is neither PNG nor PFM, expected one of these",
+    return hd_fail(error, HD_BAD_INPUT, "%s is neither PNG, OpenEXR nor PFM, expected one of these",
                    reader->path);
 }
 
@@ -144,9 +161,10 @@ static HdStatus next_of_png(HdPictureReader *reader, HdPictureValue *values, HdE
     return status;
 }
 
-static HdStatus next_of_pfm(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+static HdStatus next_of_floats(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
     const float *radiances = reader->row;
-    const HdStatus status = hd_pfm_next_row(&reader->pfm, reader->row, error);
+    const HdStatus status = reader->exr != NULL ? hd_exr_next_row(reader->exr, reader->row, error)
+                                                : hd_pfm_next_row(&reader->pfm, reader->row, error);
     for (size_t i = 0; i < (size_t)reader->facts.width * 3 && status == HD_OK; i++) {
         const double linear = (double)radiances[i];
         values[i].linear = linear;
@@ -157,13 +175,14 @@ static HdStatus next_of_pfm(HdPictureReader *reader, HdPictureValue *values, HdE
 
 HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
     return reader->png != NULL ? next_of_png(reader, values, error)
-                               : next_of_pfm(reader, values, error);
+                               : next_of_floats(reader, values, error);
 }
 
 void hd_picture_reader_close(HdPictureReader *reader) {
     if (reader == NULL)
         return;
     hd_png_close(reader->png);
+    hd_exr_close(reader->exr);
     if (reader->file != NULL)
         fclose(reader->file);
     free(reader->row);

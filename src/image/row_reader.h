@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures that are read row by row, so that the largest one needs no more memory than a row: PNG
-   and PFM, told apart by the first bytes. */
+/* Pictures that are read row by row, so that the largest one needs no more memory than a row: PNG,
+   OpenEXR (some rows more) and PFM, told apart by the first bytes. */
 #ifndef HD_IMAGE_ROW_READER_H
 #define HD_IMAGE_ROW_READER_H
 
@@ -9,18 +9,18 @@
 #include "image/picture_value.h"
 
 typedef struct HdPictureFacts {
-    const HdFormat *format; /* PNG or PFM */
+    const HdFormat *format; /* PNG, OpenEXR or PFM */
     int width, height;
-    int bits;      /* of a channel: 8 or 16, in PFM 32 */
+    int bits;      /* of a channel: 8 or 16, in OpenEXR 16 or 32, in PFM 32 */
     HdCurve curve; /* of PNG: sRGB where a chunk says so, else linear, as it is written;
-                      of PFM: linear */
+                      of the others: linear */
 } HdPictureFacts;
 
 typedef struct HdPictureReader HdPictureReader;
 
 /* Opens a regular file and reads its head. PNG: every kind that is not interlaced; alpha is
-   dropped. PFM: in colour, of either byte order. HD_BAD_INPUT, with the file's name and what was
-   expected, where it is something else. */
+   dropped. OpenEXR: R, G and B of a part of lines. PFM: in colour, of either byte order.
+   HD_BAD_INPUT, with the file's name and what was expected, where it is something else. */
 HdStatus hd_picture_reader_open(HdPictureReader **reader, const char *path, HdError *error);
 
 const HdPictureFacts *hd_picture_reader_facts(const HdPictureReader *reader);

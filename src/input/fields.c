@@ -46,7 +46,7 @@ _Static_assert(sizeof(HdMeshNormals) == sizeof(int), "an HdMeshNormals is as lar
 
 static const HdChoice versions[] = {{"1", 1}, {NULL, 0}};
 static const HdChoice curves[] = {{"srgb", HD_CURVE_SRGB}, {"linear", HD_CURVE_LINEAR}, {NULL, 0}};
-static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {NULL, 0}};
+static const HdChoice bits[] = {{"8", 8}, {"16", 16}, {"32", 32}, {NULL, 0}};
 static const HdChoice normals[] = {
     {"file", HD_NORMALS_FILE}, {"flat", HD_NORMALS_FLAT}, {"smooth", HD_NORMALS_SMOOTH}, {NULL, 0}};
 static const HdChoice kinds[] = {{"tetrahedron", HD_TETRAHEDRON}, {"cube", HD_HEXAHEDRON},
@@ -122,7 +122,9 @@ static const HdField output_fields[] = {
     {AT(HdSceneFile, output.style.picture.curve, "curve",
         "Transfer curve of the numbers in the file"),
      CHOICE(curves, HD_CURVE_SRGB)},
-    {AT(HdSceneFile, output.style.picture.bits, "bits", "Bits of a channel"), CHOICE(bits, 8)},
+    {AT(HdSceneFile, output.style.picture.bits, "bits",
+        "Bits of a channel: of PNG 8 or 16; 32: OpenEXR in float, otherwise in half"),
+     CHOICE(bits, 8)},
 };
 static const HdObjectType output = COMPLETE_TYPE(HdSceneFile, output_fields);
 

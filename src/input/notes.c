@@ -166,7 +166,7 @@ void hd_scene_notes(const HdSceneFile *file, HdProblems *notes) {
 void hd_scene_check_output(const HdSceneFile *file, HdProblems *problems) {
     const char *path = file->output.path;
     HdError error;
-    if (hd_film_check_curve(path, file->output.style.picture.curve, &error) != HD_OK)
+    if (hd_format_check_style(path, &file->output.style.picture, &error) != HD_OK)
         hd_problem(problems, "output.path: %s", error.message);
     if (path[0] == '\0' || file->scene.frame_count == 1 || hd_format_is_film(hd_format_of(path)) ||
         hd_pattern_has_number(path))

@@ -13,8 +13,8 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
     return HD_OK;
 }
 
-static HdStatus settle_output(HdOutput *output, const char *name, HdCurve curve, int frame_count,
-                              HdError *error) {
+static HdStatus settle_output(HdOutput *output, const char *name, const HdPictureStyle *style,
+                              int frame_count, HdError *error) {
     const HdFormat *format = hd_format_of(name);
     char file[HD_MAX_PATH];
     *output = (HdOutput){
@@ -28,8 +28,9 @@ static HdStatus settle_output(HdOutput *output, const char *name, HdCurve curve,
                        "'%s' asks for numbered films: a film has no number (%%d or #) in its name, "
                        "and pictures end in " HD_PICTURE_ENDINGS,
                        name);
-    if (output->is_film)
-        return hd_film_check_curve(name, curve, error);
+    const HdStatus status = hd_format_check_style(name, style, error);
+    if (output->is_film || status != HD_OK)
+        return status;
     if (output->is_numbered)
         return hd_pattern_check(name, error);
     if (frame_count == 1)
@@ -101,7 +102,7 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
         .options = "",
     };
     for (int i = 0; i < count && status == HD_OK; i++) {
-        status = settle_output(&plan->list[i], names[i], style->picture.curve, frame_count, error);
+        status = settle_output(&plan->list[i], names[i], &style->picture, frame_count, error);
         for (int j = 0; j < i && status == HD_OK; j++)
             status = check_different(&plan->list[i], &plan->list[j], frame_count, error);
     }

@@ -40,7 +40,7 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
 /* Finds out what each of the names, 1 to HD_MAX_OUTPUTS, stands for; they must live on. An ending
    that is of no format stands for the data format, as in the classic mode.
    HD_BAD_INPUT where one does not suit the number of frames, or is there twice, whatever the
-   spelling, or where a film cannot be on the style's curve. The plan is not marked. */
+   spelling, or is of a format that cannot have the style. The plan is not marked. */
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error);
 

@@ -40,7 +40,7 @@ static HdStatus check_settings(const char *path, int width, int height, const Hd
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has %d frames a second, expected at least 1", path,
                        style->frames_per_second);
-    return hd_film_check_curve(path, style->picture.curve, error);
+    return hd_format_check_style(path, &style->picture, error);
 }
 
 enum { MAX_ARGUMENTS = 64, MAX_EXCUSE = 600 };

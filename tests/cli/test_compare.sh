@@ -111,6 +111,29 @@ for order in 'bright.pfm half.png' 'half.png bright.pfm'; do
     expect_json '0 < j["display"]["largest"] < 0.5 and j["display"]["at"]["channel"] == "green"'
 done
 
+# ---- OpenEXR: in float the same as PFM, in half the nearest; the same bytes from every backend
+frame=(render --quiet --size 70x40 --samples 1 --depth 3 --frames 0)
+expect_exit 0 "$hedron" "${frame[@]}" --backend c -o true.pfm -o half.exr
+if [[ ! -s half.exr ]]; then
+    echo "not tested: OpenEXR, for this build has none"
+else
+    expect_exit 0 "$hedron" "${frame[@]}" --backend c --lanes 1 --set output.bits=32 -o float.exr
+    expect_exit 0 "$hedron" compare --json true.pfm float.exr
+    expect_json 'j["identical"] and j["second"]["format"] == "OpenEXR" and j["second"]["bits"] == 32'
+    expect_exit 0 "$hedron" compare --json true.pfm half.exr
+    expect_json 'j["second"]["bits"] == 16 and not j["identical"] and 0 < j["linear"]["largest"] < 0.002'
+    if has_opencl; then
+        expect_exit 0 "$hedron" "${frame[@]}" --backend opencl -o other.exr
+        expect_same half.exr other.exr
+    fi
+    head -c 3000 half.exr >cut.exr
+    expect_refusal 2 "$hedron" compare true.pfm cut.exr
+    expect_stderr_contains 'cannot read cut.exr as OpenEXR'
+fi
+expect_refusal 2 "$hedron" "${frame[@]}" --backend c --set output.bits=32 -o deep.png
+expect_stderr_contains 'deep.png cannot have 32 bits a channel: expected output.bits 8 or 16'
+rm -f ./*.exr true.pfm
+
 # ---- curves: what the files say, or else --curve
 expect_exit 0 "$hedron" compare --json bright.pfm plain.png --fail-above 0.51
 expect_json 'j["curve"] == "linear" and abs(j["display"]["largest"] - 0.5) < 1e-9'
@@ -220,7 +243,7 @@ expect_refusal 2 "$hedron" compare pipe a.png
 expect_stderr_contains 'pipe: it is not a regular file'
 make_texture texture.data
 expect_refusal 2 "$hedron" compare texture.data texture.data
-expect_stderr_contains 'texture.data is neither PNG nor PFM'
+expect_stderr_contains 'texture.data is neither PNG, OpenEXR nor PFM'
 head -c 20 bright.pfm >short.pfm
 expect_refusal 2 "$hedron" compare bright.pfm short.pfm
 expect_stderr_contains 'short.pfm has 20 bytes, expected 36 for 2 x 1 pixels'

@@ -55,7 +55,7 @@ if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; 
     expect_same <(cd "$work/root/usr" && find . -type f | sort) <(cd "$prefix" && find . -type f | sort)
     expect_exit 0 env -i "$work/root/usr/bin/hedron" --version
     dpkg-deb -f "${package[0]}" Depends Recommends >"$logs/fields"
-    for needed in libpng16-16 libjpeg libjansson4 ocl-icd-libopencl1 ffmpeg pocl-opencl-icd; do
+    for needed in libpng16-16 libjpeg libopenexr libjansson4 ocl-icd-libopencl1 ffmpeg pocl-opencl-icd; do
         grep -q "$needed" "$logs/fields" || fail "the package does not name $needed: $(cat "$logs/fields")"
     done
 else

@@ -11,6 +11,7 @@ static void the_ending_tells_the_format(void **state) {
     } outputs[] = {{"a.data", &hd_format_data, false},
                    {"a.png", &hd_format_png, false},
                    {"a/b.PnG", &hd_format_png, false},
+                   {"a.exr", &hd_format_exr, false},
                    {"a.pfm", &hd_format_pfm, false},
                    {"a.mp4", &hd_format_mp4, true},
                    {"out/a.MKV", &hd_format_mkv, true},

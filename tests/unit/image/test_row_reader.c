@@ -115,8 +115,8 @@ static void other_files_are_refused(void **state) {
     check_refused("folder", "not a regular file");
     check_refused("pipe", "not a regular file");
     check_refused("missing", "No such file");
-    check_refused_bytes("", 0, "neither PNG nor PFM");
-    check_refused_bytes("hello", 5, "neither PNG nor PFM");
+    check_refused_bytes("", 0, "neither PNG, OpenEXR nor PFM");
+    check_refused_bytes("hello", 5, "neither PNG, OpenEXR nor PFM");
     check_refused_bytes("Pf\n1 1\n-1\n0000", 14, "without colour");
     const char *const heads[] = {
         "PF",

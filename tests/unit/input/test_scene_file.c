@@ -364,7 +364,7 @@ static void test_wrong_types_of_other_fields(void **state) {
                           "\"tetrahedron\", \"cube\", \"octahedron\", \"dodecahedron\" or "
                           "\"icosahedron\"");
     expect_change_refused("output.curve", "gamma", "a string, \"gamma\"", "\"srgb\" or \"linear\"");
-    expect_change_refused("output.bits", "10", "10", "8 or 16");
+    expect_change_refused("output.bits", "10", "10", "8, 16 or 32");
     expect_change_refused("floor.texture.curve", "null", "null", "\"srgb\" or \"linear\"");
     expect_change_refused("materials.glass.lit_from_behind", "1", "1", "true or false");
     expect_change_refused("solids[0].material", "7", "7", material);

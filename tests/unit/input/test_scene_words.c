@@ -13,7 +13,7 @@ static void test_output_paths(void **state) {
         snprintf(change, sizeof change, "output.path=%s", wrong[i]);
         snprintf(message, sizeof message,
                  "a.json: --set %s: output.path is \"%s\", expected the name of a film (.mp4, .mkv "
-                 "or .gif) or of a picture (.png, .pfm or .data)",
+                 "or .gif) or of a picture (.png, .exr, .pfm or .data)",
                  change, wrong[i]);
         assert_string_equal(expect_refused(rich_text, change, ""), message);
     }
@@ -39,7 +39,7 @@ static void test_numbers_by_value(void **state) {
     hd_scene_file_free(&file);
     expect_scene(&file, rich_text, "hedron=1.0");
     hd_scene_file_free(&file);
-    expect_refused(rich_text, "output.bits=16.5", "output.bits is 16.5, expected 8 or 16");
+    expect_refused(rich_text, "output.bits=16.5", "output.bits is 16.5, expected 8, 16 or 32");
     expect_refused(rich_text, "solids[0].kind=\"cub\"", "solids[0].kind is a string, \"cub\"");
     expect_refused(rich_text, "image.width=12345678901234567890",
                    "image.width is 1.2345678901234567e19, expected an integer from 1 to 65535");

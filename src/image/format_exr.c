@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: MIT */
+/* OpenEXR by the library's C interface: radiance in half or float. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image/format_exr.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/limits.h"
+#include "image/format.h"
+
+bool hd_image_is_exr(const unsigned char *bytes, size_t size) {
+    return size >= 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0;
+}
+
+#if HD_HAS_OPENEXR
+
+#include <openexr.h>
+
+enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
+static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
+
+/* By the order of r, g, b. */
+static const char *const channel_names[CHANNELS] = {"R", "G", "B"};
+
+/* What the library's calls work on, and the first thing that it said of an error. */
+typedef struct File {
+    exr_context_t context;
+    FILE *stream; /* the caller's */
+    const char *path;
+    char message[MESSAGE_SIZE];
+} File;
+
+static void keep_message(exr_const_context_t context, exr_result_t code, const char *message) {
+    void *data = NULL;
+    if (exr_get_user_data(context, &data) != EXR_ERR_SUCCESS || data == NULL)
+        return;
+    File *file = data;
+    if (file->message[0] == '\0')
+        snprintf(file->message, sizeof file->message, "%s",
+                 message != NULL ? message : exr_get_default_error_message(code));
+}
+
+static const char *message_of(const File *file, exr_result_t code) {
+    return file->message[0] != '\0' ? file->message : exr_get_default_error_message(code);
+}
+
+static exr_context_initializer_t settings_of(File *file) {
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    settings.error_handler_fn = keep_message;
+    settings.user_data = file;
+    settings.max_image_width = settings.max_image_height = HD_MAX_IMAGE_SIDE;
+    return settings;
+}
+
+/* Writing */
+
+static int64_t write_at(exr_const_context_t context, void *data, const void *bytes, uint64_t size,
+                        uint64_t offset, exr_stream_error_func_ptr_t report) {
+    File *file = data;
+    (void)context;
+    (void)report;
+    for (uint64_t done = 0; done < size;) {
+        const ssize_t count = pwrite(fileno(file->stream), (const char *)bytes + done,
+                                     (size_t)(size - done), (off_t)(offset + done));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0) {
+            snprintf(file->message, sizeof file->message, "%s", strerror(errno));
+            return -1;
+        }
+        done += (uint64_t)count;
+    }
+    return (int64_t)size;
+}
+
+/* To the nearest half, the even one of two; NaN stays one, and what is too large for a finite half
+   becomes the largest. */
+static uint16_t half_of(float value) {
+    const double size = fabs((double)value);
+    const uint16_t sign = signbit(value) ? 0x8000 : 0;
+    int exponent;
+    if (isnan(value))
+        return (uint16_t)(sign | 0x7e00);
+    if (size >= 65504.0)
+        return (uint16_t)(sign | 0x7bff);
+    if (size < 0x1p-14) /* steps of 2^-24 */
+        return (uint16_t)(sign | (uint16_t)nearbyint(size * 0x1p24));
+    frexp(size, &exponent); /* 2^(exponent - 1) <= size: 1024 steps up to the next power */
+    const double steps = nearbyint(ldexp(size, 11 - exponent));
+    return (uint16_t)(sign | (uint16_t)((exponent + 13) * 1024 + (int)steps));
+}
+
+static exr_result_t write_attributes(exr_context_t context, int part, const HdFrame *frame,
+                                     exr_pixel_type_t type, const HdPictureLabel *label) {
+    exr_result_t result = exr_initialize_required_attr_simple(context, part, frame->width,
+                                                              frame->height, EXR_COMPRESSION_ZIP);
+    for (int c = 0; c < CHANNELS && result == EXR_ERR_SUCCESS; c++)
+        result = exr_add_channel(context, part, channel_names[c], type,
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (label == NULL || result != EXR_ERR_SUCCESS)
+        return result;
+    result = exr_attr_set_string(context, part, "software", "hedron " HD_VERSION);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_attr_set_string(context, part, "scene", label->scene);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_attr_set_int(context, part, "frame", label->frame);
+    if (result == EXR_ERR_SUCCESS && label->options[0] != '\0')
+        result = exr_attr_set_string(context, part, "options", label->options);
+    return result;
+}
+
+/* Which of r, g, b a channel is; CHANNELS: none. */
+static int channel_index(const char *name) {
+    int index = 0;
+    while (index < CHANNELS && strcmp(channel_names[index], name) != 0)
+        index++;
+    return index;
+}
+
+/* The lines of a chunk, whose r, g, b lie beside each other, `bytes` each. */
+static void set_source(exr_encode_pipeline_t *pipeline, const unsigned char *pixels, int bytes) {
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *channel = &pipeline->channels[i];
+        channel->user_pixel_stride = CHANNELS * bytes;
+        channel->user_line_stride = channel->width * CHANNELS * bytes;
+        channel->encode_from_ptr = pixels + channel_index(channel->channel_name) * bytes;
+    }
+}
+
+static exr_result_t write_chunk(exr_context_t context, int part, int y, const unsigned char *pixels,
+                                int bytes, exr_encode_pipeline_t *pipeline) {
+    exr_chunk_info_t chunk;
+    exr_result_t result = exr_write_scanline_chunk_info(context, part, y, &chunk);
+    if (result == EXR_ERR_SUCCESS)
+        result = y == 0 ? exr_encoding_initialize(context, part, &chunk, pipeline)
+                        : exr_encoding_update(context, part, &chunk, pipeline);
+    if (result != EXR_ERR_SUCCESS)
+        return result;
+    set_source(pipeline, pixels, bytes);
+    if (y == 0)
+        result = exr_encoding_choose_default_routines(context, part, pipeline);
+    return result == EXR_ERR_SUCCESS ? exr_encoding_run(context, part, pipeline) : result;
+}
+
+/* `halves` has room for the lines of a chunk; NULL: the frame's floats are written. */
+static exr_result_t write_chunks(exr_context_t context, int part, int lines, const HdFrame *frame,
+                                 uint16_t *halves) {
+    const size_t values = (size_t)frame->width * CHANNELS;
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_result_t result = EXR_ERR_SUCCESS;
+    for (int y = 0; y < frame->height && result == EXR_ERR_SUCCESS; y += lines) {
+        const float *rgb = frame->rgb + values * (size_t)y;
+        const int count = y + lines <= frame->height ? lines : frame->height - y;
+        for (size_t i = 0; halves != NULL && i < values * (size_t)count; i++)
+            halves[i] = half_of(rgb[i]);
+        result =
+            write_chunk(context, part, y,
+                        halves != NULL ? (const unsigned char *)halves : (const unsigned char *)rgb,
+                        halves != NULL ? 2 : 4, &pipeline);
+    }
+    exr_encoding_destroy(context, &pipeline);
+    return result;
+}
+
+static exr_result_t write_part(File *file, const HdFrame *frame, bool is_half,
+                               const HdPictureLabel *label) {
+    int part, lines = 0;
+    const exr_pixel_type_t type = is_half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+    exr_result_t result = exr_add_part(file->context, "frame", EXR_STORAGE_SCANLINE, &part);
+    if (result == EXR_ERR_SUCCESS)
+        result = write_attributes(file->context, part, frame, type, label);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_write_header(file->context);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_scanlines_per_chunk(file->context, part, &lines);
+    if (result != EXR_ERR_SUCCESS)
+        return result;
+    uint16_t *halves = NULL;
+    if (is_half) {
+        halves = malloc((size_t)frame->width * CHANNELS * (size_t)lines * sizeof *halves);
+        if (halves == NULL)
+            return EXR_ERR_OUT_OF_MEMORY;
+    }
+    result = write_chunks(file->context, part, lines, frame, halves);
+    free(halves);
+    return result;
+}
+
+static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
+                            const HdPictureLabel *label, FILE *stream, const char *path,
+                            HdError *error) {
+    File file = {.stream = stream, .path = path};
+    exr_context_initializer_t settings = settings_of(&file);
+    settings.write_fn = write_at;
+    exr_result_t result = exr_start_write(&file.context, path, EXR_WRITE_FILE_DIRECTLY, &settings);
+    if (result == EXR_ERR_SUCCESS)
+        result = write_part(&file, frame, style->bits < 32, label);
+    if (result != EXR_ERR_SUCCESS)
+        hd_fail(error, HD_FAILED, "cannot write %s: %s", path, message_of(&file, result));
+    const exr_result_t finished = exr_finish(&file.context);
+    if (result == EXR_ERR_SUCCESS && finished != EXR_ERR_SUCCESS)
+        hd_fail(error, HD_FAILED, "cannot write %s: %s", path, message_of(&file, finished));
+    return result == EXR_ERR_SUCCESS && finished == EXR_ERR_SUCCESS ? HD_OK : HD_FAILED;
+}
+
+/* Reading */
+
+struct HdExrRows {
+    File file;
+    int top, width, height, next; /* of the data window, `next` counts from its top */
+    int lines;                    /* of a chunk */
+    float *values;                /* owned; of a chunk */
+    exr_decode_pipeline_t pipeline;
+    bool has_pipeline;
+};
+
+static int64_t file_size(exr_const_context_t context, void *data) {
+    const File *file = data;
+    struct stat found;
+    (void)context;
+    return fstat(fileno(file->stream), &found) == 0 ? (int64_t)found.st_size : -1;
+}
+
+static int64_t read_at(exr_const_context_t context, void *data, void *bytes, uint64_t size,
+                       uint64_t offset, exr_stream_error_func_ptr_t report) {
+    const File *file = data;
+    uint64_t done = 0;
+    (void)context;
+    (void)report;
+    while (done < size && offset + done <= INT64_MAX) {
+        const ssize_t count = pread(fileno(file->stream), (char *)bytes + done,
+                                    (size_t)(size - done), (off_t)(offset + done));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return -1;
+        if (count == 0)
+            break;
+        done += (uint64_t)count;
+    }
+    return (int64_t)done;
+}
+
+/* The library has the code of short memory for data, too, that it cannot unpack; the words differ.
+ */
+static HdStatus fail_reading(const HdExrRows *rows, exr_result_t code, HdError *error) {
+    const char *message = message_of(&rows->file, code);
+    const bool is_memory_short =
+        strcmp(message, exr_get_default_error_message(EXR_ERR_OUT_OF_MEMORY)) == 0;
+    return hd_fail(error, is_memory_short ? HD_FAILED : HD_BAD_INPUT,
+                   "cannot read %s as OpenEXR: %s", rows->file.path, message);
+}
+
+/* Whether R, G and B are there, for each pixel, as numbers with a point. */
+static bool find_channels(const exr_attr_chlist_t *list, int *bits) {
+    int found = 0;
+    *bits = 16;
+    for (int i = 0; i < list->num_channels; i++) {
+        const exr_attr_chlist_entry_t *channel = &list->entries[i];
+        if (channel_index(channel->name.str) == CHANNELS)
+            continue;
+        if (channel->pixel_type == EXR_PIXEL_UINT || channel->x_sampling != 1 ||
+            channel->y_sampling != 1)
+            return false;
+        if (channel->pixel_type == EXR_PIXEL_FLOAT)
+            *bits = 32;
+        found++;
+    }
+    return found == CHANNELS;
+}
+
+static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
+    const exr_const_context_t context = rows->file.context;
+    const char *path = rows->file.path;
+    const exr_attr_chlist_t *channels = NULL;
+    exr_attr_box2i_t window;
+    exr_storage_t storage;
+    uint64_t bytes = 0;
+    int parts = 0;
+    exr_result_t result = exr_get_count(context, &parts);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_storage(context, 0, &storage);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_channels(context, 0, &channels);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_data_window(context, 0, &window);
+    if (result != EXR_ERR_SUCCESS)
+        return fail_reading(rows, result, error);
+    if (parts != 1 || storage != EXR_STORAGE_SCANLINE)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is an OpenEXR of several parts, tiles or depths, expected one of lines",
+                       path);
+    if (!find_channels(channels, &facts->bits))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is an OpenEXR without R, G and B in half or float for each pixel", path);
+    const int64_t width = (int64_t)window.max.x - window.min.x + 1;
+    const int64_t height = (int64_t)window.max.y - window.min.y + 1;
+    if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
+        return hd_fail(error, HD_BAD_INPUT, "%s has %lld x %lld pixels, expected 1..%d each", path,
+                       (long long)width, (long long)height, HD_MAX_IMAGE_SIDE);
+    result = exr_get_scanlines_per_chunk(context, 0, &rows->lines);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_chunk_unpacked_size(context, 0, &bytes);
+    if (result != EXR_ERR_SUCCESS)
+        return fail_reading(rows, result, error);
+    if (rows->lines < 1 || bytes > MAX_CHUNK_BYTES)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s has lines that take %llu bytes at a time, expected at most %llu", path,
+                       (unsigned long long)bytes, (unsigned long long)MAX_CHUNK_BYTES);
+    rows->top = window.min.y;
+    rows->width = facts->width = (int)width;
+    rows->height = facts->height = (int)height;
+    return HD_OK;
+}
+
+static HdStatus open_file(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
+    exr_context_initializer_t settings = settings_of(&rows->file);
+    settings.read_fn = read_at;
+    settings.size_fn = file_size;
+    const exr_result_t result = exr_start_read(&rows->file.context, rows->file.path, &settings);
+    if (result != EXR_ERR_SUCCESS)
+        return fail_reading(rows, result, error);
+    const HdStatus status = check_head(rows, facts, error);
+    if (status != HD_OK)
+        return status;
+    rows->values =
+        malloc((size_t)rows->width * CHANNELS * (size_t)rows->lines * sizeof *rows->values);
+    return rows->values != NULL ? HD_OK : fail_reading(rows, EXR_ERR_OUT_OF_MEMORY, error);
+}
+
+HdStatus hd_exr_open(HdExrRows **out, FILE *file, const char *path, HdExrFacts *facts,
+                     HdError *error) {
+    HdExrRows *rows = calloc(1, sizeof *rows);
+    if (rows == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
+    rows->file = (File){.stream = file, .path = path};
+    const HdStatus status = open_file(rows, facts, error);
+    if (status == HD_OK)
+        *out = rows;
+    else
+        hd_exr_close(rows);
+    return status;
+}
+
+static void set_target(HdExrRows *rows) {
+    for (int i = 0; i < rows->pipeline.channel_count; i++) {
+        exr_coding_channel_info_t *channel = &rows->pipeline.channels[i];
+        const int index = channel_index(channel->channel_name);
+        if (index == CHANNELS)
+            continue;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = sizeof(float);
+        channel->user_pixel_stride = CHANNELS * (int)sizeof(float);
+        channel->user_line_stride = rows->width * CHANNELS * (int)sizeof(float);
+        channel->decode_to_ptr = (uint8_t *)(rows->values + index);
+    }
+}
+
+static exr_result_t read_chunk(HdExrRows *rows) {
+    const exr_const_context_t context = rows->file.context;
+    exr_chunk_info_t chunk;
+    exr_result_t result = exr_read_scanline_chunk_info(context, 0, rows->top + rows->next, &chunk);
+    if (result != EXR_ERR_SUCCESS)
+        return result;
+    const bool is_first = !rows->has_pipeline;
+    result = is_first ? exr_decoding_initialize(context, 0, &chunk, &rows->pipeline)
+                      : exr_decoding_update(context, 0, &chunk, &rows->pipeline);
+    rows->has_pipeline = true;
+    if (result != EXR_ERR_SUCCESS)
+        return result;
+    set_target(rows);
+    if (is_first)
+        result = exr_decoding_choose_default_routines(context, 0, &rows->pipeline);
+    return result == EXR_ERR_SUCCESS ? exr_decoding_run(context, 0, &rows->pipeline) : result;
+}
+
+HdStatus hd_exr_next_row(HdExrRows *rows, float *values, HdError *error) {
+    const size_t count = (size_t)rows->width * CHANNELS;
+    const int line = rows->next % rows->lines;
+    const exr_result_t result = line == 0 ? read_chunk(rows) : EXR_ERR_SUCCESS;
+    if (result != EXR_ERR_SUCCESS)
+        return fail_reading(rows, result, error);
+    memcpy(values, rows->values + count * (size_t)line, count * sizeof *values);
+    rows->next++;
+    return HD_OK;
+}
+
+void hd_exr_close(HdExrRows *rows) {
+    if (rows == NULL)
+        return;
+    if (rows->has_pipeline)
+        exr_decoding_destroy(rows->file.context, &rows->pipeline);
+    exr_finish(&rows->file.context);
+    free(rows->values);
+    free(rows);
+}
+
+#else
+
+static HdStatus fail_missing(const char *path, HdError *error) {
+    return hd_fail(error, HD_UNAVAILABLE, "%s is an OpenEXR, and hedron was built without it",
+                   path);
+}
+
+static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
+                            const HdPictureLabel *label, FILE *stream, const char *path,
+                            HdError *error) {
+    (void)frame;
+    (void)style;
+    (void)label;
+    (void)stream;
+    return fail_missing(path, error);
+}
+
+HdStatus hd_exr_open(HdExrRows **rows, FILE *file, const char *path, HdExrFacts *facts,
+                     HdError *error) {
+    (void)rows;
+    (void)file;
+    (void)facts;
+    return fail_missing(path, error);
+}
+
+HdStatus hd_exr_next_row(HdExrRows *rows, float *values, HdError *error) {
+    (void)rows;
+    (void)values;
+    return fail_missing("the picture", error);
+}
+
+void hd_exr_close(HdExrRows *rows) {
+    (void)rows;
+}
+
+#endif
+
+const HdFormat hd_format_exr = {.name = "OpenEXR", .write = write_frame, .most_encoded_bits = 0};

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include <fcntl.h>
+
+#include "image/picture.h"
+#include "image/row_reader.h"
+#include "test_folder.h"
+
+/* Two chunks of 16 lines and a part of one. */
+enum { WIDTH = 13, HEIGHT = 35, VALUES = WIDTH * HEIGHT * 3 };
+
+static const HdPictureStyle HALF = {HD_CURVE_SRGB, 8}, FLOAT = {HD_CURVE_SRGB, 32};
+static const HdPictureLabel LABEL = {.scene = "a.json", .options = "--depth 3", .frame = 7};
+
+static HdError error;
+
+static void write_picture(const float values[VALUES], const HdPictureStyle *style) {
+    HdAtomicFile file;
+    HdFrame frame;
+    assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
+    memcpy(frame.rgb, values, VALUES * sizeof *values);
+    assert_int_equal(
+        hd_picture_prepare(&file, &frame, &hd_format_exr, style, &LABEL, "a.exr", &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    hd_frame_free(&frame);
+}
+
+/* The values of a file; those of `display` are left out. */
+static HdStatus read_picture(const char *path, double values[VALUES], int bits) {
+    HdPictureReader *reader;
+    HdPictureValue row[WIDTH * 3];
+    HdStatus status = hd_picture_reader_open(&reader, path, &error);
+    if (status != HD_OK)
+        return status;
+    const HdPictureFacts *facts = hd_picture_reader_facts(reader);
+    status = facts->width == WIDTH && facts->height == HEIGHT ? HD_OK : HD_BAD_INPUT;
+    if (status == HD_OK && bits > 0) {
+        assert_int_equal(facts->bits, bits);
+        assert_ptr_equal(facts->format, &hd_format_exr);
+        assert_int_equal(facts->curve, HD_CURVE_LINEAR);
+    }
+    if (status == HD_OK)
+        status = hd_picture_reader_start(reader, HD_CURVE_SRGB, &error);
+    for (int y = 0; y < HEIGHT && status == HD_OK; y++) {
+        status = hd_picture_reader_next(reader, row, &error);
+        for (int i = 0; i < WIDTH * 3 && status == HD_OK; i++)
+            values[y * WIDTH * 3 + i] = row[i].linear;
+    }
+    hd_picture_reader_close(reader);
+    return status;
+}
+
+static void floats_come_back(void **state) {
+    (void)state;
+    float values[VALUES];
+    double read[VALUES];
+    for (int i = 0; i < VALUES; i++)
+        values[i] = (float)(i * i) / 977.0f - 3.0f;
+    values[5] = 1e30f;
+    write_picture(values, &FLOAT);
+    assert_int_equal(read_picture("a.exr", read, 32), HD_OK);
+    for (int i = 0; i < VALUES; i++)
+        assert_true(read[i] == (double)values[i]);
+}
+
+static void halves_are_the_nearest(void **state) {
+    (void)state;
+    static const struct {
+        float value;
+        double half;
+    } cases[] = {{0.0f, 0.0},
+                 {1.0f, 1.0},
+                 {-2.5f, -2.5},
+                 {0x1.004p0f, 0x1.004p0},
+                 {0x1.002p0f, 1.0},           /* a tie, to the even one below */
+                 {0x1.006p0f, 0x1.008p0},     /* to the even one above */
+                 {0x1.002002p0f, 0x1.004p0},  /* above a tie */
+                 {0x1.fffp0f, 2.0},           /* into the next power */
+                 {0x1p-14f, 0x1p-14},         /* the least normal one */
+                 {0x1.ff8p-15f, 0x1.ff8p-15}, /* steps of 2^-24 */
+                 {0x1.ffcp-15f, 0x1p-14},     /* a tie */
+                 {0x1.8p-24f, 0x1p-23},       /* a tie */
+                 {0x1p-25f, 0.0},             /* a tie */
+                 {0x1.000002p-25f, 0x1p-24},
+                 {-0x1p-30f, 0.0},
+                 {65504.0f, 65504.0},
+                 {65519.0f, 65504.0},
+                 {1e6f, 65504.0},
+                 {-1e30f, -65504.0}};
+    float values[VALUES] = {0.0f};
+    double read[VALUES];
+    const int count = sizeof cases / sizeof *cases;
+    for (int i = 0; i < count; i++)
+        values[i] = cases[i].value;
+    values[count] = NAN;
+    write_picture(values, &HALF);
+    assert_int_equal(read_picture("a.exr", read, 16), HD_OK);
+    for (int i = 0; i < count; i++)
+        if (read[i] != cases[i].half)
+            fail_msg("%a became %a, expected %a", (double)cases[i].value, read[i], cases[i].half);
+    assert_true(isnan(read[count]));
+}
+
+static void start_capture(int *old_descriptor) {
+    const int file = open("stderr.txt", O_RDWR | O_CREAT | O_TRUNC, 0666);
+    assert_true(file >= 0);
+    fflush(stderr);
+    *old_descriptor = dup(2);
+    dup2(file, 2);
+    close(file);
+}
+
+static off_t end_capture(int old_descriptor) {
+    struct stat found;
+    fflush(stderr);
+    assert_int_equal(fstat(2, &found), 0);
+    dup2(old_descriptor, 2);
+    close(old_descriptor);
+    return found.st_size;
+}
+
+/* Whatever is wrong with a file, it is told by a status and a message alone. */
+static void damaged_files_are_refused_quietly(void **state) {
+    (void)state;
+    static unsigned char bytes[65536];
+    float values[VALUES];
+    double read[VALUES];
+    int old_descriptor;
+    for (int i = 0; i < VALUES; i++)
+        values[i] = (float)(i % 17);
+    write_picture(values, &HALF);
+    FILE *file = fopen("a.exr", "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    start_capture(&old_descriptor);
+    int accepted = 0, unexpected = 0;
+    for (size_t i = 0; i < size; i++) {
+        write_bytes("cut.exr", bytes, i);
+        accepted += read_picture("cut.exr", read, 0) == HD_OK;
+    }
+    for (size_t i = 0; i < size; i++) {
+        bytes[i] ^= 0x11;
+        write_bytes("bent.exr", bytes, size);
+        const HdStatus status = read_picture("bent.exr", read, 0);
+        unexpected += status != HD_OK && status != HD_BAD_INPUT;
+        bytes[i] ^= 0x11;
+    }
+    const off_t printed = end_capture(old_descriptor);
+    assert_int_equal(accepted, 0);
+    assert_int_equal(unexpected, 0);
+    assert_int_equal(printed, 0);
+    write_bytes("cut.exr", bytes, size - 40);
+    assert_int_equal(read_picture("cut.exr", read, 0), HD_BAD_INPUT);
+    expect_contains(error.message, "cannot read cut.exr as OpenEXR: ");
+}
+
+/* Where the first `text` stands. */
+static unsigned char *find(unsigned char *bytes, size_t size, const char *text) {
+    for (size_t i = 0; i + strlen(text) <= size; i++)
+        if (memcmp(bytes + i, text, strlen(text)) == 0)
+            return bytes + i;
+    fail_msg("there is no %s in the file", text);
+    return NULL;
+}
+
+static void expect_refused(const unsigned char *bytes, size_t size, const char *part) {
+    double read[VALUES];
+    write_bytes("bad.exr", bytes, size);
+    assert_int_equal(read_picture("bad.exr", read, 0), HD_BAD_INPUT);
+    expect_contains(error.message, "bad.exr");
+    expect_contains(error.message, part);
+}
+
+static void other_kinds_are_refused(void **state) {
+    (void)state;
+    static unsigned char bytes[65536];
+    float values[VALUES] = {0.0f};
+    write_picture(values, &HALF);
+    FILE *file = fopen("a.exr", "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    /* Behind a channel's name and its zero byte: the type, four bytes, and 8 more to the sampling.
+     */
+    unsigned char *green = find(bytes, size, "chlist") + 7 + 4 + 18;
+    assert_int_equal(green[0], 'G');
+    green[0] = 'H';
+    expect_refused(bytes, size, "is an OpenEXR without R, G and B");
+    green[0] = 'G';
+    green[2] = 0; /* whole numbers */
+    expect_refused(bytes, size, "is an OpenEXR without R, G and B");
+    green[2] = 1;
+    /* The data window: its type's name, the size, and four numbers. */
+    unsigned char *window = find(bytes, size, "dataWindow") + 11 + 6 + 4;
+    window[8 + 3] = 0x7f;
+    expect_refused(bytes, size, "cannot read bad.exr as OpenEXR");
+    window[8 + 3] = 0;
+    window[8 + 2] = 2;
+    expect_refused(bytes, size, "cannot read bad.exr as OpenEXR");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floats_come_back),
+        cmocka_unit_test(halves_are_the_nearest),
+        cmocka_unit_test(damaged_files_are_refused_quietly),
+        cmocka_unit_test(other_kinds_are_refused),
+    };
+    if (make_test_folder(NULL) != 0)
+        return 1;
+    /* Built without OpenEXR, the program says so, and there is nothing to test. */
+    HdPictureReader *reader;
+    write_bytes("a.exr", "\x76\x2f\x31\x01", 4);
+    const bool is_missing = hd_picture_reader_open(&reader, "a.exr", &error) == HD_UNAVAILABLE;
+    const int failures = is_missing ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
+    return remove_test_folder(NULL) != 0 || failures != 0;
+}
