@@ -22,7 +22,7 @@ static void write_picture(const float values[VALUES], const HdPictureStyle *styl
     memcpy(frame.rgb, values, VALUES * sizeof *values);
     assert_int_equal(
         hd_picture_prepare(&file, &frame, &hd_format_exr, style, &LABEL, "a.exr", &error), HD_OK);
-    assert_int_equal(hd_atomic_file_commit(&file, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
     hd_frame_free(&frame);
 }
 
