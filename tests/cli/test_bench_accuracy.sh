@@ -45,6 +45,25 @@ PYTHON
 expect_python "[('deep 3', 'usual'), ('adaptive 2', 'draft')]
 [(9.9, 0.1)] [] [(20, 0.75)]" "$(cat recommend.py)"
 
+# ---- the fronts of all devices: without what the reference cannot judge, and each device's own
+cat >fronts.py <<'PYTHON'
+from harness.accuracy.chart import fronts, fronts_chart
+def point(device, ms, error):
+    return {"device": device, "name": f"{ms}", "ms": ms, "rmse": error}
+memory = {"truth": {"to_quarter_of_samples": {"rmse": 10 ** 0.5}},
+          "points": [point("c:0", 1, 50), point("c:0", 2, 60), point("c:0", 5, 12), point("c:0", 9, 9.9), point("opencl:0", 3, 20)]}
+limit, drawn = fronts(memory)
+print(round(limit, 9), {label: [each["ms"] for each in these] for label, these in drawn.items()})
+devices = [{"label": label, "name": "N", "reason": None} for label in ("cuda:0", "c:0", "opencl:0")]
+about = {"hedron": {"version": "1"}, "machine": {"words": "M"}, "scene": {"name": "S"}, "devices": devices}
+commands = "\n".join(fronts_chart(about, memory)[1])
+print([word in commands for word in ("'c:0 N'", "'opencl:0 N'", "cuda", "$best << END\n1 50\n3 20\n5 12\nEND", "9.9")])
+print(fronts_chart(about, {**memory, "points": memory["points"][3:4]}))
+PYTHON
+expect_python "10.0 {'c:0': [1, 5], 'opencl:0': [3]}
+[True, True, False, True, False]
+None" "$(cat fronts.py)"
+
 # ---- settings: families that go on only where the one before was affordable are ordered by their work
 expect_python True 'from harness.accuracy.settings import FAMILIES, settings' \
     'both = [settings(quick) for quick in (False, True)]' \
@@ -112,7 +131,7 @@ expect_python True 'from harness.accuracy.truth import SAMPLE_ERROR' \
 # ---- a tiny run
 expect_exit 0 "$hedron" check "$project/bench/scenes/few.json"
 expect_exit 0 "${no_nvidia[@]}" "${bench[@]}" --hedron "$hedron" --out out --device c --quick --size 16x12 \
-    --parts settings,arithmetic,truncation,choices
+    --parts settings,fronts,arithmetic,truncation,choices
 expect_stdout_contains 'What hedron chooses by itself:'
 expect_stdout_contains 'The same bytes from every device and pipeline'
 expect_value '[1, "accuracy", true, true, [16, 12], []]' \
@@ -126,6 +145,10 @@ expect_value '[true, true, true]' \
     '[points["grid 1"]["rmse"] > points["grid 4"]["rmse"], points["depth 4"]["rmse"] > points["depth 30"]["rmse"], points["mega"]["rmse"] == points["wavefront"]["rmse"] == points["grid 4"]["rmse"]]'
 expect_value '[true, true, 1]' \
     '[0 < r["truth"]["to_quarter_of_samples"]["rmse"] < points["grid 1"]["rmse"], r["truth"]["missing"]["largest"] <= r["truth"]["max_error"], sum("draft" in (each["recommended"] or "") for each in points.values())]'
+# Every scene has its own reference, and points of the same settings.
+expect_value '["built-in", "five", "official", "starter"]' 'list(r["fronts"])'
+expect_value '[4, true, true]' \
+    '[len({m["truth"]["sha256"] for m in r["fronts"].values()}), all({"grid 1", "adaptive 4", "deep 4", "promise 64"} <= {p["name"] for p in m["points"]} for m in r["fronts"].values()), all("full" not in p["family"] for s, m in r["fronts"].items() for p in m["points"] if s != "built-in")]'
 # The error is that of frame 0 against its reference.
 limit=$(python3 -c 'import json; print(json.load(open("out/accuracy.json", encoding="utf-8"))["truth"]["max_error"])')
 frame=("$hedron" render --quiet --backend c --frames 0 --size 16x12)

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""Error against time, a chart for each device and each kind of error."""
+"""Error against time: a chart for each device and each kind of error, and one for each scene with the fronts of all."""
 import math
 
 from harness.accuracy import front
 from harness.accuracy.points import recommended
 from harness.accuracy.settings import FAMILIES
+from harness.accuracy.truth import own_error
 from harness.chart.gnuplot import TICKS, Chart, colour, device_title, plain, quoted
 from harness.measure.numbers import number
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
 MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
+ENOUGH_NEARER = 10  # times nearer to the truth is a reference than what is held to it
 LEAST = 1e-4  # of 255: what is less is drawn there
 # Characters that the plot is wide and high, and how wide one of a name is: all about, for gnuplot does not tell.
 PLOT = (133.0, 25.0)
@@ -105,7 +107,58 @@ def chart(result, label, error):
     return made.finished(640 + 20 * rows)
 
 
+# ---- all devices
+
+def fronts(memory):
+    """(least error that is drawn, {device: its front}), of points so far from the truth that the reference can judge them."""
+    limit = ENOUGH_NEARER * own_error(memory["truth"])
+    points = [point for point in memory["points"] if point["rmse"] >= max(limit, LEAST)]
+    labels = dict.fromkeys(point["device"] for point in points)
+    return limit, {label: front.front([point for point in points if point["device"] == label]) for label in labels}
+
+
+def fronts_caption(limit, drawn):
+    told = [f"{label} comes to {number(these[-1]['rmse'], 3)} in {number(these[-1]['ms'], 3)} ms ({these[-1]['name']})"
+            for label, these in drawn.items()]
+    return (f"{'; '.join(told)}. The chart ends where the error is {ENOUGH_NEARER} times the reference's own, which is "
+            f"{number(limit / ENOUGH_NEARER, 2)}.")
+
+
+def fronts_chart(about, memory):
+    """The front of each device of a machine, all of the same pictures; None: the reference can judge no point."""
+    limit, drawn = fronts(memory)
+    if not drawn:
+        return None
+    titles = {device["label"]: device_title(device) for device in about["devices"] if device["label"] in drawn}
+    rows = (len(drawn) + 2) // 2
+    made = Chart(about, "Error against time, the front of every device", fronts_caption(limit, drawn), rows)
+    for name, key, words in (("x", "ms", "milliseconds for each frame"), ("y", "rmse", f"{ERRORS['rmse']}, steps of 255")):
+        values = [point[key] for these in drawn.values() for point in these]
+        made.axis(name, words, min(values), max(values), True, ticks(values))
+    made.legend(rows)
+    best = front.front([point for these in drawn.values() for point in these])
+    made.data("best", ((each["ms"], each["rmse"]) for each in best))
+    made.plot("$best using 1:2 with lines linewidth 7 linecolor rgb '#cccccc' title 'the best of all'")
+    for place, (label, these) in enumerate(drawn.items()):
+        made.data(f"d{place}", ((each["ms"], each["rmse"]) for each in these))
+        made.plot(f"$d{place} using 1:2 with linespoints pointtype {MARKS[place % len(MARKS)]} pointsize 1.2 linewidth 1.5 "
+                  f"linecolor rgb '{colour(place)}' title {quoted(titles[label])}")
+    return made.finished(640 + 20 * rows)
+
+
+def fronts_charts(result):
+    """{name: chart}"""
+    found = {}
+    for scene, memory in (result["fronts"] or {}).items():
+        width, height = memory["size"]
+        chart_of_scene = fronts_chart({**result, "scene": {"name": f"{scene}, {width} x {height}"}}, memory)
+        if chart_of_scene:
+            found[f"accuracy_fronts_{scene}"] = chart_of_scene
+    return found
+
+
 def charts(result):
     """{name: chart}"""
     labels = dict.fromkeys(point["device"] for point in result["points"] or [])
-    return {f"accuracy_{label.replace(':', '')}_{error}": chart(result, label, error) for label in labels for error in ERRORS}
+    return {f"accuracy_{label.replace(':', '')}_{error}": chart(result, label, error) for label in labels
+            for error in ERRORS} | fronts_charts(result)

@@ -22,17 +22,19 @@ def empty_memory():
 
 
 class Points:
-    """`memory` is filled, and `save` called, after every run. It may have what an interrupted call of the same left."""
+    """`memory` is filled, and `save` called, after every run. It may have what an interrupted call of the same left. The scene
+    is one of the plan's, the families are of settings.FAMILIES."""
 
-    def __init__(self, plan, judge, size, memory, truth_file, save=lambda: None):
+    def __init__(self, plan, judge, size, memory, truth_file, save=lambda: None, *, scene=SCENE, families=settings.FAMILIES):
         self.plan, self.memory, self.size, self.save_memory = plan, memory, size, save
-        self.truth = Truth(plan, judge, size, truth_file)
+        self.scene, self.families = scene, families
+        self.truth = Truth(plan, judge, scene, size, truth_file)
         self.settings, self.left_out = {}, {}  # (device, setting): job, and why there is none
         plan.once_seconds = ONCE_SECONDS
 
     def job(self, label, setting):
         output = str(self.plan.folder / f"{len(self.settings)}-####.pfm")
-        made = self.plan.job(label, SCENE, FRAMES, (*setting.options, "--size", f"{self.size[0]}x{self.size[1]}"), output=output)
+        made = self.plan.job(label, self.scene, FRAMES, (*setting.options, "--size", f"{self.size[0]}x{self.size[1]}"), output=output)
         key = " ".join([label, *setting.options])
         kept = self.memory["jobs"].get(key)
         if kept and kept["runs"]:
@@ -45,12 +47,12 @@ class Points:
     def first_round(self):
         """Each setting of a family waits for the one before, which tells how long it would take."""
         for label in self.plan.runnable:
-            for family in settings.settings(self.plan.quick).values():
+            for name, family in settings.settings(self.plan.quick).items():
                 before = None
-                for setting in family:
+                for setting in family if name in self.families else ():
                     if before and not self.is_affordable(label, setting, before):
                         continue
-                    self.plan.news(f"{label}, {setting.name}")
+                    self.plan.news(f"{self.scene}, {label}, {setting.name}")
                     made = self.job(label, setting)
                     if not run_of(made, 0):
                         self.plan.measure(made, 0)

@@ -12,6 +12,12 @@ SECONDS, SECONDS_QUICKLY = 150, 12
 PART = 16  # of the picture's rows, in its middle, tells how long the whole takes
 
 
+def own_error(facts):
+    """RMSE of the reference itself, by its distance to that of a quarter of the samples: of those four times as many leave a
+    third of the error (tests/unit/render/test_samples.c), and the errors of both are independent."""
+    return facts["to_quarter_of_samples"]["rmse"] / 10 ** 0.5
+
+
 def render(plan, device, scene, options, file):
     """The statistics of frame 0, which becomes a PFM."""
     done = plan.program.render(device, scene, "0", (*options, *plan.options), file.parent, output=str(file))
@@ -21,10 +27,10 @@ def render(plan, device, scene, options, file):
 
 
 class Truth:
-    """`file` has the picture once `make` was called; `facts` is what is known of it."""
+    """`file` has the picture once `make` was called; `facts` is what is known of it. The scene is one of the plan's."""
 
-    def __init__(self, plan, device, size, file):
-        self.plan, self.device, self.size, self.file = plan, device, size, file
+    def __init__(self, plan, device, scene, size, file):
+        self.plan, self.device, self.scene, self.size, self.file = plan, device, plan.scenes[scene], size, file
         self.side = SIDE_QUICKLY if plan.quick else SAMPLE_SIDE
         self.facts = None
 
@@ -34,7 +40,7 @@ class Truth:
         return self.facts is not None
 
     def render(self, side, limit, file, *more):
-        return render(self.plan, self.device, None, ("--reference", "--samples", str(side), "--max-error", limit,
+        return render(self.plan, self.device, self.scene, ("--reference", "--samples", str(side), "--max-error", limit,
                                                      "--size", f"{self.size[0]}x{self.size[1]}", *more), file)
 
     def limit(self):

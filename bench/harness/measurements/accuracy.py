@@ -18,6 +18,8 @@ EQUAL_ERROR = Target(1 / 3, 1 / 10, False)
 # GPUs have all of the scene's pixels; smaller frames are too short to be timed there.
 SIZE, SIZE_OF_GPUS = {False: (128, 96), True: (64, 48)}, (640, 360)
 ON_ALL_SCENES = ("arithmetic", "truncation", "adaptive")
+# With the built-in one; of several frames each, for the neighbours of the first give the time.
+FRONT_SCENES, FRONT_FAMILIES = ("five", "official", "starter"), ("grid", "adaptive", "fine", "deep", "promise")
 HEAD = ["setting", "device", "ms [q1..q3]", "RMSE", "largest", "M rays", "front", "recommended"]
 
 
@@ -63,9 +65,9 @@ class Accuracy(Bench):
     quick, repeats = "few settings, small frames, a coarser reference; rough", (3, 1)
     own_options = (*Bench.own_options, "--size", "--samples", "--depth", "--cutoff", "--aa", "--max-error", "--reference",
                    "--crop", "--precision", "--math", "--geometry", "--pipeline", "--accel", "--divisions")
-    parts = ("settings", *ON_ALL_SCENES, "choices")
+    parts = ("settings", "fronts", *ON_ALL_SCENES, "choices")
     chart_files = ("accuracy_*",)
-    keys = ("size", "truth", "points", "equal_error", "not_tried", "targets", "choices")
+    keys = ("size", "truth", "points", "equal_error", "not_tried", "fronts", "targets", "choices")
 
     def add_options(self, parser):
         super().add_options(parser)
@@ -78,6 +80,7 @@ class Accuracy(Bench):
         plan.scenes = {SCENE: None, "few": ROOT / "bench/scenes/few.json", **{file.stem: file for file in scenes}}
         self.judge, self.memory = devices.judge(self.runnable.values()), empty_memory()
         self.targets = self.points = self.choices = None
+        self.fronts = {}
         only_gpus = self.runnable and all(device["is_cpu"] is False for device in self.runnable.values())
         frame = self.arguments.size or (SIZE_OF_GPUS if only_gpus else SIZE[self.arguments.quick])
         self.result["size"] = list(frame)
@@ -85,6 +88,10 @@ class Accuracy(Bench):
             self.targets = SceneTargets(plan, self.judge, scenes)
             if self.wants("settings"):
                 self.points = Points(plan, self.judge, frame, self.memory, self.folder / "truth.pfm")
+            if self.wants("fronts"):
+                others = FRONT_SCENES if self.points else (SCENE, *FRONT_SCENES)
+                self.fronts = {scene: Points(plan, self.judge, frame, empty_memory(), self.folder / f"truth_{scene}.pfm",
+                                             scene=scene, families=FRONT_FAMILIES) for scene in others}
             if self.wants("choices"):
                 self.choices = choices.Choices(plan, self.judge, frame)
 
@@ -94,7 +101,7 @@ class Accuracy(Bench):
             return False
         for part in filter(self.wants, ON_ALL_SCENES):
             getattr(self.targets, f"measure_{part}")()
-        for study in filter(None, (self.points, self.choices)):
+        for study in filter(None, (self.points, *self.fronts.values(), self.choices)):
             study.measure(self.arguments.repeats)
         return True
 
@@ -104,12 +111,23 @@ class Accuracy(Bench):
         self.plan.row(key, what, "times", lambda: [each for _, each in equal_error(self.memory["points"], label, *families)],
                       device=label, **named)
 
+    def add_fronts(self):
+        """Of each scene what its chart is made of."""
+        found = {scene: points.memory for scene, points in self.fronts.items() if points.truth.facts}
+        for points in (self.fronts[scene] for scene in found):
+            points.save()
+        if self.wants("fronts") and self.result["points"]:
+            found = {SCENE: self.memory, **found}
+        self.result["fronts"] = {scene: {key: memory[key] for key in ("size", "truth", "points", "not_tried")}
+                                 for scene, memory in found.items()} or None
+
     def add_not_finite(self):
         studies = list(filter(None, (self.targets, self.choices)))
-        count = self.memory["not_finite"] + (self.memory["truth"] or {}).get("not_finite", 0) + sum(
+        memories = [self.memory, *(points.memory for points in self.fronts.values())]
+        count = sum(memory["not_finite"] + (memory["truth"] or {}).get("not_finite", 0) for memory in memories) + sum(
             study.not_finite for study in studies)
-        frames = sum(len(job["runs"][0]["frames"]) for job in self.memory["jobs"].values() if "error" in job) + sum(
-            study.frames for study in studies)
+        frames = sum(len(job["runs"][0]["frames"]) for memory in memories for job in memory["jobs"].values()
+                     if "error" in job) + sum(study.frames for study in studies)
         self.plan.row("not_finite", f"values that are NaN or infinite, {frames} frames", "values",
                       lambda: [count] if frames else [], target=NONE)
         if count:
@@ -128,6 +146,7 @@ class Accuracy(Bench):
                 self.add_equal_error(label, "equal_error_sampling",
                                      "  of adaptive sampling alone, against the grid of the same depth", ("adaptive",), "grid")
             self.result.update({key: self.memory[key] for key in ("truth", "points", "equal_error", "not_tried")})
+        self.add_fronts()
         self.add_not_finite()
         self.result.update(choices=self.choices and self.choices.table(), targets=self.targets and {
             part: getattr(self.targets, part) or None for part in ON_ALL_SCENES})
@@ -136,6 +155,11 @@ class Accuracy(Bench):
         found = []
         if self.result["points"]:
             found.append(("Settings", [HEAD, *map(cells, self.result["points"])], list(point_words(self.result))))
+        for scene, memory in (self.result["fronts"] or {}).items():
+            limit, drawn = chart.fronts(memory)
+            rows = [cells(point) for these in drawn.values() for point in these]
+            found.append((f"Fronts, {scene}", [HEAD, *rows], [chart.fronts_caption(limit, drawn) if drawn else
+                                                              "The reference is too coarse to judge any point."]))
         if self.result["choices"]:
             found.append(("What hedron chooses by itself", [choices.HEAD, *map(choices.cells, self.result["choices"])],
                           ["Errors are against double with the same samples, and solids in place of triangles."]))
