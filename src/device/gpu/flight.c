@@ -78,6 +78,7 @@ HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFr
     flight->launches = 0;
     flight->untimed = NULL;
     flight->longest_launch = -1.0;
+    flight->is_alone = flights->count == 0;
     *out = flight;
     return reserve(flight, gpu, error);
 }
@@ -86,15 +87,30 @@ HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpu
                               double work, HdError *error) {
     flight->untimed = flight->launches++ == 0 ? &flight->first : &flight->later;
     flight->work = work;
+    flight->launched = hd_monotonic_seconds();
     return gpu->driver->launch(gpu->handle, launch, flight->untimed, error);
 }
 
+/* The launch took at most what passed since it was queued, and at least what the host waited for it
+   alone. So one that was short enough is known, and one that was too long; otherwise negative. */
+static double launch_by_host(const HdGpuFlights *flights, const HdGpuFlight *flight,
+                             double waited) {
+    double now = hd_monotonic_seconds(), most = now - flight->launched;
+    double least = flight->is_alone ? now - waited : 0.0;
+    if (most <= flights->size.longest)
+        return most;
+    return least > flights->size.longest ? least : -1.0;
+}
+
 HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                                   HdError *error) {
+                                   double waited, HdError *error) {
     double seconds;
     HdStatus status =
         gpu->driver->seconds(gpu->handle, flight->untimed, flight->untimed, &seconds, error);
+    if (status == HD_OK && seconds < 0.0)
+        seconds = launch_by_host(flights, flight, waited);
     flight->untimed = NULL;
+    flight->is_alone = true;
     if (status != HD_OK || seconds < 0.0)
         return status;
     hd_launch_size_note(&flights->size, flight->work, seconds);
@@ -125,13 +141,14 @@ static double host_seconds(const HdGpuFlights *flights, const HdGpuFlight *fligh
 
 static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu, HdFrame *frame,
                      HdError *error) {
-    double seconds;
+    double seconds, waited = hd_monotonic_seconds();
+    flight->is_alone = true;
     HdStatus status = gpu->driver->wait_for_copies(gpu->handle, &flight->copied, error);
     if (status == HD_OK)
         status =
             gpu->driver->seconds(gpu->handle, &flight->first, &flight->summed, &seconds, error);
     if (status == HD_OK && flight->untimed != NULL)
-        status = hd_gpu_flight_time_launch(flights, flight, gpu, error);
+        status = hd_gpu_flight_time_launch(flights, flight, gpu, waited, error);
     if (status != HD_OK)
         return status;
     flights->longest_launch = flight->longest_launch;

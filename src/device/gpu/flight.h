@@ -21,6 +21,8 @@ typedef struct HdGpuFlight {
     HdGpuMark first, later;  /* of its launches: the first one, and the last of others */
     HdGpuMark *untimed;      /* which of them is not timed yet, if one is */
     double work;             /* of that launch */
+    double launched;         /* by hd_monotonic_seconds, that launch */
+    bool is_alone;           /* nothing was queued before that launch that may not be over */
     double longest_launch;   /* seconds, of those that are timed; negative: there is none */
     HdGpuMark summed, encoded, copied;
 } HdGpuFlight;
@@ -43,10 +45,11 @@ HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFr
 HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
                               double work, HdError *error);
 
-/* Learns from the last of these launches, which is over, what the size of the next ones should be;
-   nothing where the device does not tell. */
+/* Learns from the last of these launches, which is over, what the size of the next ones should be.
+   Where the device does not tell how long it took, the host's clock does, as far as it can:
+   `waited` is when the host, by hd_monotonic_seconds, began to wait for it. */
 HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                                   HdError *error);
+                                   double waited, HdError *error);
 
 /* Queues the copies, all kernels being queued: the flight is under way. */
 HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,

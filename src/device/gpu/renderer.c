@@ -12,6 +12,7 @@
 #include "device/gpu/wave_queue.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
+#include "system/machine.h"
 #include "tables/room.h"
 
 /* Of the wavefront on CPUs: work items that strive to be even, each with a queue of its own. */
@@ -212,9 +213,10 @@ static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch
    each tells how large the next one may be. */
 static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
+    double waited = hd_monotonic_seconds();
     HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_time_launch(&renderer->flights, flight, gpu, error);
+        status = hd_gpu_flight_time_launch(&renderer->flights, flight, gpu, waited, error);
     if (status == HD_OK && hd_interrupt_signal() != 0)
         status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     return status;
@@ -306,10 +308,12 @@ static HdStatus trace_step(Renderer *renderer, HdGpuFlight *flight, const HdWave
     if (step->is_first || launch.groups > most_groups)
         launch.groups = most_groups;
     HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
+    double waited = hd_monotonic_seconds();
     if (status == HD_OK)
         status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_time_launch(&renderer->flights, flight, &renderer->gpu, error);
+        status =
+            hd_gpu_flight_time_launch(&renderer->flights, flight, &renderer->gpu, waited, error);
     return status;
 }
 
