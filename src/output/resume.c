@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "output/resume.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/mark.h"
+#include "output/frame_names.h"
 #include "system/file_bytes.h"
 #include "system/interrupt.h"
 
@@ -35,13 +38,36 @@ static bool is_finished(const HdOutputPlan *plan, int number) {
     return whole;
 }
 
+/* Marks the frames that there is anything of in the first output, all of whose frames have numbers:
+   a look at its folder takes no longer for more frames. */
+static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
+    HdFrameNames names;
+    HdError ignored;
+    const struct dirent *entry;
+    const HdOutput *output = plan->list;
+    while (output->is_film)
+        output++;
+    if (hd_frame_names_find(&names, output, resume->all, &ignored) != HD_OK)
+        return;
+    DIR *folder = opendir(names.folder[0] != '\0' ? names.folder : ".");
+    while (folder != NULL && (entry = readdir(folder)) != NULL) {
+        const int place = hd_frame_names_place(&names, entry->d_name, strlen(entry->d_name), false);
+        if (place >= 0)
+            resume->is_finished[place] = true;
+    }
+    if (folder != NULL)
+        closedir(folder);
+}
+
 static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdError *error) {
+    if (plan->resumes)
+        mark_present(resume, plan);
     for (int i = 0; i < resume->all->count; i++) {
         const int number = resume->all->frames[i];
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after 0 of %d frames",
                            resume->all->count);
-        resume->is_finished[i] = plan->resumes && is_finished(plan, number);
+        resume->is_finished[i] = resume->is_finished[i] && is_finished(plan, number);
         if (resume->is_finished[i])
             resume->finished_count++;
         else

@@ -4,79 +4,68 @@
 #include "output/stale_files.h"
 
 #include <dirent.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "output/frame_names.h"
 #include "system/atomic_file.h"
+#include "system/folder_set.h"
 
-typedef struct Search {
-    const HdOutput *output;
-    const HdFrameList *frames;
-    char folder[HD_MAX_PATH]; /* with its last slash; empty: the current one */
-} Search;
-
-static bool find_file(const Search *search, int frame, char path[HD_MAX_PATH]) {
-    HdError ignored;
-    return hd_output_file(search->output, frame, path, &ignored) == HD_OK;
+static DIR *open_folder(const char *folder) {
+    return opendir(folder[0] != '\0' ? folder : ".");
 }
 
-/* Returns the length of the folder, its slash included. */
-static size_t folder_length(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
-}
-
-static bool is_in_folder(const Search *search, const char *path) {
-    const size_t length = folder_length(path);
-    return strlen(search->folder) == length && memcmp(search->folder, path, length) == 0;
-}
-
-static bool is_of_frame(const Search *search, const char *entry, int frame) {
-    char path[HD_MAX_PATH];
-    return find_file(search, frame, path) && is_in_folder(search, path) &&
-           hd_temporary_belongs(entry, path + strlen(search->folder));
-}
-
-static bool is_of_run(const Search *search, const char *entry) {
-    if (search->output->is_film)
-        return is_of_frame(search, entry, 0);
-    for (int i = 0; i < search->frames->count; i++)
-        if (is_of_frame(search, entry, search->frames->frames[i]))
-            return true;
-    return false;
-}
-
-static void search_folder(const Search *search) {
+/* Temporary files of the entries, which are the outputs' files. */
+static void search_files(const HdFrameNames *names) {
     const struct dirent *entry;
-    DIR *folder = opendir(search->folder[0] != '\0' ? search->folder : ".");
+    DIR *folder = open_folder(names->folder);
     if (folder == NULL)
         return;
     while ((entry = readdir(folder)) != NULL) {
         char path[HD_MAX_PATH + sizeof entry->d_name];
-        if (strstr(entry->d_name, ".tmp-") == NULL || !is_of_run(search, entry->d_name))
+        const size_t length = hd_temporary_name_length(entry->d_name);
+        if (length == 0 || hd_frame_names_place(names, entry->d_name, length,
+                                                length == HD_TEMPORARY_MOST_KEPT) < 0)
             continue;
-        snprintf(path, sizeof path, "%s%s", search->folder, entry->d_name);
+        snprintf(path, sizeof path, "%s%s", names->folder, entry->d_name);
         hd_temporary_remove_stale(path);
     }
     closedir(folder);
 }
 
-/* Frames that follow each other lie mostly in one folder. */
-static void search_output(const HdOutput *output, const HdFrameList *frames) {
-    Search search = {.output = output, .frames = frames};
-    char path[HD_MAX_PATH];
-    for (int i = 0; i < frames->count; i++) {
-        if (!find_file(&search, frames->frames[i], path) || (i > 0 && is_in_folder(&search, path)))
-            continue;
-        const size_t length = folder_length(path);
-        memcpy(search.folder, path, length);
-        search.folder[length] = '\0';
-        search_folder(&search);
-    }
+/* Of one frame, in a folder of its own. */
+static void search_own_folder(const HdFrameNames *names, const char *entry) {
+    HdFrameNames own = {.frames = names->frames};
+    char path[3 * HD_MAX_PATH];
+    const int length = snprintf(path, sizeof path, "%s%s%s", names->folder, entry, names->rest);
+    if (length >= HD_MAX_PATH)
+        return;
+    const size_t folder = hd_folder_length(path);
+    snprintf(own.folder, sizeof own.folder, "%.*s", (int)folder, path);
+    snprintf(own.prefix, sizeof own.prefix, "%.*s", length - (int)folder, path + folder);
+    search_files(&own);
+}
+
+static void search_folders(const HdFrameNames *names) {
+    const struct dirent *entry;
+    DIR *folder = open_folder(names->folder);
+    if (folder == NULL)
+        return;
+    while ((entry = readdir(folder)) != NULL)
+        if (hd_frame_names_place(names, entry->d_name, strlen(entry->d_name), false) >= 0)
+            search_own_folder(names, entry->d_name);
+    closedir(folder);
 }
 
 void hd_stale_files_remove(const HdOutputPlan *plan, const HdFrameList *frames) {
-    for (int i = 0; i < plan->count; i++)
-        search_output(&plan->list[i], frames);
+    for (int i = 0; i < plan->count; i++) {
+        HdFrameNames names;
+        HdError ignored;
+        if (hd_frame_names_find(&names, &plan->list[i], frames, &ignored) != HD_OK)
+            continue;
+        if (names.rest[0] == '\0')
+            search_files(&names);
+        else
+            search_folders(&names);
+    }
 }

@@ -15,7 +15,10 @@
 #include "system/folder_set.h"
 #include "system/leftovers.h"
 
-enum { MAX_ATTEMPTS = 1000, MAX_NAME = 200 };
+enum { MAX_ATTEMPTS = 1000 };
+
+/* Between the name and the numbers. */
+#define MARK ".tmp-"
 
 static const char *folder_of(const char *path, char folder[HD_MAX_PATH]) {
     const int length = (int)hd_folder_length(path);
@@ -68,8 +71,8 @@ static HdStatus check_target(const char *path, HdError *error) {
 static HdStatus temporary_name(const char *path, int attempt, char temporary[HD_MAX_PATH],
                                HdError *error) {
     int folder = (int)hd_folder_length(path);
-    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s.tmp-%ld-%d", folder, path, MAX_NAME,
-                          path + folder, (long)getpid(), attempt);
+    int length = snprintf(temporary, HD_MAX_PATH, "%.*s%.*s" MARK "%ld-%d", folder, path,
+                          HD_TEMPORARY_MOST_KEPT, path + folder, (long)getpid(), attempt);
     if (length < 0 || length >= HD_MAX_PATH)
         return hd_fail(error, HD_BAD_INPUT,
                        "cannot write %s: its temporary name has %d bytes, expected fewer than %d",
@@ -91,16 +94,23 @@ static HdStatus check_length(const char *path, HdError *error) {
     return HD_OK;
 }
 
-bool hd_temporary_belongs(const char *name, const char *final_name) {
-    size_t length = strlen(final_name);
-    long process;
-    int attempt, used = 0;
-    if (length > MAX_NAME)
-        length = MAX_NAME;
-    if (strncmp(name, final_name, length) != 0)
-        return false;
-    name += length;
-    return sscanf(name, ".tmp-%ld-%d%n", &process, &attempt, &used) == 2 && name[used] == '\0';
+/* Moves `*text` past a number; false where there is none. */
+static bool skip_digits(const char **text) {
+    const size_t count = strspn(*text, "0123456789");
+    *text += count;
+    return count > 0;
+}
+
+size_t hd_temporary_name_length(const char *name) {
+    const char *found = NULL;
+    for (const char *next = strstr(name, MARK); next != NULL; next = strstr(next + 1, MARK))
+        found = next;
+    if (found == NULL)
+        return 0;
+    const char *text = found + strlen(MARK);
+    if (!skip_digits(&text) || *text++ != '-' || !skip_digits(&text) || *text != '\0')
+        return 0;
+    return (size_t)(found - name);
 }
 
 /* Between its making and its locking the file looks like one that was left behind. Where a file

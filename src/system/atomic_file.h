@@ -3,7 +3,7 @@
 #ifndef HD_SYSTEM_ATOMIC_FILE_H
 #define HD_SYSTEM_ATOMIC_FILE_H
 
-#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 #include "base/error.h"
@@ -25,8 +25,12 @@ HdStatus hd_temporary_check(const char *temporary, const char *path, HdError *er
 
 void hd_temporary_remove(const char *temporary);
 
-/* Whether `name` is one that a temporary file of `final_name` may have, both without folders. */
-bool hd_temporary_belongs(const char *name, const char *final_name);
+/* Of a longer name than this, without its folder, a temporary file's name has only the begin. */
+enum { HD_TEMPORARY_MOST_KEPT = 200 };
+
+/* How much of `name`, without its folder, is what a temporary file keeps of the final name; 0: it
+   is not the name of a temporary file. */
+size_t hd_temporary_name_length(const char *name);
 
 /* Removes a temporary file that no process has locked. */
 void hd_temporary_remove_stale(const char *temporary);

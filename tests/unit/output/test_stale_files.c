@@ -41,18 +41,23 @@ static void those_of_the_run_go(void **state) {
                                    "a/0001.png.tmp-1-",
                                    "a/0001.png.tmp-x-0",
                                    "a/0001.png.tmp-1-0x",
+                                   "a/0001.png.tmp- 1-0",
+                                   "a/0001.png.tmp-+1-0",
+                                   "a/0001.png.tmp-1--1",
+                                   "a/00001.png.tmp-1-0",
+                                   "a/001.png.tmp-1-0",
                                    "a/0001.pngs.tmp-1-0",
                                    "film.mp4",
                                    "other.mp4.tmp-1-0"};
     assert_int_equal(mkdir("a", 0777), 0);
     for (int i = 0; i < 3; i++)
         make_file(going[i]);
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < (int)(sizeof staying / sizeof staying[0]); i++)
         make_file(staying[i]);
     remove_stale("a/%04d.png", "film.mp4");
     for (int i = 0; i < 3; i++)
         expect_there(going[i], false);
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < (int)(sizeof staying / sizeof staying[0]); i++)
         expect_there(staying[i], true);
 }
 
