@@ -138,7 +138,7 @@ static void label_outputs(Run *run) {
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
 static void mark_outputs(const HdRendering *rendering, const HdRenderOptions *render) {
     HdOutputPlan *outputs = rendering->outputs;
-    if (render->math == HD_MATH_STRICT && outputs->can_mark)
+    if (render->math == HD_MATH_STRICT && (outputs->can_mark || outputs->film_count > 0))
         hd_outputs_mark(
             outputs,
             hd_run_fingerprint(rendering->file, render->precision, &outputs->style.picture),

@@ -37,13 +37,16 @@ typedef struct HdPictureLabel {
 } HdPictureLabel;
 
 /* Functions are NULL where the format has no such thing; `path` and `name` are for messages. */
-typedef struct HdFormat {
+typedef struct HdFormat HdFormat;
+struct HdFormat {
     const char *name; /* for people */
 
     /* Of films: the arguments by which FFmpeg makes one of that size, which says that its values
        are on that curve; NULL ends them. */
     const char *const *(*film_arguments)(int width, int height, HdCurve curve);
-    bool is_srgb_alone; /* no other curve can be said */
+    bool is_srgb_alone;                /* no other curve can be said */
+    const HdFormat *segment_format;    /* which segments of such a film have */
+    const char *const *join_arguments; /* by which FFmpeg joins them; NULL: film_arguments do */
 
     /* Of pictures: writes a frame to an open stream, a row at a time, with what it says of itself;
        NULL: nothing. */
@@ -61,6 +64,6 @@ typedef struct HdFormat {
        hold memory that the caller clears. */
     HdStatus (*decode)(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error);
-} HdFormat;
+};
 
 #endif

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Films: what FFmpeg is told about the file. */
-#include "image/format.h"
+#include "image/formats.h"
 
 enum { MIN_SLICED_SIDE = 64 };
 
 /* clang-format off */
+#define MP4_FILE "-movflags", "+faststart", "-f", "mp4"
 #define MP4_ARGUMENTS(CURVE) \
     "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", \
     "-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p", \
     "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", CURVE, \
-    "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", NULL
+    "-color_range", "tv", MP4_FILE, NULL
 
 /* Players show BT.709 as they show sRGB. */
 static const char *const mp4_arguments[] = {MP4_ARGUMENTS("bt709")};
@@ -17,10 +18,11 @@ static const char *const linear_mp4_arguments[] = {MP4_ARGUMENTS("linear")};
 
 /* Every frame is a key frame, so that players can jump to it. The container is given no random
    number, so that the same frames make the same bytes. */
+#define MKV_FILE "-fflags", "+bitexact", "-f", "matroska"
 #define MKV_ARGUMENTS(CURVE) \
     "-c:v", "ffv1", "-g", "1", "-pix_fmt", "bgr0", "-colorspace", "rgb", \
     "-color_primaries", "bt709", "-color_trc", CURVE, "-color_range", "pc", \
-    "-fflags", "+bitexact", "-f", "matroska", NULL
+    MKV_FILE, NULL
 
 /* Slices are coded side by side and have checksums, but FFmpeg errs where they are few pixels. */
 #define SLICED "-level", "3", "-slices", "16", "-slicecrc", "1"
@@ -37,6 +39,8 @@ static const char gif_filters[] =
     "split[seen][painted];"
     "[seen]palettegen=stats_mode=single:reserve_transparent=0[palette];"
     "[painted][palette]paletteuse=new=1:dither=bayer:bayer_scale=4";
+static const char *const mp4_join[] = {"-c", "copy", MP4_FILE, NULL};
+static const char *const mkv_join[] = {"-c", "copy", MKV_FILE, NULL};
 static const char *const gif_arguments[] = {
     "-filter_complex", gif_filters, "-loop", "0", "-f", "gif", NULL};
 /* clang-format on */
@@ -59,6 +63,22 @@ static const char *const *gif(int width, int height, HdCurve curve) {
     return gif_arguments;
 }
 
-const HdFormat hd_format_mp4 = {.name = "MP4", .film_arguments = mp4};
-const HdFormat hd_format_mkv = {.name = "MKV", .film_arguments = mkv};
-const HdFormat hd_format_gif = {.name = "GIF", .film_arguments = gif, .is_srgb_alone = true};
+const HdFormat hd_format_mp4 = {
+    .name = "MP4",
+    .film_arguments = mp4,
+    .segment_format = &hd_format_mp4,
+    .join_arguments = mp4_join,
+};
+const HdFormat hd_format_mkv = {
+    .name = "MKV",
+    .film_arguments = mkv,
+    .segment_format = &hd_format_mkv,
+    .join_arguments = mkv_join,
+};
+/* Its pictures build on each other, so that it cannot be cut. */
+const HdFormat hd_format_gif = {
+    .name = "GIF",
+    .film_arguments = gif,
+    .is_srgb_alone = true,
+    .segment_format = &hd_format_mkv,
+};

@@ -2,12 +2,13 @@
 #define _POSIX_C_SOURCE 200809L
 #include "output/frame_store.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "image/mark.h"
 #include "image/picture.h"
-#include "output/video.h"
+#include "output/film.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
 
@@ -36,7 +37,7 @@ typedef struct Place {
 typedef struct Film {
     HdFrameStore *store;
     int index; /* of the output */
-    HdVideo *video;
+    HdFilm *film;
 } Film;
 
 struct HdFrameStore {
@@ -73,12 +74,22 @@ static void end(const HdFrameStore *store, HdSpan *span) {
     span->seconds = hd_monotonic_seconds() - store->plan.start - span->began;
 }
 
+/* Whether a film lacks the frame. */
+static bool is_lacking(const HdFrameStore *store, int item) {
+    bool lacks = false;
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        lacks |= hd_resume_film_lacks(store->plan.resume, i, item);
+    return lacks;
+}
+
 /* ---- the stages' work ---- */
 
 static HdStatus convert(void *context, int item, HdError *error) {
     HdFrameStore *store = context;
     const HdOutputPlan *outputs = store->plan.outputs;
     Place *place = place_of(store, item);
+    if (was_finished(store, item) && !is_lacking(store, item))
+        return HD_OK;
     if (was_finished(store, item)) /* which nobody traced */
         return hd_resume_load(outputs, number_of(store, item), &place->frame, error);
     if (place->frame.is_encoded)
@@ -94,8 +105,11 @@ static HdStatus add_to_film(void *context, int item, HdError *error) {
     const Film *film = context;
     Place *place = place_of(film->store, item);
     HdSpan *span = &place->films[film->index];
+    *span = (HdSpan){.began = -1.0};
+    if (!hd_resume_film_lacks(film->store->plan.resume, film->index, item))
+        return HD_OK;
     *span = begin(film->store);
-    HdStatus status = hd_video_add(film->video, &place->frame, error);
+    HdStatus status = hd_film_add(film->film, item, &place->frame, error);
     end(film->store, span);
     return status;
 }
@@ -141,7 +155,7 @@ static HdSpan span_of_films(const HdFrameStore *store, const Place *place) {
     double ended = 0.0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
         const HdSpan *span = &place->films[i];
-        if (store->films[i].video == NULL)
+        if (store->films[i].film == NULL || span->began < 0.0)
             continue;
         if (whole.began < 0.0 || span->began < whole.began)
             whole.began = span->began;
@@ -209,16 +223,16 @@ static int encoder_count(const HdFrameStorePlan *plan) {
     return least(least(hd_processor_count(), MAX_ENCODERS), plan->resume->all->count);
 }
 
-/* Reading frames back takes longer than converting them. */
+/* Reading frames back, from pictures, takes longer than converting them. */
 static int converter_count(const HdFrameStorePlan *plan) {
-    return plan->resume->finished_count > 0 ? encoder_count(plan) : 1;
+    return plan->resume->finished_count > 0 && picture_count(plan) > 0 ? encoder_count(plan) : 1;
 }
 
 static void add_films(HdFrameStore *store) {
     const int converters = converter_count(&store->plan);
     unsigned converted = 0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (store->films[i].video == NULL)
+        if (store->films[i].film == NULL)
             continue;
         if (converted == 0)
             converted = add_stage(
@@ -290,13 +304,9 @@ static HdStatus probe_pictures(const HdFrameStorePlan *plan, HdError *error) {
 static HdStatus open_film(HdFrameStore *store, int index, HdError *error) {
     const HdFrameStorePlan *plan = &store->plan;
     Film *film = &store->films[index];
-    char path[HD_MAX_PATH];
     *film = (Film){.store = store, .index = index};
-    HdStatus status = hd_path_expand_home(plan->outputs->list[index].name, path, error);
-    if (status == HD_OK)
-        status = hd_video_open(&film->video, path, plan->width, plan->height, &plan->outputs->style,
-                               error);
-    return status;
+    return hd_film_open(&film->film, &plan->resume->films[index], plan->width, plan->height,
+                        &plan->outputs->style, plan->durability, error);
 }
 
 static HdStatus open_films(HdFrameStore *store, HdError *error) {
@@ -342,8 +352,8 @@ static void free_places(HdFrameStore *store) {
 /* Drops the films; pictures stay. */
 static void destroy(HdFrameStore *store) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
-        if (store->films[i].video != NULL)
-            hd_video_abort(store->films[i].video);
+        if (store->films[i].film != NULL)
+            hd_film_abort(store->films[i].film);
     free(store);
 }
 
@@ -408,12 +418,32 @@ HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFram
 static HdStatus close_films(HdFrameStore *store, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < HD_MAX_OUTPUTS && status == HD_OK; i++) {
-        if (store->films[i].video == NULL)
+        if (store->films[i].film == NULL)
             continue;
-        status = hd_video_close(store->films[i].video, store->plan.durability, error);
-        store->films[i].video = NULL;
+        status = hd_film_close(store->films[i].film, error);
+        store->films[i].film = NULL;
     }
     return status;
+}
+
+/* Of the frames that were stored those that another run would not render again. */
+static int kept_count(const HdFrameStore *store) {
+    const HdOutputPlan *outputs = store->plan.outputs;
+    int kept = 0;
+    if (!outputs->can_resume || !outputs->keeps_films)
+        return 0;
+    for (int i = 0; i < store->stored; i++)
+        kept += hd_resume_keeps(store->plan.resume, outputs, i);
+    return kept;
+}
+
+static void tell_interrupted(const HdFrameStore *store, HdError *error) {
+    const int kept = kept_count(store);
+    char more[80] = "";
+    if (kept > 0)
+        snprintf(more, sizeof more, "; the same command goes on, with %d of them finished", kept);
+    hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames%s", store->stored,
+            store->plan.resume->all->count, more);
 }
 
 /* What fails in the store comes before what its caller met: its frames are earlier ones. */
@@ -426,8 +456,7 @@ HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error
     else
         status = traced;
     if (status == HD_INTERRUPTED)
-        hd_fail(error, HD_INTERRUPTED, "interrupted after %d of %d frames", store->stored,
-                store->plan.resume->all->count);
+        tell_interrupted(store, error);
     if (status == HD_OK)
         status = close_films(store, error);
     destroy(store);

@@ -13,8 +13,8 @@
 
 typedef struct HdFrameStorePlan {
     const HdOutputPlan *outputs; /* settled */
-    const HdResume *resume;      /* which frames are finished: the store takes these by itself, and
-                                    reads them back for films */
+    HdResume *resume;            /* which frames are finished: the store takes these by itself, and
+                                               reads them back for films */
     int width, height;
     int tracers;             /* how many trace frames, 1 or more */
     double start;            /* of the run, by hd_monotonic_seconds */
@@ -42,7 +42,7 @@ HdFrame *hd_frame_store_frame(HdFrameStore *store, int place, int tracer, HdFram
    not given excepted: they are the first ones, and no later one has left pictures. Ends the films
    if all went well, or else drops them; frees `store`. `traced` is how tracing ended, and `error`
    then its error, which that of an earlier frame replaces; HD_INTERRUPTED tells how many frames
-   were stored. */
+   were stored, and how many of them another run finds finished. */
 HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error);
 
 #endif

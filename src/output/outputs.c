@@ -74,8 +74,7 @@ static HdStatus check_different(const HdOutput *output, const HdOutput *other, i
                    other->name, output->name);
 }
 
-/* Pictures must be rendered anyway but numbered ones with marks, and films cannot be made of 16
-   bits. */
+/* Pictures must be rendered anyway but numbered ones with marks. */
 static void sum_up(HdOutputPlan *plan) {
     const int bits = plan->style.picture.bits;
     int sequences = 0;
@@ -87,8 +86,7 @@ static void sum_up(HdOutputPlan *plan) {
         plan->wish.radiance |= !output->is_film && bits > output->format->most_encoded_bits;
         sequences += can_mark && output->is_numbered;
     }
-    plan->can_resume = sequences > 0 && sequences + plan->film_count == plan->count &&
-                       (plan->film_count == 0 || bits == 8);
+    plan->can_resume = sequences + plan->film_count == plan->count;
 }
 
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
@@ -113,6 +111,7 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
 
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
     plan->is_marked = plan->can_mark;
+    plan->keeps_films = true;
     plan->fingerprint = fingerprint;
     plan->resumes = resumes && plan->can_resume;
 }

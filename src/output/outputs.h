@@ -28,10 +28,11 @@ typedef struct HdOutputPlan {
     bool can_mark;        /* some are pictures of a format that bears marks (mark.h) */
     bool can_resume;      /* frames can be finished before the run (resume.h), once marked */
     bool is_marked;       /* those pictures get a mark */
-    uint64_t fingerprint; /* of the run (fingerprint.h), where they do */
+    bool keeps_films;     /* films are made by segments that stay when the run is ended */
+    uint64_t fingerprint; /* of the run (fingerprint.h), where they do, or films are kept */
     const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
     const char *options;
-    bool resumes; /* frames whose marked pictures are there are finished */
+    bool resumes; /* frames that are there are finished (resume.h) */
 } HdOutputPlan;
 
 /* Checks that the name has an ending that tells what to write; `option` is for the message. */
@@ -45,7 +46,7 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
                            const HdOutputStyle *style, int frame_count, HdError *error);
 
 /* Has the plan's pictures marked with the fingerprint of the run, where they can be; with `resumes`
-   those that are there are kept, where that can be. */
+   those that are there are kept, where that can be. Films are made by segments. */
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);
 
 /* The name that an output has for one frame, as people wrote it, and the file that it stands for.

@@ -25,8 +25,24 @@ static bool read_whole(const HdOutputPlan *plan, const HdOutput *output, int num
            hd_picture_is_whole(*bytes, *size, hd_picture_fingerprint(plan->fingerprint, number));
 }
 
-static bool is_finished(const HdOutputPlan *plan, int number) {
-    bool whole = true;
+bool hd_resume_film_lacks(const HdResume *resume, int output, int item) {
+    const HdSegments *film = &resume->films[output];
+    return film->film[0] != '\0' && !hd_segments_have(film, item);
+}
+
+/* Pictures of 8 bits are what films get. */
+bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item) {
+    if (plan->film_count < plan->count && plan->style.picture.bits == 8)
+        return true;
+    for (int i = 0; i < plan->count; i++)
+        if (hd_resume_film_lacks(resume, i, item))
+            return false;
+    return true;
+}
+
+static bool is_finished(const HdResume *resume, const HdOutputPlan *plan, int item) {
+    const int number = resume->all->frames[item];
+    bool whole = hd_resume_keeps(resume, plan, item);
     for (int i = 0; i < plan->count && whole; i++) {
         unsigned char *bytes = NULL;
         size_t size;
@@ -38,8 +54,8 @@ static bool is_finished(const HdOutputPlan *plan, int number) {
     return whole;
 }
 
-/* Marks the frames that there is anything of in the first output, all of whose frames have numbers:
-   a look at its folder takes no longer for more frames. */
+/* Marks the frames that there is anything of in the first output that is no film, all of whose
+   frames have numbers: a look at its folder takes no longer for more frames. */
 static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
     HdFrameNames names;
     HdError ignored;
@@ -60,14 +76,16 @@ static void mark_present(HdResume *resume, const HdOutputPlan *plan) {
 }
 
 static HdStatus look_at_frames(HdResume *resume, const HdOutputPlan *plan, HdError *error) {
-    if (plan->resumes)
+    if (plan->resumes && plan->film_count < plan->count)
         mark_present(resume, plan);
+    else if (plan->resumes)
+        memset(resume->is_finished, true, (size_t)resume->all->count);
     for (int i = 0; i < resume->all->count; i++) {
         const int number = resume->all->frames[i];
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after 0 of %d frames",
                            resume->all->count);
-        resume->is_finished[i] = resume->is_finished[i] && is_finished(plan, number);
+        resume->is_finished[i] = resume->is_finished[i] && is_finished(resume, plan, i);
         if (resume->is_finished[i])
             resume->finished_count++;
         else
@@ -86,7 +104,10 @@ HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFram
     resume->is_finished = calloc(count, sizeof *resume->is_finished);
     if (resume->missing.frames == NULL || resume->is_finished == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a list of %zu frames", count);
-    return look_at_frames(resume, plan, error);
+    HdStatus status = HD_OK;
+    for (int i = 0; i < plan->count && status == HD_OK; i++)
+        status = hd_segments_find(&resume->films[i], plan, &plan->list[i], frames, error);
+    return status == HD_OK ? look_at_frames(resume, plan, error) : status;
 }
 
 HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, HdError *error) {
@@ -110,5 +131,7 @@ HdStatus hd_resume_load(const HdOutputPlan *plan, int number, HdFrame *frame, Hd
 void hd_resume_free(HdResume *resume) {
     hd_frame_list_free(&resume->missing);
     free(resume->is_finished);
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        hd_segments_free(&resume->films[i]);
     *resume = (HdResume){0};
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which frames of a run are finished already: those whose pictures are all there, whole, and marked
-   with the fingerprint that they would get (mark.h). */
+   with the fingerprint that they would get (mark.h), and which are in a whole segment of each film
+   (segments.h), or can be read back for it. */
 #ifndef HD_OUTPUT_RESUME_H
 #define HD_OUTPUT_RESUME_H
 
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "image/frame.h"
 #include "output/outputs.h"
+#include "output/segments.h"
 #include "scene/frame_list.h"
 
 typedef struct HdResume {
@@ -16,14 +18,22 @@ typedef struct HdResume {
     HdFrameList missing; /* the frames that have to be rendered */
     bool *is_finished;   /* owned; by place in `all` */
     int finished_count;
-    int first_missing; /* place in `all`; so many frames before it are finished */
+    HdSegments films[HD_MAX_OUTPUTS]; /* by output */
+    int first_missing;                /* place in `all`; so many frames before it are finished */
 } HdResume;
 
-/* Looks at the pictures of a settled plan. No frame counts as finished where the plan does not
-   resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). To be freed in
-   any case. */
+/* Looks at the pictures and films of a settled plan. No frame counts as finished where the plan
+   does not resume. The list must live on. HD_INTERRUPTED where a signal came (interrupt.h). To be
+   freed in any case. */
 HdStatus hd_resume_find(HdResume *resume, const HdOutputPlan *plan, const HdFrameList *frames,
                         HdError *error);
+
+/* Whether the output is a film and lacks the frame at that place of the list. */
+bool hd_resume_film_lacks(const HdResume *resume, int output, int item);
+
+/* Whether the films of the plan, if there are any, need the frame no more, or can get it from a
+   picture. */
+bool hd_resume_keeps(const HdResume *resume, const HdOutputPlan *plan, int item);
 
 /* Reads a finished frame back into `frame`, encoded (`rgba`), as films take it. HD_FAILED where its
    picture has changed since. */

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,6 +21,9 @@
 
 struct HdVideo {
     HdChild ffmpeg;
+    const HdFormat *format;
+    HdOutputStyle style;
+    bool is_joined; /* of films, which FFmpeg is told; otherwise it gets frames */
     int width, height;
     long frames;
     char path[HD_MAX_PATH];
@@ -28,12 +32,12 @@ struct HdVideo {
     char ffprobe[HD_MAX_PATH];
 };
 
-static HdStatus check_settings(const char *path, int width, int height, const HdOutputStyle *style,
-                               HdError *error) {
+static HdStatus check_settings(const char *path, const HdFormat *format, int width, int height,
+                               const HdOutputStyle *style, HdError *error) {
     if (width < 1 || width > HD_MAX_IMAGE_SIDE || height < 1 || height > HD_MAX_IMAGE_SIDE)
         return hd_fail(error, HD_BAD_INPUT, "the film %s has %d x %d pixels, expected 1..%d each",
                        path, width, height, HD_MAX_IMAGE_SIDE);
-    if (!hd_format_is_film(hd_format_of(path)))
+    if (!hd_format_is_film(format))
         return hd_fail(error, HD_BAD_INPUT,
                        "the film %s has another ending, expected " HD_FILM_ENDINGS, path);
     if (style->frames_per_second < 1)
@@ -55,24 +59,34 @@ static void append(Arguments *arguments, const char *const *words) {
         arguments->words[arguments->count++] = *words++;
 }
 
+static const char *const join_input[] = {
+    "-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0", NULL};
+
+static const char *const *output_arguments(const HdVideo *video) {
+    const HdFormat *format = video->format;
+    if (video->is_joined && format->join_arguments != NULL)
+        return format->join_arguments;
+    return format->film_arguments(video->width, video->height, video->style.picture.curve);
+}
+
 /* "file:" keeps FFmpeg from reading a protocol or an option into the name. */
-static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, const HdOutputStyle *style,
-                             HdError *error) {
+static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error) {
     char size[32], rate[16], target[HD_MAX_PATH + 8];
     snprintf(size, sizeof size, "%dx%d", video->width, video->height);
-    snprintf(rate, sizeof rate, "%d", style->frames_per_second);
+    snprintf(rate, sizeof rate, "%d", video->style.frames_per_second);
     snprintf(target, sizeof target, "file:%s", video->temporary);
     /* clang-format off */
     const char *const start[] = {
-        ffmpeg, "-nostdin", "-hide_banner", "-nostats", "-loglevel", "error", "-y",
+        ffmpeg, "-nostdin", "-hide_banner", "-nostats", "-loglevel", "error", "-y", NULL};
+    const char *const frames[] = {
         "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", size, "-framerate", rate,
         "-i", "pipe:0", NULL};
     /* clang-format on */
     const char *const end[] = {target, NULL};
     Arguments arguments = {0};
     append(&arguments, start);
-    append(&arguments, hd_format_of(video->path)
-                           ->film_arguments(video->width, video->height, style->picture.curve));
+    append(&arguments, video->is_joined ? join_input : frames);
+    append(&arguments, output_arguments(video));
     append(&arguments, end);
     return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
 }
@@ -97,8 +111,7 @@ static HdStatus reserve_file(HdVideo *video, HdError *error) {
     return status;
 }
 
-static HdStatus open_film(HdVideo *video, const char *path, const HdOutputStyle *style,
-                          HdError *error) {
+static HdStatus open_film(HdVideo *video, const char *path, HdError *error) {
     char ffmpeg[HD_MAX_PATH];
     HdStatus status = hd_child_find("ffmpeg", ffmpeg, error);
     if (status == HD_OK)
@@ -112,27 +125,45 @@ static HdStatus open_film(HdVideo *video, const char *path, const HdOutputStyle 
     memcpy(video->path, path, strlen(path) + 1);
     status = reserve_file(video, error);
     if (status == HD_OK)
-        status = start_ffmpeg(video, ffmpeg, style, error);
+        status = start_ffmpeg(video, ffmpeg, error);
     return status;
 }
 
-HdStatus hd_video_open(HdVideo **video, const char *path, int width, int height,
-                       const HdOutputStyle *style, HdError *error) {
+static HdStatus start_film(HdVideo **video, const char *path, const HdVideo *settings,
+                           HdError *error) {
     *video = NULL;
-    HdStatus status = check_settings(path, width, height, style, error);
+    HdStatus status = check_settings(path, settings->format, settings->width, settings->height,
+                                     &settings->style, error);
     if (status != HD_OK)
         return status;
-    HdVideo *film = calloc(1, sizeof *film);
+    HdVideo *film = malloc(sizeof *film);
     if (film == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s", path);
-    film->width = width;
-    film->height = height;
+    *film = *settings;
     film->ffmpeg.input = film->ffmpeg.output = film->lock = -1;
-    status = open_film(film, path, style, error);
+    status = open_film(film, path, error);
     if (status == HD_OK)
         *video = film;
     else
         hd_video_abort(film);
+    return status;
+}
+
+HdStatus hd_video_open(HdVideo **video, const char *path, const HdFormat *format, int width,
+                       int height, const HdOutputStyle *style, HdError *error) {
+    const HdVideo settings = {.format = format, .width = width, .height = height, .style = *style};
+    return start_film(video, path, &settings, error);
+}
+
+HdStatus hd_video_join(HdVideo **video, const char *path, const HdFormat *format, int width,
+                       int height, const HdOutputStyle *style, HdError *error) {
+    const HdVideo settings = {
+        .format = format, .width = width, .height = height, .style = *style, .is_joined = true};
+    const HdStatus status = start_film(video, path, &settings, error);
+    static const char head[] = "ffconcat version 1.0\n";
+    /* Where FFmpeg does not take it, it does not take the first part either. */
+    if (status == HD_OK)
+        hd_child_send(&(*video)->ffmpeg, (const uint8_t *)head, sizeof head - 1);
     return status;
 }
 
@@ -186,6 +217,40 @@ HdStatus hd_video_add(HdVideo *video, const HdFrame *frame, HdError *error) {
                                           : fail_early(video, error);
     video->frames++;
     return HD_OK;
+}
+
+/* In single quotes, which FFmpeg reads as a shell does. The times are told, since each film knows
+   its own only to a millisecond. */
+static void describe_part(const HdVideo *video, const char *path, int frames, FILE *out) {
+    const int rate = video->style.frames_per_second;
+    const int64_t microseconds = ((int64_t)frames * 1000000 + rate / 2) / rate;
+    fputs("file 'file:", out);
+    for (const char *at = path; *at != '\0'; at++)
+        if (*at == '\'')
+            fputs("'\\''", out);
+        else
+            fputc(*at, out);
+    fprintf(out, "'\nduration %" PRId64 ".%06" PRId64 "\n", microseconds / 1000000,
+            microseconds % 1000000);
+}
+
+HdStatus hd_video_add_part(HdVideo *video, const char *path, int frames, HdError *error) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to join the film %s", video->path);
+    describe_part(video, path, frames, out);
+    HdStatus status = HD_OK;
+    if (fclose(out) != 0)
+        status =
+            hd_fail(error, HD_FAILED, "out of memory: no room to join the film %s", video->path);
+    else if (!hd_child_send(&video->ffmpeg, (const uint8_t *)text, size))
+        status = hd_interrupt_signal() != 0 ? fail_interrupted(video, "FFmpeg", error)
+                                            : fail_early(video, error);
+    free(text);
+    video->frames += frames;
+    return status;
 }
 
 static HdStatus end_ffmpeg(HdVideo *video, HdError *error) {

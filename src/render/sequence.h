@@ -9,7 +9,7 @@
 
 typedef struct HdSequence {
     const HdScene *scene;
-    const HdResume *resume; /* which frames there are, and which of them are finished */
+    HdResume *resume; /* which frames there are, and which of them are finished */
     HdPrecision precision;
     const HdOutputPlan *outputs; /* settled */
     HdDurability durability;     /* of what is stored */

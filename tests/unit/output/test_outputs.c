@@ -89,7 +89,12 @@ static void only_what_can_be_resumed_is(void **state) {
     assert_true(plan.resumes);
     assert_int_equal(settle(&plan, "a_%d.png", "b.mp4", 16, 2), HD_OK);
     hd_outputs_mark(&plan, 5, true);
+    assert_true(plan.is_marked && plan.keeps_films && plan.resumes);
+    assert_int_equal(settle(&plan, "a_%d.png", "b_%d.pfm", 8, 2), HD_OK);
+    hd_outputs_mark(&plan, 5, true);
     assert_true(plan.is_marked && !plan.resumes);
+    assert_int_equal(settle(&plan, "a.mp4", NULL, 8, 2), HD_OK);
+    assert_true(plan.can_resume && !plan.can_mark && !plan.keeps_films);
 }
 
 static void frames_have_files(void **state) {

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include "image/formats.h"
 #include "output/video.h"
 #include "system/atomic_file.h"
 #include "test_folder.h"
@@ -94,7 +95,7 @@ static const uint8_t RED[4] = {255, 0, 0, 255};
 /* Makes a film and ends it as a caller would, whatever happens. */
 static HdStatus make_film(const char *path, int width, int height, int frames, HdError *error) {
     HdVideo *video = NULL;
-    HdStatus status = hd_video_open(&video, path, width, height, &STYLE, error);
+    HdStatus status = hd_video_open(&video, path, hd_format_of(path), width, height, &STYLE, error);
     assert_true((status == HD_OK) == (video != NULL));
     if (status != HD_OK)
         return status;
@@ -156,7 +157,8 @@ static void film_frames(const char *path, const HdFrame *frames, int count,
                         const HdOutputStyle *style) {
     HdError error = {0};
     HdVideo *video = NULL;
-    HdStatus status = hd_video_open(&video, path, frames[0].width, frames[0].height, style, &error);
+    HdStatus status = hd_video_open(&video, path, hd_format_of(path), frames[0].width,
+                                    frames[0].height, style, &error);
     for (int i = 0; i < count && status == HD_OK; i++)
         status = hd_video_add(video, &frames[i], &error);
     if (status == HD_OK)
@@ -390,7 +392,9 @@ static void aborted_films_leave_nothing(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     need_ffmpeg();
     write_file("out/film.mp4", "older", 0666);
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, &STYLE, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 640, 480,
+                                   &STYLE, &error),
+                     HD_OK);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
     assert_int_equal(count_entries("out"), 2);
     hd_video_abort(video);
@@ -405,7 +409,9 @@ static void frames_of_another_size_are_refused(void **state) {
     HdVideo *video;
     HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
     need_ffmpeg();
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 32, 16, &STYLE, &error), HD_OK);
+    assert_int_equal(
+        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 32, 16, &STYLE, &error),
+        HD_OK);
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
     expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
@@ -421,11 +427,17 @@ static void wrong_settings_are_refused(void **state) {
     const HdOutputStyle none = {STYLE.picture, 0};
     check_failure(0, 16, 1, HD_BAD_INPUT, "0 x 16 pixels, expected 1..65535");
     check_failure(16, 65536, 1, HD_BAD_INPUT, "16 x 65536 pixels, expected 1..65535");
-    assert_int_equal(hd_video_open(&video, "out/a.mp4", 16, 16, &none, &error), HD_BAD_INPUT);
+    assert_int_equal(
+        hd_video_open(&video, "out/a.mp4", hd_format_of("out/a.mp4"), 16, 16, &none, &error),
+        HD_BAD_INPUT);
     expect_contains(error.message, "0 frames a second");
-    assert_int_equal(hd_video_open(&video, "out/a.png", 16, 16, &STYLE, &error), HD_BAD_INPUT);
+    assert_int_equal(
+        hd_video_open(&video, "out/a.png", hd_format_of("out/a.png"), 16, 16, &STYLE, &error),
+        HD_BAD_INPUT);
     expect_contains(error.message, "out/a.png has another ending, expected .mp4, .mkv or .gif");
-    assert_int_equal(hd_video_open(&video, "out/a.gif", 16, 16, &LINEAR, &error), HD_BAD_INPUT);
+    assert_int_equal(
+        hd_video_open(&video, "out/a.gif", hd_format_of("out/a.gif"), 16, 16, &LINEAR, &error),
+        HD_BAD_INPUT);
     expect_contains(error.message, "out/a.gif cannot be linear, for a GIF has no way to say so");
 }
 
@@ -476,7 +488,9 @@ static void failed_films_take_no_more_frames(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "exit 1");
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 640, 480, &STYLE, &error), HD_OK);
+    assert_int_equal(hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 640, 480,
+                                   &STYLE, &error),
+                     HD_OK);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     expect_contains(error.message, "takes no more frames");
@@ -541,7 +555,9 @@ static void programs_that_hang_are_stopped(void **state) {
     HdVideo *video;
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "sleep 600; exit 0");
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", 64, 48, &STYLE, &error), HD_OK);
+    assert_int_equal(
+        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 64, 48, &STYLE, &error),
+        HD_OK);
     hd_video_abort(video);
     fake("ffmpeg", "exec <&-; sleep 600");
     check_failure(640, 480, 10, HD_FAILED, "(signal 9)");
