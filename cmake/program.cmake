@@ -8,6 +8,7 @@ add_library(hedron_program STATIC
     src/cli/devices.c
     src/cli/command_help.c
     src/cli/render.c
+    src/cli/selftest.c
     src/cli/load_scene.c
     src/cli/command_table.c
     src/cli/tune.c

@@ -177,3 +177,29 @@ HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, 
         status = estimate(candidates, 0.0, error);
     return status;
 }
+
+HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
+                          HdError *error) {
+    bool is_any = device == NULL || strcmp(device, "all") == 0;
+    HdCandidates none = {.wish = {.backend = backend, .device = is_any ? NULL : device}};
+    HdStatus status = split_name(&none.wish, error);
+    *count = 0;
+    for (int i = 0; status == HD_OK && i < HD_BACKEND_COUNT; i++) {
+        int found = 0, kept = *count;
+        if (none.wish.backend != NULL && strcmp(none.wish.backend, hd_backends[i]->name) != 0)
+            continue;
+        if (hd_backend_enumerate(hd_backends[i], devices + kept, HD_MAX_DEVICES, &found, error) !=
+            HD_OK)
+            add_reason(&none, hd_backends[i]->name, error->message);
+        for (int d = kept; d < kept + found; d++)
+            if (is_named(&devices[d], none.wish.device))
+                devices[(*count)++] = devices[d];
+        if (found > 0 && *count == kept)
+            add_reason(&none, hd_backends[i]->name, "no device of that number or name");
+    }
+    if (status == HD_OK && *count == 0)
+        status = hd_fail(error, HD_UNAVAILABLE, "there is no such device%s%s%s: %s",
+                         device != NULL ? " ('" : "", device != NULL ? device : "",
+                         device != NULL ? "')" : "", none.reasons);
+    return status;
+}

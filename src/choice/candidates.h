@@ -46,4 +46,10 @@ typedef struct HdCandidates {
    there are none; HD_BAD_INPUT where the device's backend is another than the wish's. */
 HdStatus hd_candidates_find(HdCandidates *candidates, const HdDeviceWish *wish, HdError *error);
 
+/* The devices that the names mean, whatever they can do: `backend` NULL is any, `device` as above,
+   or NULL or "all" for all. `devices` has room for HD_BACKEND_COUNT * HD_MAX_DEVICES.
+   HD_UNAVAILABLE with every reason where there are none. */
+HdStatus hd_devices_named(const char *backend, const char *device, HdDevice *devices, int *count,
+                          HdError *error);
+
 #endif

@@ -32,10 +32,12 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
     const HdDeviceWish *wish = &candidates->wish;
     const HdDevice *chosen = &team->list[team->count - 1].device;
     const char *note = candidates->note, *why = candidates->why;
+    bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL;
     if (wish->kind == HD_PREFER_GPU && wish->backend == NULL && chosen->is_cpu)
         snprintf(team->note, sizeof team->note,
-                 "%s%sno suitable GPU was found; tracing with %s on %s", note,
-                 note[0] != '\0' ? "; " : "", chosen->backend->name, chosen->name);
+                 "%s%sno suitable GPU was found%s%.1500s; tracing with %s on %s", note,
+                 note[0] != '\0' ? "; " : "", is_wrong ? ": " : "",
+                 is_wrong ? candidates->reasons : "", chosen->backend->name, chosen->name);
     else if (note[0] != '\0')
         snprintf(team->note, sizeof team->note, "%s; tracing with %s on %s", note,
                  chosen->backend->name, chosen->name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "cli/command_line.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -42,6 +42,17 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "scene as JSON. 'hedron render' makes the same pictures of it, byte for byte."},
     {HD_COMMAND_DEVICES, "devices", "", NULL, 0, "list backends and devices, and what is missing",
      "Lists backends and devices; for what is missing, the reason."},
+    {HD_COMMAND_SELFTEST, "selftest", "", NULL, 0, "test whether devices compute rightly",
+     "Tests every device, or those of --device and --backend, and prints a certificate for each: "
+     "the device, its driver, what compiled its kernels, this program's version, what was tested, "
+     "what came of it, the time, and a hash of all but times. Tested are, in float and, where "
+     "there "
+     "is it, in double, the arithmetic that kernels are made of, on a million hard operands "
+     "against "
+     "plain C's (of CUDA and OpenCL), and frames whose hashes are known, by kernels of every kind. "
+     "What is wrong is told with the first difference. What is found is remembered with the "
+     "driver's version: 'hedron render' passes over a device that computes wrongly.\n\n"
+     "The exit code is 1 if a device computes wrongly, and 3 if there is none that can be tested."},
     {HD_COMMAND_TUNE, "tune", "[SCENE.json]", ".json", 1,
      "measure what suits a device and a scene best, and remember it",
      "Measures, on the device that 'hedron render' would take for SCENE.json (-: standard input) "

@@ -15,7 +15,8 @@ typedef enum HdCommand {
     HD_COMMAND_VERSION = 128,
     HD_COMMAND_COMPARE = 256,
     HD_COMMAND_NEW = 512,
-    HD_COMMAND_COMPLETE = 1024
+    HD_COMMAND_COMPLETE = 1024,
+    HD_COMMAND_SELFTEST = 2048
 } HdCommand;
 
 typedef struct HdExplained {
@@ -54,7 +55,7 @@ typedef struct HdCommandSpec {
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
-enum { HD_COMMAND_SPEC_COUNT = 10 };
+enum { HD_COMMAND_SPEC_COUNT = 11 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
 /* NULL where no command has that name. */

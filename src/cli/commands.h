@@ -20,6 +20,9 @@ HdStatus hd_command_convert(const HdOptions *options, HdError *error);
 /* Lists backends and devices on standard output. */
 HdStatus hd_command_devices(const HdOptions *options, HdError *error);
 
+/* Tests what devices compute and prints a certificate for each; HD_FAILED where one is wrong. */
+HdStatus hd_command_selftest(const HdOptions *options, HdError *error);
+
 /* Measures ways to launch a device's kernels for a scene, prints them and remembers the best. */
 HdStatus hd_command_tune(const HdOptions *options, HdError *error);
 

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "cli/command_line.h"
 #include "cli/commands.h"
 #include "system/interrupt.h"
 
@@ -20,6 +19,8 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_command_convert(options, error);
     case HD_COMMAND_DEVICES:
         return hd_command_devices(options, error);
+    case HD_COMMAND_SELFTEST:
+        return hd_command_selftest(options, error);
     case HD_COMMAND_TUNE:
         return hd_command_tune(options, error);
     case HD_COMMAND_COMPARE:

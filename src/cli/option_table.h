@@ -79,6 +79,17 @@ OPTION(const char *device, "--device", NULL, "DEVICE",
 ROW("--device", NULL, "DEVICE",
     "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
     HD_COMMAND_TUNE, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
+ROW("--backend", NULL, "NAME", "auto, c, opencl or cuda (default auto: all of them)",
+    HD_COMMAND_SELFTEST, ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda"))
+ROW("--device", NULL, "DEVICE",
+    "number of the device as listed by 'hedron devices', also as c:0, or part of its name; all "
+    "(the default)",
+    HD_COMMAND_SELFTEST, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
+OPTION(
+    bool quick, "--quick", NULL, NULL,
+    "test with 8192 operands and one kind of kernels, which takes a second or two once these are "
+    "compiled",
+    HD_COMMAND_SELFTEST, FLAG(quick))
 ROW("--lanes", NULL, "N",
     "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
     MEASURING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
@@ -132,7 +143,7 @@ OPTION(
 OPTION(bool schema, "--schema", NULL, NULL, "print the JSON Schema of scene files, and exit",
        HD_COMMAND_CHECK, FLAG(schema))
 OPTION(bool json, "--json", NULL, NULL, "print the list as JSON",
-       HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_TUNE, FLAG(json))
+       HD_COMMAND_CHECK | HD_COMMAND_DEVICES | HD_COMMAND_SELFTEST | HD_COMMAND_TUNE, FLAG(json))
 ROW("--json", NULL, NULL, "print the figures as JSON", HD_COMMAND_COMPARE, FLAG(json))
 OPTION(const char *diff, "--diff", NULL, "OUT.png", "write a heat map of the display error",
        HD_COMMAND_COMPARE, TEXT(diff, NULL), .check = check_diff, .takes_file = true)

@@ -99,4 +99,8 @@ void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
    HD_DECIDES_PIXELS too. Escaped (text.h), and cut to `size` bytes with the zero byte. */
 void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size);
 
+/* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
+   names the argument, and the nearest right one where there is one. */
+HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error);
+
 #endif

@@ -280,14 +280,20 @@ static HdStatus fail(const HdDevice *device, const char *difference, HdError *er
                    device->name, device->driver, difference);
 }
 
-static void remember(const char *key, const HdProbeReport *report) {
-    char text[sizeof wrong + sizeof report->difference];
+void hd_probe_remember(const HdBackend *backend, void *renderer, const HdDevice *device,
+                       const HdProbeReport *report) {
+    char key[HD_KERNEL_KEY_LENGTH], text[sizeof wrong + sizeof report->difference];
     HdError ignored;
-    const char *verdict = report->rounds_by_fma ? by_fma : right;
-    snprintf(text, sizeof text, "%s", verdict);
+    HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
+    shape->rounds_by_fma = false; /* the key is that of a device which is not known */
+    backend->functions->probe_key(renderer, key, sizeof key);
+    shape->rounds_by_fma = report->rounds_by_fma;
+    snprintf(text, sizeof text, "%s", report->rounds_by_fma ? by_fma : right);
     if (report->difference[0] != '\0')
         snprintf(text, sizeof text, "%s%s", wrong, report->difference);
     hd_cache_put_text(kind, key, text, &ignored);
+    if (shape->precision == HD_PRECISION_FLOAT)
+        hd_verdict_put(device->name, device->driver, report->difference);
 }
 
 HdStatus hd_probe_settle(const HdBackend *backend, void *renderer, const HdDevice *device,
@@ -306,8 +312,6 @@ HdStatus hd_probe_settle(const HdBackend *backend, void *renderer, const HdDevic
     HdStatus status = hd_probe(backend, renderer, HD_PROBE_QUICK, &report, error);
     if (status != HD_OK)
         return status;
-    remember(key, &report);
-    if (kernels->shape.precision == HD_PRECISION_FLOAT)
-        hd_verdict_put(device->name, device->driver, report.difference);
+    hd_probe_remember(backend, renderer, device, &report);
     return report.difference[0] == '\0' ? HD_OK : fail(device, report.difference, error);
 }

@@ -30,6 +30,10 @@ typedef struct HdProbeReport {
 HdStatus hd_probe(const HdBackend *backend, void *renderer, int tuples, HdProbeReport *report,
                   HdError *error);
 
+/* Keeps what a probe found for hd_probe_settle and, of float, for hd_backend_enumerate. */
+void hd_probe_remember(const HdBackend *backend, void *renderer, const HdDevice *device,
+                       const HdProbeReport *report);
+
 /* Has it probed quickly, unless the cache folder remembers what came of it with this driver and
    this program. HD_UNAVAILABLE, with the first difference, where the device computes wrongly. */
 HdStatus hd_probe_settle(const HdBackend *backend, void *renderer, const HdDevice *device,

@@ -3,9 +3,11 @@
 #include "device/renderer.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/limits.h"
 #include "device/kernel_cache.h"
 #include "device/probe.h"
@@ -141,6 +143,43 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
     if (status == HD_OK)
         hd_kernel_cache_accept(kernels);
     return status;
+}
+
+HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report,
+                           HdError *error) {
+    HdStatus status = hd_probe(renderer->backend, renderer->state, tuples, report, error);
+    renderer->has_scene = false;
+    if (status == HD_OK)
+        hd_probe_remember(renderer->backend, renderer->state, &renderer->device, report);
+    renderer->is_probed = status == HD_OK && report->difference[0] == '\0';
+    return note_failure(renderer, status, error);
+}
+
+static uint64_t stamp_hash(const HdRenderer *renderer, const HdSceneTables *like) {
+    const HdKernelShape shape = {.precision = renderer->options.precision,
+                                 .needs = hd_kernel_needs(like)};
+    char stamp[160];
+    hd_self_test_stamp(&shape, stamp, sizeof stamp);
+    return hd_hash_bytes(HD_HASH_START, stamp, strlen(stamp));
+}
+
+HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
+                               bool *is_wrong, HdError *error) {
+    const HdBackend *backend = renderer->backend;
+    HdKernelCache *kernels = kernels_of(renderer);
+    HdError later;
+    renderer->has_scene = false;
+    *is_wrong = false;
+    *hash = stamp_hash(renderer, like);
+    HdStatus status = settle_arithmetic(renderer, error);
+    if (status == HD_OK)
+        status = hd_self_test(backend, renderer->state, &renderer->device, like, is_wrong, error);
+    if (*is_wrong && kernels != NULL && hd_kernel_shape_be_cautious(&kernels->shape) &&
+        hd_self_test(backend, renderer->state, &renderer->device, like, is_wrong, &later) == HD_OK)
+        status = HD_OK;
+    if (status == HD_OK && kernels != NULL)
+        hd_kernel_cache_accept(kernels);
+    return note_failure(renderer, status, error);
 }
 
 /* Must hold for `what` to be done. */
@@ -308,6 +347,11 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) 
 const char *hd_renderer_kernels_note(const HdRenderer *renderer) {
     const HdKernelCache *kernels = kernels_of(renderer);
     return kernels != NULL ? kernels->note : "";
+}
+
+void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity) {
+    const HdKernelCache *kernels = kernels_of(renderer);
+    snprintf(text, capacity, "%s", kernels != NULL ? kernels->maker : "");
 }
 
 void hd_renderer_close(HdRenderer *renderer) {

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "device/backend.h"
+#include "device/probe.h"
 
 /* An open device. Messages of the functions below begin with the backend's name where the backend
    failed: "cuda: ...". */
@@ -57,6 +58,19 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 
 /* Drops what is under way. NULL is allowed. */
+/* Probes the arithmetic of a device that compiles its kernels, whatever is remembered of it
+   (probe.h), and remembers what came of it. There is no scene afterwards. */
+HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
+
+/* Renders the frames of the self-test (self_test.h) by kernels that do what a scene with tables
+   like these needs, `hash` being that of what is expected. Where new kernels compute wrongly, they
+   are compiled again with little optimisation. There is no scene afterwards. */
+HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
+                               bool *is_wrong, HdError *error);
+
+/* What compiled the kernels; "": nobody knows, or they are built in. */
+void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity);
+
 void hd_renderer_close(HdRenderer *renderer);
 
 #endif

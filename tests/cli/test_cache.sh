@@ -61,7 +61,7 @@ mv whole.entry "$work/whole"
 # Another user's own: the same format, another key.
 cp "$work/cache/key" "$work/key"
 rm "$work/cache/key"
-expect_build "$refused the key $work/cache/key cannot be used: No such file or directory; $compiled; cached" "${render[@]}"
+expect_build "$refused its checksum is wrong; $compiled; cached" "${render[@]}"
 cp "$work/whole" "$entry"
 expect_build "$refused its checksum is wrong; $compiled; cached" "${render[@]}"
 # A folder that others may write to.

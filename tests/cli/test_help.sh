@@ -62,7 +62,7 @@ expect_help '--help' "$hedron" complete --help
 expect_help '--help' "$hedron" help --help
 expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render new check convert devices tune compare help complete --default '[OPTIONS] < INPUT'; do
+for usage in render new check convert devices selftest tune compare help complete --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
 

@@ -11,7 +11,7 @@ cp "$logs/stdout" "$work/hedron.1"
 if [[ $(head -c 10 "$work/hedron.1") != '.TH HEDRON' ]]; then
     fail "the man page does not begin as one"
 fi
-commands='render check convert devices tune compare help'
+commands='render check convert devices selftest tune compare help'
 # formatted COMMAND...: the page as text; the formatter has nothing to complain about.
 formatted() {
     expect_exit 0 "$@"

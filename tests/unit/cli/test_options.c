@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdio.h>
 
-#include "cli/command_line.h"
 #include "cli/option_values.h"
+#include "cli/options.h"
 #include "device/renderer.h"
 #include "expect.h"
 

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# 'hedron selftest': certificates of devices that compute rightly and of some that do not, as text and
+# as JSON, the exit codes, and what of it is remembered.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+build=$(realpath "${2:?the build folder is the second argument}")
+export HEDRON_CACHE=$work/cache
+mkdir "$work/no_vendors"
+
+# ---- plain C: all of it, twice the same certificate
+c=(env OCL_ICD_VENDORS="$work/no_vendors" "${no_nvidia[@]:1}" "$hedron" selftest --device c:0)
+expect_exit 0 "${c[@]}"
+expect_silent_stderr
+expect_stdout_contains 'right    frames in float by mega, with refraction, lit from behind ('
+expect_stdout_contains 'right    frames in double by wavefront, with refraction, lit from behind ('
+first=$(grep -o 'certificate [0-9a-f]\{16\}$' "$logs/stdout")
+expect_exit 0 "${c[@]}"
+expect_stdout_contains "$first"
+if (($(grep -c '^  right    ' "$logs/stdout") != 10)); then
+    fail "plain C has not passed five kinds of kernels in both precisions"
+fi
+expect_exit 0 "${c[@]}" --quick
+if (($(grep -c '^  right    ' "$logs/stdout") != 2)) || grep -q "$first" "$logs/stdout"; then
+    fail "a quick test of plain C is not one kind of kernels in both precisions"
+fi
+expect_refusal 3 "$hedron" selftest --device nonsense
+expect_stderr_contains "there is no such device ('nonsense')"
+expect_refusal 3 env OCL_ICD_VENDORS="$work/no_vendors" "$hedron" selftest --backend opencl
+expect_refusal 2 "$hedron" selftest --device c:0 --backend opencl
+if command -v jq >"$logs/which"; then
+    expect_exit 0 "${c[@]}" --json
+    if ! jq -e '.certificates | length == 1 and (.[0] | keys_unsorted == ["hedron", "backend", "index", "name",
+        "driver", "compiler", "verdict", "tests", "time", "seconds", "hash"] and .verdict == "right" and .backend == "c"
+        and (.time | test("^20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z$")) and (.tests | length == 10 and
+        all(.[]; keys_unsorted == ["name", "verdict", "reason", "tuples", "division_by_fma", "hash", "seconds"]
+        and .verdict == "right" and .reason == null and (.hash | test("^[0-9a-f]{16}$")))))' \
+        "$logs/stdout" >"$logs/jq"; then
+        fail "the certificate as JSON is not as expected: $(cat "$logs/stdout")"
+    fi
+fi
+
+# ---- OpenCL, wrong and right; test_arithmetic has division that is made of fma
+if grep -q -a -E '__(asan|tsan)_init' "$hedron" || ! has_opencl; then
+    echo "not tested: OpenCL, for there is no device, or nothing can be preloaded"
+    expect_files .
+    finish
+fi
+take() {
+    driver=("${no_nvidia[@]}" LD_PRELOAD="$build/tests/failing/libfailing_opencl.so" FAILING_OPENCL_TEXT="$1"
+        FAILING_OPENCL_FOR="$2")
+}
+quick=("$hedron" selftest --quick --device opencl:0)
+take 'return fma(a, b, c);' 'return a * b + c;'
+expect_exit 1 "${driver[@]}" "${quick[@]}"
+expect_stderr_contains '1 of 1 device computes wrongly'
+expect_stdout_contains 'wrong    arithmetic in float, 8192 tuples of operands ('
+expect_stdout_contains '  fma(a, b, c) of a = '
+expect_stdout_contains '(it is rounded twice)'
+expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
+expect_stdout_contains 'strict arithmetic: no, it computes wrongly: fma(a, b, c) of a = '
+# What is remembered is found out anew, and is then right.
+expect_exit 0 "${no_nvidia[@]}" "${quick[@]}"
+expect_stdout_contains 'right    arithmetic in double, 8192 tuples of operands ('
+expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
+if grep -q 'computes wrongly' "$logs/stdout"; then
+    fail "a device that computes rightly is still told to compute wrongly"
+fi
+# Frames that are wrong though the arithmetic is right.
+take '1.5259021896696422e-5' '1.6e-5'
+expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
+expect_stdout_contains 'right    arithmetic in float, 8192 tuples of operands ('
+expect_stdout_contains 'wrong    frames in float by mega, with refraction, lit from behind ('
+expect_stdout_contains "render the test frame 'floor' with the hash "
+
+expect_files .
+finish
