@@ -15,6 +15,25 @@ static void add_reason(HdCandidates *candidates, const char *name, const char *r
                  used > 0 ? "; " : "", name, reason);
 }
 
+/* A GPU that is there and not used is worth a word, unless the user's own wish rules out all. */
+static void tell_passed(HdCandidates *candidates, const char *what, const char *reason,
+                        const char *help) {
+    const HdDeviceWish *wish = &candidates->wish;
+    size_t used = strlen(candidates->passed);
+    if (candidates->is_free && wish->kind != HD_ONLY_CPU && wish->options->lanes <= 1)
+        snprintf(candidates->passed + used, sizeof candidates->passed - used,
+                 "%s%s is passed over: %s%s", used > 0 ? "; " : "", what, reason, help);
+}
+
+static void tell_passed_device(HdCandidates *candidates, const HdDevice *device,
+                               const char *reason) {
+    char what[sizeof device->name + 32];
+    bool is_strictness = reason == device->not_strict;
+    snprintf(what, sizeof what, "%s:%d (%s)", device->backend->name, device->index, device->name);
+    tell_passed(candidates, what, reason,
+                is_strictness ? "; --math fast would take it, for other bytes" : "");
+}
+
 static bool contains(const char *text, const char *part) {
     size_t length = strlen(part);
     for (; *text != '\0'; text++)
@@ -87,6 +106,8 @@ static void consider(HdCandidates *candidates, const HdDevice *device) {
     const char *reason = hd_device_obstacle(device, candidates->wish.options);
     if (candidates->wish.kind == HD_ONLY_CPU && !device->is_cpu)
         reason = "it is not a CPU";
+    if (reason != NULL && !device->is_cpu)
+        tell_passed_device(candidates, device, reason);
     if (reason != NULL)
         add_reason(candidates, device->name, reason);
     else
@@ -97,7 +118,10 @@ static void search_backend(HdCandidates *candidates, const HdBackend *backend, H
     HdDevice devices[HD_MAX_DEVICES];
     int count = 0;
     bool any = false;
-    if (hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error) != HD_OK) {
+    HdStatus status = hd_backend_enumerate(backend, devices, HD_MAX_DEVICES, &count, error);
+    if (status == HD_FAILED)
+        tell_passed(candidates, backend->name, error->message, "");
+    if (status != HD_OK) {
         add_reason(candidates, backend->name, error->message);
         return;
     }

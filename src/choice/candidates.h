@@ -33,6 +33,8 @@ typedef struct HdCandidates {
     char reasons[4096];   /* why backends and devices were passed over */
     char why[1024];       /* why the one that is taken; "": it is the first */
     char note[2048];      /* what failed; "": nothing did */
+    char passed[2048];    /* GPUs that are passed over though nobody asked for that, in a sentence,
+                             with    what would help; "": there are none */
 } HdCandidates;
 
 /* A job that plain C does in less is not worth waking another device for. */

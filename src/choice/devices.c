@@ -32,7 +32,11 @@ static void explain(HdDeviceTeam *team, const HdCandidates *candidates) {
     const HdDeviceWish *wish = &candidates->wish;
     const HdDevice *chosen = &team->list[team->count - 1].device;
     const char *note = candidates->note, *why = candidates->why;
-    bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL;
+    /* Another backend may have the same card. */
+    if (note[0] == '\0' && strstr(candidates->passed, chosen->name) == NULL)
+        note = candidates->passed;
+    const bool is_wrong = strstr(candidates->reasons, "computes wrongly") != NULL &&
+                          strstr(note, "computes wrongly") == NULL;
     if (wish->kind == HD_PREFER_GPU && wish->backend == NULL && chosen->is_cpu)
         snprintf(team->note, sizeof team->note,
                  "%s%sno suitable GPU was found%s%.1500s; tracing with %s on %s", note,

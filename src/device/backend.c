@@ -49,7 +49,7 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     if (options->math == HD_MATH_STRICT && device->not_strict[0] != '\0')
         return device->not_strict;
     if (options->precision == HD_PRECISION_DOUBLE && !device->has_double)
-        return "the device has no double precision";
+        return "the device has no double precision; --precision float would take it";
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
@@ -57,7 +57,8 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
         return "the processor has no registers for so many lanes";
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
-        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks";
+        return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "
+               "--pipeline mega would take it";
     return NULL;
 }
 

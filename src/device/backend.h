@@ -108,7 +108,8 @@ struct HdBackend {
 
     /* Must fill at most `capacity` devices, numbered from 0, and their count; whose they are is
        filled in by hd_backend_enumerate. With none it must return HD_UNAVAILABLE and the reason:
-       which library or driver is missing. */
+       which library or driver is missing; or HD_FAILED where a driver is there that does not start.
+     */
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 

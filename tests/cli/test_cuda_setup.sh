@@ -27,6 +27,35 @@ expect_stderr_contains 'CUDA_ERROR_NO_DEVICE (100); it is of branch 590 or newer
 expect_refusal 3 "${cannot_start[@]}" FAKE_CUDA_ERROR=100 FAKE_CUDA_DRIVER=13000 "${render[@]}"
 expect_stderr_contains 'CUDA_ERROR_NO_DEVICE (100); no card is there that it drives, or CUDA_VISIBLE_DEVICES hides it'
 
+# ---- where any device will do, a GPU that is passed over is told in one line, with what would help
+any=("$hedron" render --size 320x240 --samples 2 --frames 0-1 --threads 1 --lanes 1 -o any/%d.data)
+# expect_notes NUMBER [TEXT]: besides the progress of a slow machine.
+expect_notes() {
+    if (($(grep -c '^hedron: ' "$logs/stderr") != $1)); then
+        fail "standard error has not $1 notes"
+        show_logs
+    fi
+    if (($# > 1)); then
+        expect_stderr_contains "hedron: $2"
+        expect_stderr_contains '; tracing with c on '
+    fi
+    rm -r any
+}
+expect_exit 0 "${cannot_start[@]}" FAKE_CUDA_ERROR=999 "${any[@]}"
+expect_notes 1 'cuda is passed over: the NVIDIA driver does not start: cuInit failed with CUDA_ERROR_UNKNOWN (999); after the machine slept, '
+unfit=(env HEDRON_NVRTC="$nvrtc" FAKE_NVRTC_MAJOR=13)
+expect_exit 0 "${unfit[@]}" "${any[@]}"
+expect_notes 1 'cuda:0 (Fake device 0) is passed over: no NVRTC library here compiles for Fake device 0 (sm_61); to install one that does: '
+expect_exit 0 "${unfit[@]}" "${any[@]}" --quiet
+expect_notes 0
+# None is there, and one that nobody asked for.
+for no_gpu in FAKE_CUDA_ERROR=100 LD_LIBRARY_PATH=/nothing; do
+    expect_exit 0 "${cannot_start[@]}" "$no_gpu" "${any[@]}"
+    expect_notes 0
+done
+expect_exit 0 "${unfit[@]}" "${any[@]}" --backend c
+expect_notes 0
+
 # ---- an NVRTC that does not know the card: which one to install, by card and driver
 # expect_package CAPABILITY DRIVER PACKAGE [MORE]
 too_new=(env HEDRON_NVRTC="$nvrtc" FAKE_NVRTC_MAJOR=13)

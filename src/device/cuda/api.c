@@ -43,7 +43,7 @@ static const char *advise_start(const HdCudaDriver *driver, HdCuResult code) {
 }
 
 static HdStatus fail_to_start(const HdCudaDriver *driver, HdCuResult code, HdError *error) {
-    return hd_fail(error, HD_UNAVAILABLE,
+    return hd_fail(error, code == HD_CU_ERROR_NO_DEVICE ? HD_UNAVAILABLE : HD_FAILED,
                    "the NVIDIA driver does not start: cuInit failed with %s (%u)%s",
                    hd_cuda_error_name(driver, code), code, advise_start(driver, code));
 }

@@ -109,8 +109,8 @@ typedef struct HdCudaDriver {
 } HdCudaDriver;
 #undef HD_CUDA_MEMBER
 
-/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it does not start, with
-   what may help. The library stays loaded. */
+/* Loads and initialises the driver. HD_UNAVAILABLE where there is none or it knows no device,
+   HD_FAILED where it does not start, with what may help. The library stays loaded. */
 HdStatus hd_cuda_load_driver(HdCudaDriver *driver, HdError *error);
 
 /* Fails with the names of the function and of the error, and says so where it means that the device
