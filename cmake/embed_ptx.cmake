@@ -19,7 +19,7 @@ add_library(hedron_cuda_compiler STATIC
     src/system/durable.c
     src/system/dynamic_library.c
     src/system/file_bytes.c
-    src/system/folder_set.c
+    src/base/folder_set.c
     src/system/leftovers.c
     src/system/path.c
     ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)

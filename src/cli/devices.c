@@ -2,14 +2,23 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "base/text.h"
 #include "cli/commands.h"
 #include "input/json/json_device_text.h"
 
+/* What a driver says may command a terminal. */
+static void print_text(const char *before, const char *text) {
+    char escaped[6 * sizeof((HdDevice *)NULL)->unusable];
+    hd_escape(text, escaped, sizeof escaped);
+    printf("%s%s\n", before, escaped);
+}
+
 static void print_device(const HdDevice *device) {
-    printf("  %d  %s\n", device->index, device->name);
-    printf("     %s\n", device->driver);
+    printf("  %d", device->index);
+    print_text("  ", device->name);
+    print_text("     ", device->driver);
     if (device->unusable[0] != '\0')
-        printf("     cannot be used: %s\n", device->unusable);
+        print_text("     cannot be used: ", device->unusable);
     const char *strict = device->not_strict[0] != '\0' ? "no, " : "yes";
     printf("     %s, double precision: %s, strict arithmetic: %s%s\n",
            device->is_cpu ? "CPU" : "GPU", device->has_double ? "yes" : "no",
@@ -21,7 +30,7 @@ static void print_backend(const HdBackend *backend, const HdDevice *devices, int
                           const char *obstacle) {
     printf("%s\n", backend->name);
     if (obstacle != NULL)
-        printf("  not available: %s\n", obstacle);
+        print_text("  not available: ", obstacle);
     for (int i = 0; i < count; i++)
         print_device(&devices[i]);
 }

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "system/interrupt.h"
+#include "system/thread_pool.h"
 
 static HdStatus run(const HdOptions *options, HdError *error) {
     switch (options->command) {
@@ -51,7 +52,9 @@ int main(int count, char **arguments) {
     static HdError error;
     HdOptions options;
     hd_interrupt_install();
-    HdStatus status = hd_interrupt_read_patience(&error);
+    HdStatus status = hd_check_stack(&error);
+    if (status == HD_OK)
+        status = hd_interrupt_read_patience(&error);
     if (status == HD_OK)
         status = hd_options_parse(&options, count, arguments, &error);
     if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))

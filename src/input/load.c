@@ -47,6 +47,14 @@ static bool is_mesh(const char *name) {
     return false;
 }
 
+/* Messages quote what they are about, which of a file that is no scene is nobody's business. */
+static bool may_be_scene(const char *text, size_t size, const char *name) {
+    size_t start = 0;
+    while (start < size && strchr(" \t\r\n", text[start]) != NULL)
+        start++;
+    return hd_path_has_ending(name, ".json") || start == size || text[start] == '{';
+}
+
 static HdStatus check_text(const char *text, size_t size, const char *name, HdError *error) {
     if (size > HD_MAX_SCENE_BYTES)
         return hd_fail(error, HD_BAD_INPUT, "%s has %zu bytes, expected at most %d", name, size,
@@ -67,6 +75,10 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
                        "scene.json' makes a scene of",
+                       name);
+    if (!may_be_scene(text, size, name))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is no scene: neither has it the ending .json nor does it begin with {",
                        name);
     return hd_json_check_limits(text, size, name, error);
 }

@@ -13,8 +13,9 @@
 #include "system/machine.h"
 
 enum {
-    MOST_OPEN_PICTURES = 128, /* each takes two descriptors until it has its name, and as many wait
-                                 for theirs */
+    MOST_OPEN_PICTURES = 128, /* each takes a descriptor until it has its name, and as many wait for
+                                 theirs */
+    SPARE_DESCRIPTORS = 2,    /* for a folder, and statistics that are opened late */
     /* More would only wait for the memory that they share. */
     MAX_ENCODERS = 16,
     /* Beside what is encoded: one is traced, one converted, one on its way to FFmpeg, one waits. */
@@ -28,7 +29,7 @@ static const size_t MAX_BYTES = (size_t)1 << 30; /* of all frames under way, for
    side. */
 typedef struct Place {
     HdFrame frame;                      /* with `rgba` where films get it, or a device may encode */
-    HdAtomicFile files[HD_MAX_OUTPUTS]; /* stream NULL: not written, or published */
+    HdAtomicFile files[HD_MAX_OUTPUTS]; /* closed; no lock: not written, or handed on */
     int tracer;
     HdFrameTimes times;
     HdSpan films[HD_MAX_OUTPUTS]; /* by output */
@@ -130,8 +131,9 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
     if (status == HD_OK)
         status = hd_picture_prepare(file, &place->frame, outputs->list[index].format,
                                     &outputs->style.picture, &label, path, error);
-    if (status != HD_OK)
-        file->stream = NULL;
+    if (status == HD_OK)
+        return hd_atomic_file_close(file, error);
+    file->lock = -1;
     return status;
 }
 
@@ -264,10 +266,17 @@ static size_t bytes_of_place(const HdFrameStorePlan *plan) {
     return sizeof(Place) + pixels * 3 * sizeof(float) + (has_image(plan->outputs) ? 4 * pixels : 0);
 }
 
+/* While a picture is closed it has one descriptor more. */
+static int count_places_by_descriptors(int pictures) {
+    const int fitting = (hd_free_descriptors() - SPARE_DESCRIPTORS) / (2 * pictures + 1);
+    const int most = least(fitting, MOST_OPEN_PICTURES / pictures);
+    return most > 1 ? most : 1;
+}
+
 static int choose_place_count(const HdFrameStorePlan *plan) {
     int wanted = least(encoder_count(plan) + spare_count(plan), plan->resume->all->count);
     if (picture_count(plan) > 0)
-        wanted = least(wanted, MOST_OPEN_PICTURES / picture_count(plan));
+        wanted = least(wanted, count_places_by_descriptors(picture_count(plan)));
     size_t fitting = MAX_BYTES * (size_t)plan->tracers / bytes_of_place(plan);
     if (fitting < 1)
         return 1;
@@ -319,6 +328,8 @@ static HdStatus open_films(HdFrameStore *store, HdError *error) {
 }
 
 static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError *error) {
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+        place->files[i].lock = -1;
     HdStatus status = hd_frame_create(&place->frame, plan->width, plan->height, error);
     if (status == HD_OK && has_image(plan->outputs))
         status = hd_frame_add_rgba(&place->frame, error);
@@ -342,8 +353,7 @@ static void free_places(HdFrameStore *store) {
     for (int i = 0; i < store->place_count; i++) {
         Place *place = &store->places[i];
         for (int k = 0; k < HD_MAX_OUTPUTS; k++)
-            if (place->files[k].stream != NULL)
-                hd_atomic_file_discard(&place->files[k]);
+            hd_atomic_file_discard(&place->files[k]);
         hd_frame_free(&place->frame);
     }
     free(store->places);

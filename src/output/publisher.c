@@ -34,13 +34,11 @@ HdStatus hd_publisher_create(HdPublisher **out, const HdPublisherPlan *plan, HdE
 /* ---- steps; each for the first `count` frames, of which it returns how many it was done for ----
  */
 
-static HdStatus write_files(const HdPublisher *publisher, Waiting *waiting, HdError *error) {
+static HdStatus sync_files(const HdPublisher *publisher, Waiting *waiting, HdError *error) {
     HdStatus status = HD_OK;
-    for (int i = 0; i < waiting->file_count && status == HD_OK; i++) {
-        status = hd_atomic_file_close(&waiting->files[i], error);
-        if (status == HD_OK && publisher->plan.durability == HD_DURABLE)
+    for (int i = 0; i < waiting->file_count && status == HD_OK; i++)
+        if (publisher->plan.durability == HD_DURABLE)
             status = hd_atomic_file_sync(&waiting->files[i], error);
-    }
     return status;
 }
 
@@ -106,7 +104,7 @@ static void drop_all(HdPublisher *publisher) {
 
 HdStatus hd_publisher_settle(HdPublisher *publisher, HdError *error) {
     HdError own = {.status = HD_OK};
-    int count = go(publisher, write_files, publisher->count, &own);
+    int count = go(publisher, sync_files, publisher->count, &own);
     count = go(publisher, name_files, count, &own);
     HdError unsynced;
     if (sync_names(publisher, count, &unsynced) == HD_OK) {
@@ -136,10 +134,10 @@ HdStatus hd_publisher_add(HdPublisher *publisher, const HdStoredFrame *stored, H
     waiting->frame.rgba = NULL;
     waiting->file_count = 0;
     for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
-        if (files[i].stream == NULL)
+        if (files[i].lock < 0)
             continue;
         waiting->files[waiting->file_count++] = files[i];
-        files[i].stream = NULL;
+        files[i].lock = -1;
     }
     return HD_OK;
 }

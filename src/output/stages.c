@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "system/thread_pool.h"
 #include "system/warnings.h"
 
 typedef struct Worker {
@@ -241,7 +242,7 @@ static void join_all(HdStages *stages) {
 static int start_worker(HdStages *stages, int stage) {
     Worker *worker = &stages->workers[stages->worker_count];
     *worker = (Worker){.stages = stages, .stage = stage};
-    int reason = pthread_create(&worker->thread, NULL, worker_main, worker);
+    int reason = hd_start_thread(&worker->thread, worker_main, worker);
     if (reason == 0)
         stages->worker_count++;
     return reason;

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/folder_set.h"
 #include "output/frame_names.h"
 #include "system/atomic_file.h"
-#include "system/folder_set.h"
 
 static DIR *open_folder(const char *folder) {
     return opendir(folder[0] != '\0' ? folder : ".");

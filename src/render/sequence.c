@@ -9,6 +9,7 @@
 #include "render/tracer.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 
 /* One for each count of lanes. */
 #define COUNTED(lanes) +1
@@ -170,7 +171,7 @@ static void *trace(void *argument) {
 
 static void start_member(Member *member) {
     HdError error;
-    int reason = pthread_create(&member->thread, NULL, trace, member);
+    int reason = hd_start_thread(&member->thread, trace, member);
     member->has_thread = reason == 0;
     if (reason == 0)
         return;

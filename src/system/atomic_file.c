@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/folder_set.h"
 #include "system/durable.h"
-#include "system/folder_set.h"
 #include "system/leftovers.h"
 
 enum { MAX_ATTEMPTS = 1000 };
@@ -211,14 +211,12 @@ static HdStatus open_file(HdAtomicFile *file, const char *path, unsigned mode, H
     if (status != HD_OK)
         return status;
     memcpy(file->path, path, strlen(path) + 1);
-    file->lock = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
-    file->stream = file->lock >= 0 ? fdopen(descriptor, "wb") : NULL;
+    file->lock = -1;
+    file->stream = fdopen(descriptor, "wb");
     if (file->stream != NULL)
         return HD_OK;
     int reason = errno;
     close(descriptor);
-    if (file->lock >= 0)
-        close(file->lock);
     hd_temporary_remove(file->temporary);
     return hd_fail(error, HD_FAILED, "cannot write %s: %s", path, strerror(reason));
 }
@@ -232,7 +230,8 @@ HdStatus hd_atomic_file_open_private(HdAtomicFile *file, const char *path, HdErr
 }
 
 static void unlock(HdAtomicFile *file) {
-    close(file->lock);
+    if (file->lock >= 0)
+        close(file->lock);
     file->lock = -1;
 }
 
@@ -243,12 +242,15 @@ static void drop(HdAtomicFile *file) {
 
 /* The stream remembers a write that failed, but not why: one more byte mostly tells. */
 static int find_reason(const HdAtomicFile *file) {
-    return write(file->lock, "", 1) < 0 ? errno : EIO;
+    return write(fileno(file->stream), "", 1) < 0 ? errno : EIO;
 }
 
 HdStatus hd_atomic_file_close(HdAtomicFile *file, HdError *error) {
     /* Closing may succeed after a write that failed. */
     int reason = ferror(file->stream) ? find_reason(file) : 0;
+    file->lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
+    if (file->lock < 0 && reason == 0)
+        reason = errno;
     if (fclose(file->stream) != 0 && reason == 0)
         reason = errno;
     file->stream = NULL;
@@ -284,7 +286,7 @@ HdStatus hd_atomic_file_commit(HdAtomicFile *file, HdDurability durability, HdEr
 }
 
 void hd_atomic_file_discard(HdAtomicFile *file) {
-    if (file->lock < 0)
+    if (file->stream == NULL && file->lock < 0)
         return;
     if (file->stream != NULL)
         fclose(file->stream);

@@ -42,8 +42,8 @@ HdStatus hd_temporary_publish(const char *temporary, const char *path, HdError *
 void hd_known_folders_forget(void);
 
 typedef struct HdAtomicFile {
-    FILE *stream; /* for the caller to write to */
-    int lock;     /* a descriptor; -1: it has its name, or is gone */
+    FILE *stream; /* for the caller to write to; NULL: closed */
+    int lock;     /* a descriptor, once the stream is closed; -1: it has its name, or is gone */
     char path[HD_MAX_PATH];
     char temporary[HD_MAX_PATH];
 } HdAtomicFile;

@@ -4,7 +4,7 @@
 #define HD_SYSTEM_DURABLE_H
 
 #include "base/error.h"
-#include "system/folder_set.h"
+#include "base/folder_set.h"
 
 /* Waits until the bytes of an open file are on the disk; `path` is for the message. HD_FAILED where
    the disk says no. What no disk is behind, such as a pipe, has nothing to wait for. */

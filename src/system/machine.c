@@ -2,6 +2,8 @@
 #define _GNU_SOURCE
 #include "system/machine.h"
 
+#include <fcntl.h>
+#include <limits.h>
 #include <sched.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -31,6 +33,15 @@ int hd_processor_count(void) {
 double hd_physical_memory(void) {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     return pages > 0 && page > 0 ? (double)pages * (double)page : small_machine;
+}
+
+int hd_free_descriptors(void) {
+    const long most = sysconf(_SC_OPEN_MAX);
+    const int lowest = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (lowest < 0)
+        return 0;
+    close(lowest);
+    return most < 0 || most > INT_MAX ? INT_MAX : (int)most - lowest;
 }
 
 void *hd_large_allocate(size_t bytes) {

@@ -14,6 +14,9 @@ int hd_processor_count(void);
 /* Bytes of memory that there are; where the system does not tell, what even a small machine has. */
 double hd_physical_memory(void);
 
+/* How many descriptors this process may still open, if no other thread opens any. */
+int hd_free_descriptors(void);
+
 /* Memory for tables and pictures, for free() to free: aligned to 64 bytes and not zeroed. Where
    there is much of it the system is asked for large pages, because the first touch of each small
    one takes longer than filling it. NULL where there is none left. */

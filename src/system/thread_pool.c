@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE /* pthread_setattr_default_np */
 #include "system/thread_pool.h"
 
 #include <fenv.h>
@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "system/warnings.h"
 
@@ -73,16 +74,48 @@ static void *thread_main(void *argument) {
    about 2.2 MB, which is more than some systems give a thread. */
 enum { STACK_BYTES = 8 << 20 };
 
-static int start_thread(Thread *thread) {
+int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {
     pthread_attr_t attributes;
     int code = pthread_attr_init(&attributes);
     if (code != 0)
         return code;
     code = pthread_attr_setstacksize(&attributes, STACK_BYTES);
     if (code == 0)
-        code = pthread_create(&thread->thread, &attributes, thread_main, thread);
+        code = pthread_create(thread, &attributes, work, argument);
     pthread_attr_destroy(&attributes);
     return code;
+}
+
+/* Of the first thread, which computes no pixels; drivers take most of it. */
+enum { LEAST_STACK_BYTES = 1 << 20 };
+
+/* Those of threads that drivers start follow the limit that there was at the program's start. */
+static void enlarge_other_stacks(void) {
+#ifdef __GLIBC__
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0)
+        return;
+    if (pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0)
+        pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+#endif
+}
+
+HdStatus hd_check_stack(HdError *error) {
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= LEAST_STACK_BYTES)
+        return HD_OK;
+    const rlim_t found = limit.rlim_cur;
+    limit.rlim_cur = LEAST_STACK_BYTES;
+    if (limit.rlim_max < LEAST_STACK_BYTES)
+        limit.rlim_max = LEAST_STACK_BYTES;
+    if (setrlimit(RLIMIT_STACK, &limit) == 0) {
+        enlarge_other_stacks();
+        return HD_OK;
+    }
+    return hd_fail(error, HD_FAILED,
+                   "the stack may have %llu KiB (ulimit -s), expected at least %d KiB",
+                   (unsigned long long)found / 1024, LEAST_STACK_BYTES / 1024);
 }
 
 static HdStatus do_with_fewer(const HdThreadPool *pool, int wanted, int reason, HdError *error) {
@@ -102,7 +135,7 @@ static HdStatus start_threads(HdThreadPool *pool, int threads, HdError *error) {
     for (int i = 0; i < threads; i++) {
         pool->threads[i].pool = pool;
         pool->threads[i].number = i;
-        int code = start_thread(&pool->threads[i]);
+        int code = hd_start_thread(&pool->threads[i].thread, thread_main, &pool->threads[i]);
         if (code != 0)
             return do_with_fewer(pool, threads, code, error);
         pool->thread_count++;

@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+#include <pthread.h>
+
 #include "base/error.h"
 
 typedef struct HdThreadPool HdThreadPool;
@@ -27,5 +29,13 @@ bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void 
 
 /* Ends the threads. NULL is allowed. */
 void hd_thread_pool_destroy(HdThreadPool *pool);
+
+/* Starts a thread with a stack of 8 MiB, whatever the limit of this process gives others. Returns 0
+   or what went wrong, as errno would. */
+int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument);
+
+/* Sees to it that the first thread's stack may grow as far as the program needs. HD_FAILED where
+   the system's limit (ulimit -s) is below that and cannot be raised. */
+HdStatus hd_check_stack(HdError *error);
 
 #endif

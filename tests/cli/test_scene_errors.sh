@@ -229,4 +229,15 @@ done
 
 rm bad.json
 expect_files . floor.data good.json
+# ---- nothing is told of what is in a file that is no scene
+echo 'root:secret:0:0' >secrets
+expect_refusal 2 "$hedron" check secrets
+expect_stderr_contains 'secrets is no scene: neither has it the ending .json nor does it begin with {'
+if grep -q -e root -e secret: "$logs/stderr"; then
+    fail 'words of the file are told'
+fi
+mv secrets secrets.json
+expect_refusal 2 "$hedron" check secrets.json
+expect_stderr_contains "near 'root'"
+
 finish

@@ -14,10 +14,13 @@ static HdStatus fail(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult c
                    nvrtc->functions.error_string(code));
 }
 
+/* A compiler that claims more lies. */
+enum { MOST_LOG_BYTES = 1 << 26 };
+
 /* Returns the log, "" if there is none, or NULL when out of memory. */
 static char *copy_log(const HdNvrtc *nvrtc, HdNvrtcProgram program) {
     size_t size = 0;
-    if (nvrtc->functions.log_size(program, &size) != 0)
+    if (nvrtc->functions.log_size(program, &size) != 0 || size > MOST_LOG_BYTES)
         size = 0;
     char *log = calloc(size + 1, 1);
     if (log && size > 0)

@@ -197,7 +197,8 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     size_t size = 0;
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
-        CL_SUCCESS)
+            CL_SUCCESS &&
+        size <= HD_OPENCL_MOST_TEXT)
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);

@@ -50,7 +50,8 @@ static cl_int query_bytes(Entry of, cl_uint what, size_t size, void *value, size
 static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
-    if (query_bytes(of, what, 0, NULL, &size) != CL_SUCCESS || size == 0)
+    if (query_bytes(of, what, 0, NULL, &size) != CL_SUCCESS || size == 0 ||
+        size > HD_OPENCL_MOST_TEXT)
         return;
     char *whole = calloc(size + 1, 1);
     if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS)

@@ -99,7 +99,7 @@ static void files_are_private_from_the_first_instant(void **state) {
     const mode_t before = umask(0);
     assert_int_equal(hd_atomic_file_open_private(&file, "cache/b", &error), HD_OK);
     umask(before);
-    assert_int_equal(fstat(file.lock, &found), 0);
+    assert_int_equal(fstat(fileno(file.stream), &found), 0);
     assert_int_equal(found.st_mode & 0777, 0600);
     hd_atomic_file_discard(&file);
 }

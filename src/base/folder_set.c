@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "system/folder_set.h"
+#include "base/folder_set.h"
 
 #include <string.h>
 

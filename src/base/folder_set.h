@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The folders that files of a run went to, by their names. */
-#ifndef HD_SYSTEM_FOLDER_SET_H
-#define HD_SYSTEM_FOLDER_SET_H
+#ifndef HD_BASE_FOLDER_SET_H
+#define HD_BASE_FOLDER_SET_H
 
 #include <stdbool.h>
 #include <stddef.h>
