@@ -43,7 +43,9 @@ struct HdPngWriter {
 };
 
 static void on_error(png_structp png, png_const_charp message) {
-    snprintf(png_get_error_ptr(png), MESSAGE_SIZE, "%s", message);
+    /* We write few texts: libpng says so of any that it has no memory for. */
+    const bool lacks_memory = strcmp(message, "too many text chunks") == 0;
+    snprintf(png_get_error_ptr(png), MESSAGE_SIZE, "%s", lacks_memory ? "out of memory" : message);
     png_longjmp(png, 1);
 }
 

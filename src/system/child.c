@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,7 +142,7 @@ static int wait_for_failed(pid_t pid, int reason) {
 }
 
 /* Returns 0 or what went wrong, as errno would. */
-static int spawn(pid_t *pid, const char *const arguments[], int input, int output) {
+static int spawn_here(pid_t *pid, const char *const arguments[], int input, int output) {
     const pid_t parent = getpid();
     int report[2], reason = 0;
     sigset_t all, before;
@@ -164,6 +165,71 @@ static int spawn(pid_t *pid, const char *const arguments[], int input, int outpu
     else
         *pid = 0;
     return reason;
+}
+
+/* ---- a child dies with the thread that started it: one thread, which never ends, starts all ----
+ */
+
+typedef struct Order {
+    pid_t *pid;
+    const char *const *arguments;
+    int input, output;
+    int reason; /* negative: not carried out yet */
+} Order;
+
+static struct {
+    pthread_mutex_t mutex;
+    pthread_cond_t changed;
+    bool has_thread;
+    Order *order; /* NULL: none */
+} launcher = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+
+static void *launch(void *unused) {
+    (void)unused;
+    pthread_mutex_lock(&launcher.mutex);
+    for (;;) {
+        Order *order = launcher.order;
+        if (order == NULL) {
+            pthread_cond_wait(&launcher.changed, &launcher.mutex);
+            continue;
+        }
+        order->reason = spawn_here(order->pid, order->arguments, order->input, order->output);
+        launcher.order = NULL;
+        pthread_cond_broadcast(&launcher.changed);
+    }
+    return NULL;
+}
+
+/* Signals are for other threads. */
+static bool start_launcher(void) {
+    pthread_t thread;
+    sigset_t all, before;
+    if (launcher.has_thread)
+        return true;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    launcher.has_thread = pthread_create(&thread, NULL, launch, NULL) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (launcher.has_thread)
+        pthread_detach(thread);
+    return launcher.has_thread;
+}
+
+/* As spawn_here. */
+static int spawn(pid_t *pid, const char *const arguments[], int input, int output) {
+    Order order = {pid, arguments, input, output, -1};
+    pthread_mutex_lock(&launcher.mutex);
+    if (!start_launcher())
+        order.reason = EAGAIN;
+    while (order.reason < 0 && launcher.order != NULL)
+        pthread_cond_wait(&launcher.changed, &launcher.mutex);
+    if (order.reason < 0)
+        launcher.order = &order;
+    pthread_cond_broadcast(&launcher.changed);
+    while (order.reason < 0)
+        pthread_cond_wait(&launcher.changed, &launcher.mutex);
+    pthread_mutex_unlock(&launcher.mutex);
+    return order.reason;
 }
 
 static void remember(HdChild *child, const char *text, size_t length) {

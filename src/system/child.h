@@ -47,10 +47,9 @@ typedef struct HdChild {
 /* Looks for a program in PATH. HD_UNAVAILABLE where there is none. */
 HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error);
 
-/* Starts the program arguments[0] without a shell. It is killed when the thread that calls this
-   ends, however that comes about, where the system can do so (Linux); so the thread must outlive
-   it. `file` is what it writes, NULL: nothing; it must
-   live as long as the child. HD_UNAVAILABLE where there is no such program, HD_BAD_INPUT where
+/* Starts the program arguments[0] without a shell. It is killed when this program ends, however
+   that comes about, where the system can do so (Linux). `file` is what it writes, NULL: nothing; it
+   must live as long as the child. HD_UNAVAILABLE where there is no such program, HD_BAD_INPUT where
    HEDRON_FFMPEG_PATIENCE is no number of seconds. */
 HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
                         const char *file, HdError *error);

@@ -316,6 +316,7 @@ done
 expect_files .
 # ---- few descriptors: fewer frames are under way
 for descriptors in 8 9 12 16 24; do
+    # shellcheck disable=SC2016 # for the inner shell
     expect_exit 0 bash -c 'ulimit -n "$1"; shift; exec "$@"' few "$descriptors" \
         "$hedron" render --quiet --backend c "${small[@]}" --frames 0-30 -o '%d.png'
     if (($(find . -name '*.png' | wc -l) != 31)); then
@@ -323,6 +324,7 @@ for descriptors in 8 9 12 16 24; do
     fi
     rm -f ./*.png
 done
+# shellcheck disable=SC2016 # for the inner shell
 expect_exit 1 bash -c 'ulimit -n 5; exec "$@"' few "$hedron" render --quiet --backend c "${small[@]}" --frames 0-3 -o '%d.png'
 expect_stderr_contains 'Too many open files'
 rm -f ./*.png
@@ -330,9 +332,12 @@ rm -f ./*.png
 # ---- small stacks: threads have their own size, and the first one's is checked
 if ! is_sanitized; then
     deep=("$hedron" render --quiet --backend c --size 32x24 --samples 1 --depth 1000 --frames 0 -o '%d.png')
+    # shellcheck disable=SC2016 # for the inner shell
     expect_exit 0 bash -c 'ulimit -s 1024; exec "$@"' small "${deep[@]}"
+    # shellcheck disable=SC2016
     expect_exit 0 bash -c 'ulimit -S -s 256; exec "$@"' small "${deep[@]}"
     if ((EUID != 0)) || ! (ulimit -H -s 256 && ulimit -H -s 512) 2>"$logs/ulimit"; then
+        # shellcheck disable=SC2016
         expect_exit 1 bash -c 'ulimit -s 256; exec "$@"' small "${deep[@]}"
         expect_stderr_contains 'the stack may have 256 KiB (ulimit -s), expected at least 1024 KiB'
     fi
