@@ -105,6 +105,33 @@ static void those_that_are_being_written_stay(void **state) {
     assert_int_equal(count_entries("c"), 1);
 }
 
+/* Left by a process of this number that was killed, or of another machine. */
+static void a_name_that_is_taken_is_left_alone(void **state) {
+    (void)state;
+    char taken[64];
+    HdAtomicFile file;
+    assert_int_equal(mkdir("e", 0777), 0);
+    snprintf(taken, sizeof taken, "e/0.png.tmp-%ld-0", (long)getpid());
+    write_bytes(taken, "theirs", 6);
+    assert_int_equal(hd_atomic_file_open(&file, "e/0.png", &error), HD_OK);
+    assert_string_not_equal(file.temporary, taken);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
+    struct stat found;
+    assert_int_equal(stat(taken, &found), 0);
+    assert_int_equal(found.st_size, 6);
+    assert_int_equal(count_entries("e"), 2);
+}
+
+static void a_name_that_cannot_be_given_leaves_nothing(void **state) {
+    (void)state;
+    HdAtomicFile file;
+    assert_int_equal(hd_atomic_file_open(&file, "f/0.png", &error), HD_OK);
+    assert_int_equal(mkdir("f/0.png", 0777), 0);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_FAILED);
+    expect_contains(error.message, "f/0.png");
+    assert_int_equal(count_entries("f"), 1);
+}
+
 static void folders_of_such_names_stay(void **state) {
     (void)state;
     assert_int_equal(mkdir("d", 0777), 0);
@@ -120,6 +147,8 @@ int main(void) {
         cmocka_unit_test(numbered_folders_are_looked_through),
         cmocka_unit_test(long_names_are_known_by_their_begin),
         cmocka_unit_test(those_that_are_being_written_stay),
+        cmocka_unit_test(a_name_that_is_taken_is_left_alone),
+        cmocka_unit_test(a_name_that_cannot_be_given_leaves_nothing),
         cmocka_unit_test(folders_of_such_names_stay),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
