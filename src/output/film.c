@@ -1,7 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 #include "output/film.h"
 
+#include <pthread.h>
 #include <stdlib.h>
+
+/* A segment that got its last frame: FFmpeg ends, its frames are counted, it is synced and named.
+ */
+typedef struct Ending {
+    pthread_t thread;
+    bool has_thread;
+    HdVideo *video; /* NULL: nothing is ending */
+    HdDurability durability;
+    int index;
+    HdStatus status;
+    HdError error;
+} Ending;
 
 struct HdFilm {
     HdSegments *segments;
@@ -9,6 +22,7 @@ struct HdFilm {
     HdOutputStyle style;
     HdDurability durability;
     HdVideo *video; /* NULL: none is being made */
+    Ending ending;
 };
 
 static const HdFormat *format_of_film(const HdFilm *film) {
@@ -30,17 +44,26 @@ static HdStatus open_video(HdFilm *film, int index, HdError *error) {
     return status;
 }
 
+/* The first segment from `index` on that is not whole; negative: there is none. */
+static int next_missing(const HdSegments *segments, int index) {
+    while (index < segments->count && hd_segments_have(segments, hd_segment_begin(segments, index)))
+        index++;
+    return index < segments->count ? index : -1;
+}
+
 HdStatus hd_film_open(HdFilm **out, HdSegments *segments, int width, int height,
                       const HdOutputStyle *style, HdDurability durability, HdError *error) {
     HdFilm *film = calloc(1, sizeof *film);
-    int index = 0;
+    const int first = next_missing(segments, 0);
     if (film == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to make the film %s",
                        segments->film);
-    *film = (HdFilm){segments, width, height, *style, durability, NULL};
-    while (index < segments->count && hd_segments_have(segments, hd_segment_begin(segments, index)))
-        index++;
-    HdStatus status = index < segments->count ? open_video(film, index, error) : HD_OK;
+    *film = (HdFilm){.segments = segments,
+                     .width = width,
+                     .height = height,
+                     .style = *style,
+                     .durability = durability};
+    const HdStatus status = first >= 0 ? open_video(film, first, error) : HD_OK;
     if (status == HD_OK)
         *out = film;
     else
@@ -48,13 +71,40 @@ HdStatus hd_film_open(HdFilm **out, HdSegments *segments, int width, int height,
     return status;
 }
 
-/* Where it is a segment's: a film has more to come, or is closed with the others. */
+static void *end_video(void *data) {
+    Ending *ending = data;
+    ending->status = hd_video_close(ending->video, ending->durability, &ending->error);
+    return NULL;
+}
+
+/* Waits for the segment that is ending, if one is. */
+static HdStatus wait_for_segment(HdFilm *film, HdError *error) {
+    Ending *ending = &film->ending;
+    if (ending->video == NULL)
+        return HD_OK;
+    if (ending->has_thread)
+        pthread_join(ending->thread, NULL);
+    ending->video = NULL;
+    if (ending->status != HD_OK)
+        *error = ending->error;
+    else
+        film->segments->is_whole[ending->index] = true;
+    return ending->status;
+}
+
+/* The next one begins meanwhile, for this takes longer than many a frame. Where the system refuses
+   a thread it waits. */
 static HdStatus end_segment(HdFilm *film, int index, HdError *error) {
-    HdVideo *video = film->video;
+    Ending *ending = &film->ending;
+    const HdStatus status = wait_for_segment(film, error);
+    if (status != HD_OK)
+        return status;
+    *ending = (Ending){.video = film->video, .durability = film->durability, .index = index};
     film->video = NULL;
-    const HdStatus status = hd_video_close(video, film->durability, error);
-    film->segments->is_whole[index] = status == HD_OK;
-    return status;
+    ending->has_thread = pthread_create(&ending->thread, NULL, end_video, ending) == 0;
+    if (!ending->has_thread)
+        end_video(ending);
+    return HD_OK;
 }
 
 HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *error) {
@@ -66,6 +116,8 @@ HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *erro
         status = hd_video_add(film->video, frame, error);
     if (status == HD_OK && item == last && segments->count > 1)
         status = end_segment(film, index, error);
+    if (status == HD_OK && film->video == NULL && next_missing(segments, index + 1) < 0)
+        status = wait_for_segment(film, error);
     return status;
 }
 
@@ -83,7 +135,9 @@ static HdStatus join(HdFilm *film, HdError *error) {
 }
 
 HdStatus hd_film_close(HdFilm *film, HdError *error) {
-    HdStatus status = film->segments->count > 1 ? join(film, error) : HD_OK;
+    HdStatus status = wait_for_segment(film, error);
+    if (status == HD_OK && film->segments->count > 1)
+        status = join(film, error);
     if (status == HD_OK) {
         status = hd_video_close(film->video, film->durability, error);
         film->video = NULL;
@@ -95,6 +149,8 @@ HdStatus hd_film_close(HdFilm *film, HdError *error) {
 }
 
 void hd_film_abort(HdFilm *film) {
+    HdError ignored;
+    wait_for_segment(film, &ignored);
     if (film->video != NULL)
         hd_video_abort(film->video);
     free(film);

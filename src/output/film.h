@@ -15,15 +15,16 @@ HdStatus hd_film_open(HdFilm **film, HdSegments *segments, int width, int height
                       const HdOutputStyle *style, HdDurability durability, HdError *error);
 
 /* Takes the frame at that place of the list, in their order; not one of a segment that was whole
-   when the film was opened. Blocks while FFmpeg is busy, and after the last frame of a segment
-   until that has its name. */
+   when the film was opened. Blocks while FFmpeg is busy, while the segment before
+   this one is still being ended, and after the last frame until all of them have their names. By
+   one thread, which lives that long: FFmpeg ends with the thread that started it. */
 HdStatus hd_film_add(HdFilm *film, int item, const HdFrame *frame, HdError *error);
 
 /* Ends the film, which gets its name, and removes the segments. Frees `film` in every case; on
    failure only whole segments are left. */
 HdStatus hd_film_close(HdFilm *film, HdError *error);
 
-/* Stops FFmpeg, leaves whole segments, frees `film`. */
+/* Stops FFmpeg, leaves whole segments, which `segments` knows then, frees `film`. */
 void hd_film_abort(HdFilm *film);
 
 #endif

@@ -359,11 +359,17 @@ static void free_places(HdFrameStore *store) {
     free(store->places);
 }
 
-/* Drops the films; pictures stay. */
-static void destroy(HdFrameStore *store) {
-    for (int i = 0; i < HD_MAX_OUTPUTS; i++)
+static void drop_films(HdFrameStore *store) {
+    for (int i = 0; i < HD_MAX_OUTPUTS; i++) {
         if (store->films[i].film != NULL)
             hd_film_abort(store->films[i].film);
+        store->films[i].film = NULL;
+    }
+}
+
+/* Drops the films; pictures stay. */
+static void destroy(HdFrameStore *store) {
+    drop_films(store);
     free(store);
 }
 
@@ -465,8 +471,10 @@ HdStatus hd_frame_store_end(HdFrameStore *store, HdStatus traced, HdError *error
         *error = own;
     else
         status = traced;
-    if (status == HD_INTERRUPTED)
+    if (status == HD_INTERRUPTED) {
+        drop_films(store);
         tell_interrupted(store, error);
+    }
     if (status == HD_OK)
         status = close_films(store, error);
     destroy(store);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Films that survive: a run that was ended goes on behind the last whole segment, and the film has the
 # bytes of an undisturbed run. A third argument says how often a run is killed at a random instant.
+# shellcheck disable=SC2317 # wait_until calls functions by their names
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -15,13 +16,17 @@ bash_path=$(command -v bash)
 frames=80 # 30 a second: three segments
 film=("$hedron" render --backend c --size 64x48 --samples 1 --depth 2 --frames "0-$((frames - 1))")
 
-# signal NAME: from now on the FFmpeg of the third segment sends it to hedron first. One whose hedron is
+# signal NAME: from now on the FFmpeg of the third segment sends it to hedron first, once the second one
+# is whole. One whose hedron is
 # killed does not begin: it might make its file at any time.
 signal() {
     mkdir -p "$work/tools"
     cat >"$work/tools/ffmpeg" <<SCRIPT
 #!$bash_path
 if [[ \$* == *.part-0002* ]]; then
+    until compgen -G '*.part-0001-????????????????' >/dev/null; do
+        sleep 0.01
+    done
     kill -$1 \$PPID
     [[ $1 != KILL ]] || exit 1
 fi
@@ -101,7 +106,7 @@ rm -r ./*
 
 # ---- segments of another film are not taken, and go once there is a new one; --again takes none
 expect_exit 143 "${with_signal[@]}" "${film[@]}" -o film.mkv
-for change in '--depth 3' '--set output.frames_per_second=29' '--again'; do
+for change in '--depth 3' '--set output.frames_per_second=15' '--again'; do
     # shellcheck disable=SC2086 # several words
     expect_exit 143 "${with_signal[@]}" "${film[@]}" $change -o film.mkv
     if grep -q 'finished already' "$logs/stderr"; then
@@ -118,6 +123,25 @@ expect_exit 143 "${with_signal[@]}" "${film[@]}" -o film.mkv
 : >"$(find . -name 'film.mkv.part-0001-*')"
 expect_exit 0 "${film[@]}" -o film.mkv
 expect_stderr_contains 'hedron: 30 of 80 frames were finished already'
+expect_same film.mkv "$work/undisturbed.mkv"
+rm film.mkv
+
+
+# ---- where they cannot be joined they stay; then only the first one is missing
+cat >"$work/tools/ffmpeg" <<SCRIPT
+#!$bash_path
+if [[ \$* == *concat* ]]; then
+    exit 1
+fi
+exec "$true_ffmpeg" "\$@"
+SCRIPT
+expect_exit 1 "${with_signal[@]}" "${film[@]}" -o film.mkv
+expect_stderr_contains 'film.mkv'
+expect_segments film.mkv 3
+rm film.mkv.part-0000-*
+expect_exit 0 "${film[@]}" -o film.mkv
+expect_stderr_contains 'hedron: 50 of 80 frames were finished already'
+expect_files . film.mkv
 expect_same film.mkv "$work/undisturbed.mkv"
 rm film.mkv
 
