@@ -3,14 +3,19 @@
 #include "system/machine.h"
 
 #include <fcntl.h>
+#include <glob.h>
 #include <limits.h>
 #include <sched.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <sys/mman.h>
+
+#include "system/path.h"
 
 enum { CACHE_LINE = 64, LARGE_PAGE = 2 << 20 };
 
@@ -56,4 +61,34 @@ void *hd_large_allocate(size_t bytes) {
         (void)madvise(memory, rounded, MADV_HUGEPAGE);
 #endif
     return memory;
+}
+
+/* ---- displays ---- */
+
+static bool is_set(const char *variable) {
+    const char *value = getenv(variable);
+    return value != NULL && value[0] != '\0';
+}
+
+static bool is_connected(const char *path) {
+    char text[16] = "";
+    FILE *file = fopen(path, "r");
+    if (file == NULL)
+        return false;
+    bool is_read = fgets(text, sizeof text, file) != NULL;
+    fclose(file);
+    return is_read && strcmp(text, "connected\n") == 0;
+}
+
+bool hd_display_may_be_there(const char *folder) {
+    char pattern[HD_MAX_PATH];
+    glob_t paths;
+    bool is_there = is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+    snprintf(pattern, sizeof pattern, "%s/card*-*/status", folder);
+    if (!is_there && glob(pattern, 0, NULL, &paths) == 0) {
+        for (size_t i = 0; i < paths.gl_pathc && !is_there; i++)
+            is_there = is_connected(paths.gl_pathv[i]);
+        globfree(&paths);
+    }
+    return is_there;
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What the machine has: time, processors, memory. */
+/* What the machine has: time, processors, memory, displays. */
 #ifndef HD_SYSTEM_MACHINE_H
 #define HD_SYSTEM_MACHINE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Seconds on a clock that only goes forward. */
@@ -21,5 +22,13 @@ int hd_free_descriptors(void);
    there is much of it the system is asked for large pages, because the first touch of each small
    one takes longer than filling it. NULL where there is none left. */
 void *hd_large_allocate(size_t bytes);
+
+/* Where Linux tells of graphics cards and what is plugged into them. */
+#define HD_DISPLAY_FOLDER "/sys/class/drm"
+
+/* True where this session has a desktop (DISPLAY, WAYLAND_DISPLAY), or where a display is plugged
+   in, as a file "status" of one of the connectors below `folder` tells. Which GPU draws it is not
+   asked. */
+bool hd_display_may_be_there(const char *folder);
 
 #endif

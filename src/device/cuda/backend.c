@@ -7,7 +7,7 @@
 #include "device/cuda/compile.h"
 #include "device/cuda/ptx.h"
 #include "device/gpu/renderer.h"
-#include "system/display.h"
+#include "system/machine.h"
 
 enum { BLOCK_THREADS = 128 };
 

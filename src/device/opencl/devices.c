@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "system/display.h"
+#include "system/machine.h"
 
 enum { MAX_PLATFORMS = 32 };
 

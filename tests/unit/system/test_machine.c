@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
-#include "system/display.h"
+#include "system/machine.h"
 
 #include "test_folder.h"
 
