@@ -101,6 +101,16 @@ row = gpu_model.table(points, model, 640e9, {**gpu_model.GTX_1050, "lane_rate": 
 print(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), row["low"] < row["target"] < row["high"])
 PYTHON
 expect_python $'8 True True\n10.0 True' "$(cat model.py)"
+# The official example is told beside the report's 1.10 s, in words.
+for expected in '4.0 1.4 11.6 slower there than the report.s program, over the whole range' \
+    '2.0 0.9 3.0 likely slower' '1.0 0.5 3.0 likely faster' '0.5 0.2 1.0 faster there than the report.s program, over the whole range'; do
+    read -r usual low high words <<<"$expected"
+    expect_python True 'import re' 'from harness.measurements.predict import beside_report' \
+        "said = beside_report({'target': $usual, 'low': $low, 'high': $high})" \
+        "print(bool(re.search(r'^official: the report.s program took 1100 ms on its GTX 1050; .* times that, .* to .*: hedron is $words', said)))"
+done
+expect_python '3.6 times that, 1.3 to 11' 'from harness.measurements.predict import beside_report' \
+    "print(beside_report({'target': 4.0, 'low': 1.4, 'high': 11.6}).split('says ')[1].split(':')[0])"
 # A coefficient that would be negative is none.
 expect_python '[1.0, 0.0]' 'from harness.measurements.predict import non_negative_fit' \
     'print([round(c, 6) for c in non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])])'

@@ -15,8 +15,10 @@ from statistics import median
 from harness.command.options import Command
 from harness.measure.jobs import counted_frames
 from harness.measure.numbers import number, rays
+from harness.measure.plan import OFFICIAL
 from harness.page import tables
 from harness.run.program import Problem
+from harness.measurements.official import GPU, REPORT
 from harness.measurements.speed import MODEL_OPTIONS
 from harness.store.result import read
 
@@ -118,6 +120,19 @@ def cells(row):
     return [row["scene"], "fitted" if row["error"] is None else "checked", *ms[:2], error, ms[2], f"{ms[3]}..{ms[4]}"]
 
 
+def beside_report(row):
+    """A sentence: the model's time of the official example, and its range, beside what the report's program took."""
+    report = REPORT[GPU] / 1e3
+    usual, low, high = [number(row[key] / report, 2) for key in ("target", "low", "high")]
+    slower = row["low"] > report, row["target"] > report, row["high"] > report
+    verdict = {(True, True, True): "hedron is slower there than the report's program, over the whole range",
+               (False, True, True): "hedron is likely slower there than the report's program; the range has both",
+               (False, False, True): "hedron is likely faster there than the report's program; the range has both",
+               (False, False, False): "hedron is faster there than the report's program, over the whole range"}[slower]
+    return (f"{OFFICIAL}: the report's program took {number(1e3 * report, 3)} ms on its {GTX_1050['name']}; the model says {usual} times that, "
+            f"{low} to {high}: {verdict}")
+
+
 class Predict(Command):
     name = "predict"
     about = "Predict the frame times of a GTX 1050 from those of another GPU."
@@ -134,10 +149,11 @@ class Predict(Command):
         name = next(each["name"] for each in result["devices"] if each["label"] == device)
         errors = [abs(math.exp(error) - 1) for error in model["errors"].values()]
         factors = [f"{coefficient:.3g} {term}" for coefficient, term in zip(model["coefficients"], TERMS)]
+        rows = table(points, model, lane_rate, GTX_1050)
         print(f"From {device}, {name}: seconds = {' + '.join(factors)}",
               f"{len(points) - len(errors)} scenes fitted; error of the {len(errors)} others: median "
               f"{100 * median(errors):.0f} %, greatest {100 * max(errors):.0f} %", "",
-              *tables.lines([HEAD, *map(cells, table(points, model, lane_rate, GTX_1050))]), sep="\n")
+              *tables.lines([HEAD, *map(cells, rows)]), *(beside_report(row) for row in rows if row["scene"] == OFFICIAL), sep="\n")
         return 0
 
 
