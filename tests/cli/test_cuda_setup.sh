@@ -99,6 +99,18 @@ cp "$hedron" "$work/build/release/hedron"
 program=$work/build/release/hedron
 expect_found_in "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 
+# ---- of 2 GB of memory 700 MB are enough for 3840 x 2160 and both pipelines; less is told
+large=(FAKE_CUDA_MEMORY=2000000000 FAKE_CUDA_SKIPS=1 HEDRON_NVRTC="$nvrtc" "$hedron" render --size 3840x2160 --samples 1
+    --frames 0-1 --backend cuda --math fast --quiet -o large/%d.data)
+for pipeline in mega wavefront; do
+    expect_exit 0 env FAKE_CUDA_FREE=700000000 "${large[@]}" --pipeline $pipeline
+    expect_silent_stderr
+    rm -r large
+done
+expect_refusal 1 env FAKE_CUDA_FREE=100000000 "${large[@]}"
+expect_stderr_contains 'the pixels need 99.5 MB; Fake device 0 has 91.5 MB free of its 2.00 GB (cuMemAlloc: CUDA_ERROR_OUT_OF_MEMORY)'
+rm -rf large
+
 # ---- without any NVRTC: what the program brings, where it is strict and not too much is asked
 export HEDRON_NVRTC=off
 strict=(--size 32x24 --samples 1 --depth 2 --frames 0)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Memory of the device, which is the host's at addresses that the host cannot read, and memory of
    the host for copies. Both are full of POISON at first and lie between guards. FAKE_CUDA_MEMORY is
-   how many bytes the device tells that it has. No more than FAKE_CUDA_LARGEST are given at once. */
+   how many bytes the device tells that it has. No more than FAKE_CUDA_LARGEST are given at once,
+   and FAKE_CUDA_FREE in all, as where a desktop has the rest. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,12 +96,20 @@ static HdCuResult give_back(Memory **link) {
                 : fake_misuse(HD_CU_ERROR_ILLEGAL_ADDRESS, "something was written beside memory");
 }
 
+static double device_bytes(void) {
+    double bytes = 0.0;
+    for (const Memory *memory = all; memory != NULL; memory = memory->next)
+        bytes += memory->address != 0 ? (double)memory->bytes : 0.0;
+    return bytes;
+}
+
 HdCuResult cuMemAlloc_v2(HdCuPointer *pointer, size_t bytes) {
     static HdCuPointer next_address = first_address;
     FAKE_CALL(cuMemAlloc);
     if (bytes == 0)
         return fake_misuse(FAKE_INVALID_VALUE, "no bytes of memory are asked for");
-    bool is_too_much = (double)bytes > fake_number("FAKE_CUDA_LARGEST", 1e18);
+    bool is_too_much = (double)bytes > fake_number("FAKE_CUDA_LARGEST", 1e18) ||
+                       device_bytes() + (double)bytes > fake_number("FAKE_CUDA_FREE", 1e18);
     Memory *memory = is_too_much ? NULL : take(bytes);
     if (memory == NULL)
         return HD_CU_ERROR_OUT_OF_MEMORY;
@@ -138,6 +147,9 @@ HdCuResult cuMemFreeHost(void *data) {
 
 HdCuResult cuMemGetInfo_v2(size_t *available, size_t *total) {
     FAKE_CALL(cuMemGetInfo);
-    *available = *total = (size_t)fake_number("FAKE_CUDA_MEMORY", default_memory);
+    double all_bytes = fake_number("FAKE_CUDA_MEMORY", default_memory);
+    double left = fake_number("FAKE_CUDA_FREE", 1e18) - device_bytes();
+    *total = (size_t)all_bytes;
+    *available = (size_t)(left < all_bytes ? left : all_bytes);
     return HD_CU_SUCCESS;
 }
