@@ -74,7 +74,7 @@ fi
 rm -rf stays
 if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
     for name in film.mkv film.mp4; do
-        remove_folder "gone/$name.tmp-*" -o "gone/$name"
+        remove_folder "gone/$name.*tmp-*" -o "gone/$name"
         expect_files .
     done
 fi
