@@ -98,7 +98,14 @@ fake_study() {
 # ---- figures: the first frame warms up, CPUs' smaller pictures count so many times, the machine's name
 tools=$PATH fake_study 0 '' --quick --out one --machine 'Made & up' --parts lights,lanes,threads,blocks,official
 expect_value one/study.json '[r["hedron_bench"], r["bench"], r["complete"], r["quick"], r["repeats"], r["machine"]["name"], r["failures"], r["interference_limit"]]' \
-    '[1, "study", true, true, 2, "Made & up", [], 1.0]'
+    '[1, "study", false, true, 2, "Made & up", [], 1.0]'
+# It is complete with every part only, and tells which are missing.
+expect_value one/study.json '[r["missing"]["samples"], {"lights", "lanes", "threads", "blocks", "official"}.isdisjoint(r["missing"]), len(r["missing"]) > 5]' \
+    '["it was not asked for", true, true]'
+grep -q 'nothing was measured of .*samples' one/report.html || fail "the page does not say what is missing"
+if grep -q unfinished one/report.html; then
+    fail "the page calls a study unfinished that did all that was asked for"
+fi
 # Frames 1 and 2 of the CPUs: 11 and 12, and 16 times that; of the GPU 2 and 3.
 expect_value one/study.json '[ms("lights", "", 10, "c:0"), ms("lights", "", 100, "c:0"), ms("lights", "", 10, "opencl:0"), ms("lights", "", 10, "cuda:0")]' \
     '[184.0, 264.0, 344.0, 2.5]'
@@ -150,7 +157,7 @@ if (($(wc -l <"$FAKE_LOG") != runs)); then
 fi
 fake_study 0 '' --quick --out one --parts threads,arithmetic
 expect_value one/study.json '[r["complete"], r["parts"], len(m["arithmetic", "", 3, "cuda:0"]["runs"])]' \
-    '[true, ["official", "blocks", "lights", "lanes", "threads", "arithmetic"], 2]'
+    '[false, ["official", "blocks", "lights", "lanes", "threads", "arithmetic"], 2]'
 if (($(grep -c -e --precision "$FAKE_LOG") != $(wc -l <"$FAKE_LOG") - runs)); then
     fail "more was measured than the part that was added"
 fi
@@ -188,7 +195,7 @@ pairs = list(zip(old["measurements"], new["measurements"]))
 print(all(one["runs"] == other["runs"][:len(one["runs"])] for one, other in pairs), old["date"] == new["date"], new["complete"],
       {len(other["runs"]) for _, other in pairs})
 PYTHON
-expect_python 'True True True {2}' "$(cat kept.py)"
+expect_python 'True True False {2}' "$(cat kept.py)"
 cp killed/report.html killed.html
 fake_study 0 '' --report --out killed
 expect_same killed.html killed/report.html
@@ -394,6 +401,6 @@ True True True" "$(sed "s|PATH|'$hedron'|" accuracy.py)"
 expect_exit 0 "${no_nvidia[@]}" timeout 800 "$bench" --hedron "$hedron" --out real --results none --device c --quick --repeats 1 \
     --parts threads,stages
 expect_value real/study.json '[r["complete"], r["failures"], all(e["summary"]["trace_ms"]["median"] > 0 for e in r["measurements"]), m["threads", "", 1, "c:0"]["renderer"].count(", 1 thread")]' \
-    '[true, [], true, 1]'
+    '[false, [], true, 1]'
 expect_page real/report.html
 finish

@@ -113,7 +113,7 @@ class Study(Bench):
                 self.measure_part(name)
             self.result["done"].append(name)
             self.save()
-        return set(self.result["parts"]) <= set(self.result["done"])
+        return not results.is_unfinished(self.result)
 
     def measure_part(self, name):
         try:
@@ -140,7 +140,8 @@ class Study(Bench):
         """Everything that follows from what was saved: the page, the charts, the table; the exit code."""
         result, out = self.result, self.arguments.out
         jobs.summarize(result["measurements"])
-        result.update(pictures=compare(result), failures=failures(result))
+        missing = results.missing_parts(result, PARTS)
+        result.update(pictures=compare(result), failures=failures(result), missing=missing, complete=not missing)
         self.save()
         found = [result, *others(self.arguments.results, result)]
         drawn = sections(PARTS, found)
@@ -153,12 +154,12 @@ class Study(Bench):
         results.write_text(out / "report.html", html.page(found, drawn, [*wrong, *failed], told, out))
         results.write_text(out / "study.csv", html.csv_text(found))
         print(*summary_lines(result), "", *problems, *failed, *wrong, *told, sep="\n")
-        if not result["complete"]:
+        if results.is_unfinished(result):
             print("Interrupted: the same call goes on where it stopped.")
         print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")
         if result["pictures"]["same"] is False or result["failures"]:
             return 1
-        return 0 if result["complete"] else 130
+        return 130 if results.is_unfinished(result) else 0
 
 
 def compare(result):

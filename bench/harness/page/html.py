@@ -5,6 +5,8 @@ import html
 import io
 import re
 
+from harness.store.result import is_unfinished
+
 STYLE = """body{font:16px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em;color:#222}
 h1,h2{line-height:1.2}h2{margin-top:2.2em;border-top:1px solid #ccc;padding-top:.8em}
 figure{margin:1em 0}svg{width:100%;height:auto;display:block}
@@ -49,7 +51,7 @@ def machine_rows(results):
                             + (f" (not: {device['reason']})" if device["reason"] else "") for device in result["devices"])
         yield [place["name"], place["cpu"], place["cores"], place["system"], devices, result["date"],
                f"{result['hedron']['version']} ({result['hedron']['sha256'][:12]})",
-               ("quick" if result["quick"] else "full") + ("" if result["complete"] else ", unfinished"),
+               ("quick" if result["quick"] else "full") + (", unfinished" if is_unfinished(result) else ""),
                f"{place['load_before'][0]}, {place['load_after'][0] if place['load_after'] else 'not yet'}"]
 
 
@@ -69,13 +71,15 @@ def noise_words(result):
 
 def head(results, failures, pictures):
     words = ["<h1>hedron: a study of speed</h1>", *(f"<p class=\"bad\">{text(each)}</p>" for each in failures)]
-    if any(not result["complete"] for result in results):
+    if any(map(is_unfinished, results)):
         words.append("<p class=\"bad\">A study here is unfinished: bench/study goes on where it stopped.</p>")
     if any(result["quick"] for result in results):
         words.append("<p>Quick studies have few repeats and small pictures; they are rough.</p>")
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
-    told = [*changed, *map(noise_words, results), *pictures]
+    absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(result['missing'])}." for result in results
+              if result.get("missing")]
+    told = [*changed, *map(noise_words, results), *absent, *pictures]
     words += [table(machine_rows(results)), "<ul>", *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul>"]
     return words
 

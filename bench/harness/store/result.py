@@ -73,6 +73,19 @@ def read_study(file):
     return result
 
 
+def is_unfinished(result):
+    """Whether a part that was asked for has not come to its end."""
+    return not set(result["parts"]) <= set(result["done"])
+
+
+def missing_parts(result, parts):
+    """{part: why there is nothing of it}"""
+    reasons = {**dict.fromkeys(set(parts) - set(result["parts"]), "it was not asked for"),
+               **dict.fromkeys(set(result["parts"]) - set(result["done"]), "it was interrupted"),
+               **result["left_out"], **result["failed"]}
+    return {part: reasons[part] for part in parts if part in reasons}
+
+
 def question(result):
     """That which the measurements answer: one goes on from another whose question is the same."""
     return [result["bench"], result["quick"], result["machine"]["cpu"], *(result["hedron"][key] for key in SAME_OF_HEDRON),
