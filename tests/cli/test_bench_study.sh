@@ -40,6 +40,23 @@ devices)
         {"name": "c", "available": true, "reason": null, "devices": [%s]}]}\n' \
         "$(device cuda 'sm_90' false)" "$(device opencl 'none' true)" "$(device c 'none' true)"
     ;;
+selftest)
+    echo "$*" >>"$FAKE_LOG"
+    test='{"name": "arithmetic", "verdict": "%s", "reason": %s, "tuples": 8192, "division_by_fma": %s, "hash": "1", "seconds": 1}'
+    one='{"hedron": "9.8.7", "backend": "%s", "index": 0, "name": "Made up", "driver": "none", "compiler": null, "verdict": "%s",
+        "tests": [%s], "time": "then", "seconds": 1.25, "hash": "abcd"}'
+    # shellcheck disable=SC2059 # they are templates
+    printf '{"certificates": [%s, %s]}\n' "$(printf "$one" c right "$(printf "$test" right null true)")" \
+        "$(printf "$one" opencl wrong "$(printf "$test" wrong '"fma of 1 & 2 is 3"' false)")"
+    exit 1
+    ;;
+tune)
+    echo "$*" >>"$FAKE_LOG"
+    printf '{"candidates": [%s, %s, %s]}\n' \
+        '{"pipeline": "mega", "lanes": null, "block": null, "registers": null, "ms": 8, "ratio": 1, "failure": null}' \
+        '{"pipeline": "mega", "lanes": 4, "block": null, "registers": null, "ms": null, "ratio": null, "failure": "no room"}' \
+        '{"pipeline": "wavefront", "lanes": 16, "block": null, "registers": null, "ms": 6, "ratio": 0.75, "failure": null}'
+    ;;
 render)
     shift
     words="$*"
@@ -286,7 +303,7 @@ expect_study_refusal() {
 }
 fake=(--hedron fake/hedron --out refused)
 expect_study_refusal 2 'unrecognized arguments: --wrong' "${fake[@]}" --wrong
-expect_study_refusal 2 'a part that is none of official' "${fake[@]}" --parts lights,wrong
+expect_study_refusal 2 'a part that is none of certificates' "${fake[@]}" --parts lights,wrong
 expect_study_refusal 2 "invalid number from 1 on value: '0'" "${fake[@]}" --repeats 0
 expect_study_refusal 2 'from 0 to 100' "${fake[@]}" --others 101
 expect_study_refusal 2 '--size=1x1 cannot stand after --' "${fake[@]}" -- --size=1x1
@@ -396,6 +413,20 @@ PYTHON
 expect_python "4 True True [2, 2, 2, 2] []
 0 True True
 True True True" "$(sed "s|PATH|'$hedron'|" accuracy.py)"
+
+# ---- what devices compute, and what suits them; once is enough
+rm "$FAKE_LOG"
+fake_study 0 '' --quick --out told --parts certificates,tuning
+fake_study 0 '' --quick --out told --parts certificates,tuning
+expect_stdout_contains 'told/report.html'
+grep -q ': 1 of 2 devices compute rightly' told/report.html || fail "the page does not say how many devices are right"
+grep -q 'fma of 1 &amp; 2 is 3' told/report.html || fail "the page does not tell the first difference"
+grep -q 'opencl:0: the fastest is wavefront, 16 lanes, in 0.750 times' told/report.html || fail "the page does not tell what is the fastest"
+expect_value told/study.json '[[c["verdict"] for c in r["certificates"]], sorted(r["tuning"])]' \
+    '[["right", "wrong"], ["c:0", "cuda:0", "opencl:0"]]'
+if [[ $(grep -c '^tune' "$FAKE_LOG") != 3 || $(grep '^selftest' "$FAKE_LOG" | sort -u) != 'selftest --json --quick' ]]; then
+    fail "the program was asked: $(cat "$FAKE_LOG")"
+fi
 
 # ---- the program itself
 expect_exit 0 "${no_nvidia[@]}" timeout 800 "$bench" --hedron "$hedron" --out real --results none --device c --quick --repeats 1 \
