@@ -180,7 +180,7 @@ typedef struct Order {
 static struct {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
-    bool has_thread;
+    bool has_thread, knows_forks;
     Order *order; /* NULL: none */
 } launcher = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
 
@@ -200,12 +200,23 @@ static void *launch(void *unused) {
     return NULL;
 }
 
+/* In a copy of this program, which has none of its threads and may find the lock held. */
+static void forget_launcher(void) {
+    launcher.mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
+    launcher.changed = (pthread_cond_t)PTHREAD_COND_INITIALIZER;
+    launcher.has_thread = false;
+    launcher.order = NULL;
+}
+
 /* Signals are for other threads. */
 static bool start_launcher(void) {
     pthread_t thread;
     sigset_t all, before;
     if (launcher.has_thread)
         return true;
+    if (!launcher.knows_forks && pthread_atfork(NULL, NULL, forget_launcher) != 0)
+        return false;
+    launcher.knows_forks = true;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     launcher.has_thread = pthread_create(&thread, NULL, launch, NULL) == 0;
