@@ -30,6 +30,8 @@ static uint64_t mix(uint64_t number) {
     return number ^ (number >> 31);
 }
 
+/* Once in an expression: in which order C calls functions there is the compiler's choice, and the
+   operands are the same everywhere. */
 static uint64_t draw(uint64_t *seed) {
     *seed = mix(*seed);
     return *seed;
@@ -150,13 +152,13 @@ static void fill_sum(Tuple *tuple, uint64_t seed) {
         break;
     }
     case 2: { /* b is nearly half of a's last place */
-        tuple->b = (R(1.0) + (real)draw_between(&seed, -1, 1) * last) *
-                   scaled(R(1.0), -DIGITS + draw_between(&seed, -1, 1));
-        tuple->c = scaled(draw_unit(&seed), draw_between(&seed, -DIGITS - 3, 3));
+        real nearly_one = R(1.0) + (real)draw_between(&seed, -1, 1) * last;
+        tuple->b = scaled(nearly_one, -DIGITS + draw_between(&seed, -1, 1));
+        tuple->c = draw_of_size(&seed, -DIGITS - 3, 3);
         break;
     }
     default:
-        tuple->c = scaled(draw_unit(&seed), draw_between(&seed, -2 * DIGITS - 3, DIGITS + 3));
+        tuple->c = draw_of_size(&seed, -2 * DIGITS - 3, DIGITS + 3);
         break;
     }
     tuple->a = scaled(tuple->a, size);
@@ -246,13 +248,13 @@ static void fill_root(Tuple *tuple, uint64_t seed) {
         tuple->a = root * root;
         break;
     case 1:
-        tuple->a = scaled(R(1.0) + (real)draw_digits(&seed) * scaled(R(1.0), 1 - DIGITS),
-                          draw_between(&seed, LEAST_EXPONENT - DIGITS, MOST_EXPONENT));
+        tuple->a = draw_of_size(&seed, LEAST_EXPONENT - DIGITS, MOST_EXPONENT);
+        tuple->a = tuple->a < R(0.0) ? -tuple->a : tuple->a;
         break;
     default:
-        tuple->a =
-            scaled(close_square(&seed), 2 * draw_between(&seed, LEAST_EXPONENT / 2 - DIGITS / 2,
-                                                         MOST_EXPONENT / 2 - DIGITS));
+        tuple->a = close_square(&seed);
+        tuple->a = scaled(tuple->a, 2 * draw_between(&seed, LEAST_EXPONENT / 2 - DIGITS / 2,
+                                                     MOST_EXPONENT / 2 - DIGITS));
         break;
     }
     tuple->b = draw_of_size(&seed, -3, 3);
@@ -289,7 +291,8 @@ static void fill_small(Tuple *tuple, uint64_t seed) {
 /* a is near a whole number, a half or the end of what is converted. */
 static void fill_whole(Tuple *tuple, uint64_t seed) {
     const real last = scaled(R(1.0), 1 - DIGITS);
-    real whole = (real)(draw(&seed) >> draw_between(&seed, 1, 62));
+    uint64_t any = draw(&seed);
+    real whole = (real)(any >> draw_between(&seed, 1, 62));
     real half = (real)draw_between(&seed, -2, 2) * R(0.5);
     tuple->a = (whole + half) * (R(1.0) + (real)draw_between(&seed, -1, 1) * last);
     if (draw(&seed) & 1)
