@@ -28,7 +28,8 @@ static const char *shown(const char *token, char out[44]) {
 static void fail_token(HdTokenReader *reader, const char *what, const char *token,
                        const char *expected) {
     char value[44];
-    refuse(reader, what, "is '%s', expected %s", shown(token, value), expected);
+    refuse(reader, what, "is '%s', expected %s", reader->hides_tokens ? "..." : shown(token, value),
+           expected);
 }
 
 static void skip_space(HdTokenReader *reader) {

@@ -5,6 +5,7 @@
 #ifndef HD_BASE_TOKENS_H
 #define HD_BASE_TOKENS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/error.h"
@@ -14,9 +15,10 @@ enum { HD_MAX_TOKEN = 4096 }; /* bytes of a token, with the zero byte */
 typedef struct HdTokenReader {
     const char *text; /* need not end in a zero byte */
     size_t size, position;
-    int line;         /* of the token read last; starts at 1 */
-    const char *name; /* of the text, for messages */
-    char where[32];   /* put before the names of values: "solid 2: ", or nothing */
+    int line;          /* of the token read last; starts at 1 */
+    const char *name;  /* of the text, for messages */
+    bool hides_tokens; /* from messages: the text is somebody else's */
+    char where[32];    /* put before the names of values: "solid 2: ", or nothing */
     HdError *error;
     HdStatus status;
 } HdTokenReader;

@@ -18,6 +18,9 @@
 /* Far above what a picture needs, far below what would hurt. */
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
 
+/* Of a file besides twice what its pixels take: far more than texts and profiles have. */
+enum { MAX_BESIDES = 16 * 1024 * 1024 };
+
 enum { MESSAGE_SIZE = 256, SIGNATURE_SIZE = 8 };
 
 /* libpng reports an error by a jump. Everything that must outlive it lives here, not in local
@@ -26,6 +29,7 @@ struct HdPngReader {
     png_structp png;
     png_infop info;
     HdPngSource source; /* of memory the part not read yet */
+    size_t allowed;     /* to be read still */
     const char *name;
     HdPngFacts facts;
     int passes; /* over the same rows */
@@ -62,7 +66,11 @@ bool hd_image_is_png(const unsigned char *bytes, size_t size) {
 /* Reading */
 
 static void read_bytes(png_structp png, png_bytep out, size_t count) {
-    HdPngSource *source = png_get_io_ptr(png);
+    HdPngReader *reader = png_get_io_ptr(png);
+    HdPngSource *source = &reader->source;
+    if (count > reader->allowed)
+        png_error(png, "the file has far more bytes than its pixels need");
+    reader->allowed -= count;
     if (source->file != NULL ? fread(out, 1, count, source->file) != count : count > source->size)
         png_error(png, "the file ends too early");
     if (source->file != NULL)
@@ -93,7 +101,7 @@ static bool try_head(HdPngReader *reader) {
     png_infop info = reader->info;
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
-    png_set_read_fn(png, &reader->source, read_bytes);
+    png_set_read_fn(png, reader, read_bytes);
     limit_reading(png);
     png_read_info(png, info);
     reader->facts.is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
@@ -107,6 +115,7 @@ static bool try_head(HdPngReader *reader) {
     if (png_get_rowbytes(png, info) * 8 !=
         (size_t)reader->facts.width * 3 * (size_t)reader->facts.bits)
         png_error(png, "unexpected size of a row");
+    reader->allowed += 2 * png_get_rowbytes(png, info) * (size_t)reader->facts.height;
     return true;
 }
 
@@ -120,7 +129,8 @@ HdStatus hd_png_open(HdPngReader **out, const HdPngSource *source, const char *n
     HdPngReader *reader = malloc(sizeof *reader);
     if (reader == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
-    *reader = (HdPngReader){.source = *source, .name = name, .message = "out of memory"};
+    *reader = (HdPngReader){
+        .source = *source, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)

@@ -31,8 +31,9 @@ typedef struct HdPngSource {
 typedef struct HdPngReader HdPngReader;
 
 /* Reads the head. `name` is for messages, and has to live as long as the reader. Chunks without
-   measure are refused, and all but those of pixels and sRGB are passed over. What is wrong with the
-   file is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
+   measure are refused, and all but those of pixels and sRGB are passed over. A file of more than 16
+   MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file is
+   HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
 HdStatus hd_png_open(HdPngReader **reader, const HdPngSource *source, const char *name,
                      HdPngFacts *facts, HdError *error);
 

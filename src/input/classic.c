@@ -221,6 +221,18 @@ static bool is_json(const char *text, size_t size) {
     return start < size && text[start] == '{';
 }
 
+static size_t white_space(const char *text, size_t size) {
+    size_t start = 0;
+    while (start < size && text[start] != '\0' && strchr(" \t\n\v\f\r", text[start]) != NULL)
+        start++;
+    return start;
+}
+
+bool hd_classic_may_be(const char *text, size_t size) {
+    const size_t start = white_space(text, size);
+    return start < size && text[start] != '\0' && strchr("0123456789+-.", text[start]) != NULL;
+}
+
 HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, const char *name,
                           int variant, HdError *error) {
     *input = (HdSceneFile){.output.style = {.picture = {.curve = HD_CURVE_LINEAR, .bits = 8},
@@ -237,6 +249,7 @@ HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, con
                        "%s: this looks like a scene file, which 'hedron render FILE' renders",
                        name);
     HdTokenReader reader = {.text = text, .size = size, .line = 1, .name = name, .error = error};
+    reader.hides_tokens = !hd_classic_may_be(text, size);
     read_input(&reader, kinds, input);
     if (reader.status != HD_OK)
         hd_scene_file_free(input);

@@ -13,6 +13,7 @@
 #ifndef HD_INPUT_CLASSIC_H
 #define HD_INPUT_CLASSIC_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -28,6 +29,9 @@ enum {
 
 /* The kinds of the three solids of a variant; NULL where there is no such variant. */
 const HdSolidKind *hd_classic_variant_kinds(int variant);
+
+/* Whether the text begins with a number, as every classic input does and no scene. */
+bool hd_classic_may_be(const char *text, size_t size);
 
 /* Reads `size` bytes of text, which need not end in a zero byte, and fills in what the classic
    input does not say (materials, rims, the light of the edges, linear curves). Messages call the

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "input/builtin.h"
 #include "input/changes.h"
+#include "input/classic.h"
 #include "input/json/text.h"
 #include "input/meshes.h"
 #include "input/notes.h"
@@ -29,14 +30,6 @@ static HdStatus fail_syntax(const json_error_t *found, const char *text_read, si
     const char *hint = is_inside ? hd_json_hint(text_read, (size_t)found->position) : NULL;
     return hd_fail(error, HD_BAD_INPUT, "%s:%d:%d: %s%s%s", name, found->line, found->column, text,
                    hint != NULL ? "; " : "", hint != NULL ? hint : "");
-}
-
-/* No scene begins with a number, and every classic input does. */
-static bool is_classic(const char *text, size_t size) {
-    size_t start = 0;
-    while (start < size && strchr(" \t\r\n", text[start]) != NULL)
-        start++;
-    return start < size && text[start] >= '0' && text[start] <= '9';
 }
 
 static bool is_mesh(const char *name) {
@@ -71,7 +64,7 @@ static HdStatus check_text(const char *text, size_t size, const char *name, HdEr
     if (zero != NULL)
         return hd_json_fail_at(text, (size_t)(zero - text), name,
                                "there is a zero byte, expected JSON text", error);
-    if (is_classic(text, size))
+    if (hd_classic_may_be(text, size))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s: this looks like a classic input, which 'hedron convert FILE -o "
                        "scene.json' makes a scene of",

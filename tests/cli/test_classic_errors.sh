@@ -66,7 +66,11 @@ for word in word nan -inf 0x1p3 1,5 1e999; do
         # The other words need not take every place.
         if [[ $word == word || $((i % 9)) == 0 ]]; then
             replaced "$i" "$word"
-            refuse "$word"
+            if [[ $i == 1 && $word == [wn]* ]]; then
+                refuse "'...'" # so no classic input begins, and other files are not quoted
+            else
+                refuse "$word"
+            fi
         fi
     done
 done

@@ -74,6 +74,21 @@ else
     expect_exit 0 "${opencl[@]}" "${render[@]}"
     rm -rf ./*
 
+    # A driver whose words would command the terminal, and one that claims what it has not.
+    expect_exit 0 "${opencl[@]}" FAILING_OPENCL_NAME=$'A\e[2J\a card\x9b' "$hedron" devices
+    expect_silent_stderr
+    expect_stdout_contains 'A\u001b[2J\u0007 card\x9b'
+    if LC_ALL=C grep -q $'[\x01-\x09\x0b-\x1f\x7f-\x9f]' "$logs/stdout"; then
+        fail "control characters of a driver are printed as they are"
+    fi
+    devices=$(grep -c '^  [0-9]' "$logs/stdout")
+    expect_exit 0 "${opencl[@]}" FAILING_OPENCL_NAME='A card' FAILING_OPENCL_LIES=1 "$hedron" devices
+    expect_silent_stderr
+    if [[ $(grep -c '^  [0-9]' "$logs/stdout") != "$devices" ]]; then
+        fail "devices are listed that are not there"
+        show_logs
+    fi
+
     # Memory, at the first buffer and at later ones.
     for at in 1 3 9 20; do
         for error in -4 -5 -6; do

@@ -97,6 +97,15 @@ for signal in INT TERM; do
     rm -r out
 done
 
+# ---- nohup: what whoever started it ignores, it ignores too
+start bash -c 'trap "" HUP; exec "$@"' - "$hedron" render --backend c "${slow[@]}" --frames 0-9 -o 'out/%d.data'
+wait_for 'the first frame' test -e out/0.data
+send HUP "$pid"
+expect_end 0
+expect_silent_stderr
+expect_files out {0..9}.data
+rm -r out
+
 # ---- films
 # fake_ffmpeg BODY: a program that is found in $work/tools instead of FFmpeg.
 fake_ffmpeg() {

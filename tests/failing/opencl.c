@@ -4,7 +4,9 @@
    how many of them fail, else all from there, and FAILING_OPENCL_CODE what they fail with.
    FAILING_OPENCL_HANGS, if it is there, is a file that is made before the call then waits for ever.
    FAILING_OPENCL_TEXT is what a compiler of it takes for something else, FAILING_OPENCL_FOR: all of
-   it in the text of a program. */
+   it in the text of a program. FAILING_OPENCL_NAME is what each device says is its name, and with
+   FAILING_OPENCL_LIES a driver claims a hundred devices more than it has, and texts of all the
+   memory that there is, which it then writes to. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -14,6 +16,7 @@
 #include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -80,10 +83,41 @@ typedef void(CL_CALLBACK *OnProgram)(cl_program, void *);
 
 CODED(clGetPlatformIDs, (cl_uint capacity, cl_platform_id *list, cl_uint *count),
       (capacity, list, count))
-CODED(clGetDeviceIDs,
-      (cl_platform_id platform, cl_device_type type, cl_uint capacity, cl_device_id *list,
-       cl_uint *count),
-      (platform, type, capacity, list, count))
+
+cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint capacity,
+                      cl_device_id *list, cl_uint *count) {
+    cl_int (*real)(cl_platform_id, cl_device_type, cl_uint, cl_device_id *, cl_uint *);
+    void *found = dlsym(RTLD_NEXT, "clGetDeviceIDs");
+    cl_int failure = failure_of("clGetDeviceIDs");
+    memcpy(&real, &found, sizeof real);
+    cl_int code = failure != CL_SUCCESS ? failure : real(platform, type, capacity, list, count);
+    if (code == CL_SUCCESS && count != NULL && getenv("FAILING_OPENCL_LIES") != NULL)
+        *count += 100;
+    return code;
+}
+
+/* Answers with a text, as the function below. */
+static cl_int answer(const char *text, size_t room, void *value, size_t *size) {
+    const bool lies = getenv("FAILING_OPENCL_LIES") != NULL;
+    if (value != NULL && lies && room > strlen(text) + 1)
+        memset(value, 'x', room);
+    else if (value != NULL)
+        memcpy(value, text, strlen(text) + 1);
+    if (size != NULL)
+        *size = lies ? SIZE_MAX : strlen(text) + 1;
+    return CL_SUCCESS;
+}
+
+cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t room, void *value,
+                       size_t *size) {
+    cl_int (*real)(cl_device_id, cl_device_info, size_t, void *, size_t *);
+    void *found = dlsym(RTLD_NEXT, "clGetDeviceInfo");
+    const char *name = getenv("FAILING_OPENCL_NAME");
+    memcpy(&real, &found, sizeof real);
+    return name != NULL && what == CL_DEVICE_NAME ? answer(name, room, value, size)
+                                                  : real(device, what, room, value, size);
+}
+
 MADE(cl_context, clCreateContext,
      (const cl_context_properties *properties, cl_uint count, const cl_device_id *devices,
       OnContext notify, void *user, cl_int *code),

@@ -198,7 +198,7 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
             CL_SUCCESS &&
-        size <= HD_OPENCL_MOST_TEXT)
+        size <= HD_OPENCL_MOST_BYTES)
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
@@ -257,7 +257,7 @@ static unsigned char *read_binary(const void *state, size_t *size) {
     *size = 0;
     if (clGetProgramInfo(device->program, CL_PROGRAM_BINARY_SIZES, sizeof *size, size, NULL) !=
             CL_SUCCESS ||
-        *size == 0)
+        *size == 0 || *size > HD_OPENCL_MOST_BYTES)
         return NULL;
     unsigned char *binaries[1] = {malloc(*size)};
     if (binaries[0] && clGetProgramInfo(device->program, CL_PROGRAM_BINARIES, sizeof binaries,

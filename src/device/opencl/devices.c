@@ -51,7 +51,7 @@ static void query_text(Entry of, cl_uint what, char *text, size_t capacity) {
     text[0] = '\0';
     size_t size = 0;
     if (query_bytes(of, what, 0, NULL, &size) != CL_SUCCESS || size == 0 ||
-        size > HD_OPENCL_MOST_TEXT)
+        size > HD_OPENCL_MOST_BYTES)
         return;
     char *whole = calloc(size + 1, 1);
     if (whole && query_bytes(of, what, size, whole, NULL) == CL_SUCCESS)
@@ -152,15 +152,17 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
         CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
     cl_int last_code = CL_DEVICE_NOT_FOUND;
     for (cl_uint p = 0; p < platform_count && *count < capacity; p++) {
-        cl_device_id devices[HD_MAX_DEVICES];
+        cl_device_id devices[HD_MAX_DEVICES] = {NULL};
         cl_uint found = 0;
         cl_int code = clGetDeviceIDs(platforms[p], types, HD_MAX_DEVICES, devices, &found);
         if (code != CL_SUCCESS) {
             last_code = code;
             continue;
         }
+        /* Of a driver that claims more than it lists, those that it lists. */
         for (cl_uint d = 0; d < found && d < HD_MAX_DEVICES && *count < capacity; d++)
-            entries[(*count)++] = (Entry){platforms[p], devices[d]};
+            if (devices[d] != NULL)
+                entries[(*count)++] = (Entry){platforms[p], devices[d]};
     }
     if (*count > 0)
         return HD_OK;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesh/mesh.h"
+#include "system/path.h"
 
 enum {
     MOST_DIGITS = 9, /* of a number of an element; ten might leave the range of int32_t */
@@ -24,6 +25,18 @@ static const char *const harmless[] = {"o",   "g",     "s",        "usemap",  "m
 
 #define fail_line(text, ...) hd_obj_fail_at(&(text)->lines, (text)->lines.line_number, __VA_ARGS__)
 
+/* The words of a file that neither by its name nor by what it has said is an OBJ are nobody's
+   business. */
+static HdSpan quoted(const HdObjText *text, HdSpan word) {
+    static const char hidden[] = "...";
+    if (text->elements[HD_OBJ_VERTEX].count > 0 || hd_path_has_ending(text->lines.path, ".obj"))
+        return word;
+    return (HdSpan){hidden, hidden + strlen(hidden)};
+}
+
+/* For "%.*s". */
+#define shown(text, word) hd_span_shown(quoted(text, word)), quoted(text, word).begin
+
 static bool is_statement_end(HdSpan word) {
     return word.begin == word.end || *word.begin == '#';
 }
@@ -38,7 +51,7 @@ static bool keep_numbers(HdObjText *text, HdObjKind kind, HdSpan line) {
         const char *fault = hd_number_fault(word, &numbers[i]);
         if (fault != NULL)
             return fail_line(text, "number %d of a %s is '%.*s', expected %s", i + 1, kinds[kind],
-                             hd_span_shown(word), word.begin, fault);
+                             shown(text, word), fault);
         numbers[i] = (double)(float)numbers[i];
     }
     HdObjElements *elements = &text->elements[kind];
@@ -82,8 +95,7 @@ static bool keep_index(HdObjText *text, HdObjKind kind, int64_t number, HdSpan w
     return fail_line(text,
                      "corner '%.*s' of a face names %s %lld, expected 1 and up, or -1 to "
                      "-%zu counted back from here",
-                     hd_span_shown(word), word.begin, kinds[kind], (long long)number,
-                     elements->count);
+                     shown(text, word), kinds[kind], (long long)number, elements->count);
 }
 
 /* "v", "v/t", "v//n" or "v/t/n". */
@@ -107,7 +119,7 @@ static bool read_corner(HdObjText *text, HdSpan word, HdObjCorner *corner) {
         text,
         "corner '%.*s' of a face, expected numbers of a vertex, texture coordinate and "
         "normal as 1, 1/2, 1//3 or 1/2/3",
-        hd_span_shown(word), word.begin);
+        shown(text, word));
 }
 
 static bool keep_corner(HdObjText *text, HdSpan word) {
@@ -194,7 +206,7 @@ static bool leave_out(HdObjText *text, HdSpan word) {
     if (!text->has_left_out)
         hd_problem(text->notes,
                    "%s: line %zu: statements such as '%.*s' are not used, only faces (f) are",
-                   text->lines.path, text->lines.line_number, hd_span_shown(word), word.begin);
+                   text->lines.path, text->lines.line_number, shown(text, word));
     text->has_left_out = true;
     return true;
 }

@@ -859,12 +859,32 @@ static void hostile_files_do_no_harm(void **state) {
     assert_in_range(read, count / 10, count * 9 / 10);
 }
 
+/* Of those that are OBJ files neither by their names nor by what they say first. */
+static void words_of_other_files_are_not_told(void **state) {
+    (void)state;
+    HdMesh mesh;
+    write_text("secret", "root:x:0 hidden\nf password\n");
+    assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
+    expect_contains(error.message, "corner '...' of a face");
+    write_text("secret", "root:x:0 hidden\n");
+    assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
+    assert_int_equal(notes.count, 1);
+    expect_contains(notes.text, "statements such as '...'");
+    write_text("secret", "v password\n");
+    assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
+    expect_contains(error.message, "number 1 of a vertex is '...'");
+    write_text("secret", "v 0 0 0\nf 1 1 x\n");
+    assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
+    expect_contains(error.message, "corner 'x' of a face");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_of_a_face_is_read),
         cmocka_unit_test(lines_come_in_many_forms),
         cmocka_unit_test(long_lines_and_comments_pass),
         cmocka_unit_test(files_that_cannot_be_read_are_told_apart),
+        cmocka_unit_test(words_of_other_files_are_not_told),
         cmocka_unit_test(wrong_numbers_are_told),
         cmocka_unit_test(the_largest_numbers_are_read),
         cmocka_unit_test(wrong_faces_are_told),

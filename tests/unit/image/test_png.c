@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* Of PNG files that go on and on no more is read than pixels may need. */
+#define _XOPEN_SOURCE 700
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <zlib.h>
+
+#include "expect.h"
+#include "image/png.h"
+
+enum { CHUNK = 1 << 20, MANY = 64 };
+
+static HdError error;
+
+static void put_number(FILE *file, unsigned long number) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        putc((int)(number >> shift & 0xff), file);
+}
+
+static void put_chunk(FILE *file, const char *type, const unsigned char *bytes, unsigned size) {
+    unsigned long sum = crc32(crc32(0, NULL, 0), (const unsigned char *)type, 4);
+    put_number(file, size);
+    fwrite(type, 1, 4, file);
+    fwrite(bytes, 1, size, file);
+    put_number(file, size > 0 ? crc32(sum, bytes, size) : sum);
+}
+
+/* A white pixel, and so many chunks of a MiB after it or, by `before`, before it. */
+static FILE *make_file(int surplus, bool before) {
+    static const unsigned char head[13] = {0, 0, 0, 1, 0, 0, 0, 1, 8, 2, 0, 0, 0};
+    static const unsigned char row[4] = {0, 255, 255, 255};
+    unsigned char packed[64], *zeros = calloc(CHUNK, 1);
+    unsigned long size = sizeof packed;
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    assert_non_null(zeros);
+    assert_int_equal(compress(packed, &size, row, sizeof row), Z_OK);
+    fwrite("\x89PNG\r\n\x1a\n", 1, 8, file);
+    put_chunk(file, "IHDR", head, sizeof head);
+    for (int i = 0; i < surplus && before; i++)
+        put_chunk(file, "teSt", zeros, CHUNK);
+    put_chunk(file, "IDAT", packed, (unsigned)size);
+    for (int i = 0; i < surplus && !before; i++)
+        put_chunk(file, "IDAT", zeros, CHUNK);
+    put_chunk(file, "IEND", NULL, 0);
+    rewind(file);
+    free(zeros);
+    return file;
+}
+
+static HdStatus read_pixel(FILE *file, uint16_t codes[3]) {
+    const HdPngSource source = {.file = file};
+    HdPngReader *reader;
+    HdPngFacts facts;
+    HdStatus status = hd_png_open(&reader, &source, "a.png", &facts, &error);
+    if (status != HD_OK)
+        return status;
+    status = hd_png_read_rows(reader, codes, 1, &error);
+    hd_png_close(reader);
+    return status;
+}
+
+static void expect_not_read_on(bool before) {
+    uint16_t codes[3];
+    FILE *file = make_file(MANY, before);
+    assert_int_equal(read_pixel(file, codes), HD_BAD_INPUT);
+    assert_string_equal(
+        error.message,
+        "cannot read a.png as PNG: the file has far more bytes than its pixels need");
+    assert_true(ftell(file) < 18L * CHUNK);
+    fclose(file);
+}
+
+static void a_file_without_end_is_not_read_to_it(void **state) {
+    (void)state;
+    expect_not_read_on(false);
+    expect_not_read_on(true);
+}
+
+static void some_megabytes_besides_the_pixels_do(void **state) {
+    (void)state;
+    uint16_t codes[3] = {0};
+    FILE *file = make_file(8, true);
+    assert_int_equal(read_pixel(file, codes), HD_OK);
+    assert_int_equal(codes[0], 65535);
+    assert_int_equal(codes[2], 65535);
+    fclose(file);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_without_end_is_not_read_to_it),
+        cmocka_unit_test(some_megabytes_besides_the_pixels_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
