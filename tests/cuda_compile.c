@@ -61,6 +61,8 @@ static bool parse(Options *options, int argc, char **argv) {
             options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
             options->shape.needs.depth_bound = hd_kernel_bound(atoi(argv[++i]));
+        else if (strcmp(argv[i], "--defines") == 0)
+            options->shape.defines = argv[++i];
         else if (strcmp(argv[i], "--cubin") == 0)
             options->cubin = argv[++i];
         else
@@ -152,7 +154,7 @@ int main(int argc, char **argv) {
         fprintf(stderr,
                 "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
                 "[--wavefront] [--block N] [--registers N] [--planes N] [--depth N] [--log] "
-                "[--cubin FILE]\n");
+                "[--defines ' -DX=1 ...'] [--cubin FILE]\n");
         return USAGE;
     }
     HdNvrtc nvrtc;

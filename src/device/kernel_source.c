@@ -33,6 +33,8 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         length += snprintf(text + length, HD_KERNEL_DEFINES_SIZE - (size_t)length, " -D%s=%d",
                            list[i].name, list[i].value);
+    if (shape->defines != NULL)
+        snprintf(text + length, HD_KERNEL_DEFINES_SIZE - (size_t)length, "%s", shape->defines);
 }
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {

@@ -38,7 +38,8 @@ typedef struct HdKernelShape {
     bool is_probe;      /* the kernel of the probe (probe.h) and no others */
     bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
                            not correctly rounded */
-    bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
+    const char *defines; /* switches for measurements, as " -DHD_SUM_BY_TREE=1"; NULL: none */
+    bool is_cautious;    /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where

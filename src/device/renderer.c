@@ -130,7 +130,7 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
     HdKernelCache *kernels = kernels_of(renderer);
     HdStatus status = HD_OK;
     bool is_wrong;
-    if (kernels == NULL || !kernels->is_untested)
+    if (kernels == NULL || !kernels->is_untested || renderer->options.test.is_for_one_scene)
         return HD_OK;
     if (renderer->options.math == HD_MATH_STRICT) {
         status =

@@ -127,6 +127,11 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     return HD_OK;
 }
 
+void hd_refinement_split(HdRefinement *r, HdRenderer *for_few, int few) {
+    r->surveyor.for_few = for_few;
+    r->surveyor.few = few;
+}
+
 /* ---- what is known of a pixel ---- */
 
 static double error_aimed_at(const HdRefinement *r) {

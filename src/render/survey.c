@@ -109,7 +109,9 @@ static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, 
     if (status != HD_OK)
         return status;
     surveyor->frame.height = tables.height;
-    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
+    bool are_few = surveyor->for_few != NULL && (int64_t)count * samples <= surveyor->few;
+    status = hd_renderer_render(are_few ? surveyor->for_few : surveyor->renderer, &tables,
+                                &surveyor->frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }

@@ -45,6 +45,8 @@ typedef struct HdSurveyor {
     const HdScene *scene; /* uploaded; surveyed */
     HdPrecision precision;
     HdRenderer *renderer; /* no frame is under way */
+    HdRenderer *for_few;  /* of parts with no more than `few` samples; NULL: the same */
+    int few;
     const HdSampleSet *samples;
     HdErrorBudget budget;
     double most_left_out;  /* hd_most_left_out of the scene */

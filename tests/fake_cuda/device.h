@@ -6,6 +6,7 @@
 
 #define __device__
 #define __global__
+#define __constant__
 #define __forceinline__  inline
 #define __align__(bytes) __attribute__((aligned(bytes)))
 #define __shared__       static __attribute__((section("fake_shared_memory"), aligned(16)))

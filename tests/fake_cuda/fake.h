@@ -64,6 +64,10 @@ void fake_forget(FakeKind kind, void *handle);
 
 /* Where the host has the device's memory; NULL where it is not all in one that lives. */
 void *fake_memory(HdCuPointer pointer, size_t bytes);
+/* Variables of a module, which are memory of the device too while the module lives. False: there is
+   no room for more. */
+bool fake_add_global(const void *module, void *data, size_t bytes);
+void fake_drop_globals(const void *module);
 bool fake_is_pinned(const void *data, size_t bytes);
 
 /* Whether nobody wrote before or behind any memory. */

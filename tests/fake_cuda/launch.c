@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <elf.h>
 #include <fcntl.h>
+#include <link.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,6 +133,7 @@ HdCuResult cuModuleUnload(HdCuModule module) {
         return fake_misuse(FAKE_INVALID_HANDLE, "a module is unloaded that is not there");
     if (!fake_is_idle())
         fake_misuse(HD_CU_SUCCESS, "something was freed that may be in use");
+    fake_drop_globals(module);
     dlclose(module->library);
     fake_forget(FAKE_MODULE, module);
     return HD_CU_SUCCESS;
@@ -155,6 +157,21 @@ HdCuResult cuModuleGetFunction(HdCuFunction *function, HdCuModule module, const 
     (*function)->kernel = kernel;
     snprintf((*function)->name, sizeof(*function)->name, "%s", name);
     return HD_CU_SUCCESS;
+}
+
+HdCuResult cuModuleGetGlobal_v2(HdCuPointer *pointer, size_t *bytes, HdCuModule module,
+                                const char *name) {
+    FAKE_CALL(cuModuleGetGlobal_v2);
+    Dl_info info;
+    void *symbol = NULL;
+    if (!fake_lives(FAKE_MODULE, module))
+        return fake_misuse(FAKE_INVALID_HANDLE, "a module is used that is not there");
+    void *at = dlsym(module->library, name);
+    if (at == NULL || dladdr1(at, &info, &symbol, RTLD_DL_SYMENT) == 0 || symbol == NULL)
+        return FAKE_NOT_FOUND;
+    *bytes = ((const ElfW(Sym) *)symbol)->st_size;
+    *pointer = (HdCuPointer)(uintptr_t)at;
+    return fake_add_global(module, at, *bytes) ? HD_CU_SUCCESS : HD_CU_ERROR_OUT_OF_MEMORY;
 }
 
 static HdCuResult check_function(HdCuFunction function) {

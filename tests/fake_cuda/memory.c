@@ -8,7 +8,7 @@
 
 #include "fake.h"
 
-enum { GUARD = 256, POISON = 0xcd, UNTOUCHED = 0xa5, PAGE = 4096 };
+enum { GUARD = 256, POISON = 0xcd, UNTOUCHED = 0xa5, PAGE = 4096, MOST_GLOBALS = 256 };
 
 static const HdCuPointer first_address = 0xfade000000000000;
 static const double default_memory = 256e6;
@@ -52,11 +52,42 @@ static bool is_within(uintptr_t begin, size_t bytes, uintptr_t from, size_t size
     return begin >= from && begin - from <= size && bytes <= size - (begin - from);
 }
 
+static struct {
+    const void *module; /* NULL: the place is free */
+    unsigned char *data;
+    size_t bytes;
+} globals[MOST_GLOBALS];
+
+bool fake_add_global(const void *module, void *data, size_t bytes) {
+    for (int i = 0; i < MOST_GLOBALS; i++)
+        if (globals[i].module == NULL || globals[i].data == data) {
+            globals[i].module = module;
+            globals[i].data = data;
+            globals[i].bytes = bytes;
+            return true;
+        }
+    return false;
+}
+
+void fake_drop_globals(const void *module) {
+    for (int i = 0; i < MOST_GLOBALS; i++)
+        if (globals[i].module == module)
+            globals[i].module = NULL;
+}
+
+static void *global(HdCuPointer pointer, size_t bytes) {
+    for (int i = 0; i < MOST_GLOBALS; i++)
+        if (globals[i].module != NULL &&
+            is_within(pointer, bytes, (uintptr_t)globals[i].data, globals[i].bytes))
+            return globals[i].data + (pointer - (uintptr_t)globals[i].data);
+    return NULL;
+}
+
 void *fake_memory(HdCuPointer pointer, size_t bytes) {
     for (const Memory *memory = all; memory != NULL; memory = memory->next)
         if (memory->address != 0 && is_within(pointer, bytes, memory->address, memory->bytes))
             return memory->data + (pointer - memory->address);
-    return NULL;
+    return global(pointer, bytes);
 }
 
 bool fake_is_pinned(const void *data, size_t bytes) {

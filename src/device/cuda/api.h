@@ -80,6 +80,8 @@ enum {
        void **values))                                                                             \
     X(cuModuleUnload, , (HdCuModule module))                                                       \
     X(cuModuleGetFunction, , (HdCuFunction * function, HdCuModule module, const char *name))       \
+    X(cuModuleGetGlobal, _v2,                                                                      \
+      (HdCuPointer * pointer, size_t * bytes, HdCuModule module, const char *name))                \
     X(cuFuncGetAttribute, , (int *value, HdCuAttribute attribute, HdCuFunction function))          \
     X(cuMemGetInfo, _v2, (size_t * available, size_t * total))                                     \
     X(cuMemAlloc, _v2, (HdCuPointer * pointer, size_t bytes))                                      \

@@ -282,6 +282,18 @@ static HdStatus query_kernel(const Device *device, HdCuAttribute attribute, int 
                 (value, attribute, device->kernels[HD_KERNEL_TRACE]), error);
 }
 
+static bool find_constant(void *state, const char *name, HdGpuMemory *memory) {
+    const Device *device = state;
+    HdCuPointer pointer = 0;
+    char symbol[64];
+    snprintf(symbol, sizeof symbol, "hedron_constant_%s", name);
+    if (device->driver.cuModuleGetGlobal(&pointer, &memory->bytes, device->module, symbol) !=
+        HD_CU_SUCCESS)
+        return false;
+    memory->handle = (void *)(uintptr_t)pointer; /* NOLINT(performance-no-int-to-ptr) */
+    return true;
+}
+
 static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < HD_KERNEL_COUNT; i++) {
@@ -495,6 +507,7 @@ static const HdGpuDriver driver = {
     .load = load,
     .binary = copy_binary,
     .unload = unload,
+    .constant = find_constant,
     .most_threads = query_most_threads,
     .launch = launch,
     .copy_back = copy_back,

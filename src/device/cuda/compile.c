@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PARTS = 32, MOST_TEXT = 1024 };
+enum { MOST_PARTS = 48, MOST_TEXT = 1024 };
 
 static HdStatus fail(const HdNvrtc *nvrtc, const char *function, HdNvrtcResult code,
                      HdError *error) {

@@ -105,6 +105,9 @@ typedef struct HdGpuDriver {
                      const unsigned char *binary, size_t size, const char *maker, HdError *error);
     unsigned char *(*binary)(const void *gpu, size_t *size); /* as HdKernelReader */
     void (*unload)(void *gpu);                               /* there may be no kernels */
+    /* Finds the room that the kernels have for a table in constant memory; false: none. NULL where
+       they never have. The driver keeps it. */
+    bool (*constant)(void *gpu, const char *table, HdGpuMemory *memory);
     /* The most threads of a group of the tracing kernel. */
     HdStatus (*most_threads)(void *gpu, size_t *threads, HdError *error);
 

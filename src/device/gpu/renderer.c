@@ -63,6 +63,7 @@ static void choose_shape(Renderer *renderer) {
         .precision = options->precision,
         .math = options->math,
         .ptx_arch = options->test.ptx_arch,
+        .defines = options->test.defines,
     };
     if (renderer->device.nvidia_arch > 0)
         shape->register_limit =
@@ -125,6 +126,25 @@ static void gpu_close(void *state) {
 
 /* ---- upload ---- */
 
+/* Writes a table to constant memory too, if the kernels want it there. */
+static HdStatus write_constant(const HdGpu *gpu, const char *name, const void *data, size_t bytes,
+                               HdError *error) {
+    HdGpuMemory memory;
+    HdGpuRefusal refusal;
+    if (gpu->driver->constant == NULL || !gpu->driver->constant(gpu->handle, name, &memory))
+        return HD_OK;
+    if (bytes > memory.bytes)
+        return hd_fail(error, HD_UNAVAILABLE,
+                       "the table %s has %zu bytes, and constant memory room for %zu", name, bytes,
+                       memory.bytes);
+    return bytes > 0 ? gpu->driver->write(gpu->handle, &memory, data, bytes, &refusal, error)
+                     : HD_OK;
+}
+
+#define TABLE_NAME(type, name) #name,
+static const char *const scene_tables[] = {HD_SCENE_TABLES(TABLE_NAME)};
+static const char *const frame_tables[] = {HD_FRAME_TABLES(TABLE_NAME)};
+
 static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < HD_SCENE_TABLE_COUNT; i++) {
@@ -133,6 +153,9 @@ static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdE
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
         status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
                                     what, error);
+        if (status == HD_OK)
+            status =
+                write_constant(&renderer->gpu, scene_tables[i], table->data, table->bytes, error);
     }
     return status;
 }
@@ -443,6 +466,8 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
             memcpy(from, table->data, table->bytes);
         status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[i], from, table->bytes,
                                     "tables of the frame", error);
+        if (status == HD_OK)
+            status = write_constant(&renderer->gpu, frame_tables[i], from, table->bytes, error);
         from += table->bytes;
     }
     return status;

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: MIT */
+/* Measures the switches that are prepared for GPUs, by turns in one process: every switch renders
+   the scene's first frame once a round, and the bytes must be those of the first switch.
+
+       hedron_gpu_switches [--backend NAME] [--device NUMBER] [--double] [--rounds N] [--seconds S]
+                           [--only NAME,...] [--without NAME,...] [--threads N] SCENE [CHANGE...]
+
+   A CHANGE is KEY=VALUE, as after --set. Prints
+
+     scene NAME WIDTH HEIGHT RAYS
+     time SWITCH MEDIAN Q1 Q3 RATIO      ms of tracing; times that of the first switch
+     kernels SWITCH SECONDS DESCRIPTION  until they were there
+     skip SWITCH REASON
+
+   and ends with 0, 1 where bytes differ or something failed, 2 where it is called wrongly, 77 where
+   there is no such device. No round begins after S seconds of rendering (120). */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/renderer.h"
+#include "input/builtin.h"
+#include "input/check.h"
+#include "input/load.h"
+#include "input/meshes.h"
+#include "render/adaptive.h"
+#include "switches.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+#include "system/thread_pool.h"
+
+enum { MOST_ROUNDS = 99, MOST_CHANGES = 32, MOST_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
+
+typedef struct Bench {
+    const HdBackend *backend;
+    int number, rounds, threads;
+    double seconds;
+    const char *only, *without; /* NULL: all, none */
+    HdPrecision precision;
+    HdDevice device;
+    HdSceneFile file;
+    HdSceneTables tables;
+    HdCamera camera;
+    HdFrameTables view;
+    HdFrame frame;
+} Bench;
+
+/* A switch at work. */
+typedef struct Contender {
+    const Switch *is;
+    char defines[256];
+    HdRenderer *renderer, *for_few;
+    HdRefinement *refinement; /* NULL: the scene is not surveyed */
+    HdStatus status;
+    HdError error;
+    double build_seconds, ms[MOST_ROUNDS];
+    int count;
+} Contender;
+
+/* ---- scene ---- */
+
+static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *changes, int count,
+                           HdError *error) {
+    HdSceneFile *file = &bench->file;
+    HdProblems problems = {0};
+    const HdSceneSource source = {.changes = changes, .change_count = count};
+    HdStatus status = hd_scene_file_read(file, path, &source, error);
+    if (status == HD_OK)
+        status = hd_scene_file_load_texture(file, error);
+    if (status == HD_OK)
+        status = hd_scene_file_load_meshes(file, &problems, NULL, error);
+    if (status == HD_OK)
+        status = hd_problems_status(&problems, path, error);
+    if (status == HD_OK)
+        status = hd_scene_validate(&file->scene, error);
+    if (status == HD_OK)
+        status = hd_camera_at(&bench->camera, &file->scene, 0, error);
+    if (status == HD_OK)
+        status = hd_compile_scene(&bench->tables, &file->scene, bench->precision, 1, error);
+    if (status == HD_OK && !hd_scene_is_surveyed(&file->scene))
+        status =
+            hd_compile_frame(&bench->view, &file->scene, &bench->camera, bench->precision, error);
+    if (status == HD_OK)
+        status = hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
+    return status;
+}
+
+/* ---- contenders ---- */
+
+static void write_defines(Contender *contender, const Bench *bench) {
+    /* The integers of the header (kernels/common/scene_tables.h) follow its 15 reals. */
+    enum { REALS = 15, SOLIDS = 0, OBJECTS = 2, PLANES = 3, LIGHTS = 4 };
+    size_t real = bench->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
+    const HdTable *header = &bench->tables.table[0];
+    const int32_t *numbers = (const void *)((const char *)header->data + REALS * real);
+    const Switch *is = contender->is;
+    int length = snprintf(contender->defines, sizeof contender->defines, "%s",
+                          is->defines != NULL ? is->defines : "");
+    if (is->is_exact)
+        snprintf(contender->defines + length, sizeof contender->defines - (size_t)length,
+                 " -DHD_EXACT=1 -DHD_EXACT_SOLIDS=%d -DHD_EXACT_OBJECTS=%d -DHD_EXACT_PLANES=%d "
+                 "-DHD_EXACT_LIGHTS=%d",
+                 numbers[SOLIDS], numbers[OBJECTS], numbers[PLANES], numbers[LIGHTS]);
+}
+
+static HdStatus open_renderer(HdRenderer **renderer, const Contender *contender, const Bench *bench,
+                              HdPipeline pipeline, HdError *error) {
+    const Switch *is = contender->is;
+    const HdRenderOptions options = {
+        .block = is->block,
+        .registers = is->registers,
+        .precision = bench->precision,
+        .pipeline = pipeline,
+        .test = {.queue_bytes = is->queue_bytes,
+                 .defines = contender->defines,
+                 .is_for_one_scene = is->is_exact},
+    };
+    HdStatus status = hd_renderer_open(renderer, &bench->device, &options, error);
+    return status == HD_OK ? hd_renderer_upload(*renderer, &bench->tables, error) : status;
+}
+
+static HdStatus open_contender(Contender *contender, const Bench *bench, HdError *error) {
+    const HdScene *scene = &bench->file.scene;
+    const Switch *is = contender->is;
+    write_defines(contender, bench);
+    HdStatus status = open_renderer(&contender->renderer, contender, bench, is->pipeline, error);
+    if (status == HD_OK && is->few > 0)
+        status = open_renderer(&contender->for_few, contender, bench, HD_PIPELINE_WAVEFRONT, error);
+    if (status == HD_OK && hd_scene_is_surveyed(scene))
+        status = hd_refinement_create(&contender->refinement, scene, contender->renderer,
+                                      bench->precision, HD_CURVE_SRGB, error);
+    if (status == HD_OK && is->few > 0)
+        hd_refinement_split(contender->refinement, contender->for_few, is->few);
+    return status;
+}
+
+static void close_contender(Contender *contender) {
+    hd_refinement_free(contender->refinement);
+    hd_renderer_close(contender->for_few);
+    hd_renderer_close(contender->renderer);
+}
+
+typedef struct Opening {
+    const Bench *bench;
+    Contender *contenders;
+} Opening;
+
+static void open_one(void *context, int thread, int item) {
+    const Opening *opening = context;
+    Contender *contender = &opening->contenders[item];
+    double start = hd_monotonic_seconds();
+    (void)thread;
+    contender->status = open_contender(contender, opening->bench, &contender->error);
+    contender->build_seconds = hd_monotonic_seconds() - start;
+}
+
+static bool is_interrupted(void) {
+    return hd_interrupt_signal() != 0;
+}
+
+/* The first one alone, for it probes the device's arithmetic; the others side by side. */
+static HdStatus open_all(const Bench *bench, Contender *contenders, int count, HdError *error) {
+    Opening opening = {bench, contenders}, others = {bench, contenders + 1};
+    HdThreadPool *pool;
+    HdStatus status = hd_thread_pool_create(&pool, bench->threads, error);
+    if (status != HD_OK)
+        return status;
+    open_one(&opening, 0, 0);
+    hd_thread_pool_run(pool, count - 1, open_one, &others, is_interrupted);
+    hd_thread_pool_destroy(pool);
+    return HD_OK;
+}
+
+/* ---- rounds ---- */
+
+static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
+    HdStatus status = contender->refinement != NULL
+                          ? hd_refinement_render(contender->refinement, &bench->camera,
+                                                 &bench->frame, &contender->error)
+                          : hd_renderer_render(contender->renderer, &bench->view, &bench->frame,
+                                               &contender->error);
+    contender->status = status;
+    *hash = status == HD_OK ? hd_frame_hash(&bench->frame) : 0;
+    return status == HD_OK;
+}
+
+/* The round -1 warms up. */
+static int run_round(Bench *bench, Contender *contenders, int count, int round,
+                     uint64_t *expected) {
+    int different = 0;
+    for (int i = 0; i < count; i++) {
+        Contender *contender = &contenders[i];
+        uint64_t hash;
+        if (contender->status != HD_OK || !render(contender, bench, &hash))
+            continue;
+        if (*expected == 0)
+            *expected = hash;
+        if (hash != *expected) {
+            printf("DIFFERENT %s %016" PRIx64 ", expected %016" PRIx64 "\n", contender->is->name,
+                   hash, *expected);
+            different++;
+        }
+        if (round >= 0)
+            contender->ms[contender->count++] = 1000.0 * bench->frame.trace_seconds;
+    }
+    return different;
+}
+
+static int compare(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double quantile(const Contender *contender, double q) {
+    double place = q * (contender->count - 1);
+    int below = (int)place, above = below + 1 < contender->count ? below + 1 : below;
+    return contender->ms[below] + (place - below) * (contender->ms[above] - contender->ms[below]);
+}
+
+static void print_kernels(const Contender *contender) {
+    char text[512];
+    hd_renderer_describe(contender->renderer, text, (int)sizeof text);
+    printf("kernels %s %.1f %s\n", contender->is->name, contender->build_seconds, text);
+}
+
+static void print_times(Contender *contenders, int count) {
+    double first = 0.0;
+    for (int i = 0; i < count; i++) {
+        Contender *contender = &contenders[i];
+        if (contender->count == 0)
+            continue;
+        qsort(contender->ms, (size_t)contender->count, sizeof *contender->ms, compare);
+        double median = quantile(contender, 0.5);
+        first = first > 0.0 ? first : median;
+        printf("time %-24s %9.4f %9.4f %9.4f %7.3f\n", contender->is->name, median,
+               quantile(contender, 0.25), quantile(contender, 0.75), median / first);
+    }
+}
+
+/* Returns how many pictures differ or failed. */
+static int measure(Bench *bench, Contender *contenders, int count) {
+    uint64_t expected = 0;
+    int wrong = run_round(bench, contenders, count, -1, &expected);
+    printf("scene %d %d %" PRIu64 "\n", bench->frame.width, bench->frame.height,
+           hd_frame_rays(&bench->frame));
+    double start = hd_monotonic_seconds();
+    for (int round = 0; round < bench->rounds; round++) {
+        if (round > 0 && hd_monotonic_seconds() - start > bench->seconds)
+            break;
+        wrong += run_round(bench, contenders, count, round, &expected);
+    }
+    for (int i = 0; i < count; i++) {
+        if (contenders[i].status == HD_OK)
+            print_kernels(&contenders[i]);
+        else
+            printf("skip %s %s\n", contenders[i].is->name, contenders[i].error.message);
+        wrong += contenders[i].status != HD_OK && contenders[i].status != HD_UNAVAILABLE;
+    }
+    print_times(contenders, count);
+    return wrong;
+}
+
+/* ---- command line ---- */
+
+/* Whether the name is one of those between commas. */
+static bool is_named(const char *names, const char *name) {
+    size_t length = strlen(name);
+    for (const char *at = names; at != NULL; at = strchr(at, ',')) {
+        at += *at == ',';
+        if (strncmp(at, name, length) == 0 && (at[length] == ',' || at[length] == '\0'))
+            return true;
+    }
+    return false;
+}
+
+static bool is_wanted(const Bench *bench, const Switch *is) {
+    bool is_cuda = strcmp(bench->backend->name, "cuda") == 0;
+    bool is_surveyed = hd_scene_is_surveyed(&bench->file.scene);
+    bool has_meshes = bench->tables.node_stack > 0;
+    if ((is->is_cuda && !is_cuda) || (is->is_surveyed && !is_surveyed) ||
+        (is->is_exact && has_meshes))
+        return false;
+    return (bench->only == NULL || is_named(bench->only, is->name)) &&
+           (bench->without == NULL || !is_named(bench->without, is->name));
+}
+
+static bool find_device(Bench *bench) {
+    HdDevice devices[HD_MAX_DEVICES];
+    HdError error;
+    int count = 0;
+    if (hd_backend_enumerate(bench->backend, devices, HD_MAX_DEVICES, &count, &error) != HD_OK)
+        printf("skip %s\n", error.message);
+    for (int i = 0; i < count; i++)
+        if (devices[i].index == bench->number && !devices[i].is_cpu) {
+            bench->device = devices[i];
+            return true;
+        }
+    return false;
+}
+
+static bool parse_option(Bench *bench, const char *name, const char *value) {
+    if (strcmp(name, "--backend") == 0)
+        return (bench->backend = hd_backend_find(value)) != NULL;
+    if (strcmp(name, "--device") == 0)
+        bench->number = atoi(value);
+    else if (strcmp(name, "--rounds") == 0)
+        bench->rounds = atoi(value);
+    else if (strcmp(name, "--threads") == 0)
+        bench->threads = atoi(value);
+    else if (strcmp(name, "--seconds") == 0)
+        bench->seconds = strtod(value, NULL);
+    else if (strcmp(name, "--only") == 0)
+        bench->only = value;
+    else if (strcmp(name, "--without") == 0)
+        bench->without = value;
+    else
+        return false;
+    return bench->rounds > 0 && bench->rounds <= MOST_ROUNDS && bench->threads > 0;
+}
+
+/* Returns where the scene is among the arguments; 0 where they are wrong. */
+static int parse(Bench *bench, int argc, char **argv) {
+    int i = 1;
+    for (; i < argc && strncmp(argv[i], "--", 2) == 0; i++) {
+        if (strcmp(argv[i], "--double") == 0)
+            bench->precision = HD_PRECISION_DOUBLE;
+        else if (i + 1 >= argc || !parse_option(bench, argv[i], argv[i + 1]))
+            return 0;
+        else
+            i++;
+    }
+    return i < argc && argc - i - 1 <= MOST_CHANGES ? i : 0;
+}
+
+int main(int argc, char **argv) {
+    static Contender contenders[MOST_SWITCHES];
+    static Bench bench;
+    HdError error;
+    int count = 0;
+    bench = (Bench){.rounds = 7, .seconds = 120.0, .threads = hd_processor_count()};
+    bench.backend = hd_backend_find("cuda");
+    int scene = parse(&bench, argc, argv);
+    if (scene == 0) {
+        fprintf(stderr, "usage: hedron_gpu_switches [--backend NAME] [--device NUMBER] [--double] "
+                        "[--rounds N] [--seconds S] [--only NAME,...] [--without NAME,...] "
+                        "[--threads N] SCENE [KEY=VALUE...]\n");
+        return USAGE;
+    }
+    if (!find_device(&bench))
+        return SKIPPED;
+    HdStatus status = read_scene(&bench, argv[scene], (const HdSceneChange *)(argv + scene + 1),
+                                 argc - scene - 1, &error);
+    for (int i = 0; i < switch_count; i++)
+        if (status == HD_OK && is_wanted(&bench, &switches[i]))
+            contenders[count++].is = &switches[i];
+    if (status == HD_OK && count > 0)
+        status = open_all(&bench, contenders, count, &error);
+    if (status != HD_OK) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    int wrong = count > 0 ? measure(&bench, contenders, count) : 0;
+    for (int i = 0; i < count; i++)
+        close_contender(&contenders[i]);
+    hd_frame_free(&bench.frame);
+    hd_frame_tables_free(&bench.view);
+    hd_scene_tables_free(&bench.tables);
+    hd_scene_file_free(&bench.file);
+    return wrong > 0 ? 1 : 0;
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* What is measured against what the program does by itself. */
+#ifndef HD_BENCH_GPU_SWITCHES_H
+#define HD_BENCH_GPU_SWITCHES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "device/options.h"
+
+typedef struct Switch {
+    const char *name;
+    HdPipeline pipeline;
+    int registers, block; /* 0: what suits */
+    const char *defines;  /* of the kernels; NULL: none */
+    bool is_exact;        /* the numbers of objects and lights are compiled in, CUDA only */
+    size_t queue_bytes;   /* of the wavefront; 0: what suits */
+    int few;              /* passes of no more samples go to the wavefront; 0: none do */
+    bool is_surveyed;     /* for surveyed scenes only */
+    bool is_cuda;         /* for CUDA only */
+} Switch;
+
+extern const Switch switches[];
+extern const int switch_count;
+
+#endif
