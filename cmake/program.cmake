@@ -21,15 +21,39 @@ add_library(hedron_program STATIC
     src/cli/options.c
     src/cli/rendering.c
     src/cli/console.c
-    src/cli/statistics.c)
+    src/cli/statistics.c
+    src/main/program.c
+    src/view/keys.c
+    src/view/pace.c
+    src/view/pose.c
+    src/view/scale.c
+    src/view/side.c
+    src/view/split.c
+    src/view/start_window.c
+    src/view/viewer.c
+    src/view/viewer_lines.c
+    src/view/watch.c
+    src/view/worker.c)
 target_include_directories(hedron_program SYSTEM PUBLIC ${JANSSON_INCLUDE_DIR})
 target_link_libraries(hedron_program PUBLIC hedron_scene_file ${JANSSON_LIBRARY})
 target_compile_definitions(hedron_program PUBLIC HD_VERSION="${PROJECT_VERSION}")
 hedron_compile_options(hedron_program)
 
-add_executable(hedron src/cli/main.c)
+add_executable(hedron src/main/hedron.c)
 target_link_libraries(hedron PRIVATE hedron_program)
 hedron_compile_options(hedron)
+# The window is a program of its own: nothing else needs SDL 2.
+find_path(SDL2_INCLUDE_DIR SDL.h PATH_SUFFIXES SDL2)
+find_library(SDL2_LIBRARY SDL2)
+if(SDL2_INCLUDE_DIR AND SDL2_LIBRARY)
+    add_executable(hedron-view src/main/hedron_view.c src/view/lettering.c src/view/window.c)
+    target_include_directories(hedron-view SYSTEM PRIVATE ${SDL2_INCLUDE_DIR})
+    target_link_libraries(hedron-view PRIVATE hedron_program ${SDL2_LIBRARY})
+    hedron_compile_options(hedron-view)
+    install(TARGETS hedron-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+else()
+    message(STATUS "SDL 2 (libsdl2-dev) was not found, so 'hedron view' has no window, only --terminal")
+endif()
 install(TARGETS hedron RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/hedron-task
         DESTINATION ${CMAKE_INSTALL_BINDIR})

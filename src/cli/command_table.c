@@ -26,6 +26,17 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "camera.field_of_view=40, --set camera.eye=[4,0,2], --set image.exposure=2, --set "
      "output.curve=linear or --set output.bits=16. A value is JSON, or else a string. --size, "
      "--samples, --depth and --cutoff come last."},
+    {HD_COMMAND_VIEW, "view", "[SCENE.json]", ".json", 1,
+     "fly through a scene in a window or a terminal",
+     "Shows SCENE.json, or the built-in scene, live: space plays its flight, mouse and arrows turn "
+     "the view, and h lists all keys. While something moves, size and samples are what the device "
+     "can make in time; standing still, the picture is refined until it has the bytes that 'hedron "
+     "render' makes of that view. The file is watched: saved, it is shown at once, and a mistake in "
+     "it is told over the last good picture. The names of pictures that are saved (p) and cameras "
+     "to paste into a scene (c) go to standard output.\n\n"
+     "The window is a program of its own, hedron-view, which needs SDL 2. --terminal needs neither: "
+     "it shows the same by half blocks of 24-bit colour, or as pictures where the terminal says "
+     "that it can (the kitty protocol)."},
     {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
      "write a scene to start from, with comments",
      "Writes a small scene in which comments tell what is what, to SCENE.json (default: "
@@ -128,7 +139,7 @@ const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT] = {
     {"0", "done"},
     {"1", "failed"},
     {"2", "wrong usage or input"},
-    {"3", "no such backend, device or program (FFmpeg)"},
+    {"3", "no such backend, device, display or program (FFmpeg, hedron-view)"},
     {"129, 130, 143", "interrupted by SIGHUP, SIGINT or SIGTERM"},
 };
 
@@ -142,6 +153,7 @@ const HdExplained hd_examples[HD_EXAMPLE_COUNT] = {
     {"hedron render scene.json -o film.mp4 --stats frames.jsonl",
      "times and rays of each frame, a line of JSON each"},
     {"hedron new first.json && hedron render first.json -o first.mp4", "a scene of your own"},
+    {"hedron view scene.json", "the scene in a window, shown again whenever its file is saved"},
     {"hedron check scene.json", "mistakes of a scene"},
     {"hedron tune scene.json --backend cuda", "what renders this kind of scene fastest there"},
     {"hedron compare a.png b.png --diff heat.png --fail-above 1",

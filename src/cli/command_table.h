@@ -16,7 +16,8 @@ typedef enum HdCommand {
     HD_COMMAND_COMPARE = 256,
     HD_COMMAND_NEW = 512,
     HD_COMMAND_COMPLETE = 1024,
-    HD_COMMAND_SELFTEST = 2048
+    HD_COMMAND_SELFTEST = 2048,
+    HD_COMMAND_VIEW = 4096
 } HdCommand;
 
 typedef struct HdExplained {
@@ -55,7 +56,7 @@ typedef struct HdCommandSpec {
     const char *description; /* paragraphs, separated by empty lines */
 } HdCommandSpec;
 
-enum { HD_COMMAND_SPEC_COUNT = 11 };
+enum { HD_COMMAND_SPEC_COUNT = 12 };
 extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
 
 /* NULL where no command has that name. */
@@ -65,7 +66,7 @@ const HdCommandSpec *hd_command_spec(HdCommand command);
 /* The program in half a sentence. */
 extern const char hd_program_summary[];
 
-enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 12, HD_VARIABLE_COUNT = 4 };
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 13, HD_VARIABLE_COUNT = 4 };
 extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
 extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */

@@ -26,7 +26,7 @@ ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard 
 OPTION(const char *changes[HD_MAX_CHANGES];
        int change_count, "--set", NULL, "PATH=VALUE",
        "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",
-       HD_COMMAND_RENDER | HD_COMMAND_TUNE,
+       HD_COMMAND_RENDER | HD_COMMAND_TUNE | HD_COMMAND_VIEW,
        TEXTS(HD_OPTION_CHANGES, changes, change_count, HD_MAX_CHANGES),
        .expected = "PATH=VALUE such as camera.field_of_view=40", .role = HD_DECIDES_PIXELS)
 OPTION(const char *frames, "--frames", "-f", "LIST", "render these frames only, for example 0-9,20",
@@ -40,27 +40,29 @@ OPTION(bool no_sync, "--no-sync", NULL, NULL,
        "do not wait until files are on the disk: what was stored outlives the program, but not a "
        "power cut",
        HD_COMMAND_CLASSIC | HD_COMMAND_RENDER, FLAG(no_sync))
-OPTION(HdOptionSize size, "--size", NULL, "WxH", "size of the picture in pixels", MEASURING,
+OPTION(bool terminal, "--terminal", NULL, NULL,
+       "show the scene in this terminal instead of a window", HD_COMMAND_VIEW, FLAG(terminal))
+OPTION(HdOptionSize size, "--size", NULL, "WxH", "size of the picture in pixels", SHOWING,
        .type = HD_OPTION_SIZE, AT(size),
        .expected = "WIDTHxHEIGHT such as 640x480, each 1 to 65535", .role = HD_DECIDES_NUMBERS)
-OPTION(int samples, "--samples", NULL, "N", "N x N samples for each pixel", MEASURING,
+OPTION(int samples, "--samples", NULL, "N", "N x N samples for each pixel", SHOWING,
        INTEGER(samples, 1, HD_MAX_SAMPLES_PER_SIDE), .role = HD_DECIDES_NUMBERS)
-OPTION(int depth, "--depth", NULL, "N", "how often a ray may be mirrored or pass a face", MEASURING,
+OPTION(int depth, "--depth", NULL, "N", "how often a ray may be mirrored or pass a face", SHOWING,
        INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1, .role = HD_DECIDES_NUMBERS)
 OPTION(double cutoff, "--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)",
-       MEASURING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1,
+       SHOWING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1,
        .role = HD_DECIDES_NUMBERS)
 OPTION(
     int sampling, "--aa", NULL, "NAME",
     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
     "an estimate and no promise (default grid)",
-    RENDERING, CHOICE(sampling, "grid", "adaptive"), .unset = -1, .role = HD_DECIDES_PIXELS)
+    RENDERING | HD_COMMAND_VIEW, CHOICE(sampling, "grid", "adaptive"), .unset = -1, .role = HD_DECIDES_PIXELS)
 OPTION(
     double max_error, "--max-error", NULL, "E",
     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
     "sampling aims at",
-    RENDERING, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR), .role = HD_DECIDES_PIXELS)
+    RENDERING | HD_COMMAND_VIEW, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR), .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
        "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
        "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
@@ -70,7 +72,7 @@ OPTION(HdOptionCrop crop, "--crop", NULL, "WxH+X+Y",
        .type = HD_OPTION_CROP, AT(crop), .expected = "WIDTHxHEIGHT+X+Y such as 64x64+320+200",
        .role = HD_DECIDES_NUMBERS)
 OPTION(const char *backend, "--backend", NULL, "NAME",
-       "auto, c, opencl or cuda (default auto: the best one found)", MEASURING,
+       "auto, c, opencl or cuda (default auto: the best one found)", SHOWING,
        ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda"))
 OPTION(const char *device, "--device", NULL, "DEVICE",
        "number of the device as listed by 'hedron devices', also as c:0, or part of its name; "
@@ -78,7 +80,7 @@ OPTION(const char *device, "--device", NULL, "DEVICE",
        RENDERING, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
 ROW("--device", NULL, "DEVICE",
     "number of the device as listed by 'hedron devices', also as c:0, or part of its name",
-    HD_COMMAND_TUNE, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
+    HD_COMMAND_TUNE | HD_COMMAND_VIEW, TEXT(device, "a number, BACKEND:NUMBER or part of a name"))
 ROW("--backend", NULL, "NAME", "auto, c, opencl or cuda (default auto: all of them)",
     HD_COMMAND_SELFTEST, ONE_OF(HD_OPTION_WORD, backend, "auto", "c", "opencl", "cuda"))
 ROW("--device", NULL, "DEVICE",
@@ -92,41 +94,41 @@ OPTION(
     HD_COMMAND_SELFTEST, FLAG(quick))
 ROW("--lanes", NULL, "N",
     "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
-    MEASURING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
-ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", MEASURING,
+    SHOWING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
+ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", SHOWING,
     INTEGER(render.threads, 1, HD_MAX_THREADS))
 ROW("--pipeline", NULL, "NAME",
     "mega: a bundle follows its whole tree of rays; wavefront: all rays of a level, closed up; "
     "wavefront-uncompacted: with its dead rays, for comparison (default auto: what suits device "
     "and scene)",
-    MEASURING, .type = HD_OPTION_CHOICE, AT(render.pipeline), .choices = hd_pipeline_names)
+    SHOWING, .type = HD_OPTION_CHOICE, AT(render.pipeline), .choices = hd_pipeline_names)
 ROW("--block", NULL, "N",
-    "threads of a GPU's work group, a multiple of 32 (default: what suits it)", MEASURING,
+    "threads of a GPU's work group, a multiple of 32 (default: what suits it)", SHOWING,
     INTEGER(render.block, HD_BLOCK_STEP, HD_MAX_BLOCK), .step = HD_BLOCK_STEP)
 ROW("--grid", NULL, "N", "work groups of one launch on a GPU, at most (default: what suits it)",
-    MEASURING, INTEGER(render.grid, 1, HD_MAX_GRID))
+    SHOWING, INTEGER(render.grid, 1, HD_MAX_GRID))
 ROW("--max-launch", NULL, "MS",
     "longest launch on a GPU in milliseconds, 1 to 10000: while it runs, a display that the GPU "
     "draws stands still (default 50 where one may be there, else 500)",
-    MEASURING, REAL(render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS))
+    SHOWING, REAL(render.launch_ms, HD_MIN_LAUNCH_MS, HD_MAX_LAUNCH_MS))
 OPTION(HdGeometry geometry, "--geometry", NULL, "NAME",
        "solids: half-spaces with patterns on their faces; triangles: all of it as triangles, which "
        "gives nearly the same picture (default solids)",
-       MEASURING, CHOICE(geometry, "solids", "triangles"), .role = HD_DECIDES_PIXELS)
+       SHOWING, CHOICE(geometry, "solids", "triangles"), .role = HD_DECIDES_PIXELS)
 OPTION(int divisions, "--divisions", NULL, "N",
        "with --geometry triangles: cut the side of each triangle into N, the triangle into N x N "
        "(default 1)",
-       MEASURING, INTEGER(divisions, 1, HD_MAX_DIVISIONS), .role = HD_DECIDES_PIXELS)
+       SHOWING, INTEGER(divisions, 1, HD_MAX_DIVISIONS), .role = HD_DECIDES_PIXELS)
 OPTION(HdAccel accel, "--accel", NULL, "NAME",
        "how triangles are searched; brute: each of them; bvh: by a bounding volume hierarchy "
        "(default auto: brute for a handful)",
-       MEASURING, CHOICE(accel, "auto", "brute", "bvh"), .role = HD_DECIDES_PIXELS)
-ROW("--precision", NULL, "P", "float or double (default float)", MEASURING,
+       SHOWING, CHOICE(accel, "auto", "brute", "bvh"), .role = HD_DECIDES_PIXELS)
+ROW("--precision", NULL, "P", "float or double (default float)", SHOWING,
     CHOICE(render.precision, "float", "double"), .role = HD_DECIDES_PIXELS)
 ROW("--math", NULL, "M",
     "strict: the same bytes everywhere; fast: the device's own, which plain C has not (default "
     "strict)",
-    MEASURING, CHOICE(render.math, "strict", "fast"), .role = HD_DECIDES_PIXELS)
+    SHOWING, CHOICE(render.math, "strict", "fast"), .role = HD_DECIDES_PIXELS)
 OPTION(const char *statistics, "--stats", NULL, "FILE",
        "write a line of JSON about each frame, its times and rays, to FILE; -: standard output, "
        "which then has nothing else",

@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The program: parses the command line, runs a command, prints its error, picks the exit code. */
-#define _POSIX_C_SOURCE 200809L
+/* The program 'hedron': its commands. */
 #include <stdio.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include "cli/commands.h"
-#include "system/interrupt.h"
-#include "system/thread_pool.h"
+#include "main/program.h"
+#include "view/start_window.h"
+
+static char **original_arguments; /* for the program that opens windows */
+
+static HdStatus view(const HdOptions *options, HdError *error) {
+    (void)options;
+    return hd_start_window(original_arguments, error);
+}
 
 static HdStatus run(const HdOptions *options, HdError *error) {
     switch (options->command) {
@@ -28,6 +34,8 @@ static HdStatus run(const HdOptions *options, HdError *error) {
         return hd_command_compare(options, error);
     case HD_COMMAND_NEW:
         return hd_command_new(options, error);
+    case HD_COMMAND_VIEW:
+        return view(options, error);
     case HD_COMMAND_COMPLETE:
         hd_command_complete(options);
         return HD_OK;
@@ -41,32 +49,9 @@ static HdStatus run(const HdOptions *options, HdError *error) {
     return HD_OK;
 }
 
-/* Output that never reached its file is a failure like any other. */
-static HdStatus close_standard_output(HdError *error) {
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return HD_OK;
-    return hd_fail(error, HD_FAILED, "cannot write to standard output");
-}
-
 int main(int count, char **arguments) {
-    static HdError error;
-    HdOptions options;
-    hd_interrupt_install();
-    HdStatus status = hd_check_stack(&error);
-    if (status == HD_OK)
-        status = hd_interrupt_read_patience(&error);
-    if (status == HD_OK)
-        status = hd_options_parse(&options, count, arguments, &error);
-    if (status == HD_OK && count == 1 && isatty(STDIN_FILENO))
-        options.command = HD_COMMAND_HELP;
-    if (status == HD_OK)
-        status = run(&options, &error);
-    if (status == HD_OK)
-        status = close_standard_output(&error);
-    if (status == HD_OK)
-        return 0;
-    fprintf(stderr, "hedron: %s\n", error.message);
-    if (status == HD_INTERRUPTED)
-        return 128 + hd_interrupt_signal();
-    return (int)status;
+    original_arguments = hd_copy_arguments(arguments, count);
+    const int code = hd_program_run(count, arguments, run);
+    free(original_arguments);
+    return code;
 }

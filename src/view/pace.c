@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+#include "view/pace.h"
+
+#include <math.h>
+
+/* Before anything was measured: what two cores take for a common scene. */
+#define USUAL_SECONDS 2e-6
+
+/* Below this a picture tells nothing any more. */
+enum { LEAST_WIDTH = 64 };
+
+static double sample_count(const HdDetail *detail) {
+    return (double)detail->width * detail->height * detail->samples * detail->samples;
+}
+
+/* A picture that took too long counts at once, a quick one by and by. */
+void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds) {
+    const double now = seconds / sample_count(detail), before = pace->seconds_per_sample;
+    const double weight = now > before ? 0.6 : 0.2;
+    pace->seconds_per_sample = before > 0.0 ? before + weight * (now - before) : now;
+}
+
+static int scaled(int side, double scale) {
+    const int pixels = (int)(side * scale);
+    return pixels > 1 ? pixels : 1;
+}
+
+static HdDetail smaller(const HdDetail *full, double scale) {
+    const double least = fmin(1.0, (double)LEAST_WIDTH / full->width);
+    const double kept = fmax(scale, least);
+    return (HdDetail){scaled(full->width, kept), scaled(full->height, kept), 1};
+}
+
+HdDetail hd_pace_choose(const HdPace *pace, const HdDetail *full) {
+    const double each = pace->seconds_per_sample > 0.0 ? pace->seconds_per_sample : USUAL_SECONDS;
+    const double share = HD_MOVING_SECONDS / each / ((double)full->width * full->height);
+    HdDetail detail = *full;
+    if (share < 1.0)
+        return smaller(full, sqrt(share));
+    const double side = sqrt(share);
+    if (side < full->samples)
+        detail.samples = (int)side;
+    return detail;
+}

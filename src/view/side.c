@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+#include "view/side.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "choice/candidates.h"
+#include "cli/load_scene.h"
+#include "view/watch.h"
+
+static const char *path_of(const HdViewSide *side) {
+    return side->options.operand_count > 0 ? side->options.operands[0] : NULL;
+}
+
+static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
+    side->files = hd_watch_files(path_of(side), &side->file);
+    HdOptions quiet = side->options;
+    quiet.quiet = true;
+    HdStatus status = hd_read_scene(file, &quiet, error);
+    snprintf(side->mistake, sizeof side->mistake, "%.4000s", status == HD_OK ? "" : error->message);
+    return status;
+}
+
+/* The pipeline that is opened may hang on how deep the trees are. */
+static void take_file(HdViewSide *side, const HdSceneFile *file) {
+    const bool was_deep = hd_scene_has_deep_trees(&side->file.scene);
+    hd_scene_file_free(&side->file);
+    side->file = *file;
+    side->scene_change++;
+    side->device_change += was_deep != hd_scene_has_deep_trees(&file->scene);
+    side->files = hd_watch_files(path_of(side), &side->file);
+}
+
+HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wake)(void *context),
+                           void *context, HdError *error) {
+    HdSceneFile file;
+    *side = (HdViewSide){.options = *options, .device_change = 1};
+    HdStatus status = read_file(side, &file, error);
+    if (status != HD_OK)
+        return status;
+    take_file(side, &file);
+    status = hd_view_worker_start(&side->worker, wake, context, error);
+    if (status != HD_OK)
+        hd_view_side_close(side);
+    return status;
+}
+
+void hd_view_side_read(HdViewSide *side) {
+    HdSceneFile file;
+    HdError error;
+    hd_view_worker_rest(side->worker);
+    if (read_file(side, &file, &error) == HD_OK)
+        take_file(side, &file);
+}
+
+bool hd_view_side_follow_files(HdViewSide *side) {
+    if (hd_watch_files(path_of(side), &side->file) == side->files)
+        return false;
+    hd_view_side_read(side);
+    return true;
+}
+
+/* ---- settings ---- */
+
+static void next_backend(HdViewSide *side) {
+    HdOptions *options = &side->options;
+    int next = 0;
+    while (options->backend != NULL && next < HD_BACKEND_COUNT &&
+           strcmp(hd_backends[next++]->name, options->backend) != 0)
+        continue;
+    options->backend = next < HD_BACKEND_COUNT ? hd_backends[next]->name : NULL;
+    options->device = NULL;
+    side->device_change++;
+}
+
+static void next_device(HdViewSide *side) {
+    static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
+    HdError ignored;
+    char first[sizeof side->device] = "", name[sizeof side->device];
+    int count = 0;
+    bool was_here = false;
+    if (hd_devices_named(NULL, "all", devices, &count, &ignored) != HD_OK)
+        return;
+    for (int i = 0; i < count; i++) {
+        snprintf(name, sizeof name, "%s:%d", devices[i].backend->name, devices[i].index);
+        if (i == 0 || was_here)
+            memcpy(first, name, sizeof name);
+        if (was_here)
+            break;
+        was_here = strcmp(name, side->device) == 0;
+    }
+    memcpy(side->device, first, sizeof first);
+    side->options.backend = NULL;
+    side->options.device = side->device;
+    side->device_change++;
+}
+
+static void change_precision(HdViewSide *side) {
+    HdRenderOptions *render = &side->options.render;
+    render->precision = render->precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE
+                                                                : HD_PRECISION_FLOAT;
+    side->device_change++;
+}
+
+static int within(int number, int least, int most) {
+    return number < least ? least : number > most ? most : number;
+}
+
+bool hd_view_side_change(HdViewSide *side, HdViewAction action) {
+    const HdScene *scene = &side->file.scene;
+    HdOptions *options = &side->options;
+    const int samples = scene->samples_per_side;
+    hd_view_worker_rest(side->worker); /* it reads the options */
+    if (action == HD_VIEW_BACKEND)
+        next_backend(side);
+    else if (action == HD_VIEW_DEVICE)
+        next_device(side);
+    else if (action == HD_VIEW_PRECISION)
+        change_precision(side);
+    else if (action == HD_VIEW_SHALLOWER || action == HD_VIEW_DEEPER)
+        options->depth =
+            within(scene->depth + (action == HD_VIEW_DEEPER ? 1 : -1), 0, HD_MAX_DEPTH);
+    else if (action == HD_VIEW_FEWER_SAMPLES || action == HD_VIEW_MORE_SAMPLES)
+        options->samples = within(samples + (action == HD_VIEW_MORE_SAMPLES ? 1 : -1), 1,
+                                  HD_MAX_SAMPLES_PER_SIDE);
+    else if (action == HD_VIEW_ADAPTIVE)
+        options->sampling = scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID
+                                                                    : HD_SAMPLING_ADAPTIVE;
+    else
+        return false;
+    hd_view_side_read(side);
+    return true;
+}
+
+void hd_view_side_close(HdViewSide *side) {
+    hd_view_worker_end(side->worker);
+    hd_scene_file_free(&side->file);
+    hd_view_image_free(&side->image);
+    *side = (HdViewSide){.worker = NULL};
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* One side of a view: a scene with its settings, and the worker that renders it. */
+#ifndef HD_VIEW_SIDE_H
+#define HD_VIEW_SIDE_H
+
+#include "view/keys.h"
+#include "view/worker.h"
+
+typedef struct HdViewSide {
+    HdOptions options;
+    char device[32]; /* that the options may name */
+    HdSceneFile file;
+    HdViewWorker *worker;
+    int device_change, scene_change;
+    uint64_t files; /* as they were when read last (watch.h) */
+    HdViewImage image;
+    int version;        /* of the image */
+    char mistake[4096]; /* why the last reading failed; "": it did not */
+} HdViewSide;
+
+/* Reads the scene and starts the worker, which calls `wake`. On failure nothing is open. */
+HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wake)(void *context),
+                           void *context, HdError *error);
+
+/* Reads the scene again, by the side's options. With a mistake in it the side keeps what it had. */
+void hd_view_side_read(HdViewSide *side);
+
+/* Reads it again if a file has changed; true where it did. */
+bool hd_view_side_follow_files(HdViewSide *side);
+
+/* Changes a setting; false where the action is none of a setting. The scene is read again. */
+bool hd_view_side_change(HdViewSide *side, HdViewAction action);
+
+/* A side that is not open may be closed. */
+void hd_view_side_close(HdViewSide *side);
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* A live view of a scene without its window: what is to be seen, how fine it may be while it moves,
+   what keys and mouse do to it, and what is told about it. Windows and terminals feed it and show
+   what it has. One thread calls it. */
+#ifndef HD_VIEW_VIEWER_H
+#define HD_VIEW_VIEWER_H
+
+#include "cli/options.h"
+#include "view/keys.h"
+#include "view/worker.h"
+
+enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
+
+/* What the viewer asks of who shows it. */
+typedef struct HdViewHost {
+    void (*wake)(void *context);                   /* on any thread: there is something new */
+    void (*say)(void *context, const char *lines); /* for standard output */
+    void *context;
+} HdViewHost;
+
+typedef struct HdViewer HdViewer;
+
+/* Reads the scene, and starts to render its first frame. The options are copied; what they point to
+   must live on. */
+HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,
+                        HdError *error);
+
+/* A key (keys.h) was pressed, or repeats. `now` is that of hd_monotonic_seconds, here and below. */
+void hd_viewer_key(HdViewer *viewer, int key, double now);
+
+/* The mouse was dragged by such shares of the picture's width, to turn or to move the view. */
+void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now);
+
+/* To be called when woken, after keys, and 60 times a second while something moves: flies on, looks
+   after the files, gives wishes to the workers. */
+void hd_viewer_tick(HdViewer *viewer, double now);
+
+/* False where nothing will change by itself before a key or a wake. */
+bool hd_viewer_is_moving(const HdViewer *viewer, double now);
+
+/* The user wants to end. */
+bool hd_viewer_has_ended(const HdViewer *viewer);
+
+/* The picture; `version` is set to its number, which changes with the picture. Until the first one
+   is there its width is 0. */
+const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version);
+
+/* Two sides are compared. */
+bool hd_viewer_is_split(const HdViewer *viewer);
+
+/* The size that the scene asks for. */
+void hd_viewer_size(const HdViewer *viewer, int *width, int *height);
+
+/* What is to be told now; returns the number of lines, each ASCII where the scene's name is. */
+int hd_viewer_lines(HdViewer *viewer, char lines[HD_VIEW_LINES][HD_VIEW_LINE]);
+
+/* Waits for what is under way. NULL is allowed. */
+void hd_viewer_close(HdViewer *viewer);
+
+#endif
