@@ -8,11 +8,11 @@ from harness.run.program import Problem
 # arithmetic instructions).
 LANES = {50: 128, 52: 128, 53: 128, 60: 64, 61: 128, 62: 128, 70: 64, 72: 64, 75: 64, 80: 64, 86: 128, 87: 128,
          89: 128, 90: 128, 100: 128, 103: 128, 120: 128}
-H200 = "H200"  # the GPU that targets are for
+H200 = "H200"  # the GPU that targets are for; an H100 has the same multiprocessors
 
 
 def is_h200(device):
-    return not device["is_cpu"] and H200 in device["name"]
+    return not device["is_cpu"] and (H200 in device["name"] or "H100" in device["name"])
 
 
 def label(device):
