@@ -72,9 +72,12 @@ static void order_pixels(HdRefinement *r) {
     int count = 0;
     for (int top = 0; top < r->height; top += SIDE)
         for (int left = 0; left < r->width; left += SIDE)
-            for (int y = top; y < top + SIDE && y < r->height; y++)
-                for (int x = left; x < left + SIDE && x < r->width; x++)
+            for (int z = 0; z < SIDE * SIDE; z++) {
+                int x = left + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
+                int y = top + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+                if (x < r->width && y < r->height)
                     r->order[count++] = y * r->width + x;
+            }
 }
 
 static HdStatus reserve_requests(HdRefinement *r, int count, HdError *error) {

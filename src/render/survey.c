@@ -133,16 +133,29 @@ typedef struct Part {
     HdSurveyor *surveyor;
     const HdSurveyRequest *requests;
     HdSurvey *surveys;
-    const int *open; /* numbers of the requests */
+    const int *open; /* numbers of the requests, */
+    int count;       /* and how many these are */
     bool is_first;   /* of several passes */
 } Part;
+
+/* Where request number i of `count` is in the list: items render their 64 entries in Z order
+   (kernels/common/scene_tables.h), so that requests next to each other share bundles only if they
+   are listed so. The last ones, which fill no item, are listed as they come. */
+static int place_of(int i, int count) {
+    enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
+    int z = i % ITEM, first = i - z;
+    int x = (z & 1) | (z >> 1 & 2) | (z >> 2 & 4);
+    int y = (z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4);
+    return first + ITEM <= count ? first + y * HD_LISTED_WIDTH + x : i;
+}
 
 static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
         const HdSurveyRequest *request = &part->requests[part->open[i]];
-        part->surveyor->entries[2 * (size_t)i] = request->pixel;
-        part->surveyor->entries[2 * (size_t)i + 1] = request->first;
+        size_t place = (size_t)place_of(i, part->count);
+        part->surveyor->entries[2 * place] = request->pixel;
+        part->surveyor->entries[2 * place + 1] = request->first;
     }
 }
 
@@ -155,7 +168,8 @@ static int take_surveys(void *context, int first, int end, int *still_open) {
         int number = part->open[i];
         HdSurvey *survey = &part->surveys[number];
         float before = survey->bound;
-        memcpy(survey, values + HD_SURVEY_FLOATS * (size_t)i, sizeof *survey);
+        size_t place = (size_t)place_of(i, part->count);
+        memcpy(survey, values + HD_SURVEY_FLOATS * place, sizeof *survey);
         bool goes_on = part->is_first || survey->bound < PROGRESS * before;
         if (goes_on && !is_within(part->surveyor, survey))
             still_open[left++] = number;
@@ -171,7 +185,7 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
         int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
         int *open = surveyor->open + from;
-        Part part = {surveyor, requests, surveys, open, is_first};
+        Part part = {surveyor, requests, surveys, open, count, is_first};
         double start = hd_monotonic_seconds();
         hd_chunks_run(surveyor->threads, count, list_entries, &part);
         HdStatus status = submit(surveyor, camera, count, samples, cutoff, error);
