@@ -31,6 +31,8 @@ const Switch switches[] = {
     {"lights+tree+block-64", MEGA, .block = 64, .defines = LIGHTS TREE, .is_cuda = true},
     {"lights+tree+96+block-64", MEGA, .registers = 96, .block = 64, .defines = LIGHTS TREE,
      .is_cuda = true},
+    {"registers-64+block-32", MEGA, .registers = 64, .block = 32, .is_cuda = true},
+    {"lights+64+block-32", MEGA, .registers = 64, .block = 32, .defines = LIGHTS, .is_cuda = true},
     {"wavefront", WAVEFRONT},
     {"wavefront+lights", WAVEFRONT, .defines = LIGHTS, .is_cuda = true},
     {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_surveyed = true},

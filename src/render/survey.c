@@ -9,8 +9,9 @@
 #include "system/chunks.h"
 #include "system/machine.h"
 
-/* Entries of one submission, at most; lists are worked off in parts. */
-enum { MOST_ENTRIES = HD_LISTED_WIDTH << 15 };
+/* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
+   be, for a GPU waits for the longest tree of each. */
+enum { MOST_ENTRIES = HD_MAX_IMAGE_SIDE / HD_LISTED_WIDTH * HD_LISTED_WIDTH * HD_LISTED_WIDTH };
 
 /* Cut-offs, as parts of what a dark pixel may miss: the first one, the factor to the next one, and
    the last one, with which no sample can miss too much that has so many rays at most. */
