@@ -50,7 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (status != HD_OK)
         return 0;
     hd_pattern_format(input.output.path, input.scene.frame_count - 1, name, &error);
-    fuzz_prepare_scene(&input.scene);
+    fuzz_render_scene(&input.scene);
     expect_to_come_back(&input, variant);
     hd_scene_file_free(&input);
     return 0;

@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_expect_input_status(status, &error);
     if (status != HD_OK)
         return 0;
-    fuzz_prepare_scene(&file.scene);
+    fuzz_render_scene(&file.scene);
     expect_to_come_back(&file);
     hd_scene_file_free(&file);
     return 0;

@@ -4,8 +4,8 @@
 
 #include "scene/scene.h"
 
-/* What a rendering does with a scene before the first ray: a camera, and the tables in both
-   precisions, of scenes with few lights. Ends the process where a valid scene is refused. */
-void fuzz_prepare_scene(const HdScene *scene);
+/* Renders the last frame of a valid scene, a few pixels of it in both precisions, where it has few
+   lights. Ends the process where a valid scene is refused. */
+void fuzz_render_scene(const HdScene *scene);
 
 #endif
