@@ -6,17 +6,26 @@
 /* Before anything was measured: what two cores take for a common scene. */
 #define USUAL_SECONDS 2e-6
 
-/* Below this a picture tells nothing any more. */
-enum { LEAST_WIDTH = 64 };
+/* Below this a picture tells nothing any more: rather its rays go less deep, and deeper again once
+   the picture is larger than that by far. */
+enum { LEAST_WIDTH = 128, DEEPER_WIDTH = 256, LEAST_DEPTH = 2 };
 
 static double sample_count(const HdDetail *detail) {
     return (double)detail->width * detail->height * detail->samples * detail->samples;
+}
+
+static void adapt_depth(HdPace *pace, const HdDetail *detail, double seconds) {
+    if (detail->width <= LEAST_WIDTH && seconds > HD_MOVING_SECONDS && detail->depth > LEAST_DEPTH)
+        pace->depth = detail->depth - 1;
+    else if (detail->width >= DEEPER_WIDTH && pace->depth > 0)
+        pace->depth = detail->depth + 1;
 }
 
 /* A picture that took too long counts at once, a quick one by and by. */
 void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds) {
     const double now = seconds / sample_count(detail), before = pace->seconds_per_sample;
     const double weight = now > before ? 0.6 : 0.2;
+    adapt_depth(pace, detail, seconds);
     pace->seconds_per_sample = before > 0.0 ? before + weight * (now - before) : now;
 }
 
@@ -28,15 +37,17 @@ static int scaled(int side, double scale) {
 static HdDetail smaller(const HdDetail *full, double scale) {
     const double least = fmin(1.0, (double)LEAST_WIDTH / full->width);
     const double kept = fmax(scale, least);
-    return (HdDetail){scaled(full->width, kept), scaled(full->height, kept), 1};
+    return (HdDetail){scaled(full->width, kept), scaled(full->height, kept), 1, full->depth};
 }
 
 HdDetail hd_pace_choose(const HdPace *pace, const HdDetail *full) {
     const double each = pace->seconds_per_sample > 0.0 ? pace->seconds_per_sample : USUAL_SECONDS;
     const double share = HD_MOVING_SECONDS / each / ((double)full->width * full->height);
     HdDetail detail = *full;
+    if (pace->depth > 0 && pace->depth < full->depth)
+        detail.depth = pace->depth;
     if (share < 1.0)
-        return smaller(full, sqrt(share));
+        return smaller(&detail, sqrt(share));
     const double side = sqrt(share);
     if (side < full->samples)
         detail.samples = (int)side;

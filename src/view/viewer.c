@@ -107,7 +107,7 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
     HdError error;
     HdViewWish wish = {.is_moving = is_moving};
     const HdScene *scene = &file_of(viewer)->scene;
-    const HdDetail full = {scene->width, scene->height, scene->samples_per_side};
+    const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
     viewer->asked = viewer->change;
     viewer->settling = is_moving ? 0 : viewer->change;
     if (find_camera(viewer, &wish.camera, &error) != HD_OK) {

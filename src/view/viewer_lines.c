@@ -75,9 +75,9 @@ static void add_speed(Lines *lines, const HdViewer *viewer, const HdViewImage *i
         add(lines, "refining: %d x %d samples, %.0f %%", image->detail.samples,
             image->detail.samples, 100.0 * image->share);
     else
-        add(lines, "moving: %d x %d, %d x %d samples, %.1f ms, %.1f frames/s, %.1f Mrays/s",
+        add(lines, "moving: %d x %d, %d x %d, depth %d, %.1f ms, %.1f frames/s, %.1f Mrays/s",
             image->width, image->height, image->detail.samples, image->detail.samples,
-            1e3 * image->seconds,
+            image->detail.depth, 1e3 * image->seconds,
             viewer->picture_seconds > 0.0 ? 1.0 / viewer->picture_seconds : 0.0,
             1e-6 * (double)image->rays / image->seconds);
 }

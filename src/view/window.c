@@ -176,8 +176,9 @@ static void move_mouse(Window *w, const SDL_MouseMotionEvent *event, double now)
 
 /* A held arrow turns the view evenly, at any rate of pictures. */
 static void glide(Window *w, double now) {
-    const double step = GLIDE * (now - (w->glided > w->held_from ? w->glided : w->held_from));
-    if (w->held == 0 || now < w->held_from + GLIDE_AFTER)
+    const double start = w->held_from + GLIDE_AFTER;
+    const double step = GLIDE * (now - (w->glided > start ? w->glided : start));
+    if (w->held == 0 || now < start)
         return;
     const int right = (w->held == HD_KEY_LEFT) - (w->held == HD_KEY_RIGHT);
     const int down = (w->held == HD_KEY_UP) - (w->held == HD_KEY_DOWN);

@@ -208,12 +208,15 @@ static HdScene quick_scene(const HdViewWish *wish, const HdDetail *detail) {
     scene.width = detail->width;
     scene.height = detail->height;
     scene.samples_per_side = detail->samples;
+    scene.depth = detail->depth < scene.depth ? detail->depth : scene.depth;
     return scene;
 }
 
 static HdStatus render_moving(HdViewWorker *worker, const HdViewWish *wish, HdError *error) {
     const HdScene scene = quick_scene(wish, &wish->detail);
-    HdStatus status = make_ready(worker, &scene, wish, error);
+    HdScene uploaded = wish->file->scene; /* what it owns stays there */
+    hd_scene_drop_survey(&uploaded);      /* its depth is that of all quick pictures, at most */
+    HdStatus status = make_ready(worker, &uploaded, wish, error);
     const double start = hd_monotonic_seconds();
     if (status == HD_OK)
         status = render_scene(worker, &scene, wish, &worker->part, error);
@@ -300,8 +303,8 @@ static HdStatus finish(HdViewWorker *worker, HdViewImage *facts, HdError *error)
 static HdStatus settle(HdViewWorker *worker, const HdViewWish *wish, int serial, HdError *error) {
     const HdScene *scene = &wish->file->scene;
     const bool is_surveyed = hd_scene_is_surveyed(scene);
-    const HdDetail full = {scene->width, scene->height, scene->samples_per_side};
-    const HdDetail once = {scene->width, scene->height, 1};
+    const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
+    const HdDetail once = {scene->width, scene->height, 1, scene->depth};
     HdViewImage facts = {.width = scene->width, .height = scene->height, .detail = once};
     const HdScene quick = quick_scene(wish, &once);
     HdStatus status = make_ready(worker, &quick, wish, error);
