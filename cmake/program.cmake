@@ -23,6 +23,7 @@ add_library(hedron_program STATIC
     src/cli/console.c
     src/cli/statistics.c
     src/main/program.c
+    src/view/glyphs.c
     src/view/keys.c
     src/view/pace.c
     src/view/pose.c
@@ -30,6 +31,7 @@ add_library(hedron_program STATIC
     src/view/side.c
     src/view/split.c
     src/view/start_window.c
+    src/view/terminal.c
     src/view/viewer.c
     src/view/viewer_lines.c
     src/view/watch.c

@@ -6,12 +6,13 @@
 #include "cli/commands.h"
 #include "main/program.h"
 #include "view/start_window.h"
+#include "view/terminal.h"
 
 static char **original_arguments; /* for the program that opens windows */
 
 static HdStatus view(const HdOptions *options, HdError *error) {
-    (void)options;
-    return hd_start_window(original_arguments, error);
+    return options->terminal ? hd_view_in_terminal(options, error)
+                             : hd_start_window(original_arguments, error);
 }
 
 static HdStatus run(const HdOptions *options, HdError *error) {

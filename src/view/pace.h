@@ -24,6 +24,6 @@ void hd_pace_note(HdPace *pace, const HdDetail *detail, double seconds);
 
 /* The most detail that is made in time, at most `full`. All of the picture's pixels come before
    more samples; depth is given up last, where a picture would be too small to tell anything. */
-HdDetail hd_pace_choose(const HdPace *pace, const HdDetail *full);
+HdDetail hd_pace_choose(HdPace *pace, const HdDetail *full);
 
 #endif

@@ -103,11 +103,21 @@ static bool all_idle(const HdViewer *viewer) {
     return idle;
 }
 
+static HdDetail most_detail(const HdViewer *viewer) {
+    const HdScene *scene = &file_of(viewer)->scene;
+    HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
+    if (viewer->most_width > 0 && viewer->most_width < full.width) {
+        const double scale = (double)viewer->most_width / full.width;
+        full.width = viewer->most_width;
+        full.height = (int)fmax(1.0, scale * full.height);
+    }
+    return full;
+}
+
 static void wish_for(HdViewer *viewer, bool is_moving) {
     HdError error;
     HdViewWish wish = {.is_moving = is_moving};
-    const HdScene *scene = &file_of(viewer)->scene;
-    const HdDetail full = {scene->width, scene->height, scene->samples_per_side, scene->depth};
+    const HdDetail full = most_detail(viewer);
     viewer->asked = viewer->change;
     viewer->settling = is_moving ? 0 : viewer->change;
     if (find_camera(viewer, &wish.camera, &error) != HD_OK) {
@@ -382,6 +392,10 @@ bool hd_viewer_is_split(const HdViewer *viewer) {
 void hd_viewer_size(const HdViewer *viewer, int *width, int *height) {
     *width = file_of(viewer)->scene.width;
     *height = file_of(viewer)->scene.height;
+}
+
+void hd_viewer_limit(HdViewer *viewer, int width) {
+    viewer->most_width = width;
 }
 
 HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,

@@ -51,6 +51,9 @@ bool hd_viewer_is_split(const HdViewer *viewer);
 /* The size that the scene asks for. */
 void hd_viewer_size(const HdViewer *viewer, int *width, int *height);
 
+/* Moving pictures need no more pixels in a row than this; 0: any number. */
+void hd_viewer_limit(HdViewer *viewer, int width);
+
 /* What is to be told now; returns the number of lines, each ASCII where the scene's name is. */
 int hd_viewer_lines(HdViewer *viewer, char lines[HD_VIEW_LINES][HD_VIEW_LINE]);
 

@@ -22,6 +22,7 @@ struct HdViewer {
     double moved;        /* when it changed last */
     double watched;
     HdPace pace;
+    int most_width; /* of moving pictures; 0: the scene's */
     double last_picture;    /* when a moving one came */
     double picture_seconds; /* between two, smoothed; 0: not known */
     HdViewImage composed;
