@@ -111,7 +111,7 @@ int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
     if (!viewer->hides_figures)
         add_place(&lines, viewer);
     if (viewer->saves)
-        add(&lines, "the picture is saved once it is finished");
+        add(&lines, "once the picture is finished, it goes to a file");
     if (viewer->hides_figures && viewer->sides[0].mistake[0] != '\0')
         add(&lines, "! %s", viewer->sides[0].mistake);
     add(&lines, "%s", viewer->note);

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The live view in a terminal: what it saves is what 'hedron render' makes of that view, by each way to see it.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+need_python
+
+small=(--size 48x36 --samples 2)
+
+# see ANSWER STEP... -- OPTION...: a view in a terminal of 80 x 24.
+see() {
+    local answer=$1
+    shift
+    local steps=()
+    while [[ $1 != -- ]]; do
+        steps+=("$1")
+        shift
+    done
+    shift
+    expect_exit "${expected_code:-0}" "${no_nvidia[@]}" "$cli_folder/in_terminal" 80x24 "$answer" screen "${steps[@]}" \
+        -- "$hedron" view --terminal "$@"
+}
+
+# expect_view PICTURE OPTION...: what 'hedron render' makes of the camera that was printed last.
+expect_view() {
+    local picture=$1 camera
+    shift
+    camera=$(sed -n 's/^"camera": //p' "$logs/stdout" | tail -n 1)
+    expect_exit 0 "${no_nvidia[@]}" "$hedron" render --quiet --again --frames 0 -o view.png --set "camera=$camera" "$@"
+    expect_exit 0 "$hedron" compare view.png "$picture" --fail-above 0
+    expect_stdout_contains identical
+    rm -f "$picture"
+}
+
+# ---- a view that was turned, moved and brought nearer
+right='\x1b[C' up='\x1b[A'
+see blocks wait:finished "keys:$right$right${up}dw+pc" wait:saved keys:q -- --backend c "${small[@]}"
+expect_stdout_contains hedron-001.png
+grep -q $'\xe2\x96\x80' screen || fail "the screen got no half blocks"
+grep -q -F $'\033[?1049l' screen || fail "the screen was not given back"
+expect_view hedron-001.png --backend c "${small[@]}"
+if has_opencl; then
+    see blocks wait:finished "keys:${right}pc" wait:saved keys:q -- --backend opencl "${small[@]}"
+    expect_view hedron-001.png --backend c "${small[@]}"
+fi
+
+# ---- settings by keys
+see blocks wait:finished 'keys:fpc' wait:saved 'keys:]m' 'keys:pc' wait:saved keys:xpc wait:saved keys:q \
+    -- --backend c "${small[@]}"
+grep -q 'double, depth 15, adaptive, 3 x 3 samples' screen || fail "the settings are not on the screen"
+deeper=(--backend c --size 48x36 --samples 3 --depth 15 --precision double)
+cp "$logs/stdout" printed
+expect_view hedron-001.png --backend c "${small[@]}" --precision double
+cp printed "$logs/stdout"
+expect_view hedron-002.png "${deeper[@]}"
+cp printed "$logs/stdout"
+expect_view hedron-003.png "${deeper[@]}" --aa adaptive
+
+# ---- the flight: a frame that was stopped at is that of the film
+see blocks wait:finished keys:.... 'wait:frame 4 of 240' 'keys: ' wait:playing 'keys: ' keys:p wait:saved keys:q \
+    -- --backend c "${small[@]}"
+frame=$(tr '\033' '\n' <screen | sed -n 's/.*frame \([0-9]*\) of 240; h.*/\1/p' | tail -n 1)
+expect_exit 0 "$hedron" render --quiet --frames "$frame" --backend c -o flight.png "${small[@]}"
+expect_exit 0 "$hedron" compare flight.png hedron-001.png --fail-above 0
+rm -f hedron-001.png
+
+# ---- two settings beside each other
+see blocks wait:finished 'keys:2' 'wait:difference' 'keys:f' 'wait:right *: double' wait:finished 'keys:2q' \
+    -- --backend c "${small[@]}"
+
+# ---- the scene's file is followed; a mistake is told with its place and leaves the picture
+expect_exit 0 "$hedron" new scene.json
+cp scene.json good.json
+sed 's/"circumradius": [0-9.]*/"circumradius": -1/' good.json >wrong.json
+head -n 5 good.json >torn.json
+see blocks wait:finished 'sh:cp wrong.json scene.json' 'wait:circumradius is -1' 'sh:cp torn.json scene.json' \
+    'wait:scene.json:6' 'sh:sed "s/\"kind\": *\"cube\"/\"kind\": \"icosahedron\"/" good.json >scene.json' wait:moving \
+    keys:pc wait:saved keys:q -- scene.json --backend c "${small[@]}"
+cp "$logs/stdout" printed
+expect_stdout_contains scene-001.png
+camera=$(sed -n 's/^"camera": //p' printed)
+expect_exit 0 "$hedron" render --quiet scene.json --frames 0 --backend c "${small[@]}" --set "camera=$camera" -o view.png
+expect_exit 0 "$hedron" compare view.png scene-001.png --fail-above 0
+
+# ---- what terminals say of themselves
+see kitty wait:finished keys:q -- --backend c "${small[@]}"
+grep -q -a -F $'\033_Ga=T,f=24' screen || fail "a terminal with the kitty protocol got no picture by it"
+see sixel wait:finished keys:q -- --backend c "${small[@]}"
+grep -q -a -F $'\033Pq"1;1;' screen || fail "a terminal with sixels got none"
+
+# ---- ends
+expected_code=143 see blocks wait:finished 'sh:kill -TERM $PROGRAM' -- --backend c "${small[@]}"
+expected_code=2 see blocks -- nothing.json
+expect_stderr_contains nothing.json
+expect_exit 3 setsid -w "$hedron" view --terminal --backend c </dev/null
+expect_sentence
+expect_stderr_contains 'needs a terminal'
+expect_exit 2 "$hedron" view - </dev/null
+finish
