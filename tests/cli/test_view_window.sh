@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The live view in a window, under Xvfb with keys and a mouse that xdotool makes.
+set -euo pipefail
+# shellcheck source=lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+small=(--size 96x54 --samples 2)
+
+# ---- without the window's program, or without a display
+mkdir alone
+cp "$hedron" alone/hedron
+expect_exit 3 env PATH=/usr/bin:/bin alone/hedron view --backend c
+expect_sentence
+expect_stderr_contains 'hedron-view, cannot be started'
+window=$(dirname "$hedron")/hedron-view
+[[ -x $window ]] || skip "hedron-view is not built, for SDL 2 (libsdl2-dev) is not there"
+expect_exit 3 env -u DISPLAY -u WAYLAND_DISPLAY SDL_VIDEODRIVER=x11 "$hedron" view --backend c
+expect_sentence
+expect_stderr_contains '--terminal'
+expect_exit 2 "$window" devices
+for tool in Xvfb xdotool import identify; do
+    command -v "$tool" >/dev/null || skip "$tool is not installed"
+done
+
+# ---- a display of our own
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
+server=$!
+trap 'kill "$server" 2>/dev/null || true; clean_up' EXIT
+# await WHAT COMMAND...: until the command succeeds, 20 s at most.
+await() {
+    local what=$1 i
+    shift
+    for ((i = 0; i < 200; i++)); do
+        if "$@" >/dev/null 2>&1; then
+            return 0
+        fi
+        sleep 0.1
+    done
+    fail "$what did not come: $(cat errors 2>/dev/null)"
+    return 1
+}
+await 'the display' test -s display
+DISPLAY=:$(<display)
+export DISPLAY
+unset WAYLAND_DISPLAY
+
+# The keys go to the window under the pointer, for there is no window manager.
+start_view() {
+    "${no_nvidia[@]}" "$hedron" view "$@" >said 2>errors &
+    view=$!
+    await 'the window' xdotool search --name '^hedron$'
+    xdotool mousemove 640 400
+}
+
+end_view() {
+    local ended=0
+    xdotool key q
+    wait "$view" || ended=$?
+    ((ended == 0)) || fail "the view ended with $ended: $(<errors)"
+}
+
+# expect_saved NUMBER OPTION...: the picture with that number is what 'hedron render' makes of the camera.
+expect_saved() {
+    local picture=hedron-$1.png camera
+    shift
+    await "$picture" grep -q -x -F "$picture" said
+    await 'the camera' grep -q '^"camera"' said
+    camera=$(sed -n 's/^"camera": //p' said | tail -n 1)
+    expect_exit 0 "${no_nvidia[@]}" "$hedron" render --quiet --again --frames 0 --backend c -o view.png --set "camera=$camera" "$@"
+    expect_exit 0 "$hedron" compare view.png "$picture" --fail-above 0
+    expect_stdout_contains identical
+}
+
+# ---- keys and mouse, on plain C and on OpenCL
+backends=(c)
+if has_opencl; then
+    backends+=(opencl)
+fi
+for backend in "${backends[@]}"; do
+    start_view --backend "$backend" "${small[@]}"
+    xdotool key Right Up d plus
+    xdotool mousedown 1 mousemove 700 380 mouseup 1 click 4
+    xdotool key c p
+    expect_saved 001 "${small[@]}"
+    rm -f hedron-001.png
+    end_view
+done
+
+# ---- settings, the split view and the help are drawn
+start_view --backend c "${small[@]}"
+xdotool key p c
+expect_saved 001 "${small[@]}"
+import -window root still.png
+(($(identify -format '%k' still.png) > 500)) || fail "the window shows no picture"
+xdotool key f bracketright m x p
+expect_saved 002 --size 96x54 --samples 3 --depth 15 --precision double --aa adaptive
+xdotool key 2 x h
+sleep 1
+import -window root split.png
+expect_different still.png split.png
+end_view
+finish
