@@ -139,6 +139,8 @@ static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdErro
     HdStatus status = hd_open_devices(&worker->team, &device, error);
     if (status == HD_OK)
         worker->device_change = wish->device_change;
+    else
+        tell(worker, "no device");
     return status;
 }
 

@@ -32,7 +32,7 @@ expect_completions() {
     fi
 }
 
-commands='render new check convert devices selftest tune compare help'
+commands='render view new check convert devices selftest tune compare help'
 touch a.json b.json c.in 'with space.json'
 mkdir scenes
 

@@ -57,12 +57,14 @@ expect_help '--help --schema --json' "$hedron" help check
 expect_help '--help --output --variant' "$hedron" convert --help
 expect_help '--help --output --variant' "$hedron" help convert
 expect_help '--help --json --diff --fail-above --curve' "$hedron" compare --help
+expect_help '--terminal --set --size --samples --depth --cutoff --aa --max-error --backend --device --lanes --threads
+    --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --help' "$hedron" view --help
 expect_help '--help' "$hedron" new --help
 expect_help '--help' "$hedron" complete --help
 expect_help '--help' "$hedron" help --help
 expect_help '--help' "$hedron" help help
 run "$hedron" --help
-for usage in render new check convert devices selftest tune compare help complete --default '[OPTIONS] < INPUT'; do
+for usage in render view new check convert devices selftest tune compare help complete --default '[OPTIONS] < INPUT'; do
     expect_stdout_contains "hedron $usage"
 done
 
