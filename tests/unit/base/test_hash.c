@@ -40,6 +40,13 @@ static void bytes_are_hashed_as_fnv_1a_has_it(void **state) {
     assert_true(hd_hash_bytes(HD_HASH_START, "foobar", 6) == UINT64_C(0x85944171f73967e8));
 }
 
+/* The value is that of another implementation. */
+static void words_are_hashed_one_by_one(void **state) {
+    (void)state;
+    assert_true(hd_hash_words(HD_HASH_START, "abcdefghABCDEFGHxyz", 19) ==
+                UINT64_C(0x8959acab3d795e5));
+}
+
 /* The first and the last of what SipHash's authors tell. */
 static void keyed_hashes_are_siphash(void **state) {
     (void)state;
@@ -56,6 +63,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bit_counts),
         cmocka_unit_test(bytes_are_hashed_as_fnv_1a_has_it),
+        cmocka_unit_test(words_are_hashed_one_by_one),
         cmocka_unit_test(keyed_hashes_are_siphash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

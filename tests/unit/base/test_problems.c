@@ -71,6 +71,29 @@ static void test_a_line_that_is_too_long_is_cut(void **state) {
     expect_contains(error.message, "\n  and more of them");
 }
 
+static void test_each_is_printed_in_a_line(void **state) {
+    (void)state;
+    char text[128] = "";
+    FILE *out = tmpfile();
+    assert_non_null(out);
+    hd_problem(&problems, "first");
+    hd_problem(&problems, "second");
+    hd_problems_print(&problems, out, "hedron", ": ");
+    rewind(out);
+    text[fread(text, 1, sizeof text - 1, out)] = '\0';
+    fclose(out);
+    assert_string_equal(text, "hedron: first\nhedron: second\n");
+}
+
+static void test_they_are_full_from_some_number_on(void **state) {
+    (void)state;
+    while (!hd_problems_are_full(&problems) && problems.count < 100000)
+        hd_problem(&problems, "%s", "");
+    assert_true(problems.count < 100000);
+    problems.count += 5;
+    assert_true(hd_problems_are_full(&problems));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_nothing_wrong, clear),
@@ -79,6 +102,8 @@ int main(void) {
         cmocka_unit_test_setup(test_percent_signs_stay, clear),
         cmocka_unit_test_setup(test_more_than_there_is_room_for, clear),
         cmocka_unit_test_setup(test_a_line_that_is_too_long_is_cut, clear),
+        cmocka_unit_test_setup(test_each_is_printed_in_a_line, clear),
+        cmocka_unit_test_setup(test_they_are_full_from_some_number_on, clear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
