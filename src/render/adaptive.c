@@ -35,6 +35,7 @@ typedef struct Pixel {
     Codes codes;       /* of the mean */
     Codes least, most; /* of the means of the samples' quarters */
     bool is_uneven;    /* these differ much */
+    bool is_chosen;    /* for the pass to come */
 } Pixel;
 
 struct HdRefinement {
@@ -45,7 +46,8 @@ struct HdRefinement {
     int width, height;
     int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
     Pixel *pixels;
-    int *chosen;   /* pixels of the pass */
+    int *chosen;   /* pixels of the pass, */
+    int *next;     /* and of the one to come */
     double *steps; /* of 255, that a pixel may miss */
     HdSurveyRequest *requests;
     HdSurvey *surveys;
@@ -61,6 +63,7 @@ void hd_refinement_free(HdRefinement *r) {
     free(r->order);
     free(r->pixels);
     free(r->chosen);
+    free(r->next);
     free(r->steps);
     free(r->requests);
     free(r->surveys);
@@ -118,8 +121,9 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     r->order = calloc(pixels, sizeof *r->order);
     r->pixels = calloc(pixels, sizeof *r->pixels);
     r->chosen = calloc(pixels, sizeof *r->chosen);
+    r->next = calloc(pixels, sizeof *r->next);
     r->steps = calloc(pixels, sizeof *r->steps);
-    if (status == HD_OK && !(r->order && r->pixels && r->chosen && r->steps))
+    if (status == HD_OK && !(r->order && r->pixels && r->chosen && r->next && r->steps))
         status = hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
     if (status != HD_OK || r->order == NULL) {
         hd_refinement_free(r);
@@ -188,6 +192,7 @@ static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *sur
         bound += (double)surveys[i].bound * samples;
     pixel->bound = (float)(bound / total);
     pixel->samples = (int)total;
+    pixel->is_chosen = false;
     pixel->codes = encode(r, pixel->mean);
     pixel->is_uneven =
         greatest_difference(&pixel->least, &pixel->most) > QUARTER_CONTRAST * error_aimed_at(r);
@@ -275,12 +280,6 @@ static bool sees_another(const Choice *choice, const Pixel *pixel, const Pixel *
     return pixel->identity != neighbour->identity || differs(choice, pixel, neighbour);
 }
 
-static bool has_uneven_neighbour(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
-    (void)choice;
-    (void)pixel;
-    return neighbour->is_uneven;
-}
-
 static bool is_uneven_or_differs(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
     return pixel->is_uneven || differs(choice, pixel, neighbour);
 }
@@ -307,6 +306,36 @@ static int choose(HdRefinement *r, int samples, Judge *judge, double contrast) {
 static int choose_first(HdRefinement *r, int samples) {
     return samples == 1 ? choose(r, 1, sees_another, FIRST_CONTRAST)
                         : choose(r, samples, is_uneven_or_differs, NEIGHBOUR_CONTRAST);
+}
+
+/* Adds the neighbours that have so many samples to the `count` pixels of the pass to come. */
+static int choose_around(HdRefinement *r, int number, int samples, int count) {
+    int x = number % r->width, y = number / r->width;
+    int left = x > 0 ? -1 : 0, right = x + 1 < r->width ? 1 : 0;
+    int above = y > 0 ? -1 : 0, below = y + 1 < r->height ? 1 : 0;
+    for (int dy = above; dy <= below; dy++)
+        for (int dx = left; dx <= right; dx++) {
+            int other = number + dy * r->width + dx;
+            Pixel *neighbour = &r->pixels[other];
+            if (neighbour->samples != samples || neighbour->is_chosen)
+                continue;
+            neighbour->is_chosen = true;
+            r->next[count++] = other;
+        }
+    return count;
+}
+
+/* Chooses the pixels of so many samples next to those of the last pass that turned out to be
+   uneven. There are no others: all neighbours of pixels that did so before have been chosen. */
+static int choose_next(HdRefinement *r, int samples, int count) {
+    int found = 0;
+    for (int i = 0; i < count; i++)
+        if (r->pixels[r->chosen[i]].is_uneven)
+            found = choose_around(r, r->chosen[i], samples, found);
+    int *chosen = r->next;
+    r->next = r->chosen;
+    r->chosen = chosen;
+    return found;
 }
 
 static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
@@ -336,7 +365,7 @@ static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count
     int parts = part_count(level - samples);
     HdStatus status = sample_chosen(r, camera, count, samples, level, parts, error);
     for (int spread = 0; status == HD_OK && count > 0 && spread < MOST_SPREADS; spread++) {
-        count = choose(r, samples, has_uneven_neighbour, 0.0);
+        count = choose_next(r, samples, count);
         status = sample_chosen(r, camera, count, samples, level, parts, error);
     }
     return status;
