@@ -34,7 +34,6 @@ add_library(hedron_program STATIC
     src/view/terminal.c
     src/view/viewer.c
     src/view/viewer_lines.c
-    src/view/watch.c
     src/view/worker.c)
 target_include_directories(hedron_program SYSTEM PUBLIC ${JANSSON_INCLUDE_DIR})
 target_link_libraries(hedron_program PUBLIC hedron_scene_file ${JANSSON_LIBRARY})

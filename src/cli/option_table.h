@@ -50,19 +50,20 @@ OPTION(int samples, "--samples", NULL, "N", "N x N samples for each pixel", SHOW
 OPTION(int depth, "--depth", NULL, "N", "how often a ray may be mirrored or pass a face", SHOWING,
        INTEGER(depth, 0, HD_MAX_DEPTH), .unset = -1, .role = HD_DECIDES_NUMBERS)
 OPTION(double cutoff, "--cutoff", NULL, "W", "end rays that weigh less than W, 0..1 (0: never)",
-       SHOWING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1,
-       .role = HD_DECIDES_NUMBERS)
+       SHOWING, REAL(cutoff, 0.0, 1.0), .below_high = true, .unset = -1, .role = HD_DECIDES_NUMBERS)
 OPTION(
     int sampling, "--aa", NULL, "NAME",
     "grid: all N x N samples in each pixel; adaptive: only as many of them as it needs, which is "
     "an estimate and no promise (default grid)",
-    RENDERING | HD_COMMAND_VIEW, CHOICE(sampling, "grid", "adaptive"), .unset = -1, .role = HD_DECIDES_PIXELS)
+    RENDERING | HD_COMMAND_VIEW, CHOICE(sampling, "grid", "adaptive"), .unset = -1,
+    .role = HD_DECIDES_PIXELS)
 OPTION(
     double max_error, "--max-error", NULL, "E",
     "leave out of each pixel what cannot change it by more than E steps of 255, and nothing else: "
     "depth, cut-off and lights follow from that promise; with --aa adaptive also the error that "
     "sampling aims at",
-    RENDERING | HD_COMMAND_VIEW, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR), .role = HD_DECIDES_PIXELS)
+    RENDERING | HD_COMMAND_VIEW, REAL(max_error, HD_LEAST_ERROR, HD_MAX_ERROR),
+    .role = HD_DECIDES_PIXELS)
 OPTION(bool reference, "--reference", NULL, NULL,
        "as near to the truth as can be: double precision, 32 x 32 samples of a low-discrepancy set "
        "(or N x N), --max-error 1/64; slow, so take a small picture or --crop",
@@ -93,8 +94,8 @@ OPTION(
     "compiled",
     HD_COMMAND_SELFTEST, FLAG(quick))
 ROW("--lanes", NULL, "N",
-    "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)",
-    SHOWING, .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
+    "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)", SHOWING,
+    .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)
 ROW("--threads", "-j", "N", "threads of the C backend (default: one for each core)", SHOWING,
     INTEGER(render.threads, 1, HD_MAX_THREADS))
 ROW("--pipeline", NULL, "NAME",

@@ -61,8 +61,8 @@ HdStatus hd_half_blocks_write(HdHalfBlocks *blocks, const HdTextArea *area, cons
         for (int column = 0; column < area->columns; column++) {
             const uint8_t *upper = rgba + 2 * (size_t)row * row_bytes + 4 * (size_t)column;
             uint8_t cell[CELL_BYTES];
-            uint8_t *shown = blocks->shown + CELL_BYTES * ((size_t)row * (size_t)area->columns +
-                                                           (size_t)column);
+            uint8_t *shown =
+                blocks->shown + CELL_BYTES * ((size_t)row * (size_t)area->columns + (size_t)column);
             memcpy(cell, upper, 3);
             memcpy(cell + 3, upper + row_bytes, 3);
             if (!is_new && memcmp(cell, shown, CELL_BYTES) == 0)

@@ -13,7 +13,8 @@ typedef struct HdTextArea {
     int left, top, columns, rows;
 } HdTextArea;
 
-/* Half blocks, two pixels a character, by 24-bit colours: only what is other than before is sent. */
+/* Half blocks, two pixels a character, by 24-bit colours: only what is other than before is sent.
+ */
 typedef struct HdHalfBlocks {
     uint8_t *shown; /* owned; r, g, b of the upper and the lower half of each place */
     HdTextArea area;
@@ -33,8 +34,8 @@ void hd_kitty_write(const HdTextArea *area, const uint8_t *rgba, int width, int 
 /* Takes such a picture off the screen. */
 void hd_kitty_clear(FILE *out);
 
-/* Sends a picture as sixels from the area's corner on, a sixel's pixel for each of the picture's, in
-   216 colours with an ordered dither. */
+/* Sends a picture as sixels from the area's corner on, a sixel's pixel for each of the picture's,
+   in 216 colours with an ordered dither. */
 void hd_sixel_write(const HdTextArea *area, const uint8_t *rgba, int width, int height, FILE *out);
 
 #endif

@@ -35,9 +35,9 @@ void hd_scale_rgba(const uint8_t *source, int source_width, int source_height, u
             continue;
         }
         for (int x = 0; x < width; x++) {
-            const int box[4] = {
-                begin_of(x, width, source_width), end_of(x, width, source_width),
-                begin_of(y, height, source_height), end_of(y, height, source_height)};
+            const int box[4] = {begin_of(x, width, source_width), end_of(x, width, source_width),
+                                begin_of(y, height, source_height),
+                                end_of(y, height, source_height)};
             mean_of(source, source_width, box, row + 4 * (size_t)x);
         }
     }

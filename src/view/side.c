@@ -1,19 +1,44 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
 #include "view/side.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/hash.h"
 #include "choice/candidates.h"
 #include "cli/load_scene.h"
-#include "view/watch.h"
+
+static uint64_t add_file(uint64_t hash, const char *path) {
+    struct stat facts;
+    char expanded[HD_MAX_PATH];
+    HdError ignored;
+    if (path == NULL || hd_path_expand_home(path, expanded, &ignored) != HD_OK ||
+        stat(expanded, &facts) != 0)
+        return hd_hash_bytes(hash, "", 1);
+    const int64_t told[] = {(int64_t)facts.st_ino, (int64_t)facts.st_size,
+                            (int64_t)facts.st_mtim.tv_sec, (int64_t)facts.st_mtim.tv_nsec};
+    return hd_hash_bytes(hash, told, sizeof told);
+}
+
+/* A number that changes when one of the files is written or replaced: that of the scene (NULL:
+   none), its texture and its meshes. */
+static uint64_t hash_files(const char *path, const HdSceneFile *file) {
+    uint64_t hash = add_file(HD_HASH_START, path);
+    if (file->texture_path[0] != '\0')
+        hash = add_file(hash, file->texture_path);
+    for (int i = 0; i < file->mesh_entry_count; i++)
+        hash = add_file(hash, file->mesh_entries[i].file);
+    return hash;
+}
 
 static const char *path_of(const HdViewSide *side) {
     return side->options.operand_count > 0 ? side->options.operands[0] : NULL;
 }
 
 static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
-    side->files = hd_watch_files(path_of(side), &side->file);
+    side->files = hash_files(path_of(side), &side->file);
     HdOptions quiet = side->options;
     quiet.quiet = true;
     HdStatus status = hd_read_scene(file, &quiet, error);
@@ -28,7 +53,7 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     side->file = *file;
     side->scene_change++;
     side->device_change += was_deep != hd_scene_has_deep_trees(&file->scene);
-    side->files = hd_watch_files(path_of(side), &side->file);
+    side->files = hash_files(path_of(side), &side->file);
 }
 
 HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wake)(void *context),
@@ -54,7 +79,7 @@ void hd_view_side_read(HdViewSide *side) {
 }
 
 bool hd_view_side_follow_files(HdViewSide *side) {
-    if (hd_watch_files(path_of(side), &side->file) == side->files)
+    if (hash_files(path_of(side), &side->file) == side->files)
         return false;
     hd_view_side_read(side);
     return true;
@@ -97,8 +122,8 @@ static void next_device(HdViewSide *side) {
 
 static void change_precision(HdViewSide *side) {
     HdRenderOptions *render = &side->options.render;
-    render->precision = render->precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE
-                                                                : HD_PRECISION_FLOAT;
+    render->precision =
+        render->precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
     side->device_change++;
 }
 
@@ -121,11 +146,11 @@ bool hd_view_side_change(HdViewSide *side, HdViewAction action) {
         options->depth =
             within(scene->depth + (action == HD_VIEW_DEEPER ? 1 : -1), 0, HD_MAX_DEPTH);
     else if (action == HD_VIEW_FEWER_SAMPLES || action == HD_VIEW_MORE_SAMPLES)
-        options->samples = within(samples + (action == HD_VIEW_MORE_SAMPLES ? 1 : -1), 1,
-                                  HD_MAX_SAMPLES_PER_SIDE);
+        options->samples =
+            within(samples + (action == HD_VIEW_MORE_SAMPLES ? 1 : -1), 1, HD_MAX_SAMPLES_PER_SIDE);
     else if (action == HD_VIEW_ADAPTIVE)
-        options->sampling = scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID
-                                                                    : HD_SAMPLING_ADAPTIVE;
+        options->sampling =
+            scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
     else
         return false;
     hd_view_side_read(side);

@@ -12,7 +12,7 @@ typedef struct HdViewSide {
     HdSceneFile file;
     HdViewWorker *worker;
     int device_change, scene_change;
-    uint64_t files; /* as they were when read last (watch.h) */
+    uint64_t files; /* as they were when read last */
     HdViewImage image;
     int version;        /* of the image */
     char mistake[4096]; /* why the last reading failed; "": it did not */

@@ -25,8 +25,7 @@ static void fill_difference(HdViewImage *out, int gain, HdSplitFigures *figures)
         const uint8_t *pixels = out->rgba + row * (size_t)y;
         uint8_t *below = out->rgba + row * (size_t)(y + height);
         for (size_t x = 0; x < across; x += 4) {
-            const int apart =
-                scaled_difference(pixels + x, pixels + across + x, gain, below + x);
+            const int apart = scaled_difference(pixels + x, pixels + across + x, gain, below + x);
             figures->largest = apart > figures->largest ? apart : figures->largest;
             differing += apart > 0;
         }

@@ -6,9 +6,9 @@
 #include "view/worker.h"
 
 typedef struct HdSplitFigures {
-    int largest;       /* difference of a channel, in steps of 255 */
-    double share;      /* of the pixels that differ at all */
-    bool is_unlike;    /* the pictures have different sizes, for now */
+    int largest;    /* difference of a channel, in steps of 255 */
+    double share;   /* of the pixels that differ at all */
+    bool is_unlike; /* the pictures have different sizes, for now */
 } HdSplitFigures;
 
 /* Makes `out` twice as wide and high as the first picture, which is on the left, the second one on

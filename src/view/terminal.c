@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _DEFAULT_SOURCE
+#define _POSIX_C_SOURCE 200809L
 #include "view/terminal.h"
 
 #include <errno.h>
@@ -105,8 +105,7 @@ static bool tells_sixel(const char *answer) {
 static HdStatus find_protocol(Terminal *t, HdError *error) {
     char answer[512] = "";
     int length = 0, got = 1;
-    HdStatus status =
-        send_text(t, "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[c", error);
+    HdStatus status = send_text(t, "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[c", error);
     while (status == HD_OK && got > 0 && length < (int)sizeof answer - 1) {
         got = receive(t, answer + length, (int)sizeof answer - 1 - length, ANSWER_WAIT_MS);
         length += got;
@@ -344,7 +343,9 @@ static HdStatus open_terminal(Terminal *t, HdError *error) {
 
 static HdStatus take_terminal(Terminal *t, HdError *error) {
     struct termios raw = t->before;
-    cfmakeraw(&raw);
+    raw.c_iflag &= ~(tcflag_t)(BRKINT | ICRNL | INPCK | ISTRIP | IXON);
+    raw.c_oflag &= ~(tcflag_t)OPOST;
+    raw.c_lflag &= ~(tcflag_t)(ECHO | ICANON | IEXTEN | ISIG);
     t->is_raw = true;
     if (tcsetattr(t->file, TCSAFLUSH, &raw) != 0)
         return hd_fail(error, HD_FAILED, "cannot read single keys from the terminal: %s",

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
+#include "view/viewer.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -232,8 +234,7 @@ static void print_camera(HdViewer *viewer) {
     char *text = NULL;
     size_t size = 0;
     const HdScene *scene = &file_of(viewer)->scene;
-    const HdPose pose =
-        viewer->is_free ? viewer->pose : hd_pose_of_flight(scene, viewer->frame);
+    const HdPose pose = viewer->is_free ? viewer->pose : hd_pose_of_flight(scene, viewer->frame);
     FILE *stream = open_memstream(&text, &size);
     if (stream == NULL)
         return;

@@ -6,17 +6,11 @@
 #define HD_VIEW_VIEWER_H
 
 #include "cli/options.h"
+#include "view/host.h"
 #include "view/keys.h"
 #include "view/worker.h"
 
 enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
-
-/* What the viewer asks of who shows it. */
-typedef struct HdViewHost {
-    void (*wake)(void *context);                   /* on any thread: there is something new */
-    void (*say)(void *context, const char *lines); /* for standard output */
-    void *context;
-} HdViewHost;
 
 typedef struct HdViewer HdViewer;
 

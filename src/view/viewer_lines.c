@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/viewer.h"
 #include "view/viewer_state.h"
 
 typedef struct Lines {

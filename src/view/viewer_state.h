@@ -3,10 +3,10 @@
 #ifndef HD_VIEW_VIEWER_STATE_H
 #define HD_VIEW_VIEWER_STATE_H
 
+#include "view/host.h"
 #include "view/pose.h"
 #include "view/side.h"
 #include "view/split.h"
-#include "view/viewer.h"
 
 struct HdViewer {
     HdViewHost host;
@@ -22,7 +22,7 @@ struct HdViewer {
     double moved;        /* when it changed last */
     double watched;
     HdPace pace;
-    int most_width; /* of moving pictures; 0: the scene's */
+    int most_width;         /* of moving pictures; 0: the scene's */
     double last_picture;    /* when a moving one came */
     double picture_seconds; /* between two, smoothed; 0: not known */
     HdViewImage composed;

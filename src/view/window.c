@@ -25,8 +25,8 @@ typedef struct Window {
     int picture_width, picture_height, text_width, text_height;
     HdCanvas canvas; /* of the text; its pixels are owned */
     HdViewer *viewer;
-    Uint32 woken; /* type of the event by which workers wake the window */
-    int version;  /* of the picture that is shown */
+    Uint32 woken;    /* type of the event by which workers wake the window */
+    int version;     /* of the picture that is shown */
     bool is_changed; /* something else than the picture is */
     int held;        /* arrow key that is down; 0: none */
     double held_from, glided;
@@ -102,7 +102,8 @@ static HdStatus draw_text(Window *w, int width, int height, HdError *error) {
     const int scale = width >= 1600 ? 3 : width >= 800 ? 2 : 1;
     const bool is_split = hd_viewer_is_split(w->viewer);
     const int room = is_split ? width / 2 : width;
-    const int fitting = scale > 1 && room < HD_VIEW_LINE * HD_LETTER_WIDTH * scale ? scale - 1 : scale;
+    const int fitting =
+        scale > 1 && room < HD_VIEW_LINE * HD_LETTER_WIDTH * scale ? scale - 1 : scale;
     const int left = is_split ? width / 2 : 0, top = is_split ? height / 2 : 0;
     HdStatus status = fit_text(w, width, height, error);
     size_t longest = 0;
@@ -112,8 +113,7 @@ static HdStatus draw_text(Window *w, int width, int height, HdError *error) {
     for (int i = 0; i < count; i++)
         longest = SDL_strlen(lines[i]) > longest ? SDL_strlen(lines[i]) : longest;
     if (count > 0)
-        hd_canvas_fill(&w->canvas, left, top,
-                       (int)longest * HD_LETTER_WIDTH * fitting + 2 * MARGIN,
+        hd_canvas_fill(&w->canvas, left, top, (int)longest * HD_LETTER_WIDTH * fitting + 2 * MARGIN,
                        count * HD_LETTER_HEIGHT * fitting + 2 * MARGIN, ground);
     for (int i = 0; i < count; i++)
         hd_canvas_write(&w->canvas, lines[i], left + MARGIN,
@@ -249,8 +249,7 @@ static HdStatus open_window(Window *w, HdError *error) {
     hd_viewer_size(w->viewer, &width, &height);
     const double scale = width < LEAST_WIDTH ? (double)LEAST_WIDTH / width : 1.0;
     w->window = SDL_CreateWindow("hedron", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                 (int)(scale * width), (int)(scale * height),
-                                 SDL_WINDOW_RESIZABLE);
+                                 (int)(scale * width), (int)(scale * height), SDL_WINDOW_RESIZABLE);
     if (w->window == NULL)
         return fail(error, "cannot open a window");
     w->renderer = SDL_CreateRenderer(w->window, -1, 0);

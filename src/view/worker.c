@@ -26,11 +26,11 @@ struct HdViewWorker {
     void (*wake)(void *context);
     void *context;
     pthread_t thread;
-    HdDeviceTeam team;   /* the thread's own, and so are the next ones */
-    int device_change;   /* that the device was opened for; 0: none is open */
-    int scene_change;    /* that the scene was uploaded for; 0: none is there */
-    bool has_survey;     /* the kernels' tables are those of a surveyed scene */
-    HdFrame frame;       /* of the scene's own size */
+    HdDeviceTeam team; /* the thread's own, and so are the next ones */
+    int device_change; /* that the device was opened for; 0: none is open */
+    int scene_change;  /* that the scene was uploaded for; 0: none is there */
+    bool has_survey;   /* the kernels' tables are those of a surveyed scene */
+    HdFrame frame;     /* of the scene's own size */
     HdFrame part;
     pthread_mutex_t mutex; /* of what follows */
     pthread_cond_t changed;
@@ -194,8 +194,8 @@ static HdStatus render_scene(HdViewWorker *worker, const HdScene *scene, const H
     HdFrameTables tables;
     HdStatus status = fit_frame(frame, scene->width, scene->height, error);
     if (status == HD_OK)
-        status = hd_compile_frame(&tables, scene, &wish->camera, wish->options->render.precision,
-                                  error);
+        status =
+            hd_compile_frame(&tables, scene, &wish->camera, wish->options->render.precision, error);
     if (status != HD_OK)
         return status;
     status = hd_renderer_render(worker->team.list[0].renderer, &tables, frame, error);
@@ -331,7 +331,8 @@ static void fulfil(HdViewWorker *worker, const HdViewWish *wish, int serial) {
     pthread_mutex_lock(&worker->mutex);
     worker->is_done = worker->is_done || worker->serial == serial;
     worker->is_busy = false;
-    snprintf(worker->problem, sizeof worker->problem, "%.4000s", status == HD_OK ? "" : error.message);
+    snprintf(worker->problem, sizeof worker->problem, "%.4000s",
+             status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&worker->changed);
     pthread_mutex_unlock(&worker->mutex);
     worker->wake(worker->context);
@@ -410,8 +411,9 @@ bool hd_view_worker_image(HdViewWorker *worker, HdViewImage *image, int *version
     HdError ignored;
     pthread_mutex_lock(&worker->mutex);
     const HdViewImage *source = &worker->image;
-    const bool is_newer = worker->version != *version &&
-                          hd_view_image_resize(image, source->width, source->height, &ignored) == HD_OK;
+    const bool is_newer =
+        worker->version != *version &&
+        hd_view_image_resize(image, source->width, source->height, &ignored) == HD_OK;
     if (is_newer) {
         uint8_t *rgba = image->rgba;
         const int room = image->room;

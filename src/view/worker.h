@@ -23,12 +23,12 @@ typedef struct HdViewWish {
 typedef struct HdViewImage {
     uint8_t *rgba; /* owned; as the scene's curve has it */
     int width, height, room;
-    HdDetail detail;  /* of its latest part */
-    bool is_settled;  /* it has the bytes that 'hedron render' makes */
-    double share;     /* of the work on it, 0..1 */
-    double seconds;   /* of its latest step: a moving picture, or all of a settled one */
-    uint64_t rays;    /* of that */
-    bool has_bound;   /* of a settled picture: what was left out, in steps of 255 */
+    HdDetail detail; /* of its latest part */
+    bool is_settled; /* it has the bytes that 'hedron render' makes */
+    double share;    /* of the work on it, 0..1 */
+    double seconds;  /* of its latest step: a moving picture, or all of a settled one */
+    uint64_t rays;   /* of that */
+    bool has_bound;  /* of a settled picture: what was left out, in steps of 255 */
     double largest_bound;
 } HdViewImage;
 
@@ -50,7 +50,8 @@ bool hd_view_worker_is_idle(HdViewWorker *worker);
 /* Copies the picture into `image` if it is newer than `*version`, which it sets. */
 bool hd_view_worker_image(HdViewWorker *worker, HdViewImage *image, int *version);
 
-/* The device in a line, or what it is doing before it renders; what went wrong last, "": nothing. */
+/* The device in a line, or what it is doing before it renders; what went wrong last, "": nothing.
+ */
 void hd_view_worker_describe(HdViewWorker *worker, char *device, size_t device_size, char *problem,
                              size_t problem_size);
 

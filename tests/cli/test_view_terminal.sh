@@ -90,6 +90,7 @@ see sixel wait:finished keys:q -- --backend c "${small[@]}"
 grep -q -a -F $'\033Pq"1;1;' screen || fail "a terminal with sixels got none"
 
 # ---- ends
+# shellcheck disable=SC2016 # the shell of the step knows it
 expected_code=143 see blocks wait:finished 'sh:kill -TERM $PROGRAM' -- --backend c "${small[@]}"
 expected_code=2 see blocks -- nothing.json
 expect_stderr_contains nothing.json

@@ -24,9 +24,10 @@ for tool in Xvfb xdotool import identify; do
 done
 
 # ---- a display of our own
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
+# Without -noreset it starts anew whenever its last client leaves, and loses who comes then.
+timeout 300 Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
 server=$!
-trap 'kill "$server" 2>/dev/null || true; clean_up' EXIT
+trap 'clean_up; kill "$server"' EXIT
 # await WHAT COMMAND...: until the command succeeds, 20 s at most.
 await() {
     local what=$1 i
