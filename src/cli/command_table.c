@@ -38,7 +38,7 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "The window is a program of its own, hedron-view, which needs SDL 2. --terminal needs "
      "neither: "
      "it shows the same by half blocks of 24-bit colour, or as pictures where the terminal says "
-     "that it can (the kitty protocol)."},
+     "that it can (the kitty protocol or sixels)."},
     {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
      "write a scene to start from, with comments",
      "Writes a small scene in which comments tell what is what, to SCENE.json (default: "
