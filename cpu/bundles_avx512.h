@@ -125,16 +125,13 @@ FN FourReals fetch_four_reals(const real *table, vint index) {
     return reals_of(fetch_four_words((const void *)table, index));
 }
 
-FN FourReals load_rows(const real *from, int stride, int count) {
+FN FourReals load_rows(const real *table, vint index, int count) {
     __m512i row[4];
-    for (int i = 0; i < 4; i++) {
-        const real *at = from + (i < count ? i : count - 1) * stride;
-        row[i] = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
-    }
+    for (int i = 0; i < 4; i++)
+        row[i] = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + index[i])));
     for (int quarter = 1; quarter < 4 && 4 * quarter < count; quarter++)
         for (int i = 0; i < 4; i++) {
-            int k = 4 * quarter + i;
-            const real *at = from + (k < count ? k : count - 1) * stride;
+            const real *at = table + index[4 * quarter + i];
             __m512i more = _mm512_broadcast_i32x4(_mm_loadu_si128((const void *)at));
             row[i] = _mm512_mask_mov_epi32(row[i], (__mmask16)(0xf << 4 * quarter), more);
         }

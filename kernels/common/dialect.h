@@ -236,10 +236,10 @@ FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
     return reals;
 }
 
-/* Likewise the four numbers k * `stride` after `from` in lane k; beyond lane `count` those of the
-   last one. */
-FN FourReals load_rows(GLOBAL const real *from, int stride, int count) {
-    return fetch_four_reals(from, least_int(lane_numbers(), splat_int(count - 1)) * stride);
+/* The same for the first `count` lanes; what the others get is of no account. */
+FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
+    (void)count;
+    return fetch_four_reals(table, index);
 }
 #endif
 

@@ -73,55 +73,60 @@ FN Findings spread_findings(const Findings *found, int lane) {
     return one;
 }
 
-/* `count` triangles side by side, at most as many as there are lanes. */
-FN TriangleLanes adjacent_triangles(GLOBAL const Triangle *triangles, int first, int count,
-                                    const int axis[3], int first_face, int first_skin) {
-    GLOBAL const real *row = (GLOBAL const real *)(triangles + first);
-    FourReals a = load_rows(row, TRIANGLE_STRIDE, count);
-    FourReals b = load_rows(row + CORNER_STRIDE, TRIANGLE_STRIDE, count);
-    FourReals c = load_rows(row + 2 * CORNER_STRIDE, TRIANGLE_STRIDE, count);
+/* Triangles that lie at `number` in the table, one for each lane. */
+FN TriangleLanes triangles_at(GLOBAL const Triangle *triangles, vint number, int count,
+                              const int axis[3], int first_face, int first_skin) {
+    GLOBAL const real *table = (GLOBAL const real *)triangles;
+    vint place = number * TRIANGLE_STRIDE;
+    FourReals a = load_rows(table, place, count);
+    FourReals b = load_rows(table + CORNER_STRIDE, place, count);
+    FourReals c = load_rows(table + 2 * CORNER_STRIDE, place, count);
     TriangleLanes lanes;
     lanes.a = vec3(a.number[axis[0]], a.number[axis[1]], a.number[axis[2]]);
     lanes.b = vec3(b.number[axis[0]], b.number[axis[1]], b.number[axis[2]]);
     lanes.c = vec3(c.number[axis[0]], c.number[axis[1]], c.number[axis[2]]);
-    name_triangles(&lanes, lane_numbers() + first, to_int(a.number[3]), first_face, first_skin);
+    name_triangles(&lanes, number, to_int(a.number[3]), first_face, first_skin);
     return lanes;
 }
 
-/* Tries the triangles of a leaf side by side. What is found in the lanes is brought together, so
-   that all of them hold it. */
-FN void try_leaf_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
-                         int leaf) {
-    int first = ~leaf >> HD_LEAF_ITEM_BITS, count = ~leaf & HD_LEAF_ITEM_MASK;
-    for (int done = 0; done < count; done += HD_LANES) {
-        int rest = count - done < HD_LANES ? count - done : HD_LANES;
-        vmask m = lanes_below(rest);
-        TriangleCrossing crossing;
-        TriangleLanes triangle = adjacent_triangles(triangles, first + done, rest, way->axis,
-                                                    ray->first_face, ray->first_skin);
-        vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
-        if (!any_lane(met))
+/* Puts a leaf's triangles beside the `count` that are there; returns how many they are then. */
+FN int add_leaf(vint *number, int count, int leaf) {
+    int first = ~leaf >> HD_LEAF_ITEM_BITS, more = ~leaf & HD_LEAF_ITEM_MASK;
+    vint added = least_int(lane_numbers() + (first - count), splat_int(first + more - 1));
+    *number = pick_int(lt_int(lane_numbers(), splat_int(count)), *number, added);
+    return count + more;
+}
+
+/* Tries `count` triangles side by side. What is found in the lanes is brought together, so that all
+   of them hold it. */
+FN void try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                    vint number, int count) {
+    vmask m = lanes_below(count);
+    TriangleCrossing crossing;
+    TriangleLanes triangle =
+        triangles_at(triangles, number, count, way->axis, ray->first_face, ray->first_skin);
+    vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
+    if (!any_lane(met))
+        return;
+    if (ray->is_shadow) {
+        keep_filter(skins, found, ray, &triangle, met, &crossing);
+        if (any_lane(~found->alive))
+            found->alive = mask_none();
+        return;
+    }
+    vmask closer = met & is_closer(found, crossing.t, ray->object, triangle.number);
+    uint entering = lane_bits(crossing.entering);
+    for (uint left = lane_bits(closer); left; left &= left - 1) {
+        int lane = lowest_bit(left);
+        vreal t = spread_real(crossing.t, lane);
+        vint triangle_number = splat_int(lane_int(&triangle.number, lane));
+        vmask best = is_closer(found, t, ray->object, triangle_number);
+        if (!any_lane(best))
             continue;
-        if (ray->is_shadow) {
-            keep_filter(skins, found, ray, &triangle, met, &crossing);
-            if (any_lane(~found->alive))
-                found->alive = mask_none();
-            continue;
-        }
-        vmask closer = met & is_closer(found, crossing.t, ray->object, triangle.number);
-        uint entering = lane_bits(crossing.entering);
-        for (uint left = lane_bits(closer); left; left &= left - 1) {
-            int lane = lowest_bit(left);
-            vreal t = spread_real(crossing.t, lane);
-            vint triangle_number = splat_int(lane_int(&triangle.number, lane));
-            vmask best = is_closer(found, t, ray->object, triangle_number);
-            if (!any_lane(best))
-                continue;
-            found->limit = t;
-            found->object = splat_int(ray->object);
-            found->triangle = triangle_number;
-            found->entering = spread_mask(entering, lane);
-        }
+        found->limit = t;
+        found->object = splat_int(ray->object);
+        found->triangle = triangle_number;
+        found->entering = spread_mask(entering, lane);
     }
 }
 
@@ -143,8 +148,21 @@ FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const 
         int current = stack[waiting];
         if (lane_real(&found->limit, 0) < stack_near[waiting])
             continue;
-        if (current < 0) {
-            try_leaf_at_once(SCENE_ARGUMENTS found, ray, way, current);
+        if (current < 0) { /* and what leaves wait next to it */
+            vint number = splat_int(0);
+            int count = add_leaf(&number, 0, current);
+            if (count > HD_LANES) {
+                int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
+                stack[waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
+                count = HD_LANES;
+            }
+            while (waiting > 0 && stack[waiting - 1] < 0 &&
+                   count + (~stack[waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
+                waiting--;
+                if (stack_near[waiting] <= lane_real(&found->limit, 0))
+                    count = add_leaf(&number, count, stack[waiting]);
+            }
+            try_at_once(SCENE_ARGUMENTS found, ray, way, number, count);
             if (ray->is_shadow && !any_lane(found->alive))
                 return;
             continue;
