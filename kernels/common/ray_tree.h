@@ -50,6 +50,24 @@ FN vreal bound_of(SCENE_PARAMETERS Vec3 weight, Vec3 radiance) {
     return greatest_component(vec3_mul(weight, radiance)) * splat(header->exposure);
 }
 
+/* The most that rays see which go on from surfaces: by the object that they leave, and the side. */
+FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray) {
+    Vec3 most = vec3_zero();
+    vmask left = ray->alive;
+    while (any_lane(left)) {
+        int touched = lane_int(&ray->touched, first_lane(left));
+        vmask m = left & eq_int(ray->touched, splat_int(touched));
+        int number = touched < header->floor_end ? touched : header->floor_end;
+        GLOBAL const Object *object = objects + number;
+        GLOBAL const real *out = object->seen_outside, *in = object->seen_inside;
+        Vec3 seen = vec3_pick(ray->inside, vec3_splat(in[0], in[1], in[2]),
+                              vec3_splat(out[0], out[1], out[2]));
+        most = vec3_pick(m, seen, most);
+        left = left & ~m;
+    }
+    return most;
+}
+
 /* Ends the rays whose weight is too small, or that are the last of the scene's depth. */
 FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
     vmask weak = mask_none();
@@ -58,9 +76,7 @@ FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
     if (level == view->depth)
         weak = mask_all();
     if (SURVEYED(header)) {
-        Vec3 most = vec3_splat(header->radiance_bound[0], header->radiance_bound[1],
-                               header->radiance_bound[2]);
-        vreal bound = bound_of(SCENE_ARGUMENTS next->weight, most);
+        vreal bound = bound_of(SCENE_ARGUMENTS next->weight, most_seen(SCENE_ARGUMENTS next));
         weak = weak | lt(bound, splat(view->bound_cutoff));
         add_to_bound(SCENE_ARGUMENTS sample, next->alive & weak, bound);
     }

@@ -21,10 +21,8 @@ typedef struct ALIGNED_16 {
     real exposure;
     real mesh_reach; /* no coordinate of a mesh, relative to their centre, is larger */
     real unused0;
-    real radiance_bound[3]; /* no ray sees more, were its tree endless; of surveyed scenes */
-    real unused1;
-    real light_bound[3]; /* the lights' intensities, added up */
-    real unused2[2];
+    real light_bound[3]; /* the lights' intensities, added up; of surveyed scenes */
+    real unused1[3];
     int solid_count; /* the floor, if there is one, is object number solid_count */
     int floor_end;
     int object_count;
@@ -55,6 +53,8 @@ typedef struct ALIGNED_16 {
     real edge_half_length;
     real circumradius_squared;
     real unused[3];
+    real seen_outside[3], unused0; /* no ray that leaves it sees more; of surveyed scenes */
+    real seen_inside[3], unused1;  /* likewise inwards */
     int first_plane, plane_count;
     int first_edge, edge_count;
     int face_material, rim_material;
@@ -214,9 +214,9 @@ typedef struct ALIGNED_16 {
     typedef char hd_size_of_##type##_is_as_documented                                              \
         [sizeof(type) == (reals) * sizeof(real) + (ints)*4 ? 1 : -1]
 HD_ASSERT_SIZE(Vector, 4, 0);
-HD_ASSERT_SIZE(Header, 16, 12);
+HD_ASSERT_SIZE(Header, 12, 12);
 HD_ASSERT_SIZE(Plane, 4, 0);
-HD_ASSERT_SIZE(Object, 8, 8);
+HD_ASSERT_SIZE(Object, 16, 8);
 HD_ASSERT_SIZE(Edge, 12, 0);
 HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);

@@ -2,6 +2,9 @@
 #include "scene/light_bound.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "scene/overlap.h"
 
 /* More than all roundings, those of highlights' powers and of weights over many levels included. */
 #define MARGIN 1.02
@@ -65,23 +68,43 @@ static void visit_materials(const HdScene *scene, Visit *visit, void *context) {
         visit_mesh(scene, &scene->instances[i], visit, context);
 }
 
-/* The share of light that goes on from one side; total reflection mirrors what would have passed.
- */
-static HdVec3 share_of_side(const HdMaterial *material, double reflection, double transmission) {
-    HdVec3 share = hd_add(hd_scale(material->mirror_tint, reflection),
-                          hd_scale(material->colour, transmission));
+/* What goes on from one side of what its two rays see; total reflection mirrors what would have
+   passed. */
+static HdVec3 sent_on(const HdMaterial *material, double reflection, double transmission,
+                      HdVec3 mirrored, HdVec3 passing) {
+    HdVec3 mirror = times(material->mirror_tint, mirrored);
+    HdVec3 sum = hd_add(hd_scale(mirror, reflection),
+                        hd_scale(times(material->colour, passing), transmission));
     if (material->index_of_refraction != 1.0)
-        share = greater3(share, hd_scale(material->mirror_tint, reflection + transmission));
-    return share;
+        sum = greater3(sum, hd_scale(mirror, reflection + transmission));
+    return sum;
+}
+
+static HdVec3 sent_outside(const HdMaterial *material, HdVec3 mirrored, HdVec3 passing) {
+    return sent_on(material, material->reflection, material->transmission, mirrored, passing);
+}
+
+static HdVec3 sent_inside(const HdMaterial *material, HdVec3 mirrored, HdVec3 passing) {
+    if (!material->has_inner_side)
+        return sent_outside(material, mirrored, passing);
+    return sent_on(material, material->inner_reflection, material->inner_transmission, mirrored,
+                   passing);
 }
 
 /* Of the side where it is greater. */
-static HdVec3 share_sent_on(const HdMaterial *material) {
-    HdVec3 outside = share_of_side(material, material->reflection, material->transmission);
-    if (!material->has_inner_side)
-        return outside;
-    return greater3(
-        outside, share_of_side(material, material->inner_reflection, material->inner_transmission));
+static HdVec3 sent_by_either(const HdMaterial *material, HdVec3 seen) {
+    return greater3(sent_outside(material, seen, seen), sent_inside(material, seen, seen));
+}
+
+/* The most that a surface shows by itself, under `light`. */
+static HdVec3 own_radiance(const HdMaterial *material, HdVec3 emission, HdVec3 light) {
+    double sides = material->lit_from_behind
+                       ? 1.0 + greater(material->transmission, material->inner_transmission)
+                       : 1.0;
+    HdVec3 scattered = hd_add(hd_scale(material->colour, material->diffuse * sides),
+                              (HdVec3){material->specular, material->specular, material->specular});
+    return hd_add(hd_add(times(scattered, light), emission),
+                  hd_scale(material->colour, material->ambient));
 }
 
 typedef struct Bounding {
@@ -98,14 +121,9 @@ static double endless(double own, double share) {
 
 static void bound_material(void *context, const HdMaterial *material, HdVec3 emission) {
     Bounding *bounding = context;
-    double sides = material->lit_from_behind
-                       ? 1.0 + greater(material->transmission, material->inner_transmission)
-                       : 1.0;
-    HdVec3 scattered = hd_add(hd_scale(material->colour, material->diffuse * sides),
-                              (HdVec3){material->specular, material->specular, material->specular});
-    HdVec3 own = hd_add(hd_add(times(scattered, bounding->light), emission),
-                        hd_scale(material->colour, material->ambient));
-    HdVec3 share = share_sent_on(material);
+    const HdVec3 one = {1.0, 1.0, 1.0};
+    HdVec3 own = own_radiance(material, emission, bounding->light);
+    HdVec3 share = sent_by_either(material, one);
     HdVec3 shown = {endless(own.x, share.x), endless(own.y, share.y), endless(own.z, share.z)};
     bounding->own = greater3(bounding->own, own);
     bounding->endless = greater3(bounding->endless, shown);
@@ -144,6 +162,148 @@ HdVec3 hd_radiance_bound(const HdScene *scene) {
                              bound_of_channel(last.y, bounding.own.y, bounding.endless.y),
                              bound_of_channel(last.z, bounding.own.z, bounding.endless.z)},
                     MARGIN);
+}
+
+/* ---- what is seen from where a ray leaves ---- */
+
+/* Objects: the solids, the floor, all meshes. */
+enum { MOST_OBJECTS = HD_MAX_SOLIDS + 2, MOST_ROUNDS = 256 };
+
+/* Solids that are further apart than this part of their sizes have no point in common, however
+   coordinates are rounded. */
+#define NEAR 1e-3
+
+/* Where less changes, another round is of no use. */
+#define SETTLED 0.999
+
+/* What the two sides of an object's surface show at most. */
+typedef struct Shown {
+    HdVec3 outer, inner;
+} Shown;
+
+typedef struct Views {
+    const HdScene *scene;
+    HdVec3 light;
+    bool near[HD_MAX_SOLIDS][MOST_OBJECTS]; /* may have points in common */
+    Shown shown[MOST_OBJECTS];
+    HdSeen *seen;
+} Views;
+
+static void find_neighbours(Views *views) {
+    const HdScene *scene = views->scene;
+    const int count = scene->solid_count;
+    for (int a = 0; a < count; a++) {
+        const HdSolid *solid = &scene->solids[a];
+        for (int b = 0; b < a; b++) {
+            double least = -NEAR * (solid->circumradius + scene->solids[b].circumradius);
+            bool near = hd_solid_depth(solid, &scene->solids[b], least) > least;
+            views->near[a][b] = views->near[b][a] = near;
+        }
+        double least = -NEAR * solid->circumradius;
+        views->near[a][count] =
+            scene->floor.present && hd_floor_depth(solid, &scene->floor, least) > least;
+        views->near[a][count + 1] = scene->instance_count > 0;
+    }
+}
+
+static void show_material(Views *views, const HdMaterial *material, HdVec3 emission, int object) {
+    const HdSeen *seen = &views->seen[object];
+    Shown *shown = &views->shown[object];
+    HdVec3 own = own_radiance(material, emission, views->light);
+    HdVec3 outer = sent_outside(material, seen->outside, seen->inside);
+    HdVec3 inner = sent_inside(material, seen->inside, seen->outside);
+    shown->outer = greater3(shown->outer, hd_add(own, outer));
+    shown->inner = greater3(shown->inner, hd_add(own, inner));
+}
+
+static void show_mesh_material(void *context, const HdMaterial *material, HdVec3 emission) {
+    Views *views = context;
+    show_material(views, material, emission, views->scene->solid_count + 1);
+}
+
+static void show_surfaces(Views *views) {
+    const HdScene *scene = views->scene;
+    const HdVec3 dark = {0.0, 0.0, 0.0};
+    memset(views->shown, 0, sizeof views->shown);
+    for (int s = 0; s < scene->solid_count; s++) {
+        HdVec3 disc = disc_bound(&scene->solids[s]);
+        views->shown[s] = (Shown){disc, disc};
+        show_material(views, &scene->solids[s].face, dark, s);
+        if (scene->solids[s].rim_width > 0.0)
+            show_material(views, &scene->solids[s].rim, dark, s);
+    }
+    if (scene->floor.present)
+        show_material(views, &scene->floor.material, dark, scene->solid_count);
+    for (int i = 0; i < scene->instance_count; i++)
+        visit_mesh(scene, &scene->instances[i], show_mesh_material, views);
+}
+
+static HdVec3 either_side(const Shown *shown) {
+    return greater3(shown->outer, shown->inner);
+}
+
+/* Within a solid: its inner side, and what reaches into it. */
+static HdVec3 seen_within(const Views *views, int solid) {
+    HdVec3 most = views->shown[solid].inner;
+    for (int i = 0; i < views->scene->solid_count + 2; i++)
+        if (i != solid && views->near[solid][i])
+            most = greater3(most, either_side(&views->shown[i]));
+    return most;
+}
+
+/* From the outer side of `object`, which is not met again: the inner side of a solid only if the
+   two may have points in common. */
+static HdVec3 seen_around(const Views *views, int object) {
+    const int solids = views->scene->solid_count;
+    HdVec3 most = views->scene->background;
+    for (int i = 0; i < solids; i++) {
+        bool is_near = object < solids ? views->near[object][i] : views->near[i][object];
+        if (i != object)
+            most = greater3(most, is_near ? either_side(&views->shown[i]) : views->shown[i].outer);
+    }
+    if (object != solids)
+        most = greater3(most, views->shown[solids].outer);
+    return greater3(most, either_side(&views->shown[solids + 1]));
+}
+
+static HdVec3 lesser3(HdVec3 a, HdVec3 b) {
+    return (HdVec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)};
+}
+
+static bool take_view(HdVec3 *seen, HdVec3 most) {
+    HdVec3 before = *seen;
+    *seen = lesser3(before, most);
+    return seen->x < SETTLED * before.x || seen->y < SETTLED * before.y ||
+           seen->z < SETTLED * before.z;
+}
+
+/* False where hardly anything became less. */
+static bool look_around(Views *views) {
+    const int solids = views->scene->solid_count;
+    bool changed = false;
+    show_surfaces(views);
+    for (int i = 0; i < solids + 2; i++) {
+        HdVec3 around = seen_around(views, i);
+        HdVec3 within = i < solids ? seen_within(views, i) : around;
+        bool less_outside = take_view(&views->seen[i].outside, around);
+        bool less_inside = take_view(&views->seen[i].inside, within);
+        changed = changed || less_outside || less_inside;
+    }
+    return changed;
+}
+
+void hd_seen_bounds(const HdScene *scene, HdSeen *seen) {
+    Views views = {.scene = scene, .light = hd_light_bound(scene), .seen = seen};
+    const HdVec3 most = hd_radiance_bound(scene);
+    find_neighbours(&views);
+    for (int i = 0; i < scene->solid_count + 2; i++)
+        seen[i] = (HdSeen){most, most};
+    for (int round = 0; round < MOST_ROUNDS && look_around(&views); round++)
+        ;
+    for (int i = 0; i < scene->solid_count + 2; i++) {
+        seen[i].outside = lesser3(most, hd_scale(seen[i].outside, MARGIN));
+        seen[i].inside = lesser3(most, hd_scale(seen[i].inside, MARGIN));
+    }
 }
 
 static void find_strongest(void *context, const HdMaterial *material, HdVec3 emission) {

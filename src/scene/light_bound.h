@@ -18,6 +18,18 @@ HdVec3 hd_surface_bound(const HdScene *scene);
    these and s for each level. */
 HdVec3 hd_radiance_bound(const HdScene *scene);
 
+/* What is seen at most by rays that leave an object. */
+typedef struct HdSeen {
+    HdVec3 outside; /* of a solid: outwards; else of either side */
+    HdVec3 inside;  /* of a solid: inwards; else the same */
+} HdSeen;
+
+/* Fills `seen` for each solid, then for the floor and for all meshes: solid_count + 2. A ray within
+   a convex solid sees its inner side and what has points in common with it, one outside never that
+   solid itself, and the inner sides of those only that have. Each round puts what is seen at most
+   into what surfaces show at most, and so on, from hd_radiance_bound downwards: each is a bound. */
+void hd_seen_bounds(const HdScene *scene, HdSeen *seen);
+
 /* How deep a ray of weight 1 can go until what it can add is below `bound`, which is positive: up
    to HD_MAX_DEPTH. */
 int hd_depth_for_bound(const HdScene *scene, double bound);

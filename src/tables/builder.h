@@ -125,6 +125,8 @@ static inline Vector hd_as_vector(HdVec3 v) {
 void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables);
 void NAMED(hd_fill_material)(Material *out, const HdMaterial *material);
 void NAMED(hd_fill_solids)(const HdBuilder *builder);
+/* Of surveyed scenes: what is seen at most by rays that leave each object. */
+void NAMED(hd_fill_seen)(const HdBuilder *builder);
 void NAMED(hd_fill_floor)(const HdBuilder *builder);
 void NAMED(hd_fill_pictures)(const HdBuilder *builder);
 void NAMED(hd_fill_object_offsets)(const HdBuilder *builder);

@@ -120,6 +120,8 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         hd_builder_list_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
+        if (tables->surveyed)
+            NAMED(hd_fill_seen)(&builder);
         NAMED(hd_fill_floor)(&builder);
         NAMED(hd_fill_pictures)(&builder);
         NAMED(hd_fill_object_offsets)(&builder);

@@ -13,7 +13,6 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
     header->refracts = tables->refracts;
     header->lit_from_behind = tables->lit_from_behind;
     header->surveyed = tables->surveyed;
-    hd_store3(header->radiance_bound, hd_most_radiance(builder->scene));
     hd_store3(header->light_bound, hd_light_bound(builder->scene));
     header->solid_count = builder->solid_count;
     header->floor_end = builder->solid_count + (builder->has_floor ? 1 : 0);
@@ -21,6 +20,30 @@ void NAMED(hd_fill_header)(const HdBuilder *builder, const HdSceneTables *tables
     header->object_count = builder->object_count;
     header->plane_count = builder->plane_count;
     header->light_count = builder->light_count;
+}
+
+static void store_seen(Object *out, const HdSeen *seen, HdVec3 limit) {
+    const HdVec3 outside = seen->outside, inside = seen->inside;
+    hd_store3(out->seen_outside, (HdVec3){fmin(outside.x, limit.x), fmin(outside.y, limit.y),
+                                          fmin(outside.z, limit.z)});
+    hd_store3(out->seen_inside,
+              (HdVec3){fmin(inside.x, limit.x), fmin(inside.y, limit.y), fmin(inside.z, limit.z)});
+}
+
+void NAMED(hd_fill_seen)(const HdBuilder *builder) {
+    const HdScene *scene = builder->scene;
+    Object *objects = builder->table[HD_TABLE_objects];
+    const HdVec3 most = hd_most_radiance(scene);
+    HdSeen seen[HD_MAX_SOLIDS + 2];
+    hd_seen_bounds(scene, seen);
+    for (int s = 0; s < builder->solid_count; s++)
+        store_seen(&objects[s], &seen[s], most);
+    int mesh = builder->solid_count;
+    if (builder->has_floor)
+        store_seen(&objects[mesh++], &seen[scene->solid_count], most);
+    /* Triangles may stand for solids too. */
+    if (mesh < builder->object_count)
+        store_seen(&objects[mesh], &(HdSeen){most, most}, most);
 }
 
 /* As kernels do it, by squaring. */

@@ -655,6 +655,7 @@ static const real channel_bounds[CHANNELS] = {R(1.0), R(2.0), R(4.0)};
 
 typedef struct Ends {
     Header header;
+    Object objects[2]; /* a solid, and all meshes */
     View view;
     vmask alive; /* all lanes but DEAD_LANE */
     Sample sample;
@@ -700,36 +701,52 @@ static void expect_end(const Ends *ends, vmask going_on, int lane, double bound,
     HD_SCENE_TABLES(NO_TABLE) HD_FRAME_TABLES(NO_TABLE) header = &(ends)->header;                  \
     view = &(ends)->view
 
+enum { WAYS = 3 }; /* of lanes in turn: out of the solid, into it, from the fourth mesh */
+static const double seen_times[WAYS] = {1.0, 2.0, 4.0};
+
 static vmask end_rays_of(Ends *ends, int level, int channel) {
     ONLY_TABLES_OF(ends);
-    for (int i = 0; i < CHANNELS; i++)
-        ends->header.radiance_bound[i] = channel_bounds[i];
+    objects = ends->objects;
+    ends->header.floor_end = 1;
+    for (int i = 0; i < CHANNELS; i++) {
+        ends->objects[0].seen_outside[i] = channel_bounds[i];
+        ends->objects[0].seen_inside[i] = (real)seen_times[1] * channel_bounds[i];
+        ends->objects[1].seen_outside[i] = ends->objects[1].seen_inside[i] =
+            (real)seen_times[2] * channel_bounds[i];
+    }
     Ray ray = eye_ray(vec3_zero(), ends->alive);
     ray.weight = weights_of(channel);
+    vint inside = splat_int(0);
+    for (int lane = 0; lane < HD_LANES; lane++) {
+        set_lane_int(&ray.touched, lane, lane % WAYS == 2 ? 4 : 0);
+        set_lane_int(&inside, lane, lane % WAYS == 1);
+    }
+    ray.inside = eq_int(inside, splat_int(1));
     end_rays(SCENE_ARGUMENTS level, &ray, &ends->sample);
     return ray.alive;
 }
 
-/* By the greatest radiance there is, times the exposure; a bound that is the limit is not below it.
- */
+/* By the greatest radiance that is seen from where a ray leaves, times the exposure; a bound that
+   is the limit is not below it. */
 static void rays_that_end_are_bounded(void **state) {
     (void)state;
     for (int channel = 0; channel < CHANNELS; channel++) {
-        double each =
-            0.5 * (double)channel_bounds[channel]; /* of a lane, more than the one before */
-        Ends ends = ends_below((real)(3.0 * each));
+        double each = 0.5 * (double)channel_bounds[channel], bounds[HD_LANES];
+        for (int lane = 0; lane < HD_LANES; lane++)
+            bounds[lane] = each * (lane + 1) * seen_times[lane % WAYS];
+        Ends ends = ends_below((real)(12.0 * each));
         vmask going_on = end_rays_of(&ends, 2, channel);
         for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, each * (lane + 1), lane + 1 < 3);
+            expect_end(&ends, going_on, lane, bounds[lane], bounds[lane] < 12.0 * each);
         ends = ends_below((real)each);
         going_on = end_rays_of(&ends, ends.view.depth, channel);
         for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, each * (lane + 1), true);
+            expect_end(&ends, going_on, lane, bounds[lane], true);
         ends = ends_below(R(0.0));
         ends.view.cutoff = R(0.5);
         going_on = end_rays_of(&ends, 2, channel);
         for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, each * (lane + 1), lane == 0);
+            expect_end(&ends, going_on, lane, bounds[lane], lane == 0);
     }
 }
 

@@ -78,6 +78,54 @@ static void the_brightest_counts(void **state) {
     expect_near(bound.z, 8.0, 0.17);
 }
 
+/* A room of mirrors that is `apart` from another solid. */
+static void two_solids(HdSolid solids[2], double apart) {
+    solids[0] = (HdSolid){.kind = HD_HEXAHEDRON, .circumradius = 1.0, .face = plain()};
+    solids[0].face.ambient = 0.1;
+    solids[0].face.has_inner_side = true;
+    solids[0].face.inner_reflection = 0.5;
+    solids[1] = (HdSolid){.kind = HD_HEXAHEDRON, .circumradius = 1.0, .face = plain()};
+    solids[1].face.ambient = 4.0;
+    solids[1].centre.x = apart;
+}
+
+/* Within a room nothing is seen but the room, unless something reaches into it. */
+static void rays_see_what_is_there(void **state) {
+    (void)state;
+    HdSolid solids[2];
+    HdSeen seen[4];
+    HdScene scene = {.solid_count = 2, .solids = solids, .background = {0.5, 0.0, 0.0}};
+    two_solids(solids, 3.0);
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, 0.1 / (1.0 - 0.5), 0.01);
+    expect_near(seen[0].outside.x, 4.0, 0.1);
+    expect_near(seen[1].inside.x, 4.0, 0.1);
+    expect_near(seen[1].outside.x, 0.5, 0.02); /* never itself */
+    expect_near(seen[2].outside.x, 4.0, 0.1);
+    assert_true(seen[0].inside.x >= 0.2 && seen[1].outside.x >= 0.5);
+    two_solids(solids, 1.154); /* the faces are 1.1547 apart where they touch */
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, 4.0, 0.1);
+    two_solids(solids, 1.155);
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, 4.0, 0.1); /* so near is in the same place */
+    two_solids(solids, 3.0);
+    solids[0].face.inner_transmission = 0.25;
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, (0.1 + 0.25 * 4.0) / (1.0 - 0.5), 0.05);
+    solids[0].lights = (HdEdgeLights){
+        .per_edge = 1, .colour_count = 1, .colours = {{1.0, 1.0, 1.0}}, .disc_radiance = 3.0};
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, 3.0, 0.1);
+    scene.floor = (HdFloor){.present = true,
+                            .corners = {{-4, 4, 0.5}, {4, 4, 0.5}, {4, -4, 0.5}, {-4, -4, 0.5}},
+                            .material = plain()};
+    scene.floor.material.ambient = 8.0;
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].inside.x, 8.0, 0.2);                           /* it cuts the room */
+    expect_near(seen[2].outside.x, 0.1 + 0.5 * 8.0 + 0.25 * 8.0, 0.3); /* and is not met twice */
+}
+
 static void depth_follows_the_strongest_ray(void **state) {
     (void)state;
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 2.0};
@@ -96,6 +144,7 @@ int main(void) {
         cmocka_unit_test(mirrors_multiply),
         cmocka_unit_test(total_reflection_counts),
         cmocka_unit_test(the_brightest_counts),
+        cmocka_unit_test(rays_see_what_is_there),
         cmocka_unit_test(depth_follows_the_strongest_ray),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
