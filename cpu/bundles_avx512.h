@@ -88,6 +88,17 @@ FN void store_lanes(real *to, vmask m, const int offset[HD_LANES], const vreal *
     HD_REALS_512(storeu, )(to, HD_REALS_512(maskz_compress, )(HD_MASK(m), (Reals512)*a));
 }
 
+#define HD_OWN_SUM_LANES
+FN fixed64 sum_lanes(vint a) {
+#if HD_DOUBLE
+    return _mm512_reduce_add_epi64((__m512i)a);
+#else
+    __m512i low = _mm512_cvtepi32_epi64(_mm512_castsi512_si256((__m512i)a));
+    __m512i high = _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64((__m512i)a, 1));
+    return _mm512_reduce_add_epi64(low + high);
+#endif
+}
+
 #if !HD_DOUBLE
 #define HD_OWN_ROWS
 /* Of the 4 x 4 words in each quarter of the registers. */

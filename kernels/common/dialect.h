@@ -87,6 +87,16 @@ FN vint count_lanes(vint counts, vmask m) {
     return counts + pick_int(m, splat_int(1), splat_int(0));
 }
 
+/* All lanes added up. */
+#ifndef HD_OWN_SUM_LANES
+FN fixed64 sum_lanes(vint a) {
+    fixed64 sum = 0;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        sum += lane_int(&a, lane);
+    return sum;
+}
+#endif
+
 /* 0, 1, 2, ... */
 FN vint lane_numbers(void) {
     vint numbers = splat_int(0);

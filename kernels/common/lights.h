@@ -3,15 +3,7 @@
 #ifndef HD_LIGHTS_H
 #define HD_LIGHTS_H
 
-#include "surface.h"
-
-/* The lit points of a bundle. */
-typedef struct {
-    vint object;  /* what the points lie on */
-    vint face;    /* and which face of it */
-    vmask inside; /* light reaches the point from inside that solid */
-    vmask active;
-} LitPoints;
+#include "light_groups.h"
 
 /* Where the points are as to the planes of the scene, found once for all lights:
      coordinates[plane]   n.X of a solid's plane, the distance to a floor's
@@ -199,8 +191,10 @@ FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int comm
     vreal specular = splat(R(0.0));
     if (shines) {
         vreal x = mirror_cosine * inverse;
-        x = pick(lt(x, material->least_highlight), splat(R(0.0)), x);
-        specular = material->specular * power(x, shininess, common_shininess);
+        vmask too_small = lt(x, material->least_highlight);
+        x = pick(too_small, splat(R(0.0)), x);
+        if (any_lane(~too_small))
+            specular = material->specular * power(x, shininess, common_shininess);
     }
     return vec3_scale_add(material->colour, diffuse, vec3(specular, specular, specular));
 }
@@ -230,16 +224,19 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
 /* What the segments to one light let through in the lanes of `lit`. */
 FN Vec3 transmittance_to(SCENE_PARAMETERS int light, Vec3 to_light, const Surface *surface,
                          const vreal *coordinates, const vint *outer, const uint *some_outer,
-                         const vmask *open_to, const LitPoints *points, vmask lit) {
+                         const vmask *open_to, const LitPoints *points, int known, vmask lit) {
     GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + light * header->object_count;
     for (int object = header->solid_count; object < header->floor_end; object++)
         lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
     vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
     Vec3 transmittance = vec3(open, open, open);
-    for (int object = 0; object < header->solid_count; object++)
+    for (int object = 0; object < header->solid_count; object++) {
+        if (object < JUDGED_SOLIDS && known >> object & 1)
+            continue;
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
                     some_outer[object], open_to[object] & lit, &transmittance);
+    }
     if (MESHES(header) && any_lane(lit))
         transmittance =
             vec3_mul(transmittance, transmittance_of_meshes(SCENE_ARGUMENTS surface->point,
@@ -309,7 +306,26 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
+#if HD_LANES > 1
+    int group_known[HD_MOST_LIGHT_GROUPS];
+    group_known[0] = 0; /* of all lights, where there are no groups */
+    if (HD_LIGHT_GROUPS(header->light_count) > 0 && rows.count == 1) {
+        /* Copies: what a pointer is handed out to cannot stay in registers. */
+        Vec3 at = point, normal = surface->normal;
+        LitPoints lit_points = *points;
+        judge_groups(SCENE_ARGUMENTS & at, &normal, &lit_points, open_to, group_known);
+    } else {
+        for (int g = 1; g < HD_LIGHT_GROUPS(header->light_count); g++)
+            group_known[g] = 0;
+    }
+#endif
     for (int i = 0; i < header->light_count; i++) {
+        int known = 0;
+#if HD_LANES > 1
+        known = group_known[lights[i].group];
+        if (known & GROUP_IS_DARK)
+            continue;
+#endif
         Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
@@ -319,7 +335,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
         Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, to_light, surface, coordinates,
-                                              outer, some_outer, open_to, points, lit);
+                                              outer, some_outer, open_to, points, known, lit);
         /* Nothing arrives where the point is not lit. */
         Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,

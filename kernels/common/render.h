@@ -123,13 +123,13 @@ FN RayCounts no_counts(void) {
     return counts;
 }
 
-/* What a sample counted in one lane. */
-FN RayCounts counts_of_lane(const Sample *sample, int lane) {
+/* What a bundle of samples counted; lanes without one counted nothing. */
+FN RayCounts counts_of(const Sample *sample) {
     RayCounts counts;
-    counts.mirrored = (uint64)lane_int(&sample->mirrored, lane);
-    counts.transmitted = (uint64)lane_int(&sample->transmitted, lane);
-    counts.shadow_tests = (uint64)lane_int(&sample->shadow_tests, lane);
-    counts.clamps = (uint64)lane_int(&sample->clamps, lane);
+    counts.mirrored = (uint64)sum_lanes(sample->mirrored);
+    counts.transmitted = (uint64)sum_lanes(sample->transmitted);
+    counts.shadow_tests = (uint64)sum_lanes(sample->shadow_tests);
+    counts.clamps = (uint64)sum_lanes(sample->clamps);
     return counts;
 }
 
@@ -150,6 +150,7 @@ FN void clear_gathered(Gathered *gathered) {
 FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *gathered) {
     int per_pixel = view->samples;
     int place = first / per_pixel, left = per_pixel - first % per_pixel;
+    add_counts(&gathered->counts, counts_of(sample));
     for (int lane = 0; lane < HD_LANES && place < HD_PIXELS_PER_ITEM; lane++) {
         fixed64 *sums = gathered->sums + place * PIXEL_SUMS;
         sums[0] += lane_fix(&sample->r, lane) >> view->pixel_shift;
@@ -159,7 +160,6 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
             sums[HD_RADIANCE_SUMS] += shifted_bound(view, lane_fix(&sample->bound, lane));
             sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
         }
-        add_counts(&gathered->counts, counts_of_lane(sample, lane));
         left--;
         if (left == 0) {
             left = per_pixel;

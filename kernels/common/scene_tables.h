@@ -52,7 +52,9 @@ typedef struct ALIGNED_16 {
     real disc_radius_squared;
     real edge_half_length;
     real circumradius_squared;
-    real unused[3];
+    real radius_about;       /* a little more than the circumradius */
+    real disc_reach_squared; /* no disc is further away from the middle of its edge */
+    real unused;
     real seen_outside[3], unused0; /* no ray that leaves it sees more; of surveyed scenes */
     real seen_inside[3], unused1;  /* likewise inwards */
     int first_plane, plane_count;
@@ -83,8 +85,20 @@ typedef struct ALIGNED_16 {
     real inverse_falloff_squared; /* 1 over the square of the falloff's length; 0: no falloff */
     int own_face[2];              /* the faces that hold an edge light; -1: none */
     int falloff_ends;             /* the length is the distance at which nothing is left */
-    int unused_int;
+    int group;                    /* of lights near each other (light_groups) */
 } Light;
+
+/* How many groups lights make: none where there are too few to be worth it, otherwise a multiple of
+   what bundles hold. */
+enum { HD_MOST_LIGHT_GROUPS = 256 };
+#define HD_LIGHT_GROUPS(lights)                                                                    \
+    ((lights) < 16                         ? 0                                                     \
+     : (lights) > 8 * HD_MOST_LIGHT_GROUPS ? HD_MOST_LIGHT_GROUPS                                  \
+                                           : ((lights) + 127) / 128 * 16)
+
+/* Of spheres about the lights of each group: place relative to an object, radius; and the distance
+   beyond which nothing is left of any of its lights. */
+enum { HD_GROUP_X, HD_GROUP_Y, HD_GROUP_Z, HD_GROUP_RADIUS, HD_GROUP_REACH, HD_GROUP_ROWS };
 
 /* On which side of an object's faces a light is, a bit for each face from the object's first one
    on. It is strictly inside of those that are in neither word. */
@@ -245,6 +259,8 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(real, light_coordinates)                                                                     \
     /* [light * object_count + object], of solids only */                                          \
     X(LightSides, light_sides)                                                                     \
+    /* [(object * HD_GROUP_ROWS + row) * groups + group] */                                        \
+    X(real, light_groups)                                                                          \
     /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \

@@ -100,8 +100,12 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point
 FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m, const Hit *hit,
                    Surface *surface) {
     vmask shown = mask_none();
+    vreal reach = splat(solid->disc_reach_squared);
     for (int e = solid->first_edge; e < solid->first_edge + solid->edge_count; e++) {
         GLOBAL const Edge *edge = edges + e;
+        Vec3 from_middle = vec3_sub(surface->point, vec3_of(edge->middle));
+        if (!any_lane(m & lt(vec3_dot(from_middle, from_middle), reach)))
+            continue;
         vmask disc = m & on_disc(solid, edge, surface->point);
         Vec3 radiance = vec3_of(edge->disc_radiance);
         surface->emission = vec3_pick(disc, radiance, surface->emission);

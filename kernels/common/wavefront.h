@@ -193,8 +193,7 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror,
                                  MESHES(header), SURVEYED(header), numbers);
     }
-    for (int lane = 0; lane < HD_LANES; lane++)
-        add_counts(counts, counts_of_lane(&sum, lane));
+    add_counts(counts, counts_of(&sum));
 }
 
 /* Traces the samples [first, first + batch) of an item. */

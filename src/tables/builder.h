@@ -36,6 +36,12 @@ typedef struct HdMeshPlace {
     HdWideHierarchy wide;
 } HdMeshPlace;
 
+/* A light in the order of groups: those of a group follow each other. */
+typedef struct HdGroupedLight {
+    HdVec3 position; /* in world space */
+    int light, group;
+} HdGroupedLight;
+
 typedef struct HdBuilder {
     const HdScene *scene;
     int lanes;
@@ -45,7 +51,8 @@ typedef struct HdBuilder {
     int object_count, plane_count, edge_count, light_count;
     HdVec3 *centres;        /* of the objects, world space */
     HdLightSource *sources; /* in the order of the table of lights */
-    HdMeshPlace *places;    /* of the meshes */
+    HdGroupedLight *grouped;
+    HdMeshPlace *places; /* of the meshes */
     HdMeshSizes sizes;
     HdVec3 mesh_centre; /* of all instances */
     double mesh_reach;  /* most coordinate of an instance, relative to that centre */
@@ -92,6 +99,9 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 /* A light relative to an object. */
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
+/* Halves the lights across their longest side, and the halves, until there are as many groups as
+   HD_LIGHT_GROUPS says (light_groups.c). */
+void hd_builder_group_lights(HdBuilder *builder);
 
 /* No ray sees more radiance, contributions being clamped. */
 HdVec3 hd_most_radiance(const HdScene *scene);

@@ -33,6 +33,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_light_offsets] = objects * lights,
         [HD_TABLE_light_coordinates] = lights * planes,
         [HD_TABLE_light_sides] = lights * objects,
+        [HD_TABLE_light_groups] = objects * HD_GROUP_ROWS * HD_LIGHT_GROUPS(lights),
         [HD_TABLE_object_offsets] = objects * objects,
         [HD_TABLE_floor_map] = 1,
         [HD_TABLE_texels] = 2 * builder->texels + 4, /* kernels read four words at a time */
@@ -64,7 +65,8 @@ static HdStatus allocate_builder(HdBuilder *builder, HdSceneTables *tables, HdEr
                        MOST_TEXELS);
     builder->centres = calloc((size_t)builder->object_count + 1, sizeof *builder->centres);
     builder->sources = calloc((size_t)builder->light_count + 1, sizeof *builder->sources);
-    if (builder->centres == NULL || builder->sources == NULL)
+    builder->grouped = calloc((size_t)builder->light_count + 1, sizeof *builder->grouped);
+    if (builder->centres == NULL || builder->sources == NULL || builder->grouped == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: the scene has %d lights",
                        builder->light_count);
     size_tables(builder, tables);
@@ -118,6 +120,7 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         for (int i = 0; i < builder.object_count; i++)
             builder.centres[i] = hd_object_centre(scene, i);
         hd_builder_list_lights(&builder);
+        hd_builder_group_lights(&builder);
         NAMED(hd_fill_header)(&builder, tables);
         NAMED(hd_fill_solids)(&builder);
         if (tables->surveyed)
@@ -132,5 +135,6 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
     free(builder.shapes);
     free(builder.centres);
     free(builder.sources);
+    free(builder.grouped);
     return status;
 }

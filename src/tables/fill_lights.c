@@ -2,6 +2,8 @@
 /* Tables of lights; compiled for each precision. */
 #include "tables/builder.h"
 
+#include <math.h>
+
 /* From the unrounded normals of a solid; a light is exactly on its own two faces. */
 static void fill_solid_coordinates(const HdBuilder *builder, int light, int solid,
                                    const Plane *planes, real *out) {
@@ -72,6 +74,42 @@ static void set_own_faces(const HdBuilder *builder, const HdLightSource *source,
         light->own_face[i] = source->owner < 0 ? -1 : own_face(builder, source, source->face[i]);
 }
 
+/* A sphere about a group's lights, which begin at `first`, as places relative to `object` are
+   rounded to either precision. */
+static void fill_group(const HdBuilder *builder, int object, const HdGroupedLight *first, int count,
+                       real *out, int groups) {
+    HdVec3 centre = {0.0, 0.0, 0.0};
+    for (int i = 0; i < count; i++)
+        centre = hd_add(centre, hd_scale(first[i].position, 1.0 / count));
+    double radius = 0.0, reach = 0.0;
+    for (int i = 0; i < count; i++) {
+        double end = builder->sources[first[i].light].falloff.end;
+        reach = fmax(reach, end > 0.0 ? end : (double)REAL_LARGE);
+        radius = fmax(radius, hd_length(hd_sub(first[i].position, centre)));
+    }
+    HdVec3 place = hd_sub(centre, builder->centres[object]);
+    out[HD_GROUP_X * groups] = (real)place.x;
+    out[HD_GROUP_Y * groups] = (real)place.y;
+    out[HD_GROUP_Z * groups] = (real)place.z;
+    out[HD_GROUP_RADIUS * groups] = (real)(radius * 1.0001 + hd_length(place) * 1e-5);
+    out[HD_GROUP_REACH * groups] = (real)reach;
+}
+
+static void fill_groups(const HdBuilder *builder, Light *lights) {
+    int groups = HD_LIGHT_GROUPS(builder->light_count);
+    const HdGroupedLight *grouped = builder->grouped;
+    for (int i = 0, next; i < builder->light_count && groups > 0; i = next) {
+        for (next = i; next < builder->light_count && grouped[next].group == grouped[i].group;
+             next++)
+            lights[grouped[next].light].group = grouped[i].group;
+        for (int object = 0; object < builder->object_count; object++) {
+            real *table = (real *)builder->table[HD_TABLE_light_groups] +
+                          (size_t)object * HD_GROUP_ROWS * (size_t)groups;
+            fill_group(builder, object, grouped + i, next - i, table + grouped[i].group, groups);
+        }
+    }
+}
+
 void NAMED(hd_fill_lights)(const HdBuilder *builder) {
     Light *lights = builder->table[HD_TABLE_lights];
     const Plane *planes = builder->table[HD_TABLE_planes];
@@ -100,4 +138,5 @@ void NAMED(hd_fill_lights)(const HdBuilder *builder) {
         if (builder->has_floor)
             fill_floor_distances(builder, i, &frame, row);
     }
+    fill_groups(builder, lights);
 }

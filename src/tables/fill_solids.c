@@ -101,7 +101,10 @@ static void fill_object(Object *out, const HdSolid *solid, const HdPlatonic *sha
     out->disc_depth = pattern_depth(disc, shape->sine_of_dihedral);
     out->disc_radius_squared = (real)(disc * disc);
     out->circumradius_squared = (real)(solid->circumradius * solid->circumradius);
+    out->radius_about = (real)(solid->circumradius * 1.001);
     out->edge_half_length = (real)(0.5 * shape->edge_length * solid->circumradius);
+    double reach = (0.5 * shape->edge_length * solid->circumradius + disc) * 1.001;
+    out->disc_reach_squared = (real)(reach * reach);
     out->plane_count = hd_solid_plane_count(shape);
     out->paired = hd_faces_per_plane(shape) == 2;
     out->edge_count = shape->edge_count;
