@@ -127,7 +127,7 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
     LightRows rows = light_rows(SCENE_ARGUMENTS points.object);
     Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, light), surface.point);
     Vec3 passing = transmittance_to(SCENE_ARGUMENTS light, to_light, &surface, coordinates, outer,
-                                    some_outer, open_to, &points, mask_all());
+                                    some_outer, open_to, &points, 0, mask_all());
     return (double)lane_real(&passing.x, 0);
 }
 
