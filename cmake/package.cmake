@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A Debian package of what is installed: ./dev package.
+# Debian packages of what is installed, the window by itself, for it needs SDL: ./dev package.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hedron)
 set(CPACK_PACKAGE_CONTACT "The hedron project")
@@ -13,4 +13,12 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, pocl-opencl-icd | opencl-icd")
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME hedron)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS hedron-view)
+set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}\n${CPACK_PACKAGE_DESCRIPTION}")
+set(CPACK_DEBIAN_VIEW_PACKAGE_NAME hedron-view)
+set(CPACK_DEBIAN_VIEW_PACKAGE_DEPENDS "hedron (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_VIEW_PACKAGE_RECOMMENDS "")
+set(CPACK_COMPONENT_VIEW_DESCRIPTION "The window of hedron view\nShows a scene live; a program of its own, for it needs SDL 2.")
 include(CPack)
