@@ -89,8 +89,8 @@ static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *
 /* ---- contenders ---- */
 
 static void write_defines(Contender *contender, const Bench *bench) {
-    /* The integers of the header (kernels/common/scene_tables.h) follow its 15 reals. */
-    enum { REALS = 15, SOLIDS = 0, OBJECTS = 2, PLANES = 3, LIGHTS = 4 };
+    /* The integers of the header (kernels/common/scene_tables.h) follow its 12 reals. */
+    enum { REALS = 12, SOLIDS = 0, OBJECTS = 2, PLANES = 3, LIGHTS = 4 };
     size_t real = bench->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
     const HdTable *header = &bench->tables.table[0];
     const int32_t *numbers = (const void *)((const char *)header->data + REALS * real);
