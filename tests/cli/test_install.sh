@@ -47,11 +47,13 @@ expect_stdout_contains 'five.json: fine'
 expect_exit 0 "${installed%/*}/hedron_model" sphere 12 -o sphere.obj
 rm sphere.obj
 
-# ---- the Debian package has the same files, and names what it needs
+# ---- the Debian packages have the same files, and name what they need
 if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; then
     expect_exit 0 cpack --config "$build/CPackConfig.cmake" -B "$work/package"
     package=("$work"/package/hedron_*.deb)
-    dpkg-deb -x "${package[0]}" "$work/root"
+    for file in "$work"/package/*.deb; do
+        dpkg-deb -x "$file" "$work/root"
+    done
     expect_same <(cd "$work/root/usr" && find . -type f | sort) <(cd "$prefix" && find . -type f | sort)
     expect_exit 0 env -i "$work/root/usr/bin/hedron" --version
     dpkg-deb -f "${package[0]}" Depends Recommends >"$logs/fields"
