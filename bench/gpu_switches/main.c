@@ -50,7 +50,7 @@ typedef struct Bench {
 typedef struct Contender {
     const Switch *is;
     char defines[256];
-    HdRenderer *renderer, *for_few;
+    HdRenderer *renderer;
     HdRefinement *refinement; /* NULL: the scene is not surveyed */
     HdStatus status;
     HdError error;
@@ -89,11 +89,7 @@ static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *
 /* ---- contenders ---- */
 
 static void write_defines(Contender *contender, const Bench *bench) {
-    /* The integers of the header (kernels/common/scene_tables.h) follow its 12 reals. */
-    enum { REALS = 12, SOLIDS = 0, OBJECTS = 2, PLANES = 3, LIGHTS = 4 };
-    size_t real = bench->precision == HD_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
-    const HdTable *header = &bench->tables.table[0];
-    const int32_t *numbers = (const void *)((const char *)header->data + REALS * real);
+    const HdScene *scene = &bench->file.scene;
     const Switch *is = contender->is;
     int length = snprintf(contender->defines, sizeof contender->defines, "%s",
                           is->defines != NULL ? is->defines : "");
@@ -101,43 +97,38 @@ static void write_defines(Contender *contender, const Bench *bench) {
         snprintf(contender->defines + length, sizeof contender->defines - (size_t)length,
                  " -DHD_EXACT=1 -DHD_EXACT_SOLIDS=%d -DHD_EXACT_OBJECTS=%d -DHD_EXACT_PLANES=%d "
                  "-DHD_EXACT_LIGHTS=%d",
-                 numbers[SOLIDS], numbers[OBJECTS], numbers[PLANES], numbers[LIGHTS]);
+                 scene->solid_count, scene->solid_count + scene->floor.present,
+                 bench->tables.plane_count, bench->tables.light_count);
 }
 
-static HdStatus open_renderer(HdRenderer **renderer, const Contender *contender, const Bench *bench,
-                              HdPipeline pipeline, HdError *error) {
+static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError *error) {
     const Switch *is = contender->is;
     const HdRenderOptions options = {
         .block = is->block,
         .registers = is->registers,
         .precision = bench->precision,
-        .pipeline = pipeline,
+        .pipeline = is->pipeline,
         .test = {.queue_bytes = is->queue_bytes,
                  .defines = contender->defines,
                  .is_for_one_scene = is->is_exact},
     };
-    HdStatus status = hd_renderer_open(renderer, &bench->device, &options, error);
-    return status == HD_OK ? hd_renderer_upload(*renderer, &bench->tables, error) : status;
+    HdStatus status = hd_renderer_open(&contender->renderer, &bench->device, &options, error);
+    return status == HD_OK ? hd_renderer_upload(contender->renderer, &bench->tables, error)
+                           : status;
 }
 
 static HdStatus open_contender(Contender *contender, const Bench *bench, HdError *error) {
     const HdScene *scene = &bench->file.scene;
-    const Switch *is = contender->is;
     write_defines(contender, bench);
-    HdStatus status = open_renderer(&contender->renderer, contender, bench, is->pipeline, error);
-    if (status == HD_OK && is->few > 0)
-        status = open_renderer(&contender->for_few, contender, bench, HD_PIPELINE_WAVEFRONT, error);
+    HdStatus status = open_renderer(contender, bench, error);
     if (status == HD_OK && hd_scene_is_surveyed(scene))
         status = hd_refinement_create(&contender->refinement, scene, contender->renderer,
                                       bench->precision, HD_CURVE_SRGB, error);
-    if (status == HD_OK && is->few > 0)
-        hd_refinement_split(contender->refinement, contender->for_few, is->few);
     return status;
 }
 
 static void close_contender(Contender *contender) {
     hd_refinement_free(contender->refinement);
-    hd_renderer_close(contender->for_few);
     hd_renderer_close(contender->renderer);
 }
 

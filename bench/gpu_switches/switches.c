@@ -37,7 +37,5 @@ const Switch switches[] = {
     {"wavefront+lights", WAVEFRONT, .defines = LIGHTS, .is_cuda = true},
     {"wavefront-4GiB", WAVEFRONT, .queue_bytes = 4 * GIB, .is_surveyed = true},
     {"wavefront-16GiB", WAVEFRONT, .queue_bytes = 16 * GIB, .is_surveyed = true},
-    {"each-pass-16k", MEGA, .few = 1 << 14, .is_surveyed = true},
-    {"each-pass-256k", MEGA, .few = 1 << 18, .is_surveyed = true},
 };
 const int switch_count = sizeof switches / sizeof *switches;

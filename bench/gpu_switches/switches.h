@@ -15,7 +15,6 @@ typedef struct Switch {
     const char *defines;  /* of the kernels; NULL: none */
     bool is_exact;        /* the numbers of objects and lights are compiled in, CUDA only */
     size_t queue_bytes;   /* of the wavefront; 0: what suits */
-    int few;              /* passes of no more samples go to the wavefront; 0: none do */
     bool is_surveyed;     /* for surveyed scenes only */
     bool is_cuda;         /* for CUDA only */
 } Switch;

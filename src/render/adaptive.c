@@ -76,8 +76,7 @@ static void order_pixels(HdRefinement *r) {
     for (int top = 0; top < r->height; top += SIDE)
         for (int left = 0; left < r->width; left += SIDE)
             for (int z = 0; z < SIDE * SIDE; z++) {
-                int x = left + ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4));
-                int y = top + ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4));
+                int x = left + hd_z_order_x(z), y = top + hd_z_order_y(z);
                 if (x < r->width && y < r->height)
                     r->order[count++] = y * r->width + x;
             }
@@ -132,11 +131,6 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     order_pixels(r);
     *refinement = r;
     return HD_OK;
-}
-
-void hd_refinement_split(HdRefinement *r, HdRenderer *for_few, int few) {
-    r->surveyor.for_few = for_few;
-    r->surveyor.few = few;
 }
 
 /* ---- what is known of a pixel ---- */

@@ -13,10 +13,6 @@ typedef struct HdRefinement HdRefinement;
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
                               HdPrecision precision, HdCurve curve, HdError *error);
 
-/* Passes of no more than `few` samples go to another renderer, for measurements; it must have the
-   scene, and live on. */
-void hd_refinement_split(HdRefinement *refinement, HdRenderer *for_few, int few);
-
 /* Renders a frame, none being under way: fills radiance (3 floats a pixel), counts, time and what
    is known of the error. The same bytes come of it everywhere, whatever was rendered before.
 

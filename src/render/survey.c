@@ -110,9 +110,7 @@ static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, 
     if (status != HD_OK)
         return status;
     surveyor->frame.height = tables.height;
-    bool are_few = surveyor->for_few != NULL && (int64_t)count * samples <= surveyor->few;
-    status = hd_renderer_render(are_few ? surveyor->for_few : surveyor->renderer, &tables,
-                                &surveyor->frame, error);
+    status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
     hd_frame_tables_free(&tables);
     return status;
 }
@@ -139,15 +137,13 @@ typedef struct Part {
     bool is_first;   /* of several passes */
 } Part;
 
-/* Where request number i of `count` is in the list: items render their 64 entries in Z order
-   (kernels/common/scene_tables.h), so that requests next to each other share bundles only if they
-   are listed so. The last ones, which fill no item, are listed as they come. */
+/* Where request number i of `count` is in the list: items render their 64 entries in Z order, so
+   that requests next to each other share bundles only if they are listed so. The last ones, which
+   fill no item, are listed as they come. */
 static int place_of(int i, int count) {
     enum { ITEM = HD_LISTED_WIDTH * HD_LISTED_WIDTH };
     int z = i % ITEM, first = i - z;
-    int x = (z & 1) | (z >> 1 & 2) | (z >> 2 & 4);
-    int y = (z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4);
-    return first + ITEM <= count ? first + y * HD_LISTED_WIDTH + x : i;
+    return first + ITEM <= count ? first + hd_z_order_y(z) * HD_LISTED_WIDTH + hd_z_order_x(z) : i;
 }
 
 static void list_entries(void *context, int first, int end) {

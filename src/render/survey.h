@@ -41,12 +41,20 @@ typedef struct HdSurveyRequest {
     int first; /* sample in the set */
 } HdSurveyRequest;
 
+/* Column and row of number z of 64 pixels in Z order, in which items render theirs
+   (kernels/common/render.h). */
+static inline int hd_z_order_x(int z) {
+    return (z & 1) | (z >> 1 & 2) | (z >> 2 & 4);
+}
+
+static inline int hd_z_order_y(int z) {
+    return hd_z_order_x(z >> 1);
+}
+
 typedef struct HdSurveyor {
     const HdScene *scene; /* uploaded; surveyed */
     HdPrecision precision;
     HdRenderer *renderer; /* no frame is under way */
-    HdRenderer *for_few;  /* of parts with no more than `few` samples; NULL: the same */
-    int few;
     const HdSampleSet *samples;
     HdErrorBudget budget;
     double most_left_out;  /* hd_most_left_out of the scene */

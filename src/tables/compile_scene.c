@@ -92,6 +92,7 @@ static void describe_material(HdSceneTables *tables, const HdMaterial *material)
 static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     const HdScene *scene = builder->scene;
     tables->plane_count = builder->plane_count;
+    tables->light_count = builder->light_count;
     tables->depth = scene->depth;
     tables->surveyed = hd_scene_is_surveyed(scene);
     tables->node_stack = builder->node_stack;

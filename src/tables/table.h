@@ -20,7 +20,7 @@ typedef struct HdSceneTables {
     int table_count;
     HdPrecision precision;
     int lanes; /* of the kernels' bundles: nodes for single rays have as many children */
-    int plane_count;
+    int plane_count, light_count;
     int depth;
     int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
     bool refracts;        /* some solid has an index of refraction that is not 1 */

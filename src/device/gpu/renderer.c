@@ -126,12 +126,14 @@ static void gpu_close(void *state) {
 
 /* ---- upload ---- */
 
-/* Writes a table to constant memory too, if the kernels want it there. */
-static HdStatus write_constant(const HdGpu *gpu, const char *name, const void *data, size_t bytes,
-                               HdError *error) {
+/* Writes a table to constant memory too, if kernels with switches want it there. */
+static HdStatus write_constant(const Renderer *renderer, const char *name, const void *data,
+                               size_t bytes, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
     HdGpuMemory memory;
     HdGpuRefusal refusal;
-    if (gpu->driver->constant == NULL || !gpu->driver->constant(gpu->handle, name, &memory))
+    if (renderer->program.cache.shape.defines == NULL || gpu->driver->constant == NULL ||
+        !gpu->driver->constant(gpu->handle, name, &memory))
         return HD_OK;
     if (bytes > memory.bytes)
         return hd_fail(error, HD_UNAVAILABLE,
@@ -154,8 +156,7 @@ static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdE
         status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
                                     what, error);
         if (status == HD_OK)
-            status =
-                write_constant(&renderer->gpu, scene_tables[i], table->data, table->bytes, error);
+            status = write_constant(renderer, scene_tables[i], table->data, table->bytes, error);
     }
     return status;
 }
@@ -467,7 +468,7 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
         status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[i], from, table->bytes,
                                     "tables of the frame", error);
         if (status == HD_OK)
-            status = write_constant(&renderer->gpu, frame_tables[i], from, table->bytes, error);
+            status = write_constant(renderer, frame_tables[i], from, table->bytes, error);
         from += table->bytes;
     }
     return status;
