@@ -213,24 +213,22 @@ const HdSolidKind *hd_classic_variant_kinds(int variant) {
     return variant >= 1 && variant <= HD_CLASSIC_VARIANTS ? kinds[variant - 1] : NULL;
 }
 
-static bool is_json(const char *text, size_t size) {
-    static const char before[] = " \t\r\n\xef\xbb\xbf"; /* white space and the byte order mark */
+/* What begins a text behind characters of `before`; '\0': nothing. */
+static char first_beyond(const char *before, const char *text, size_t size) {
     size_t start = 0;
     while (start < size && text[start] != '\0' && strchr(before, text[start]) != NULL)
         start++;
-    return start < size && text[start] == '{';
+    return start < size ? text[start] : '\0';
 }
 
-static size_t white_space(const char *text, size_t size) {
-    size_t start = 0;
-    while (start < size && text[start] != '\0' && strchr(" \t\n\v\f\r", text[start]) != NULL)
-        start++;
-    return start;
+/* Behind white space and the byte order mark. */
+static bool is_json(const char *text, size_t size) {
+    return first_beyond(" \t\r\n\xef\xbb\xbf", text, size) == '{';
 }
 
 bool hd_classic_may_be(const char *text, size_t size) {
-    const size_t start = white_space(text, size);
-    return start < size && text[start] != '\0' && strchr("0123456789+-.", text[start]) != NULL;
+    const char first = first_beyond(" \t\n\v\f\r", text, size);
+    return first != '\0' && strchr("0123456789+-.", first) != NULL;
 }
 
 HdStatus hd_classic_parse(HdSceneFile *input, const char *text, size_t size, const char *name,
