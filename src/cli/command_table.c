@@ -32,13 +32,11 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "the view, and h lists all keys. While something moves, size and samples are what the device "
      "can make in time; standing still, the picture is refined until it has the bytes that 'hedron "
      "render' makes of that view. The file is watched: saved, it is shown at once, and a mistake "
-     "in "
-     "it is told over the last good picture. The names of pictures that are saved (p) and cameras "
-     "to paste into a scene (c) go to standard output.\n\n"
+     "in it is told over the last good picture. The names of pictures that are saved (p) and "
+     "cameras to paste into a scene (c) go to standard output.\n\n"
      "The window is a program of its own, hedron-view, which needs SDL 2. --terminal needs "
-     "neither: "
-     "it shows the same by half blocks of 24-bit colour, or as pictures where the terminal says "
-     "that it can (the kitty protocol or sixels)."},
+     "neither: it shows the same by half blocks of 24-bit colour, or as pictures where the "
+     "terminal says that it can (the kitty protocol or sixels)."},
     {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
      "write a scene to start from, with comments",
      "Writes a small scene in which comments tell what is what, to SCENE.json (default: "

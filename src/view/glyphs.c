@@ -101,9 +101,7 @@ void hd_kitty_write(const HdTextArea *area, const uint8_t *rgba, int width, int 
     }
 }
 
-void hd_kitty_clear(FILE *out) {
-    fputs("\033_Ga=d,q=2\033\\", out);
-}
+const char hd_kitty_clear[] = "\033_Ga=d,q=2\033\\";
 
 /* ---- sixels ---- */
 

@@ -31,8 +31,8 @@ void hd_half_blocks_free(HdHalfBlocks *blocks);
    last one; the terminal scales it to the area. */
 void hd_kitty_write(const HdTextArea *area, const uint8_t *rgba, int width, int height, FILE *out);
 
-/* Takes such a picture off the screen. */
-void hd_kitty_clear(FILE *out);
+/* Sent, takes such a picture off the screen. */
+extern const char hd_kitty_clear[];
 
 /* Sends a picture as sixels from the area's corner on, a sixel's pixel for each of the picture's,
    in 216 colours with an ordered dither. */

@@ -234,7 +234,7 @@ static HdStatus write_picture(Terminal *t, FILE *out, HdError *error) {
 static void clear_screen(Terminal *t, FILE *out) {
     fputs("\033[0m\033[2J", out);
     if (t->protocol == KITTY)
-        hd_kitty_clear(out);
+        fputs(hd_kitty_clear, out);
     hd_half_blocks_free(&t->blocks);
     memset(t->lines, 0, sizeof t->lines);
     t->version = -1;
@@ -361,7 +361,7 @@ static void give_terminal_back(Terminal *t) {
     if (!t->is_raw)
         return;
     if (t->protocol == KITTY)
-        (void)send_text(t, "\033_Ga=d,q=2\033\\", &ignored);
+        (void)send_text(t, hd_kitty_clear, &ignored);
     (void)send_text(t, "\033[0m\033[?25h\033[?1049l", &ignored);
     tcsetattr(t->file, TCSAFLUSH, &t->before);
 }

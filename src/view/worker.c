@@ -79,16 +79,13 @@ void hd_view_image_free(HdViewImage *image) {
     *image = (HdViewImage){.width = 0};
 }
 
-static void publish(HdViewWorker *worker, const HdViewImage *facts) {
-    HdViewImage *image = &worker->image;
-    image->detail = facts->detail;
-    image->is_settled = facts->is_settled;
-    image->share = facts->share;
-    image->seconds = facts->seconds;
-    image->rays = facts->rays;
-    image->has_bound = facts->has_bound;
-    image->largest_bound = facts->largest_bound;
-    worker->version++;
+/* All but the pixels, which the image keeps. */
+static void take_facts(HdViewImage *image, const HdViewImage *facts) {
+    uint8_t *rgba = image->rgba;
+    const int room = image->room;
+    *image = *facts;
+    image->rgba = rgba;
+    image->room = room;
 }
 
 /* Rows of radiance become rows of the picture, which keeps its others. */
@@ -110,7 +107,8 @@ static HdStatus show_rows(HdViewWorker *worker, const HdFrame *frame, int top, i
     if (status == HD_OK) {
         hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)height,
                              worker->image.rgba + 4 * (size_t)facts->width * (size_t)top);
-        publish(worker, facts);
+        take_facts(&worker->image, facts);
+        worker->version++;
     }
     pthread_mutex_unlock(&worker->mutex);
     worker->wake(worker->context);
@@ -415,12 +413,8 @@ bool hd_view_worker_image(HdViewWorker *worker, HdViewImage *image, int *version
         worker->version != *version &&
         hd_view_image_resize(image, source->width, source->height, &ignored) == HD_OK;
     if (is_newer) {
-        uint8_t *rgba = image->rgba;
-        const int room = image->room;
-        memcpy(rgba, source->rgba, 4 * (size_t)source->width * (size_t)source->height);
-        *image = *source;
-        image->rgba = rgba;
-        image->room = room;
+        memcpy(image->rgba, source->rgba, 4 * (size_t)source->width * (size_t)source->height);
+        take_facts(image, source);
         *version = worker->version;
     }
     pthread_mutex_unlock(&worker->mutex);
