@@ -57,7 +57,6 @@ void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 /* Where the kernels came from and what became of them, for people; "" where nobody compiles. */
 const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 
-/* Drops what is under way. NULL is allowed. */
 /* Probes the arithmetic of a device that compiles its kernels, whatever is remembered of it
    (probe.h), and remembers what came of it. There is no scene afterwards. */
 HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
@@ -71,6 +70,7 @@ HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, 
 /* What compiled the kernels; "": nobody knows, or they are built in. */
 void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity);
 
+/* Drops what is under way. NULL is allowed. */
 void hd_renderer_close(HdRenderer *renderer);
 
 #endif
