@@ -20,6 +20,7 @@ add_library(hedron_cuda_compiler STATIC
     src/system/dynamic_library.c
     src/system/file_bytes.c
     src/base/folder_set.c
+    src/system/interrupt.c
     src/system/leftovers.c
     src/system/path.c
     ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)

@@ -40,7 +40,7 @@ static bool is_of_kind(const char *entry, const char *film, Kind kind) {
         return false;
     if (kind == SEGMENTS)
         return is_segment(entry + length + sizeof infix - 1);
-    return strstr(entry + length, ".tmp-") != NULL;
+    return hd_temporary_name_length(entry) > 0;
 }
 
 /* What is written to is locked, and stays. */

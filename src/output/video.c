@@ -88,7 +88,8 @@ static HdStatus start_ffmpeg(HdVideo *video, const char *ffmpeg, HdError *error)
     append(&arguments, video->is_joined ? join_input : frames);
     append(&arguments, output_arguments(video));
     append(&arguments, end);
-    return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, error);
+    return hd_child_start(&video->ffmpeg, arguments.words, true, video->temporary, video->lock,
+                          error);
 }
 
 static void remove_file(HdVideo *video) {
@@ -289,7 +290,7 @@ static HdStatus count_frames(HdVideo *video, HdError *error) {
         video->ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets",
         "-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", target, NULL};
     /* clang-format on */
-    HdStatus status = hd_child_start(&ffprobe, arguments, false, NULL, error);
+    HdStatus status = hd_child_start(&ffprobe, arguments, false, NULL, -1, error);
     if (status != HD_OK)
         return status;
     bool done = hd_child_end(&ffprobe, HD_CHILD_WHILE_IT_WORKS, how);

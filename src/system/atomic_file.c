@@ -6,16 +6,20 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/folder_set.h"
 #include "system/durable.h"
+#include "system/interrupt.h"
 #include "system/leftovers.h"
 
-enum { MAX_ATTEMPTS = 1000 };
+enum { MAX_ATTEMPTS = 1000, ORPHAN_GLANCES = 1000 /* of 10 ms each */ };
 
 /* Between the name and the numbers. */
 #define MARK ".tmp-"
@@ -122,6 +126,26 @@ static bool lock(int descriptor) {
     return fstat(descriptor, &found) != 0 || found.st_nlink > 0;
 }
 
+/* Whether the process that the name tells is gone, as far as this machine knows. */
+static bool writer_is_gone(const char *temporary) {
+    const char *numbers = temporary + hd_folder_length(temporary);
+    numbers += hd_temporary_name_length(numbers) + strlen(MARK);
+    return kill((pid_t)strtol(numbers, NULL, 10), 0) != 0 && errno == ESRCH;
+}
+
+/* What a program that was killed had started, and could not end with it, has the lock until it ends
+   for want of input. */
+static bool lock_stale(int descriptor, const char *temporary) {
+    const struct timespec glance = {.tv_nsec = 10000000};
+    const bool waits = writer_is_gone(temporary);
+    for (int i = 0; flock(descriptor, LOCK_EX | LOCK_NB) != 0; i++) {
+        if (errno != EWOULDBLOCK || !waits || i == ORPHAN_GLANCES || hd_interrupt_signal() != 0)
+            return false;
+        nanosleep(&glance, NULL);
+    }
+    return true;
+}
+
 void hd_temporary_remove_stale(const char *temporary) {
     struct stat found, named;
     int descriptor = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
@@ -129,7 +153,7 @@ void hd_temporary_remove_stale(const char *temporary) {
         return;
     /* Another process may have removed it and given its name to a file of its own meanwhile. */
     if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) &&
-        flock(descriptor, LOCK_EX | LOCK_NB) == 0 && lstat(temporary, &named) == 0 &&
+        lock_stale(descriptor, temporary) && lstat(temporary, &named) == 0 &&
         named.st_dev == found.st_dev && named.st_ino == found.st_ino)
         unlink(temporary);
     close(descriptor);

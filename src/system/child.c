@@ -70,6 +70,14 @@ static bool open_channel(int ends[2]) {
     return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
 }
 
+typedef struct Order {
+    pid_t *pid;
+    const char *const *arguments;
+    int input, output;
+    int lock;   /* kept open; -1: none */
+    int reason; /* negative: not carried out yet */
+} Order;
+
 /* ---- in the child, before it is another program: no memory is asked for, no lock taken ---- */
 
 /* Not closed on the way into the other program, as `from` may be. */
@@ -100,23 +108,27 @@ static bool set_signals(void) {
     return sigprocmask(SIG_SETMASK, &none, NULL) == 0;
 }
 
-/* A program that outlived ours would make its file again after the next run has removed it. Our end
-   may come before we ask for this. */
-static bool die_with(pid_t parent) {
+/* Our end may come before we ask for this. Where the system cannot do so, the lock tells that the
+   program lives. */
+static void die_with(pid_t parent) {
 #ifdef __linux__
-    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
-        return false;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
     if (getppid() != parent)
         _exit(1);
-    return true;
 }
 
-static _Noreturn void become(const char *const arguments[], int input, int output, int report,
-                             pid_t parent) {
-    if (setpgid(0, 0) == 0 && die_with(parent) && set_streams(input, output) && set_signals())
+/* Under a number that no standard stream takes. */
+static bool keep_open(int descriptor) {
+    return descriptor < 0 || fcntl(descriptor, F_DUPFD, STDERR_FILENO + 1) >= 0;
+}
+
+static _Noreturn void become(const Order *order, int report, pid_t parent) {
+    die_with(parent);
+    if (setpgid(0, 0) == 0 && keep_open(order->lock) && set_streams(order->input, order->output) &&
+        set_signals())
         /* the words are not changed, whatever the prototype says */
-        execve(arguments[0], (char *const *)arguments, environ);
+        execve(order->arguments[0], (char *const *)order->arguments, environ);
     const int reason = errno;
     while (write(report, &reason, sizeof reason) < 0 && errno == EINTR)
         continue;
@@ -142,8 +154,9 @@ static int wait_for_failed(pid_t pid, int reason) {
 }
 
 /* Returns 0 or what went wrong, as errno would. */
-static int spawn_here(pid_t *pid, const char *const arguments[], int input, int output) {
+static int spawn_here(const Order *order) {
     const pid_t parent = getpid();
+    pid_t *pid = order->pid;
     int report[2], reason = 0;
     sigset_t all, before;
     if (!open_channel(report))
@@ -152,7 +165,7 @@ static int spawn_here(pid_t *pid, const char *const arguments[], int input, int 
     pthread_sigmask(SIG_SETMASK, &all, &before);
     *pid = fork();
     if (*pid == 0)
-        become(arguments, input, output, report[1], parent);
+        become(order, report[1], parent);
     if (*pid < 0)
         reason = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -170,13 +183,6 @@ static int spawn_here(pid_t *pid, const char *const arguments[], int input, int 
 /* ---- a child dies with the thread that started it: one thread, which never ends, starts all ----
  */
 
-typedef struct Order {
-    pid_t *pid;
-    const char *const *arguments;
-    int input, output;
-    int reason; /* negative: not carried out yet */
-} Order;
-
 static struct {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
@@ -193,7 +199,7 @@ static void *launch(void *unused) {
             pthread_cond_wait(&launcher.changed, &launcher.mutex);
             continue;
         }
-        order->reason = spawn_here(order->pid, order->arguments, order->input, order->output);
+        order->reason = spawn_here(order);
         launcher.order = NULL;
         pthread_cond_broadcast(&launcher.changed);
     }
@@ -227,20 +233,19 @@ static bool start_launcher(void) {
 }
 
 /* As spawn_here. */
-static int spawn(pid_t *pid, const char *const arguments[], int input, int output) {
-    Order order = {pid, arguments, input, output, -1};
+static int spawn(Order *order) {
     pthread_mutex_lock(&launcher.mutex);
     if (!start_launcher())
-        order.reason = EAGAIN;
-    while (order.reason < 0 && launcher.order != NULL)
+        order->reason = EAGAIN;
+    while (order->reason < 0 && launcher.order != NULL)
         pthread_cond_wait(&launcher.changed, &launcher.mutex);
-    if (order.reason < 0)
-        launcher.order = &order;
+    if (order->reason < 0)
+        launcher.order = order;
     pthread_cond_broadcast(&launcher.changed);
-    while (order.reason < 0)
+    while (order->reason < 0)
         pthread_cond_wait(&launcher.changed, &launcher.mutex);
     pthread_mutex_unlock(&launcher.mutex);
-    return order.reason;
+    return order->reason;
 }
 
 static void remember(HdChild *child, const char *text, size_t length) {
@@ -420,7 +425,7 @@ static HdStatus read_patience(int *seconds, HdError *error) {
 }
 
 HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
-                        const char *file, HdError *error) {
+                        const char *file, int lock, HdError *error) {
     int input[2] = {-1, -1}, output[2] = {-1, -1};
     *child = (HdChild){.input = -1, .output = -1, .file = file};
     HdStatus status = read_patience(&child->patience_s, error);
@@ -431,7 +436,7 @@ HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with
     child->input = input[0];
     child->output = output[0];
     if (opened)
-        reason = spawn(&child->pid, arguments, input[1], output[1]);
+        reason = spawn(&(Order){&child->pid, arguments, input[1], output[1], lock, -1});
     close_descriptor(&input[1]);
     close_descriptor(&output[1]);
     if (reason == 0)

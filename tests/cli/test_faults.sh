@@ -181,6 +181,27 @@ if is_sanitized; then
     expect_files .
     finish
 fi
+# ---- a system that cannot end FFmpeg with the program: the next run waits until it is gone
+# It writes to its file once that is gone, as a true one may that was about to open it, or once it may go on.
+if [[ -n ${true_ffmpeg:-} ]]; then
+    fake ffmpeg "for last; do :; done; file=\${last#file:}; echo \$\$ >'$work/leader.new'; mv '$work/leader.new' '$work/leader'
+        while [[ -e \$file && ! -e '$work/may_go_on' ]]; do sleep 0.02; done; echo late >\"\$file\""
+    rm -f "$work/leader"
+    start env LD_PRELOAD="$failing/libfailing_orphans.so" "${stuck[@]}" --size 32x24 --frames 0-2 -o film.mkv
+    wait_for 'FFmpeg to be started' test -e "$work/leader"
+    kill -KILL "$pid"
+    wait "$pid" || true
+    ! is_dead "$(<"$work/leader")" || fail 'FFmpeg died with the program all the same'
+    ! flock -n film.mkv.tmp-* true || fail 'nobody has the file locked'
+    rm "$tools/ffmpeg"
+    start "${stuck[@]}" --size 32x24 --frames 0-2 -o film.mkv
+    touch "$work/may_go_on"
+    expect_end 0
+    wait_for 'FFmpeg to be dead' is_dead "$(<"$work/leader")"
+    expect_files . film.mkv
+    rm film.mkv
+fi
+
 hanging=(env -u HEDRON_STOP_PATIENCE STUCK_MARK="$work/reached" LD_PRELOAD="$failing/libfailing_stuck.so")
 cp "$project/scenes/default.json" "$work/scene.json"
 expect_end_by_signals "${hanging[@]}" STUCK_OPEN=/scene.json "$hedron" render "$work/scene.json" --backend c "${small[@]}" \
