@@ -18,8 +18,5 @@ HdStatus hd_fail(HdError *error, HdStatus status, const char *format, ...) {
 }
 
 void hd_error_prefix(HdError *error, const char *name) {
-    char whole[sizeof error->message];
-    int length = snprintf(whole, sizeof whole, "%s: ", name);
-    snprintf(whole + length, sizeof whole - (size_t)length, "%s", error->message);
-    hd_escape_lines(whole, error->message, sizeof error->message);
+    hd_fail(error, error->status, "%s: %s", name, error->message);
 }

@@ -50,7 +50,7 @@ double hd_quantile_above(const HdQuantile *quantile, uint64_t out_of) {
     uint64_t above = 0;
     for (int i = BUCKETS; i-- > 0;) {
         const HdQuantileBucket *bucket = &quantile->buckets[i];
-        if (bucket->count > 0 && above + bucket->count > allowed)
+        if (above + bucket->count > allowed)
             return bucket->largest;
         above += bucket->count;
     }

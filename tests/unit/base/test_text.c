@@ -59,6 +59,7 @@ static void test_errors_and_problems(void **state) {
     HdProblems problems = {.count = 0};
     hd_fail(&error, HD_BAD_INPUT, "%s: line\n\ttwo", "a\x1b]0;b\a");
     assert_string_equal(error.message, "a\\u001b]0;b\\u0007: line\n\ttwo");
+    assert_int_equal(error.status, HD_BAD_INPUT);
     hd_error_prefix(&error, "\x1b");
     assert_string_equal(error.message, "\\u001b: a\\u001b]0;b\\u0007: line\n\ttwo");
     hd_problem(&problems, "%s is wrong", "a\nhedron: all is well\x1b");

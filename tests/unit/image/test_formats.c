@@ -60,10 +60,32 @@ static void the_lists_name_every_format(void **state) {
                      HD_PICTURE_FORMATS(COUNTED, COUNTED, COUNTED));
 }
 
+static void expect_style(const char *path, HdCurve curve, int bits, const char *refusal) {
+    HdError error = {0};
+    const HdPictureStyle style = {.curve = curve, .bits = bits};
+    const HdStatus status = hd_format_check_style(path, &style, &error);
+    assert_int_equal(status, refusal != NULL ? HD_BAD_INPUT : HD_OK);
+    if (refusal != NULL)
+        expect_contains(error.message, refusal);
+}
+
+static void what_a_format_cannot_say_is_refused(void **state) {
+    (void)state;
+    expect_style("a.gif", HD_CURVE_SRGB, 8, NULL);
+    expect_style("a.gif", HD_CURVE_LINEAR, 8, "a.gif cannot be linear, for a GIF");
+    expect_style("a.mp4", HD_CURVE_LINEAR, 8, NULL);
+    expect_style("a.png", HD_CURVE_LINEAR, 16, NULL);
+    expect_style("a.png", HD_CURVE_SRGB, 32, "a.png cannot have 32 bits a channel");
+    expect_style("a.exr", HD_CURVE_LINEAR, 32, NULL);
+    expect_style("a.mkv", HD_CURVE_SRGB, 32, NULL);
+    expect_style("a.other", HD_CURVE_LINEAR, 32, NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ending_tells_the_format),
         cmocka_unit_test(the_lists_name_every_format),
+        cmocka_unit_test(what_a_format_cannot_say_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

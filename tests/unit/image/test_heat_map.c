@@ -21,6 +21,10 @@ static void named_errors_have_named_colours(void **state) {
     check_colour(1.0, 127, 31, 106);
     check_colour(4.0, 198, 63, 76);
     check_colour(sqrt(0.5), 108, 24, 107); /* halfway from 1/2, 89 17 107, to 1 */
+    check_colour(16.0, 243, 120, 25);
+    check_colour(32.0, 250, 155, 13);
+    check_colour(64.0, 249, 191, 41);
+    check_colour(128.0, 247, 223, 90);
     check_colour(256.0, 252, 252, 156);
     check_colour(1e9, 252, 252, 156);
     check_colour((double)INFINITY, 252, 252, 156);

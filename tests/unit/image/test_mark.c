@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* A picture with a mark is known, and with one byte less, more or other it is not. */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE /* memmem */
 
 #include <stdlib.h>
+
+#include <zlib.h>
 
 #include "image/mark.h"
 #include "image/picture.h"
@@ -84,14 +86,22 @@ static void the_picture_is_the_same_with_and_without(void **state) {
     static const char text[] = "tEXthedron\0frame 123456789abcdef0 bytes ";
     HdTexture marked, plain;
     write_picture(&MARKED, 8);
-    assert_memory_equal(bytes + size - HD_PICTURE_END_SIZE + 4, text, sizeof text - 1);
+    const unsigned char *mark = (const unsigned char *)bytes + size - HD_PICTURE_END_SIZE;
+    assert_memory_equal(mark + 4, text, sizeof text - 1);
+    const uLong sum = crc32(0, mark + 4, HD_PICTURE_END_SIZE - 20);
+    const unsigned char *told = mark + HD_PICTURE_END_SIZE - 16;
+    assert_int_equal(sum, (uLong)told[0] << 24 | told[1] << 16 | told[2] << 8 | told[3]);
     const size_t marked_size = size;
     assert_int_equal(hd_texture_read(&marked, "a.png", HD_CURVE_SRGB, &error), HD_OK);
     HdPictureLabel label = MARKED;
+    assert_non_null(memmem(bytes, size, "iTXtOptions", 11));
     label.is_marked = false;
+    label.options = "";
     write_picture(&label, 8);
     assert_false(is_whole());
-    assert_int_equal(size + HD_PICTURE_END_SIZE - 12, marked_size);
+    assert_null(memmem(bytes, size, "iTXtOptions", 11));
+    const size_t options = 12 + sizeof "Options" + 4 + strlen(MARKED.options);
+    assert_int_equal(size + HD_PICTURE_END_SIZE - 12 + options, marked_size);
     assert_int_equal(hd_texture_read(&plain, "a.png", HD_CURVE_SRGB, &error), HD_OK);
     assert_memory_equal(marked.texels, plain.texels, WIDTH * HEIGHT * 6);
     hd_texture_clear(&marked);

@@ -33,6 +33,7 @@ static void contacts_of_solids(void **state) {
     expect_contact(cube, cube_at(2.0 - 3e-6, 0.5, 0.5, 2.0), HD_CONTACT_OVERLAPS);
     expect_contact(cube, cube_at(1.0, 0.5, 0.5, 2.0), HD_CONTACT_OVERLAPS);
     expect_contact(cube, cube_at(1.0, 0.5, 0.0, 2.0), HD_CONTACT_SHARES); /* top and bottom */
+    expect_contact(cube, cube_at(1.9, 0.5, 0.0, 2.0), HD_CONTACT_SHARES); /* a strip of them */
     expect_contact(cube, cube_at(0.5, 0.0, 0.0, 1.0), HD_CONTACT_SHARES); /* nested */
     HdSolid turned = cube_at(0.0, 0.0, 0.0, 2.0);
     turned.rotation_degrees.z = 30.0;
@@ -109,12 +110,28 @@ static void what_lies_apart_stays(void **state) {
     assert_true(solids[0].circumradius == radius && solids[1].circumradius < radius);
 }
 
+/* Steps are as long as the greatest of the group, though two of it do not touch what that comes
+   from. */
+static void what_touches_in_turn_is_parted_by_equal_steps(void **state) {
+    (void)state;
+    HdSolid solids[] = {cube_at(0.0, 0.0, 4.0, 8.0), cube_at(4.5, 0.0, 4.0, 1.0),
+                        cube_at(5.5, 0.0, 4.0, 1.0), cube_at(5.0, 0.0, 4.75, 0.5)};
+    const double before = solids[1].circumradius, small = solids[3].circumradius;
+    HdScene scene = {.solid_count = 4, .solids = solids};
+    hd_scene_part_contacts(&scene);
+    const double step = before - solids[1].circumradius;
+    assert_true(step > 0.0);
+    assert_true(solids[2].circumradius == before);
+    expect_near(small - solids[3].circumradius, 2.0 * step, 1e-3 * step);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contacts_of_solids),
         cmocka_unit_test(contacts_of_floors_and_lights),
         cmocka_unit_test(everything_is_parted),
         cmocka_unit_test(what_lies_apart_stays),
+        cmocka_unit_test(what_touches_in_turn_is_parted_by_equal_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,6 +83,8 @@ static void frames_outside_are_refused(void **state) {
     (void)state;
     check_refused("10", 10, "\"10\"", "0-9");
     check_refused("0-10", 10, "\"0-10\"", "outside");
+    check_refused("3-12", 10, "\"3-12\"", "outside");
+    check_refused("1", 1, "\"1\"", "the scene has one frame, 0");
     check_refused("2147483647", INT_MAX, "\"2147483647\"", "0-2147483646");
     check_refused("2147483648", INT_MAX, "\"2147483648\"", "outside");
     check_refused("4294967296", 10, "\"4294967296\"", "outside");

@@ -669,6 +669,44 @@ static void test_no_problem_hides_another(void **state) {
         "it index_of_refraction 1\n");
 }
 
+static void test_counts_of_lights(void **state) {
+    (void)state;
+    Fixture fixture;
+    HdScene *scene = &fixture.scene;
+    make(&fixture);
+    scene->solids[0].lights.per_edge = 3;
+    scene->solids[1].lights.per_edge = 0;
+    const int edges = hd_edge_light_count(&scene->solids[0]);
+    assert_true(edges > 0 && edges % 3 == 0);
+    assert_int_equal(hd_edge_light_count(&scene->solids[1]), 0);
+    assert_int_equal(hd_scene_light_count(scene), scene->light_count + edges);
+    for (int i = 0; i < scene->light_count; i++)
+        scene->lights[i].falloff.end = 0.5;
+    scene->solids[0].lights.falloff.end = 0.0;
+    scene->solids[0].lights.intensity = 1.0;
+    assert_int_equal(hd_scene_endless_light_count(scene), edges);
+    scene->solids[0].lights.intensity = 0.0;
+    assert_int_equal(hd_scene_endless_light_count(scene), 0);
+    scene->lights[0].falloff.end = 0.0;
+    assert_int_equal(hd_scene_endless_light_count(scene), 1);
+}
+
+static void test_where_and_how_it_is_looked_at(void **state) {
+    (void)state;
+    const HdFloor floor = {
+        .corners = {{1.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, 8.0}}};
+    const HdVec3 centre = hd_floor_centre(&floor);
+    assert_true(centre.x == 1.25 && centre.y == 0.5 && centre.z == 2.0);
+    HdScene scene = {.sampling = HD_SAMPLING_GRID};
+    assert_false(hd_scene_is_surveyed(&scene));
+    scene.max_error = 0.5;
+    assert_true(hd_scene_is_surveyed(&scene));
+    HdMesh meshes[] = {{.triangle_count = 3}, {.triangle_count = 4}};
+    scene.meshes = meshes;
+    scene.mesh_count = 2;
+    assert_int_equal(hd_scene_triangle_count(&scene), 7);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_good_scene),
@@ -702,6 +740,8 @@ int main(void) {
         cmocka_unit_test(test_deep_trees),
         cmocka_unit_test(test_no_problem_hides_another),
         cmocka_unit_test(test_free_clears),
+        cmocka_unit_test(test_counts_of_lights),
+        cmocka_unit_test(test_where_and_how_it_is_looked_at),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

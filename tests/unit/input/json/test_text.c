@@ -86,6 +86,35 @@ static void test_many_problems(void **state) {
     expect_contains(message, "\n  and more of them");
 }
 
+static void expect_hint(const char *text, const char *hint) {
+    const char *found = hd_json_hint(text, strlen(text));
+    if (hint == NULL)
+        assert_null(found);
+    else
+        expect_contains(found != NULL ? found : "(none)", hint);
+}
+
+static void test_hints(void **state) {
+    (void)state;
+    static const char number[] = "a number in JSON", word[] = "true, false or null";
+    expect_hint("", NULL);
+    expect_hint("[1, \t\n]", "no comma before ']'");
+    expect_hint("{\"a\": 1,}", "no comma before '}'");
+    expect_hint("]", NULL);
+    expect_hint(" }", NULL);
+    expect_hint("[1]", NULL);
+    expect_hint("{ /", "$comment");
+    expect_hint("#", "$comment");
+    expect_hint("'", "double quotes");
+    expect_hint("NaN", number);
+    expect_hint("[-.5", number);
+    expect_hint("[inf", number);
+    expect_hint("True", word);
+    expect_hint("{\"a\": nil", word);
+    expect_hint("truely", NULL);
+    expect_hint("[\"", NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
@@ -93,6 +122,7 @@ int main(void) {
         cmocka_unit_test(test_strings_do_not_count),
         cmocka_unit_test(test_scenes),
         cmocka_unit_test(test_many_problems),
+        cmocka_unit_test(test_hints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
