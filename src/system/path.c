@@ -21,7 +21,7 @@ static HdStatus fail_too_long(const char *path, HdError *error) {
 
 static HdStatus join(const char *first, const char *second, char out[HD_MAX_PATH], HdError *error) {
     size_t first_length = strlen(first), second_length = strlen(second);
-    if (first_length >= HD_MAX_PATH || second_length >= HD_MAX_PATH - first_length)
+    if (first_length + second_length >= HD_MAX_PATH)
         return fail_too_long(second, error);
     memmove(out, first, first_length);
     memmove(out + first_length, second, second_length + 1);

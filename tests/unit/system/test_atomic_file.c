@@ -2,6 +2,7 @@
 /* What another process may do to temporary files just before they are locked. */
 #define _GNU_SOURCE
 
+#include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/syscall.h>
@@ -15,7 +16,13 @@ static const char *comes_between; /* is moved to `to`, or where that is NULL rem
 static const char *to;
 static int glances, holder = -1; /* the lock's, closed after so many */
 
-/* In place of the C library's. */
+/* In place of the C library's, as the next. */
+static int syncs;
+int fsync(int descriptor) {
+    syncs++;
+    return (int)syscall(SYS_fsync, descriptor);
+}
+
 int flock(int descriptor, int operation) {
     if (glances > 0 && --glances == 0)
         close(holder);
@@ -89,12 +96,88 @@ static void that_of_a_living_process_is_not(void **state) {
     glances = 0;
 }
 
+static void open_for(HdAtomicFile *file, const char *path) {
+    assert_int_equal(hd_atomic_file_open(file, path, &error), HD_OK);
+    fputs("new", file->stream);
+}
+
+static void only_what_is_to_last_is_synced(void **state) {
+    (void)state;
+    HdAtomicFile file;
+    open_for(&file, "fleeting");
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
+    assert_int_equal(syncs, 0);
+    open_for(&file, "durable");
+    assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
+    assert_int_equal(syncs, 2); /* its folder, too */
+}
+
+static void expect_failure(HdAtomicFile *file, const char *message) {
+    assert_int_equal(hd_atomic_file_commit(file, HD_DURABLE, &error), HD_FAILED);
+    expect_contains(error.message, message);
+    hd_atomic_file_discard(file);
+}
+
+static void a_write_that_failed_leaves_the_old_file(void **state) {
+    (void)state;
+    HdAtomicFile file;
+    struct stat found;
+    assert_int_equal(mkdir("old", 0777), 0);
+    write_bytes("old/file", "old!", 4);
+    open_for(&file, "old/file");
+    close(fileno(file.stream));
+    expect_failure(&file, "cannot write old/file: Bad file descriptor");
+    open_for(&file, "old/file");
+    assert_int_equal(fgetc(file.stream), EOF); /* an error of which no write tells the reason */
+    errno = 0;
+    expect_failure(&file, "cannot write old/file: Input/output error");
+    assert_int_equal(stat("old/file", &found), 0);
+    assert_int_equal(found.st_size, 4);
+    assert_int_equal(count_entries("old"), 1);
+}
+
+static void what_goes_away_meanwhile_is_named(void **state) {
+    (void)state;
+    HdAtomicFile file;
+    char message[HD_MAX_PATH + 64];
+    open_for(&file, "going/file");
+    assert_int_equal(unlink(file.temporary), 0);
+    assert_int_equal(hd_temporary_check(file.temporary, "going/file", &error), HD_FAILED);
+    snprintf(message, sizeof message, "cannot write going/file: somebody removed %s",
+             file.temporary);
+    assert_string_equal(error.message, message);
+    assert_int_equal(rmdir("going"), 0);
+    expect_failure(&file, "cannot write going/file: its folder going/ is gone");
+    assert_int_equal(hd_atomic_file_open(&file, "going/other", &error), HD_FAILED);
+    expect_contains(error.message, "its folder going/ is gone");
+}
+
+static void names_that_do_not_fit_are_refused(void **state) {
+    (void)state;
+    HdAtomicFile file;
+    char name[300];
+    memset(name, 'n', sizeof name);
+    name[256] = '\0';
+    assert_int_equal(hd_atomic_file_open(&file, name, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "has 256 bytes, expected at most 255");
+    name[255] = '\0';
+    open_for(&file, name);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
+    assert_int_equal(hd_atomic_file_open(&file, "folder/", &error), HD_BAD_INPUT);
+    assert_int_equal(hd_atomic_file_open(&file, "", &error), HD_BAD_INPUT);
+    assert_int_equal(hd_atomic_file_open(&file, ".", &error), HD_BAD_INPUT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_that_was_removed_before_its_lock_is_not_written_to),
         cmocka_unit_test(one_that_took_the_name_of_a_stale_one_stays),
         cmocka_unit_test(that_of_a_process_that_is_gone_is_waited_for),
         cmocka_unit_test(that_of_a_living_process_is_not),
+        cmocka_unit_test(only_what_is_to_last_is_synced),
+        cmocka_unit_test(a_write_that_failed_leaves_the_old_file),
+        cmocka_unit_test(what_goes_away_meanwhile_is_named),
+        cmocka_unit_test(names_that_do_not_fit_are_refused),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

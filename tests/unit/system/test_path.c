@@ -154,6 +154,34 @@ static void frames_are_named(void **state) {
     assert_int_equal(hd_pattern_format("%d", -1, out, &error), HD_BAD_INPUT);
 }
 
+static void expect_same(const char *first, const char *second, bool expected) {
+    if (hd_path_is_same(first, second) != expected || hd_path_is_same(second, first) != expected)
+        fail_msg("%s and %s are %s file", first, second, expected ? "not one" : "one");
+}
+
+static void one_file_has_many_names(void **state) {
+    (void)state;
+    char absolute[HD_MAX_PATH];
+    assert_int_equal(mkdir("same", 0777), 0);
+    write_bytes("same/a", "", 0);
+    write_bytes("same/b", "", 0);
+    assert_int_equal(link("same/a", "same/hard"), 0);
+    assert_int_equal(symlink("a", "same/soft"), 0);
+    assert_int_equal(symlink("../same", "same/here"), 0);
+    snprintf(absolute, sizeof absolute, "%s/same/new", test_folder);
+    expect_same("same/a", "same/a", true);
+    expect_same("same/a", "same/hard", true);
+    expect_same("same/a", "same/soft", true);
+    expect_same("same/a", "same/b", false);
+    expect_same("same/a", "same/new", false);
+    expect_same("same/new", "same/here/new", true);
+    expect_same("same/new", "./same//here/../new", false);
+    expect_same("same/new", "same/none/../new", true);
+    expect_same("same/new", absolute, true);
+    expect_same("same/new", "same/newer", false);
+    expect_same("/", "/..", true);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(home_is_expanded_at_the_start_only),
@@ -164,6 +192,7 @@ int main(void) {
         cmocka_unit_test(numbers_are_found),
         cmocka_unit_test(wrong_patterns_are_refused),
         cmocka_unit_test(frames_are_named),
+        cmocka_unit_test(one_file_has_many_names),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
