@@ -32,9 +32,9 @@ enum { HD_TEMPORARY_MOST_KEPT = 200 };
    is not the name of a temporary file. */
 size_t hd_temporary_name_length(const char *name);
 
-/* Removes a temporary file that no process has locked. Where its writer, the process in its name, is
-   gone and something that it started has the lock, waits for that up to 10 s, or an interrupt. The
-   name must be one of a temporary file. */
+/* Removes a temporary file that no process has locked. Where its writer, the process in its name,
+   is gone and something that it started has the lock, waits for that up to 10 s, or an interrupt.
+   The name must be one of a temporary file. */
 void hd_temporary_remove_stale(const char *temporary);
 
 /* Renames the temporary file to its final name; removes it where that fails. */

@@ -50,8 +50,9 @@ HdStatus hd_child_find(const char *name, char out[HD_MAX_PATH], HdError *error);
 /* Starts the program arguments[0] without a shell. It is killed when this program ends, however
    that comes about, where the system can do so (Linux). `file` is what it writes, NULL: nothing; it
    must live as long as the child. `lock` is a descriptor that it and what it starts keep open, so
-   that a lock of the file lasts for as long as somebody may write to it; -1: none. HD_UNAVAILABLE where there is no such program, HD_BAD_INPUT where
-   HEDRON_FFMPEG_PATIENCE is no number of seconds. */
+   that a lock of the file lasts for as long as somebody may write to it; -1: none. HD_UNAVAILABLE
+   where there is no such program, HD_BAD_INPUT where HEDRON_FFMPEG_PATIENCE is no number of
+   seconds. */
 HdStatus hd_child_start(HdChild *child, const char *const arguments[], bool with_input,
                         const char *file, int lock, HdError *error);
 

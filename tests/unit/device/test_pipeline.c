@@ -96,6 +96,39 @@ static void sizes_of_launches_are_checked(void **state) {
     }
 }
 
+static void more_lanes_than_registers_are_refused(void **state) {
+    (void)state;
+    HdDevice cpu = {.is_cpu = true, .most_lanes = 8};
+    HdRenderOptions options = {.lanes = 8};
+    assert_null(hd_device_obstacle(&cpu, &options));
+    options.lanes = 16;
+    assert_non_null(hd_device_obstacle(&cpu, &options));
+    cpu.most_lanes = 0; /* none is known */
+    assert_null(hd_device_obstacle(&cpu, &options));
+}
+
+static void launches_last_as_long_as_they_may(void **state) {
+    (void)state;
+    HdDevice gpu = {.has_timeout = true};
+    HdRenderOptions options = {.launch_ms = 0.0};
+    assert_true(hd_longest_launch(&gpu, &options) == 0.05);
+    gpu.has_timeout = false;
+    assert_true(hd_longest_launch(&gpu, &options) == 0.5);
+    options.launch_ms = 0.5;
+    assert_true(hd_longest_launch(&gpu, &options) == 5e-4);
+}
+
+static void a_lost_device_is_known_by_its_error(void **state) {
+    (void)state;
+    HdError error;
+    assert_int_equal(hd_fail_lost(&error, "clFinish"), HD_UNAVAILABLE);
+    assert_true(hd_is_loss(&error));
+    error.status = HD_FAILED;
+    assert_false(hd_is_loss(&error));
+    hd_fail(&error, HD_UNAVAILABLE, "there is no device");
+    assert_false(hd_is_loss(&error));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(auto_is_mega),
@@ -103,6 +136,9 @@ int main(void) {
         cmocka_unit_test(deep_trees_on_a_gpu_with_a_display_take_the_wavefront),
         cmocka_unit_test(a_wavefront_of_groups_needs_wide_atomics),
         cmocka_unit_test(sizes_of_launches_are_checked),
+        cmocka_unit_test(more_lanes_than_registers_are_refused),
+        cmocka_unit_test(launches_last_as_long_as_they_may),
+        cmocka_unit_test(a_lost_device_is_known_by_its_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

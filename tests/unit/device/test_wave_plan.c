@@ -190,6 +190,10 @@ static void plans_keep_to_their_budget(void **state) {
             size_t used = plan.bytes[0] + plan.bytes[1] + plan.bytes[2];
             assert_true(used < bytes + 10000);
             assert_true(used > bytes / 2);
+            const size_t queue = (size_t)plan.queue_stride, sums = (size_t)plan.sum_stride;
+            assert_true(plan.bytes[0] >= sizeof(double) * WAVE_REALS * queue);
+            assert_true(plan.bytes[1] >= sizeof(int32_t) * WAVE_INTS * queue);
+            assert_true(plan.bytes[2] >= sizeof(int64_t) * WAVE_SUMS * sums);
             assert_int_equal(plan.sum_stride % 16, 0);
             assert_true(plan.queue_stride >= wave_least_capacity(depth, 128));
         }
@@ -224,11 +228,24 @@ static void a_cut_queue_is_told(void **state) {
     assert_string_equal(text, ", the q");
 }
 
+static void few_samples_take_no_more_room(void **state) {
+    (void)state;
+    const HdWaveNeeds needs = {.bytes = 1 << 28,
+                               .precision = HD_PRECISION_FLOAT,
+                               .depth = 4,
+                               .grain = 32,
+                               .samples = 1000,
+                               .samples_at_once = 10};
+    assert_int_equal(hd_wave_plan(&needs).sum_stride, 1000);
+}
+
 static void launches_have_the_groups_that_they_need(void **state) {
     (void)state;
     HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
     assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
     assert_int_equal(hd_wave_groups(&plan, 128, 5), 5);
+    plan = (HdWavePlan){.queue_stride = 3000, .sum_stride = 1000};
+    assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
     plan.queue_stride = 1 << 30;
     assert_int_equal(hd_wave_groups(&plan, 128, 0), 1 << 15);
 }
@@ -256,6 +273,7 @@ int main(void) {
         cmocka_unit_test(plans_keep_to_their_budget),
         cmocka_unit_test(a_refused_queue_is_halved),
         cmocka_unit_test(a_cut_queue_is_told),
+        cmocka_unit_test(few_samples_take_no_more_room),
         cmocka_unit_test(launches_have_the_groups_that_they_need),
         cmocka_unit_test(a_signal_ends_the_frame),
     };
