@@ -75,11 +75,27 @@ static void opencl_tells_a_lost_device(void **state) {
     assert_string_equal(error.message, "clFinish failed with CL_INVALID_VALUE (-30)");
 }
 
+/* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
+static void opencl_errors_have_their_names(void **state) {
+    (void)state;
+    for (int code = -68; code <= 1; code++) {
+        const bool is_none = code >= 0 || (code > CL_INVALID_VALUE && code < -19);
+        const char *name = hd_opencl_error_name(code);
+        if (strncmp(name, is_none ? "an unknown" : "CL_", 3) != 0)
+            fail_msg("the error %d is called %s", code, name);
+    }
+    assert_string_equal(hd_opencl_error_name(CL_INVALID_ARG_INDEX), "CL_INVALID_ARG_INDEX");
+    assert_string_equal(hd_opencl_error_name(-1001), "CL_PLATFORM_NOT_FOUND_KHR");
+    assert_string_equal(hd_opencl_error_name(-1002), "an unknown error");
+    assert_string_equal(hd_opencl_error_name(-2000000), "an unknown error");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cuda_errors_have_their_names),
         cmocka_unit_test(cuda_tells_a_lost_device),
         cmocka_unit_test(opencl_tells_a_lost_device),
+        cmocka_unit_test(opencl_errors_have_their_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

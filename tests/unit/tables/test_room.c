@@ -190,6 +190,24 @@ static void textures_end_where_kernels_count_no_further(void **state) {
                                        "most 1073741822");
 }
 
+/* Each level of a ray's tree adds what lights shine on a surface, and the exposure scales all. */
+static void deeper_trees_leave_out_more(void **state) {
+    (void)state;
+    HdScene scene = scene_with_meshes();
+    scene.exposure = 1.0;
+    scene.depth = 0;
+    const double flat = hd_most_left_out(&scene);
+    scene.depth = 1;
+    const double level = hd_most_left_out(&scene) - flat;
+    assert_true(level > 0.0);
+    assert_true(flat >= level);
+    scene.depth = 10;
+    expect_near(hd_most_left_out(&scene), flat + 10.0 * level, 1e-9 * flat);
+    scene.exposure = 4.0;
+    expect_near(hd_most_left_out(&scene), 4.0 * (flat + 10.0 * level), 1e-9 * flat);
+    hd_scene_free(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(textures_end_where_kernels_count_no_further),
@@ -201,6 +219,7 @@ int main(void) {
         cmocka_unit_test(a_scene_may_be_too_large_for_the_machine),
         cmocka_unit_test(memory_may_be_taken),
         cmocka_unit_test(opencl_tells_what_is_too_large),
+        cmocka_unit_test(deeper_trees_leave_out_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
