@@ -85,7 +85,7 @@ bool hd_path_of_program(char out[HD_MAX_PATH]) {
 HdStatus hd_path_make_parents(const char *path, HdError *error) {
     char folder[HD_MAX_PATH] = "";
     HdStatus status = join("", path, folder, error);
-    for (size_t i = 1; status == HD_OK && folder[0] != '\0' && folder[i] != '\0'; i++) {
+    for (size_t i = 1; status == HD_OK && folder[i] != '\0'; i++) {
         if (folder[i] != '/' || folder[i - 1] == '/')
             continue;
         folder[i] = '\0';

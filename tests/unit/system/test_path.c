@@ -92,6 +92,7 @@ static void files_in_the_way_are_named(void **state) {
     assert_int_equal(hd_path_make_parents("block/file", &error), HD_FAILED);
     expect_contains(error.message, "folder block for block/file: a file has that name");
     assert_int_equal(hd_path_make_parents("block/deep/file", &error), HD_FAILED);
+    expect_contains(error.message, "folder block for block/deep/file: a file has that name");
 }
 
 static void numbers_are_found(void **state) {
@@ -179,6 +180,8 @@ static void one_file_has_many_names(void **state) {
     expect_same("same/new", "same/none/../new", true);
     expect_same("same/new", absolute, true);
     expect_same("same/new", "same/newer", false);
+    expect_same("same/x", "same/y", false);
+    expect_same("same/-", "same/+", false);
     expect_same("/", "/..", true);
 }
 
