@@ -803,6 +803,16 @@ static void test_texture_is_loaded(void **state) {
     hd_scene_file_free(&file);
 }
 
+static void test_relative_textures(void **state) {
+    (void)state;
+    static const char *const relative[] = {"a", "a/b", "./a", "~a", "~a/b", "a~/b"};
+    static const char *const others[] = {"", "/a", "~", "~/a", HD_BUILTIN_TEXTURE};
+    for (size_t i = 0; i < sizeof relative / sizeof *relative; i++)
+        assert_true(hd_texture_path_is_relative(relative[i]));
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        assert_false(hd_texture_path_is_relative(others[i]));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults_of_the_least_scene),
@@ -818,6 +828,7 @@ int main(void) {
         cmocka_unit_test(test_integers_with_a_point),
         cmocka_unit_test(test_wrong_types_of_other_fields),
         cmocka_unit_test(test_numbers_of_elements),
+        cmocka_unit_test(test_relative_textures),
         cmocka_unit_test(test_unknown_keys),
         cmocka_unit_test(test_missing_keys),
         cmocka_unit_test(test_two_falloffs),
