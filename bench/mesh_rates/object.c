@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../scenes/models/mesh_builder.h"
+#include "certify/mesh_builder.h"
 #include "input/check.h"
 #include "kernels/host/shared.h"
 #include "system/thread_pool.h"

@@ -60,7 +60,9 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "there "
      "is it, in double, the arithmetic that kernels are made of, on a million hard operands "
      "against "
-     "plain C's (of CUDA and OpenCL), and frames whose hashes are known, by kernels of every kind. "
+     "plain C's (of CUDA and OpenCL), and frames whose hashes are known, by kernels of every kind, "
+     "the golden frames of the "
+     "conformance suite among them. "
      "What is wrong is told with the first difference. What is found is remembered with the "
      "driver's version: 'hedron render' passes over a device that computes wrongly.\n\n"
      "The exit code is 1 if a device computes wrongly, and 3 if there is none that can be tested."},

@@ -6,8 +6,8 @@
 #include <time.h>
 
 #include "base/text.h"
+#include "certify/certificate.h"
 #include "choice/candidates.h"
-#include "choice/certificate.h"
 #include "cli/commands.h"
 #include "input/json/json_device_text.h"
 
@@ -31,6 +31,8 @@ static void print_test(const HdCertificateTest *test) {
     printf("  %-8s %s", hd_verdict_names[test->verdict], test->name);
     if (test->tuples > 0)
         printf(", %d tuples of operands", test->tuples);
+    if (test->frames > 0)
+        printf(", %d of them", test->frames);
     if (test->by_fma)
         printf(", division by fma");
     printf(" (%.2f s)\n", test->seconds);
@@ -57,12 +59,16 @@ static json_t *text_or_null(const char *text) {
     return text[0] != '\0' ? hd_json_device_text(text) : json_null();
 }
 
+static json_t *count_or_null(int count) {
+    return count > 0 ? json_integer(count) : json_null();
+}
+
 static json_t *describe_test(const HdCertificateTest *test) {
     char hash[HASH_SIZE];
     write_hash(test->hash, hash);
-    return json_pack("{s:s, s:s, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
+    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:b, s:s, s:f}", "name", test->name, "verdict",
                      hd_verdict_names[test->verdict], "reason", text_or_null(test->reason),
-                     "tuples", test->tuples > 0 ? json_integer(test->tuples) : json_null(),
+                     "tuples", count_or_null(test->tuples), "frames", count_or_null(test->frames),
                      "division_by_fma", test->by_fma, "hash", hash, "seconds", test->seconds);
 }
 

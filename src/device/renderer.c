@@ -111,13 +111,14 @@ static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables 
                                       HdError *error) {
     const HdBackend *backend = renderer->backend;
     HdError later;
+    HdSelfTestFrame frame;
     bool is_wrong;
     if (!hd_kernel_shape_be_cautious(&kernels_of(renderer)->shape))
         return HD_UNAVAILABLE;
     HdStatus status = backend->functions->upload(renderer->state, tables, &later);
     if (status == HD_OK)
-        status =
-            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, &later);
+        status = hd_self_test(backend, renderer->state, &renderer->device, tables, &frame,
+                              &is_wrong, &later);
     if (status == HD_INTERRUPTED)
         *error = later;
     return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;
@@ -129,12 +130,13 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
     const HdBackend *backend = renderer->backend;
     HdKernelCache *kernels = kernels_of(renderer);
     HdStatus status = HD_OK;
+    HdSelfTestFrame frame;
     bool is_wrong;
     if (kernels == NULL || !kernels->is_untested || renderer->options.test.is_for_one_scene)
         return HD_OK;
     if (renderer->options.math == HD_MATH_STRICT) {
-        status =
-            hd_self_test(backend, renderer->state, &renderer->device, tables, &is_wrong, error);
+        status = hd_self_test(backend, renderer->state, &renderer->device, tables, &frame,
+                              &is_wrong, error);
         if (is_wrong)
             status = test_cautious_kernels(renderer, tables, error);
         if (status == HD_OK)
@@ -164,7 +166,7 @@ static uint64_t stamp_hash(const HdRenderer *renderer, const HdSceneTables *like
 }
 
 HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
-                               bool *is_wrong, HdError *error) {
+                               HdSelfTestFrame *frame, bool *is_wrong, HdError *error) {
     const HdBackend *backend = renderer->backend;
     HdKernelCache *kernels = kernels_of(renderer);
     HdError later;
@@ -173,9 +175,11 @@ HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, 
     *hash = stamp_hash(renderer, like);
     HdStatus status = settle_arithmetic(renderer, error);
     if (status == HD_OK)
-        status = hd_self_test(backend, renderer->state, &renderer->device, like, is_wrong, error);
+        status =
+            hd_self_test(backend, renderer->state, &renderer->device, like, frame, is_wrong, error);
     if (*is_wrong && kernels != NULL && hd_kernel_shape_be_cautious(&kernels->shape) &&
-        hd_self_test(backend, renderer->state, &renderer->device, like, is_wrong, &later) == HD_OK)
+        hd_self_test(backend, renderer->state, &renderer->device, like, frame, is_wrong, &later) ==
+            HD_OK)
         status = HD_OK;
     if (status == HD_OK && kernels != NULL)
         hd_kernel_cache_accept(kernels);

@@ -7,6 +7,7 @@
 
 #include "device/backend.h"
 #include "device/probe.h"
+#include "device/self_test_scenes.h"
 
 /* An open device. Messages of the functions below begin with the backend's name where the backend
    failed: "cuda: ...". */
@@ -62,10 +63,11 @@ const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
 
 /* Renders the frames of the self-test (self_test.h) by kernels that do what a scene with tables
-   like these needs, `hash` being that of what is expected. Where new kernels compute wrongly, they
-   are compiled again with little optimisation. There is no scene afterwards. */
+   like these needs, `hash` being that of what is expected and `frame` the last one. Where new
+   kernels compute wrongly, they are compiled again with little optimisation. There is no scene
+   afterwards. */
 HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
-                               bool *is_wrong, HdError *error);
+                               HdSelfTestFrame *frame, bool *is_wrong, HdError *error);
 
 /* What compiled the kernels; "": nobody knows, or they are built in. */
 void hd_renderer_kernel_maker(const HdRenderer *renderer, char *text, size_t capacity);

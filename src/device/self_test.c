@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "device/self_test_scenes.h"
 #include "scene/camera.h"
 
 static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor", "mesh"};
@@ -50,10 +49,6 @@ void hd_self_test_stamp(const HdKernelShape *shape, char *text, size_t capacity)
                                    frame + 1 < count ? "" : ")");
 }
 
-static int greater(int a, int b) {
-    return a > b ? a : b;
-}
-
 /* The tables claim to need what `like` does, so that they are rendered by the same kernels. */
 static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScene *scene,
                         const HdSceneTables *like, HdError *error) {
@@ -63,12 +58,7 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
         status = hd_compile_scene(tables, scene, like->precision, like->lanes, error);
     if (status != HD_OK)
         return status;
-    tables->plane_count = greater(tables->plane_count, like->plane_count);
-    tables->depth = greater(tables->depth, like->depth);
-    tables->node_stack = greater(tables->node_stack, like->node_stack);
-    tables->refracts = like->refracts;
-    tables->lit_from_behind = like->lit_from_behind;
-    tables->surveyed = like->surveyed;
+    hd_scene_tables_raise(tables, like);
     status = hd_compile_frame(view, scene, &camera, like->precision, error);
     view->floats = like->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
     if (status != HD_OK)
@@ -130,12 +120,14 @@ static HdStatus test_frame(const HdBackend *backend, void *renderer, const HdDev
 }
 
 HdStatus hd_self_test(const HdBackend *backend, void *renderer, const HdDevice *device,
-                      const HdSceneTables *scene, bool *is_wrong, HdError *error) {
+                      const HdSceneTables *scene, HdSelfTestFrame *frame, bool *is_wrong,
+                      HdError *error) {
     HdStatus status = HD_OK;
     *is_wrong = false;
     int count = count_frames(scene->node_stack > 0);
-    for (int frame = 0; status == HD_OK && frame < count; frame++)
-        status =
-            test_frame(backend, renderer, device, (HdSelfTestFrame)frame, scene, is_wrong, error);
+    for (int i = 0; status == HD_OK && i < count; i++) {
+        *frame = (HdSelfTestFrame)i;
+        status = test_frame(backend, renderer, device, *frame, scene, is_wrong, error);
+    }
     return status;
 }

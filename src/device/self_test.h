@@ -9,15 +9,17 @@
 
 #include "device/backend.h"
 #include "device/kernel_source.h"
+#include "device/self_test_scenes.h"
 
 /* Renders the frames with strict arithmetic by a backend's open renderer, whose last scene was
    `scene`, and compares their hashes with what they must be. They fit every build, so the kernels
    that were built for `scene` are what renders them. What such kernels leave out, refraction and
    light from behind, the frames have not. The renderer's scene is then another one.
-   HD_UNAVAILABLE where a hash is wrong, which `*is_wrong` tells too, with the device, its driver
-   and both hashes. */
+   HD_UNAVAILABLE where a hash is wrong, which `*is_wrong` tells too and `*frame` of which, with the
+   device, its driver and both hashes. */
 HdStatus hd_self_test(const HdBackend *backend, void *renderer, const HdDevice *device,
-                      const HdSceneTables *scene, bool *is_wrong, HdError *error);
+                      const HdSceneTables *scene, HdSelfTestFrame *frame, bool *is_wrong,
+                      HdError *error);
 
 /* One line about the test that kernels of this shape must pass: the hashes, or that there is none
    for fast arithmetic. */

@@ -42,6 +42,19 @@ static void free_tables(HdTable *table, int count) {
         free(table[i].data);
 }
 
+static int greater(int a, int b) {
+    return a > b ? a : b;
+}
+
+void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
+    tables->plane_count = greater(tables->plane_count, like->plane_count);
+    tables->depth = greater(tables->depth, like->depth);
+    tables->node_stack = greater(tables->node_stack, like->node_stack);
+    tables->refracts = tables->refracts || like->refracts;
+    tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
+    tables->surveyed = tables->surveyed || like->surveyed;
+}
+
 void hd_scene_tables_free(HdSceneTables *tables) {
     free_tables(tables->table, tables->table_count);
     memset(tables, 0, sizeof *tables);

@@ -56,6 +56,10 @@ enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */
 /* What the scene's table with that number has, in the plural, for messages: "triangles". */
 const char *hd_scene_table_content(int table);
 
+/* Makes tables that were compiled claim to need of the kernels what `like` does, too: planes,
+   depth, stack of nodes, refraction, light from behind and surveys. */
+void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like);
+
 void hd_scene_tables_free(HdSceneTables *tables);
 void hd_frame_tables_free(HdFrameTables *tables);
 

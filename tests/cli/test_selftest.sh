@@ -16,15 +16,18 @@ expect_exit 0 "${c[@]}"
 expect_silent_stderr
 expect_stdout_contains 'right    frames in float by mega, with refraction, lit from behind ('
 expect_stdout_contains 'right    frames in double by wavefront, with refraction, lit from behind ('
+frames=$(wc -l <"$cli_folder/../golden/frames.txt")
+expect_stdout_contains "right    golden frames in float by mega, $frames of them ("
+expect_stdout_contains "right    golden frames in double by wavefront, $frames of them ("
 first=$(grep -o 'certificate [0-9a-f]\{16\}$' "$logs/stdout")
 expect_exit 0 "${c[@]}"
 expect_stdout_contains "$first"
-if (($(grep -c '^  right    ' "$logs/stdout") != 10)); then
-    fail "plain C has not passed five kinds of kernels in both precisions"
+if (($(grep -c '^  right    ' "$logs/stdout") != 14)); then
+    fail "plain C has not passed five kinds of kernels, and the golden frames by two, in both precisions"
 fi
 expect_exit 0 "${c[@]}" --quick
-if (($(grep -c '^  right    ' "$logs/stdout") != 2)) || grep -q "$first" "$logs/stdout"; then
-    fail "a quick test of plain C is not one kind of kernels in both precisions"
+if (($(grep -c '^  right    ' "$logs/stdout") != 4)) || grep -q "$first" "$logs/stdout"; then
+    fail "a quick test of plain C is not one kind of kernels with its golden frames in both precisions"
 fi
 expect_refusal 3 "$hedron" selftest --device nonsense
 expect_stderr_contains "there is no such device ('nonsense')"
@@ -34,8 +37,8 @@ if command -v jq >"$logs/which"; then
     expect_exit 0 "${c[@]}" --json
     if ! jq -e '.certificates | length == 1 and (.[0] | keys_unsorted == ["hedron", "backend", "index", "name",
         "driver", "compiler", "verdict", "tests", "time", "seconds", "hash"] and .verdict == "right" and .backend == "c"
-        and (.time | test("^20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z$")) and (.tests | length == 10 and
-        all(.[]; keys_unsorted == ["name", "verdict", "reason", "tuples", "division_by_fma", "hash", "seconds"]
+        and (.time | test("^20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z$")) and (.tests | length == 14 and
+        all(.[]; keys_unsorted == ["name", "verdict", "reason", "tuples", "frames", "division_by_fma", "hash", "seconds"]
         and .verdict == "right" and .reason == null and (.hash | test("^[0-9a-f]{16}$")))))' \
         "$logs/stdout" >"$logs/jq"; then
         fail "the certificate as JSON is not as expected: $(cat "$logs/stdout")"
@@ -74,6 +77,15 @@ expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in float, 8192 tuples of operands ('
 expect_stdout_contains 'wrong    frames in float by mega, with refraction, lit from behind ('
 expect_stdout_contains "render the test frame 'floor' with the hash "
+expect_stdout_contains '; the first difference: pixel '
+expect_stdout_contains ' of 2 x 2, level 0 of the tree of rays: the colour of the surface; '
+# Rays that end too early are deeper than those of the self-test.
+take 'if (level == view->depth)' 'if (level == view->depth || level == 6)'
+expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
+expect_stdout_contains 'right    frames in float by mega, with refraction, lit from behind ('
+expect_stdout_contains 'wrong    golden frames in float by mega, 8 of them ('
+expect_stdout_contains ' golden frames differ, '
+expect_stdout_contains ', level 7 of the tree of rays: '
 
 expect_files .
 finish

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "certify/golden_scenes.h"
 #include "image/picture.h"
-#include "scenes.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };
 
@@ -23,9 +23,9 @@ typedef struct Views {
 } Views;
 
 static void build(HdScene *scene, HdCamera *camera) {
-    for (int i = 0; i < conformance_frame_count; i++)
-        if (strcmp(conformance_frames[i].name, frame_name) == 0)
-            conformance_frames[i].build(scene, camera);
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        if (strcmp(hd_golden_frames[i].name, frame_name) == 0)
+            hd_golden_frames[i].build(scene, camera);
 }
 
 static void open_views(Views *views, const Target *target) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one. The options --backend, --lanes, --precision and --threads leave out the others; with
+   one; with --write-golden FILE that of the first renderer, and writes them. The options --backend,
+   --lanes, --precision and --threads leave out the others; with
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
    other launches (variants.h). Each renderer also has frames under way together (flights.h). With
    --few each renders only what the least of the variants do, and no truths are checked. With
@@ -20,11 +21,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "certify/golden.h"
 #include "device/renderer.h"
 #include "flights.h"
 #include "image/picture.h"
 #include "render_scene.h"
-#include "scenes.h"
 #include "truths.h"
 #include "variants.h"
 
@@ -33,7 +34,7 @@ enum { OWN_BUILDS = 8 }; /* with this many lanes each scene has the kernels that
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 static const char usage[] =
-    "usage: hedron_conformance [--golden FILE [--write-golden]] [--math strict|fast]\n"
+    "usage: hedron_conformance [--write-golden FILE] [--math strict|fast]\n"
     "                          [--backend cuda|opencl|c] [--lanes 1|4|8|16]\n"
     "                          [--precision float|double] [--threads 1|2]\n"
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
@@ -47,15 +48,14 @@ static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 typedef struct Golden {
     uint64_t hash[MAX_FRAMES][2];
     bool known[MAX_FRAMES][2];
-    bool fixed; /* read from a file; otherwise the first renderer's hashes count */
 } Golden;
 
 typedef struct Options {
-    const char *golden, *pictures;
+    const char *write_golden, *pictures;
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
     int threads;              /* an index into thread_names; or ALL */
-    bool one_build, few, brief, write_golden;
+    bool one_build, few, brief;
     int math;
     int ptx_arch; /* 0: machine code */
 } Options;
@@ -64,53 +64,22 @@ typedef struct Tally {
     int renderers, frames, different, truths, untrue;
 } Tally;
 
-static int frame_number(const char *name) {
-    for (int i = 0; i < conformance_frame_count; i++)
-        if (strcmp(conformance_frames[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
-/* Takes "NAME HASH HASH". */
-static bool read_golden_line(Golden *golden, const char *line) {
-    char name[MAX_NAME], more;
-    uint64_t hash[2];
-    if (sscanf(line, "%63s %" SCNx64 " %" SCNx64 " %c", name, &hash[0], &hash[1], &more) != 3)
-        return false;
-    int frame = frame_number(name);
-    if (frame < 0 || golden->known[frame][HD_PRECISION_FLOAT])
-        return false;
-    for (int p = 0; p < 2; p++) {
-        golden->hash[frame][p] = hash[p];
-        golden->known[frame][p] = true;
-    }
-    return true;
-}
-
-/* Every line must be that of a frame, and no two of the same. */
-static bool read_golden(Golden *golden, const char *path) {
-    char line[256];
+/* What is committed; every frame must be there. */
+static bool read_golden(Golden *golden) {
     bool good = true;
-    FILE *file = fopen(path, "r");
-    if (file == NULL) {
-        perror(path);
-        return false;
-    }
-    for (int number = 1; fgets(line, (int)sizeof line, file) != NULL; number++)
-        if (!read_golden_line(golden, line)) {
-            line[strcspn(line, "\n")] = '\0';
-            fprintf(stderr, "%s:%d: expected the name of a frame, once, and two hashes: %s\n", path,
-                    number, line);
-            good = false;
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++) {
+            const char *name = hd_golden_frames[i].name;
+            golden->known[i][p] = hd_golden_hash(name, (HdPrecision)p, &golden->hash[i][p]);
+            if (!golden->known[i][p])
+                fprintf(stderr, "tests/golden/frames.txt has no hash of the frame '%s'\n", name);
+            good = good && golden->known[i][p];
         }
-    good = !ferror(file) && good;
-    fclose(file);
-    golden->fixed = true;
     return good;
 }
 
 static bool write_golden(const Golden *golden, const char *path) {
-    for (int i = 0; i < conformance_frame_count; i++)
+    for (int i = 0; i < hd_golden_frame_count; i++)
         if (!golden->known[i][HD_PRECISION_FLOAT] || !golden->known[i][HD_PRECISION_DOUBLE]) {
             fprintf(stderr, "%s: not written, for a precision was not rendered\n", path);
             return false;
@@ -120,8 +89,8 @@ static bool write_golden(const Golden *golden, const char *path) {
         perror(path);
         return false;
     }
-    for (int i = 0; i < conformance_frame_count; i++)
-        fprintf(file, "%-20s %016" PRIx64 " %016" PRIx64 "\n", conformance_frames[i].name,
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        fprintf(file, "%-20s %016" PRIx64 " %016" PRIx64 "\n", hd_golden_frames[i].name,
                 golden->hash[i][0], golden->hash[i][1]);
     bool good = !ferror(file);
     good = fclose(file) == 0 && good;
@@ -144,8 +113,8 @@ static void save_picture(const Options *options, const char *name, const HdFrame
 static uint64_t render_hash(const Target *target, int number, const Options *options) {
     HdScene scene;
     HdCamera camera;
-    const char *name = conformance_frames[number].name;
-    conformance_frames[number].build(&scene, &camera);
+    const char *name = hd_golden_frames[number].name;
+    hd_golden_frames[number].build(&scene, &camera);
     HdFrame frame = render_scene(target, &scene, &camera, name);
     uint64_t hash = hd_frame_hash(&frame);
     save_picture(options, name, &frame);
@@ -159,23 +128,23 @@ static void compare_frame(const Target *target, int number, const Options *optio
     HdPrecision precision = target->precision;
     uint64_t hash = render_hash(target, number, options);
     uint64_t *expected = &golden->hash[number][precision];
-    if (!golden->known[number][precision] && !golden->fixed) {
+    if (!golden->known[number][precision]) {
         *expected = hash;
         golden->known[number][precision] = true;
     }
     tally->frames++;
-    if (golden->known[number][precision] && *expected == hash)
+    if (*expected == hash)
         return;
     tally->different++;
     printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n",
-           conformance_frames[number].name, hash, *expected, target->label);
+           hd_golden_frames[number].name, hash, *expected, target->label);
 }
 
 static void compare_frames(const Target *target, bool only_few, const Options *options,
                            Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
-    for (int i = 0; i < conformance_frame_count; i++)
-        if (!only_few || is_variant_frame(conformance_frames[i].name))
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        if (!only_few || is_variant_frame(hd_golden_frames[i].name))
             compare_frame(target, i, options, golden, tally);
     printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
            tally->frames - compared, target->label);
@@ -291,8 +260,8 @@ static void check_backend(const HdBackend *backend, const Options *options, Gold
 }
 
 static bool parse_option(Options *options, const char *name, const char *value) {
-    if (strcmp(name, "--golden") == 0)
-        return (options->golden = value) != NULL;
+    if (strcmp(name, "--write-golden") == 0)
+        return (options->write_golden = value) != NULL;
     if (strcmp(name, "--pictures") == 0)
         return (options->pictures = value) != NULL;
     if (strcmp(name, "--backend") == 0)
@@ -314,10 +283,6 @@ static bool parse_option(Options *options, const char *name, const char *value) 
 
 static bool parse_options(Options *options, int count, char **arguments) {
     for (int i = 1; i < count; i++) {
-        if (strcmp(arguments[i], "--write-golden") == 0) {
-            options->write_golden = true;
-            continue;
-        }
         if (strcmp(arguments[i], "--one-build") == 0) {
             options->one_build = true;
             continue;
@@ -338,34 +303,30 @@ static bool parse_options(Options *options, int count, char **arguments) {
         }
         i++;
     }
-    if (options->write_golden && options->golden == NULL) {
-        fprintf(stderr, "hedron_conformance: --write-golden needs --golden\n");
-        return false;
-    }
     return true;
 }
 
 static void print_hashes(const Golden *golden) {
     printf("\n%-20s %-16s %-16s\n", "frame", "float", "double");
-    for (int i = 0; i < conformance_frame_count; i++)
-        printf("%-20s %016" PRIx64 " %016" PRIx64 "\n", conformance_frames[i].name,
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        printf("%-20s %016" PRIx64 " %016" PRIx64 "\n", hd_golden_frames[i].name,
                golden->hash[i][0], golden->hash[i][1]);
 }
 
 int main(int count, char **arguments) {
     Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL, .threads = ALL};
-    Golden golden = {.fixed = false};
+    Golden golden = {0};
     Tally tally = {0};
     if (!parse_options(&options, count, arguments)) {
         fputs(usage, stderr);
         return EXIT_USAGE;
     }
-    if (conformance_frame_count > MAX_FRAMES) {
-        fprintf(stderr, "%d frames, expected at most %d: raise MAX_FRAMES\n",
-                conformance_frame_count, (int)MAX_FRAMES);
+    if (hd_golden_frame_count > MAX_FRAMES) {
+        fprintf(stderr, "%d frames, expected at most %d: raise MAX_FRAMES\n", hd_golden_frame_count,
+                (int)MAX_FRAMES);
         return 1;
     }
-    if (options.golden != NULL && !options.write_golden && !read_golden(&golden, options.golden))
+    if (options.write_golden == NULL && !read_golden(&golden))
         return 1;
     /* The plain C backend first: it is always there. */
     for (int i = HD_BACKEND_COUNT - 1; i >= 0; i--)
@@ -380,5 +341,5 @@ int main(int count, char **arguments) {
            tally.frames, tally.different, tally.truths, tally.untrue);
     if (tally.different > 0 || tally.untrue > 0)
         return 1;
-    return options.write_golden && !write_golden(&golden, options.golden) ? 1 : 0;
+    return options.write_golden != NULL && !write_golden(&golden, options.write_golden) ? 1 : 0;
 }

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "certify/render_scene.h"
 #include "input/check.h"
-#include "render/adaptive.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);
@@ -30,56 +30,13 @@ int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]) {
     return 0;
 }
 
-static int greater(int a, int b) {
-    return a > b ? a : b;
-}
-
-void need_most(HdSceneTables *tables) {
-    enum { PLANES = 32, DEPTH = 32, NODE_STACK = 32 };
-    tables->plane_count = greater(tables->plane_count, PLANES);
-    tables->depth = greater(tables->depth, DEPTH);
-    tables->node_stack = greater(tables->node_stack, NODE_STACK);
-    tables->refracts = tables->lit_from_behind = true;
-}
-
-static HdStatus render_frame(const Target *target, const HdScene *scene, const HdCamera *camera,
-                             HdFrame *frame, HdError *error) {
-    HdFrameTables view;
-    HdStatus status = hd_compile_frame(&view, scene, camera, target->precision, error);
-    if (status == HD_OK)
-        status = hd_renderer_render(target->renderer, &view, frame, error);
-    hd_frame_tables_free(&view);
-    return status;
-}
-
-static HdStatus refine_frame(const Target *target, const HdScene *scene, const HdCamera *camera,
-                             HdFrame *frame, HdError *error) {
-    HdRefinement *refinement = NULL;
-    HdStatus status = hd_refinement_create(&refinement, scene, target->renderer, target->precision,
-                                           HD_CURVE_SRGB, error);
-    if (status == HD_OK)
-        status = hd_refinement_render(refinement, camera, frame, error);
-    hd_refinement_free(refinement);
-    return status;
-}
-
 HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
                      const char *name) {
-    HdRenderer *renderer = target->renderer;
     HdError error;
     HdFrame frame;
-    HdSceneTables tables;
     if (hd_scene_validate(scene, &error) != HD_OK ||
-        hd_compile_scene(&tables, scene, target->precision, hd_renderer_lanes(renderer), &error) !=
-            HD_OK ||
-        hd_frame_create(&frame, scene->width, scene->height, &error) != HD_OK)
+        hd_render_scene(target->renderer, scene, camera, target->precision,
+                        target->one_build ? &hd_golden_needs : NULL, &frame, &error) != HD_OK)
         fail(name, &error);
-    if (target->one_build)
-        need_most(&tables);
-    if (hd_renderer_upload(renderer, &tables, &error) != HD_OK ||
-        (hd_scene_is_surveyed(scene) ? refine_frame : render_frame)(target, scene, camera, &frame,
-                                                                    &error) != HD_OK)
-        fail(name, &error);
-    hd_scene_tables_free(&tables);
     return frame;
 }

@@ -28,10 +28,6 @@ int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]);
 /* Prints the message and ends the program with 1. */
 _Noreturn void fail(const char *what, const HdError *error);
 
-/* Raises what tables need of the kernels to what all scenes of the suite and of the leak hunt do,
-   so that devices which compile them do so once for both. */
-void need_most(HdSceneTables *tables);
-
 /* Validates, compiles, uploads and renders. The caller frees the frame. `name` is for messages. */
 HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera *camera,
                      const char *name);

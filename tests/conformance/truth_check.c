@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "scene_builder.h"
+#include "certify/scene_builder.h"
 
 void begin(Check *check) {
     check->quiet = false;

@@ -2,8 +2,8 @@
 /* Where rays go: projection, samples, mirrors, edges and corners. */
 #include <math.h>
 
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

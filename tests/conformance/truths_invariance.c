@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
 #include "scene/triangulate/scene.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

@@ -2,8 +2,8 @@
 /* Edge lights: the discs that are seen, and what the lights give. */
 #include <math.h>
 
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

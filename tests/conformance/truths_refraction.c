@@ -3,8 +3,8 @@
    kernels' formula. */
 #include <math.h>
 
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "base/trigonometry.h"
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

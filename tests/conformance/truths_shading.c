@@ -2,8 +2,8 @@
 /* Phong's formula and the transmittance on the way to a light. */
 #include <math.h>
 
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

@@ -2,8 +2,8 @@
 /* What a face does on either side: inner reflection and transmission, and light from behind. */
 #include <math.h>
 
+#include "certify/scene_builder.h"
 #include "scene/camera.h"
-#include "scene_builder.h"
 #include "truth_check.h"
 #include "truths.h"
 

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../../scenes/models/mesh_builder.h"
 #include "../../scenes/models/random.h"
-#include "../conformance/scene_builder.h"
+#include "certify/mesh_builder.h"
+#include "certify/scene_builder.h"
 #include "hunt_skins.h"
 #include "scene/platonic.h"
 

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "../conformance/render_scene.h"
+#include "certify/render_scene.h"
 #include "hunt.h"
 #include "input/check.h"
 
@@ -71,15 +72,9 @@ static void print_catch(const char *name, const Catch *caught) {
 
 static void upload(HdRenderer *renderer, const Hunt *hunt, HdPrecision precision) {
     HdError error;
-    HdSceneTables tables;
     if (hd_scene_validate(&hunt->scene, &error) != HD_OK ||
-        hd_compile_scene(&tables, &hunt->scene, precision, hd_renderer_lanes(renderer), &error) !=
-            HD_OK)
+        hd_upload_scene(renderer, &hunt->scene, precision, &hd_golden_needs, &error) != HD_OK)
         fail(hunt->placement->name, &error);
-    need_most(&tables);
-    if (hd_renderer_upload(renderer, &tables, &error) != HD_OK)
-        fail(hunt->placement->name, &error);
-    hd_scene_tables_free(&tables);
 }
 
 static void hunt_frame(HdRenderer *renderer, Hunt *hunt, HdPrecision precision, double step,

@@ -25,8 +25,10 @@ static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_fro
                           .node_stack = 1,
                           .refracts = refracts,
                           .lit_from_behind = lit_from_behind};
+    HdSelfTestFrame frame;
     bool is_wrong;
-    HdStatus status = hd_self_test(&hd_backend_c, renderer, &device, &like, &is_wrong, &error);
+    HdStatus status =
+        hd_self_test(&hd_backend_c, renderer, &device, &like, &frame, &is_wrong, &error);
     assert_int_equal(is_wrong, status == HD_UNAVAILABLE);
     hd_backend_c.functions->close(renderer);
     if (status != HD_OK)

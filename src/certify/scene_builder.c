@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_builder.h"
+#include "certify/scene_builder.h"
 
 #include <stdlib.h>
 #include <string.h>

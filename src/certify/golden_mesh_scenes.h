@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Frames of the conformance suite with meshes. */
-#ifndef HD_CONFORMANCE_MESH_SCENES_H
-#define HD_CONFORMANCE_MESH_SCENES_H
+/* The golden frames with meshes. */
+#ifndef HD_CERTIFY_GOLDEN_MESH_SCENES_H
+#define HD_CERTIFY_GOLDEN_MESH_SCENES_H
 
 #include "scene/camera.h"
 #include "scene/scene.h"

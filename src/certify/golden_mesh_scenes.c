@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh_scenes.h"
+#include "certify/golden_mesh_scenes.h"
 
 #include <stdlib.h>
 
-#include "../../scenes/models/mesh_builder.h"
+#include "certify/mesh_builder.h"
+#include "certify/scene_builder.h"
 #include "scene/triangulate/scene.h"
-#include "scene_builder.h"
 
 /* All of these need the same of the kernels (few planes, a depth of at most 8, refraction), so that
    devices that compile them do so once. */

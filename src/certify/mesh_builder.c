@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh_builder.h"
+#include "certify/mesh_builder.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What was tested of a device by this program, and what came of it. */
-#ifndef HD_CHOICE_CERTIFICATE_H
-#define HD_CHOICE_CERTIFICATE_H
+#ifndef HD_CERTIFY_CERTIFICATE_H
+#define HD_CERTIFY_CERTIFICATE_H
 
 #include "device/probe.h"
 #include "device/renderer.h"
@@ -18,6 +18,7 @@ extern const char *const hd_verdict_names[];
 typedef struct HdCertificateTest {
     char name[96]; /* "arithmetic in float" */
     int tuples;    /* of operands; 0: it renders frames */
+    int frames;    /* golden ones; 0: it tests something else */
     bool by_fma;   /* division and roots are made of fma */
     uint64_t hash; /* of the results */
     HdVerdict verdict;
@@ -25,7 +26,7 @@ typedef struct HdCertificateTest {
     double seconds;
 } HdCertificateTest;
 
-enum { HD_CERTIFICATE_TESTS = 16 };
+enum { HD_CERTIFICATE_TESTS = 24 };
 
 typedef struct HdCertificate {
     HdDevice device;
@@ -40,8 +41,9 @@ typedef struct HdCertificate {
 
 /* Tests a device, whatever is remembered of it, in float and, where it has it, in double: the
    arithmetic probe of kernels that are compiled (HD_PROBE_WHOLE tuples, or HD_PROBE_QUICK), then
-   the frames of the self-test, with `quick` by one build of the kernels, otherwise by those of
-   every kind. What is found is remembered. Fails with HD_INTERRUPTED only; other failures are a
+   the frames of the self-test and the golden frames, with `quick` by one build of the kernels and
+   of the golden frames the small ones, otherwise by builds of every kind and all of them. What is
+   found of the arithmetic is remembered. Fails with HD_INTERRUPTED only; other failures are a
    part of the certificate. */
 HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, bool quick, HdError *error);
 

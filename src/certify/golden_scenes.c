@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "scenes.h"
+#include "certify/golden_scenes.h"
 
-#include "mesh_scenes.h"
-#include "scene_builder.h"
+#include "certify/golden_mesh_scenes.h"
+#include "certify/scene_builder.h"
 
 static void two_lights(HdScene *scene) {
     build_light(scene, 0, hd_vec3(3.0, -2.0, 5.0), hd_vec3(1.0, 0.9, 0.8));
@@ -339,7 +339,7 @@ static void crop_of_reference(HdScene *scene, HdCamera *camera) {
     scene->height /= 2;
 }
 
-const ConformanceFrame conformance_frames[] = {
+const HdGoldenFrame hd_golden_frames[] = {
     {"tetrahedron", tetrahedron},
     {"hexahedron", hexahedron},
     {"octahedron", octahedron},
@@ -382,4 +382,4 @@ const ConformanceFrame conformance_frames[] = {
     {"adaptive-and-bounded", adaptive_and_bounded},
     {"crop-of-reference", crop_of_reference},
 };
-const int conformance_frame_count = (int)(sizeof conformance_frames / sizeof conformance_frames[0]);
+const int hd_golden_frame_count = (int)(sizeof hd_golden_frames / sizeof hd_golden_frames[0]);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Short ways to make the scenes of the conformance suite. */
-#ifndef HD_CONFORMANCE_SCENE_BUILDER_H
-#define HD_CONFORMANCE_SCENE_BUILDER_H
+/* Short ways to make the scenes of the golden frames and of the conformance suite. For want of
+   memory they end the program: see hd_golden_build. */
+#ifndef HD_CERTIFY_SCENE_BUILDER_H
+#define HD_CERTIFY_SCENE_BUILDER_H
 
 #include "scene/camera.h"
 #include "scene/scene.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Short ways to make meshes. */
-#ifndef HD_MODELS_MESH_BUILDER_H
-#define HD_MODELS_MESH_BUILDER_H
+/* Short ways to make meshes. For want of memory they end the program: see hd_golden_build. */
+#ifndef HD_CERTIFY_MESH_BUILDER_H
+#define HD_CERTIFY_MESH_BUILDER_H
 
 #include "scene/scene.h"
 

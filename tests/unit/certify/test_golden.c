@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+#include "certify/golden.h"
+
+#include "expect.h"
+
+static HdError error;
+
+static void every_frame_has_one_line(void **state) {
+    (void)state;
+    int lines = 0;
+    for (const char *at = hd_golden_text(); *at != '\0'; at++)
+        lines += *at == '\n';
+    assert_int_equal(lines, hd_golden_frame_count);
+    for (int i = 0; i < hd_golden_frame_count; i++)
+        for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++) {
+            uint64_t hash = 0;
+            assert_true(hd_golden_hash(hd_golden_frames[i].name, (HdPrecision)p, &hash));
+            assert_int_not_equal(hash, 0);
+        }
+}
+
+static void precisions_and_names_are_told_apart(void **state) {
+    (void)state;
+    uint64_t single, both, unknown;
+    assert_true(hd_golden_hash("tetrahedron", HD_PRECISION_FLOAT, &single));
+    assert_true(hd_golden_hash("tetrahedron", HD_PRECISION_DOUBLE, &both));
+    assert_true(single != both);
+    assert_false(hd_golden_hash("tetra", HD_PRECISION_FLOAT, &unknown));
+    assert_false(hd_golden_hash("hedron", HD_PRECISION_FLOAT, &unknown));
+    assert_false(hd_golden_hash("", HD_PRECISION_FLOAT, &unknown));
+}
+
+static void every_frame_is_built(void **state) {
+    (void)state;
+    for (int i = 0; i < hd_golden_frame_count; i++) {
+        HdScene scene;
+        HdCamera camera;
+        assert_int_equal(hd_golden_build(&hd_golden_frames[i], &scene, &camera, &error), HD_OK);
+        assert_true(scene.width > 0);
+        hd_scene_free(&scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_frame_has_one_line),
+        cmocka_unit_test(precisions_and_names_are_told_apart),
+        cmocka_unit_test(every_frame_is_built),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
