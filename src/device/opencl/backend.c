@@ -193,7 +193,8 @@ static HdStatus create_kernels(Device *device, const HdKernelShape *shape, HdErr
     return check(code, "clCreateKernel", error);
 }
 
-static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
+/* The caller's to free; NULL: there is none. */
+static char *read_log(const Device *device) {
     size_t size = 0;
     char *log = NULL;
     if (clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
@@ -202,21 +203,45 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
         log = calloc(size + 1, 1);
     if (log)
         clGetProgramBuildInfo(device->program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+    return log;
+}
+
+static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error) {
+    char *log = read_log(device);
     hd_fail(error, HD_FAILED, "the compiler of %s refused the kernels (clBuildProgram: %s):\n%s",
             device->is.name, hd_opencl_error_name(code), log && log[0] ? log : "(it left no log)");
     free(log);
     return HD_FAILED;
 }
 
+/* NVIDIA's compilers before PTX 6.2, which name what they do not know. */
+static bool lacks_activemask(const Device *device) {
+    char *log = read_log(device);
+    bool is_named = log != NULL && strstr(log, "activemask") != NULL;
+    free(log);
+    return is_named;
+}
+
+static cl_int build_with(const Device *device, const char *options) {
+    return clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+}
+
+/* Once more, without what the compiler does not know. */
 static cl_int build(const Device *device, const char *options) {
-    cl_int code = clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
+    static const char without_mask[] = " -DHD_NO_ACTIVEMASK=1";
+    char other[OPTIONS_LENGTH], last[sizeof other + sizeof without_mask];
     const char *refused = strstr(options, rounding);
-    if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
+    snprintf(other, sizeof other, "%s", options);
+    cl_int code = build_with(device, other);
+    if (code == CL_INVALID_BUILD_OPTIONS && refused != NULL) {
+        snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
+                 refused + strlen(rounding));
+        code = build_with(device, other);
+    }
+    if (code == CL_SUCCESS || !lacks_activemask(device))
         return code;
-    char without[OPTIONS_LENGTH];
-    snprintf(without, sizeof without, "%.*s%s", (int)(refused - options), options,
-             refused + strlen(rounding));
-    return clBuildProgram(device->program, 1, &device->id, without, NULL, NULL);
+    snprintf(last, sizeof last, "%s%s", other, without_mask);
+    return build_with(device, last);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
