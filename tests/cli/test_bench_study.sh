@@ -428,6 +428,13 @@ if [[ $(grep -c '^tune' "$FAKE_LOG") != 3 || $(grep '^selftest' "$FAKE_LOG" | so
     fail "the program was asked: $(cat "$FAKE_LOG")"
 fi
 
+# ---- the README's table of devices is that of the results
+expect_exit 0 "$project/bench/results/table"
+cp "$logs/stdout" table.md
+expect_python '6 True' 'table = open("table.md", encoding="utf-8").read()' \
+    "readme = open('$project/README.md', encoding='utf-8').read()" 'print(table.count("\n") - 2, "\n\n" + table + "\n" in readme)'
+rm table.md
+
 # ---- the program itself
 expect_exit 0 "${no_nvidia[@]}" timeout 800 "$bench" --hedron "$hedron" --out real --results none --device c --quick --repeats 1 \
     --parts threads,stages
