@@ -67,9 +67,19 @@ static HdStatus render_sides(Search *search, HdError *error) {
     return status;
 }
 
+/* Bit by bit: a NaN is the same as itself. */
+static bool is_same_value(float a, float b) {
+    uint32_t bits[2];
+    memcpy(&bits[0], &a, sizeof a);
+    memcpy(&bits[1], &b, sizeof b);
+    return bits[0] == bits[1];
+}
+
 static bool is_same_pixel(const Search *search, int pixel) {
-    return memcmp(search->frames[DEVICE].rgb + 3 * pixel, search->frames[PLAIN_C].rgb + 3 * pixel,
-                  3 * sizeof(float)) == 0;
+    const float *found = search->frames[DEVICE].rgb + 3 * pixel;
+    const float *expected = search->frames[PLAIN_C].rgb + 3 * pixel;
+    return is_same_value(found[0], expected[0]) && is_same_value(found[1], expected[1]) &&
+           is_same_value(found[2], expected[2]);
 }
 
 /* The first one of the last comparison, row by row, or NOWHERE. */
@@ -209,7 +219,7 @@ static void tell_values(const Search *search, int pixel, char *text, size_t capa
     const float *found = search->frames[DEVICE].rgb + 3 * pixel;
     const float *expected = search->frames[PLAIN_C].rgb + 3 * pixel;
     int channel = 0;
-    while (channel < 2 && memcmp(found + channel, expected + channel, sizeof *found) == 0)
+    while (channel < 2 && is_same_value(found[channel], expected[channel]))
         channel++;
     snprintf(text, capacity, "%s is %a, expected %a", channels[channel], (double)found[channel],
              (double)expected[channel]);
