@@ -49,10 +49,12 @@ void many_instances(HdScene *scene, HdCamera *camera) {
     build_cube_mesh(&scene->meshes[0], &blue, &gold);
     build_sphere_mesh(&scene->meshes[1], 10, 0.0, true, true, &white);
     scene->meshes[1].materials[0].picture = 0;
-    for (int i = 0; i < 11; i++)
+    for (int i = 0; i < 11; i++) {
+        int row = i / 4;
         build_instance(scene, i, i % 2,
-                       hd_vec3(1.3 * (i % 4) - 2.0, 1.4 * (i / 4) - 1.0, 0.3 * (i % 3)),
+                       hd_vec3(1.3 * (i % 4) - 2.0, 1.4 * row - 1.0, 0.3 * (i % 3)),
                        hd_vec3(13.0 * i, 21.0 * i, 34.0 * i), 0.4 + 0.05 * (i % 5));
+    }
     scene->instances[2].scale = hd_vec3(0.2, 0.5, 0.9);
     scene->instances[6].position = scene->instances[5].position;
     scene->instances[7].has_material = true;

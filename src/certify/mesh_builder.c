@@ -68,8 +68,9 @@ static void fill_globe_uvs(HdMesh *mesh, const Globe *globe) {
     mesh->uv_count = (globe->rows + 1) * (globe->columns + 1);
     mesh->uvs = allocate((size_t)mesh->uv_count, sizeof *mesh->uvs);
     for (int i = 0; i < mesh->uv_count; i++) {
+        int row = i / (globe->columns + 1);
         mesh->uvs[i][0] = 3.0 * (i % (globe->columns + 1)) / globe->columns - 1.0;
-        mesh->uvs[i][1] = 1.5 * (i / (globe->columns + 1)) / globe->rows; /* whole rows */
+        mesh->uvs[i][1] = 1.5 * row / globe->rows;
     }
 }
 
