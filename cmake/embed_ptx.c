@@ -19,14 +19,15 @@
     { COMMON, .precision = PRECISION(is_double), .is_probe = true }
 #define RENDERER(is_double, is_wavefront, has_survey)                                              \
     {                                                                                              \
-        COMMON, .precision = PRECISION(is_double), .wavefront = (is_wavefront), .needs = {         \
-            .plane_bound = HD_CUDA_PTX_PLANES,                                                     \
-            .depth_bound = HD_CUDA_PTX_DEPTH,                                                      \
-            .node_stack_bound = HD_CUDA_PTX_NODE_STACK,                                            \
-            .refracts = true,                                                                      \
-            .lit_from_behind = true,                                                               \
-            .surveyed = (has_survey)                                                               \
-        }                                                                                          \
+        COMMON, .precision = PRECISION(is_double), .wavefront = (is_wavefront),                    \
+                .first_hits = true, .needs = {                                                     \
+                    .plane_bound = HD_CUDA_PTX_PLANES,                                             \
+                    .depth_bound = HD_CUDA_PTX_DEPTH,                                              \
+                    .node_stack_bound = HD_CUDA_PTX_NODE_STACK,                                    \
+                    .refracts = true,                                                              \
+                    .lit_from_behind = true,                                                       \
+                    .surveyed = (has_survey)                                                       \
+                }                                                                                  \
     }
 #define PRECISION(is_double) ((is_double) ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT)
 
@@ -72,14 +73,15 @@ static void write_table(FILE *file, int count, const HdNvrtc *nvrtc) {
     for (int i = 0; i < count; i++) {
         const HdKernelShape *shape = &shapes[i];
         fprintf(file,
-                "    {.shape = {.is_probe = %d, .wavefront = %d, .precision = (HdPrecision)%d, "
+                "    {.shape = {.is_probe = %d, .wavefront = %d, .first_hits = %d, .precision = "
+                "(HdPrecision)%d, "
                 ".math = (HdMath)%d, "
                 ".group_size = %d, .ptx_arch = %d,\n"
                 "               .needs = {.plane_bound = %d, .depth_bound = %d, "
                 ".node_stack_bound = %d, .surveyed = %d}},\n"
                 "     .maker = \"NVRTC %d.%d\", .text = text_%d, .size = sizeof text_%d},\n",
-                shape->is_probe, shape->wavefront, (int)shape->precision, (int)shape->math,
-                shape->group_size, shape->ptx_arch, shape->needs.plane_bound,
+                shape->is_probe, shape->wavefront, shape->first_hits, (int)shape->precision,
+                (int)shape->math, shape->group_size, shape->ptx_arch, shape->needs.plane_bound,
                 shape->needs.depth_bound, shape->needs.node_stack_bound, shape->needs.surveyed,
                 nvrtc->major, nvrtc->minor, i, i);
     }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Debian packages of what is installed, the window by itself, for it needs SDL: ./dev package.
 set(CPACK_GENERATOR DEB)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # nobody who wants a package waits for tests and benches
 set(CPACK_PACKAGE_NAME hedron)
 set(CPACK_PACKAGE_CONTACT "The hedron project")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")

@@ -212,6 +212,30 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
     return HD_OK;
 }
 
+typedef struct FirstHitsWork {
+    const CRenderer *c;
+    const HdFrameTables *tables;
+    const HdFrame *frame;
+} FirstHitsWork;
+
+static void find_in_one_item(void *context, int thread, int item) {
+    const FirstHitsWork *work = context;
+    const CRenderer *c = work->c;
+    (void)thread;
+    c->build->first_hits(c->scene.table, work->tables->table, item, work->frame->first_floats,
+                         work->frame->first);
+}
+
+static HdStatus c_first_hits(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+                             HdError *error) {
+    const CRenderer *c = renderer;
+    FirstHitsWork work = {c, tables, frame};
+    const int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
+    return hd_thread_pool_run(c->pool, items, find_in_one_item, &work, is_interrupted)
+               ? HD_OK
+               : hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+}
+
 static int c_lanes(const void *renderer) {
     const CRenderer *c = renderer;
     return c->build->lanes;
@@ -228,6 +252,7 @@ static const HdRendererFunctions functions = {
     .open = c_open,
     .upload = c_upload,
     .collect = c_collect,
+    .first_hits = c_first_hits,
     .lanes = c_lanes,
     .describe = c_describe,
     .close = c_close,

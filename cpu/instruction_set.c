@@ -8,10 +8,13 @@
 
 #include "generated/cpu_builds.h"
 
-#define DECLARE_BUILD(set, lanes, precision, kernel) HdCpuKernel kernel;
+#define DECLARE_BUILD(set, lanes, precision, kernel)                                               \
+    HdCpuKernel kernel;                                                                            \
+    HdCpuFirstHits kernel##_first_hits;
 HD_CPU_BUILDS(DECLARE_BUILD)
 
-#define LIST_BUILD(set, lanes, precision, kernel) {#set, lanes, HD_PRECISION_##precision, kernel},
+#define LIST_BUILD(set, lanes, precision, kernel)                                                  \
+    {#set, lanes, HD_PRECISION_##precision, kernel, kernel##_first_hits},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 enum { BUILD_COUNT = sizeof builds / sizeof builds[0] };
 

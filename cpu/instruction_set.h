@@ -11,6 +11,7 @@ typedef struct HdCpuBuild {
     int lanes;
     HdPrecision precision;
     HdCpuKernel *kernel;
+    HdCpuFirstHits *first_hits;
 } HdCpuBuild;
 
 /* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: it can run none

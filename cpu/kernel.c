@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry point for plain C, named by HD_KERNEL_NAME. */
+/* Entry points for plain C, named by HD_KERNEL_NAME. */
 #include "cpu/kernel.h"
 
 #include "cpu/kernel_tables.h"
@@ -31,4 +31,14 @@ void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const 
     ((RayCounts *)counts)[item] = queue == NULL
                                       ? render_by_trees(scene, frame, item, pixels)
                                       : render_by_waves(scene, frame, item, queue, pixels);
+}
+
+#define HD_JOINED(a, b)     a##b
+#define HD_FIRST_HITS_OF(a) HD_JOINED(a, _first_hits)
+HdCpuFirstHits HD_FIRST_HITS_OF(HD_KERNEL_NAME);
+
+void HD_FIRST_HITS_OF(HD_KERNEL_NAME)(const HdTable *scene, const HdTable *frame, int item,
+                                      int floats, float *hits) {
+    HD_DECLARE_TABLES(scene, frame)
+    find_first_hits(SCENE_ARGUMENTS item, floats, hits);
 }

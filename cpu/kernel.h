@@ -23,4 +23,8 @@ typedef struct HdCpuQueue {
 typedef void HdCpuKernel(const HdTable *scene, const HdTable *frame, int item,
                          const HdCpuQueue *queue, float *pixels, void *counts);
 
+/* Finds what is met first in the pixels of an item, `floats` numbers of each (HdFrame.first). */
+typedef void HdCpuFirstHits(const HdTable *scene, const HdTable *frame, int item, int floats,
+                            float *hits);
+
 #endif

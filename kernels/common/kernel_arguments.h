@@ -61,6 +61,14 @@
     X(BUFFER, float, pixels)                                                                       \
     LAST(BUFFER, RayCounts, counts)
 
+/* hedron_first_hits: TABLES, then these. Items [first_item, first_item + item_count), each by a
+   thread (find_first_hits). */
+#define HD_FIRST_HITS_ARGUMENTS(X, LAST)                                                           \
+    X(NUMBER, int, first_item)                                                                     \
+    X(NUMBER, int, item_count)                                                                     \
+    X(NUMBER, int, floats)                                                                         \
+    LAST(BUFFER, float, hits)
+
 /* hedron_sum_counts: `count` of `counts` become `workers` sums. */
 #define HD_SUM_COUNTS_ARGUMENTS(X, LAST)                                                           \
     X(INPUT, RayCounts, counts)                                                                    \

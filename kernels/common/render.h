@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A work item: from its number to the pixels it renders. */
+/* A work item: from its number to the pixels it renders, or to what is met first there. */
 #ifndef HD_RENDER_H
 #define HD_RENDER_H
 
@@ -65,20 +65,33 @@ FN void listed_samples(SAMPLE_PARAMETERS vint within, vmask *alive, vint *x, vin
     *row = (place >> 16) & 0xffff;
 }
 
+/* The pixels at the places of an item; returns the lanes whose place is one of the picture. */
+FN vmask pixels_at(GLOBAL const View *view, int item, vint place, vint *x, vint *y) {
+    vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
+    Pixel corner = block_of_item(view, item);
+    *x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
+    *y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
+    return lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(*x, splat_int(view->width)) &
+           lt_int(*y, splat_int(view->height));
+}
+
+/* To the image point that is so many half steps of the grid right of and below the middle. */
+FN Vec3 direction_to(GLOBAL const View *view, vreal right, vreal down) {
+    Vec3 axis = vec3_of(view->down);
+    Vec3 sum = vec3_of(view->forward);
+    sum = vec3_scale_add(axis, down, sum);
+    axis = vec3_of(view->right);
+    return vec3_normalize(vec3_scale_add(axis, right, sum));
+}
+
 /* Directions of the samples `first`, first + 1, ... of an item, counted pixel by pixel and row by
    row; returns the lanes that hold one. */
 FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *direction) {
     int n = view->grid_side, samples = view->samples;
     vint within = lane_numbers() + first % samples; /* from the first lane's pixel on */
-    vint pixels = divide_int(within, samples);
+    vint pixels = divide_int(within, samples), x, y;
     within = within - pixels * samples;
-    vint place = pixels + first / samples;
-    vint z = (place + item * HD_PIXELS_PER_ITEM % HD_BLOCK_PIXELS) & (HD_BLOCK_PIXELS - 1);
-    Pixel corner = block_of_item(view, item);
-    vint x = ((z & 1) | (z >> 1 & 2) | (z >> 2 & 4)) + corner.x;
-    vint y = ((z >> 1 & 1) | (z >> 2 & 2) | (z >> 3 & 4)) + corner.y;
-    vmask alive = lt_int(place, splat_int(HD_PIXELS_PER_ITEM)) & lt_int(x, splat_int(view->width)) &
-                  lt_int(y, splat_int(view->height));
+    vmask alive = pixels_at(view, item, pixels + first / samples, &x, &y);
     vint row, column;
     if (view->listed) {
         listed_samples(SAMPLE_ARGUMENTS within, &alive, &x, &y, &column, &row);
@@ -88,11 +101,7 @@ FN vmask sample_directions(SAMPLE_PARAMETERS int item, int first, Vec3 *directio
     }
     vreal right = to_real((x * n + column) * 2 + view->first_column);
     vreal down = to_real((y * n + row) * 2 + view->first_row);
-    Vec3 axis = vec3_of(view->down);
-    Vec3 sum = vec3_of(view->forward);
-    sum = vec3_scale_add(axis, down, sum);
-    axis = vec3_of(view->right);
-    *direction = vec3_normalize(vec3_scale_add(axis, right, sum));
+    *direction = direction_to(view, right, down);
     return alive;
 }
 
@@ -296,6 +305,96 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
             counts[item] = gathered.counts;
         }
     }
+}
+
+/* ---- what the eye's rays meet first, of a frame that is not listed ---- */
+
+FN Hit first_hit(SCENE_PARAMETERS const Ray *ray, Reference *reference) {
+    *reference = reference_of(SCENE_ARGUMENTS ray->touched, 1);
+    return closest_hit(SCENE_ARGUMENTS ray, *reference);
+}
+
+/* How many samples of each of the item's pixels meet anything. */
+FN void count_covered(SCENE_PARAMETERS int item, int covered[HD_PIXELS_PER_ITEM]) {
+    int per_pixel = view->samples, count = HD_PIXELS_PER_ITEM * per_pixel;
+    for (int place = 0; place < HD_PIXELS_PER_ITEM; place++)
+        covered[place] = 0;
+    for (int first = 0; first < count; first += HD_LANES) {
+        Vec3 direction;
+        Reference reference;
+        vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
+        if (!any_lane(alive))
+            continue;
+        Ray ray = eye_ray(direction, alive);
+        Hit hit = first_hit(SCENE_ARGUMENTS & ray, &reference);
+        vmask met = alive & ~lt_int(hit.object, splat_int(0));
+        vint counts = pick_int(met, splat_int(1), splat_int(0));
+        for (int lane = 0; lane < HD_LANES && first + lane < count; lane++)
+            covered[(first + lane) / per_pixel] += lane_int(&counts, lane);
+    }
+}
+
+/* What the rays through the middles of pixels meet. */
+typedef struct {
+    vreal distance; /* 0 where nothing is met, and so is the normal */
+    Vec3 normal;
+    vint object; /* from 1 on; 0: none */
+} Middles;
+
+FN Middles look_through_middles(SCENE_PARAMETERS vint x, vint y, vmask alive) {
+    int n = view->grid_side;
+    vreal right = to_real(x * (2 * n) + (view->first_column + n - 1));
+    vreal down = to_real(y * (2 * n) + (view->first_row + n - 1));
+    Ray ray = eye_ray(direction_to(view, right, down), alive);
+    Reference reference;
+    Hit hit = first_hit(SCENE_ARGUMENTS & ray, &reference);
+    vmask met = alive & ~lt_int(hit.object, splat_int(0));
+    Surface surface = surface_at(SCENE_ARGUMENTS & ray, reference, &hit, met);
+    Middles middles;
+    middles.distance = pick(met, hit.t, splat(R(0.0)));
+    middles.normal = vec3_pick(met, surface.normal, vec3_zero());
+    middles.object = pick_int(met, hit.object + 1, splat_int(0));
+    return middles;
+}
+
+/* What has HD_FIRST_FLOATS beside the alpha, of the item's pixels. */
+FN void store_middles(SCENE_PARAMETERS int item, GLOBAL float *hits) {
+    for (int first = 0; first < HD_PIXELS_PER_ITEM; first += HD_LANES) {
+        vint x, y;
+        vmask alive = pixels_at(view, item, lane_numbers() + first, &x, &y);
+        if (!any_lane(alive))
+            continue;
+        Middles middles = look_through_middles(SCENE_ARGUMENTS x, y, alive);
+        vint live = pick_int(alive, splat_int(1), splat_int(0));
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            if (!lane_int(&live, lane))
+                continue;
+            uint64 row = (uint64)lane_int(&y, lane) * (uint64)view->width;
+            GLOBAL float *out = hits + (row + (uint64)lane_int(&x, lane)) * HD_FIRST_FLOATS;
+            out[1] = (float)lane_real(&middles.distance, lane);
+            out[2] = (float)lane_real(&middles.normal.x, lane);
+            out[3] = (float)lane_real(&middles.normal.y, lane);
+            out[4] = (float)lane_real(&middles.normal.z, lane);
+            out[5] = (float)lane_int(&middles.object, lane);
+        }
+    }
+}
+
+/* Fills `floats` numbers of each of the item's pixels: HD_ALPHA_FLOATS or HD_FIRST_FLOATS. */
+FN void find_first_hits(SCENE_PARAMETERS int item, int floats, GLOBAL float *hits) {
+    int covered[HD_PIXELS_PER_ITEM];
+    Pixel corner = block_of_item(view, item);
+    count_covered(SCENE_ARGUMENTS item, covered);
+    for (int place = 0; place < HD_PIXELS_PER_ITEM; place++) {
+        Pixel pixel = pixel_in_block(corner, item * HD_PIXELS_PER_ITEM + place);
+        if (!in_picture(view, pixel))
+            continue;
+        uint64 number = (uint64)pixel.y * (uint64)view->width + (uint64)pixel.x;
+        hits[number * (uint64)floats] =
+            (float)shared_quotient((real)covered[place], (real)view->samples);
+    }
+    if (floats == HD_FIRST_FLOATS)
+        store_middles(SCENE_ARGUMENTS item, hits);
 }
 
 /* Adds up every `workers`-th count from number `worker` on. */

@@ -317,6 +317,11 @@ enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMI
    trees of rays met, where it weighs something: their identities, added up modulo 2^24. */
 enum { HD_RADIANCE_SUMS = 3, HD_SURVEY_SUMS = 5, HD_IDENTITY_MASK = 0xffffff };
 
+/* What the eye's rays meet first, of each pixel: the share of its samples that meet anything; and
+   of the ray through its middle the distance, the normal, which is turned towards the eye, and the
+   object's number from 1 on. The latter are 0 where nothing is met. */
+enum { HD_ALPHA_FLOATS = 1, HD_FIRST_FLOATS = 6 };
+
 /* The floor has its own plane and one for each of its sides. */
 enum { HD_FLOOR_SIDES = 4, HD_FLOOR_PLANES = 1 + HD_FLOOR_SIDES };
 

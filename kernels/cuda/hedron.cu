@@ -119,6 +119,19 @@ KERNEL hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER
         sum_counts(counts, count, worker, workers, sums);
 }
 
+#if HD_FIRST_HITS
+
+KERNEL hedron_first_hits(SCENE_PARAMETERS HD_FIRST_HITS_ARGUMENTS(HD_PARAMETER,
+                                                                  HD_LAST_PARAMETER)) {
+    USE_SWITCHES
+    int step = (int)(gridDim.x * blockDim.x);
+    for (int item = (int)(blockIdx.x * blockDim.x + threadIdx.x); item < item_count; item += step)
+        find_first_hits(SCENE_ARGUMENTS first_item + item, floats, hits);
+    END_SWITCHES
+}
+
+#endif
+
 KERNEL hedron_encode(HD_ENCODE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     int worker = (int)(blockIdx.x * blockDim.x + threadIdx.x);
     encode_pixels(pixels, count, thresholds, worker, (int)(gridDim.x * blockDim.x), image);

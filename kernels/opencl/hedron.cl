@@ -73,6 +73,17 @@ __kernel void hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PA
 
 #endif
 
+#if HD_FIRST_HITS && !HD_PROBE
+
+__kernel void hedron_first_hits(SCENE_PARAMETERS HD_FIRST_HITS_ARGUMENTS(HD_PARAMETER,
+                                                                         HD_LAST_PARAMETER)) {
+    int step = (int)get_global_size(0);
+    for (int item = (int)get_global_id(0); item < item_count; item += step)
+        find_first_hits(SCENE_ARGUMENTS first_item + item, floats, hits);
+}
+
+#endif
+
 #if HD_GROUP_SIZE && !HD_PROBE
 
 __kernel void hedron_encode(HD_ENCODE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {

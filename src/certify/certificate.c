@@ -161,16 +161,16 @@ typedef struct GoldenTest {
 } GoldenTest;
 
 static void judge_golden_frame(GoldenTest *golden, const HdGoldenFrame *frame, uint64_t hash) {
-    uint64_t expected = 0;
+    HdGoldenHashes expected = {0};
     golden->test->frames++;
     golden->test->hash = hd_hash_bytes(golden->test->hash, &hash, sizeof hash);
-    if (hd_golden_hash(frame->name, golden->precision, &expected) && hash == expected)
+    if (hd_golden_find_hashes(frame->name, golden->precision, &expected) && hash == expected.frame)
         return;
     if (golden->wrong++ > 0)
         return;
     golden->first_wrong = frame;
     golden->found = hash;
-    golden->expected = expected;
+    golden->expected = expected.frame;
 }
 
 static HdStatus render_golden_frame(GoldenTest *golden, const HdGoldenFrame *frame,
@@ -183,7 +183,7 @@ static HdStatus render_golden_frame(GoldenTest *golden, const HdGoldenFrame *fra
         return status;
     if (!golden->quick || is_quick(&scene)) {
         status = hd_render_scene(golden->renderer, &scene, &camera, golden->precision,
-                                 &hd_golden_needs, &image, error);
+                                 &hd_golden_needs, 0, &image, error);
         if (status == HD_OK) {
             judge_golden_frame(golden, frame, hd_frame_hash(&image));
             hd_frame_free(&image);

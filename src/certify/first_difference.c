@@ -62,7 +62,7 @@ static HdStatus render_sides(Search *search, HdError *error) {
     forget_frames(search);
     for (int side = 0; status == HD_OK && side < SIDES; side++)
         status = hd_render_scene(search->renderers[side], &search->scene, &search->camera,
-                                 search->dispute->precision, search->dispute->like,
+                                 search->dispute->precision, search->dispute->like, 0,
                                  &search->frames[side], error);
     return status;
 }

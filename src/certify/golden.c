@@ -16,16 +16,17 @@ const char *hd_golden_text(void) {
     return (const char *)hd_golden_hashes;
 }
 
-bool hd_golden_hash(const char *name, HdPrecision precision, uint64_t *hash) {
+bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes) {
     size_t length = strlen(name);
     for (const char *line = hd_golden_text(); line != NULL && *line != '\0';
          line = strchr(line, '\n')) {
         line += *line == '\n';
-        uint64_t both[2];
+        uint64_t frame[2], first_hits[2];
         if (strncmp(line, name, length) != 0 || line[length] != ' ' ||
-            sscanf(line + length, "%" SCNx64 " %" SCNx64, &both[0], &both[1]) != 2)
+            sscanf(line + length, "%" SCNx64 " %" SCNx64 " %" SCNx64 " %" SCNx64, &frame[0],
+                   &frame[1], &first_hits[0], &first_hits[1]) != 4)
             continue;
-        *hash = both[precision];
+        *hashes = (HdGoldenHashes){frame[precision], first_hits[precision]};
         return true;
     }
     return false;

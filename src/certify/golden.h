@@ -6,11 +6,18 @@
 #include "certify/golden_scenes.h"
 #include "device/options.h"
 
-/* The committed hashes (hd_frame_hash): a line "NAME FLOAT DOUBLE" for each frame. */
+/* Of a frame in one precision. */
+typedef struct HdGoldenHashes {
+    uint64_t frame;      /* hd_frame_hash */
+    uint64_t first_hits; /* of HdFrame.first, with all that is known of the first hit */
+} HdGoldenHashes;
+
+/* What is committed: a line "NAME FRAME-IN-FLOAT FRAME-IN-DOUBLE FIRST-HITS-IN-FLOAT
+   FIRST-HITS-IN-DOUBLE" for each frame. */
 const char *hd_golden_text(void);
 
-/* Reads a frame's hash; false where none is committed. */
-bool hd_golden_hash(const char *name, HdPrecision precision, uint64_t *hash);
+/* Reads a frame's hashes; false where none are committed. */
+bool hd_golden_find_hashes(const char *name, HdPrecision precision, HdGoldenHashes *hashes);
 
 /* Builds a frame's scene, which the caller frees. The builders end the program where there is no
    memory; so HD_FAILED where there is less than they need. */

@@ -27,42 +27,36 @@ static HdStatus trace_grid(HdRenderer *renderer, const HdScene *scene, const HdC
     HdStatus status = hd_compile_frame(&view, scene, camera, precision, error);
     if (status == HD_OK)
         status = hd_renderer_render(renderer, &view, frame, error);
+    if (status == HD_OK && frame->first != NULL)
+        status = hd_renderer_first_hits(renderer, &view, frame, error);
     hd_frame_tables_free(&view);
-    return status;
-}
-
-HdStatus hd_render_grid(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                        HdPrecision precision, HdFrame *frame, HdError *error) {
-    HdStatus status = hd_frame_create(frame, scene->width, scene->height, error);
-    if (status != HD_OK)
-        return status;
-    status = trace_grid(renderer, scene, camera, precision, frame, error);
-    if (status != HD_OK)
-        hd_frame_free(frame);
     return status;
 }
 
 static HdStatus refine(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
                        HdPrecision precision, HdFrame *frame, HdError *error) {
     HdRefinement *refinement = NULL;
-    HdStatus status = hd_frame_create(frame, scene->width, scene->height, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_refinement_create(&refinement, scene, renderer, precision, HD_CURVE_SRGB, error);
+    HdStatus status =
+        hd_refinement_create(&refinement, scene, renderer, precision, HD_CURVE_SRGB, error);
     if (status == HD_OK)
         status = hd_refinement_render(refinement, camera, frame, error);
     hd_refinement_free(refinement);
-    if (status != HD_OK)
-        hd_frame_free(frame);
     return status;
 }
 
 HdStatus hd_render_scene(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                         HdPrecision precision, const HdSceneTables *like, HdFrame *frame,
-                         HdError *error) {
+                         HdPrecision precision, const HdSceneTables *like, unsigned layers,
+                         HdFrame *frame, HdError *error) {
     HdStatus status = hd_upload_scene(renderer, scene, precision, like, error);
+    if (status == HD_OK)
+        status = hd_frame_create(frame, scene->width, scene->height, error);
     if (status != HD_OK)
         return status;
-    return (hd_scene_is_surveyed(scene) ? refine : hd_render_grid)(renderer, scene, camera,
-                                                                   precision, frame, error);
+    status = hd_frame_add_layers(frame, layers, error);
+    if (status == HD_OK)
+        status = (hd_scene_is_surveyed(scene) ? refine : trace_grid)(renderer, scene, camera,
+                                                                     precision, frame, error);
+    if (status != HD_OK)
+        hd_frame_free(frame);
+    return status;
 }

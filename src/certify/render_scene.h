@@ -16,13 +16,10 @@ extern const HdSceneTables hd_golden_needs;
 HdStatus hd_upload_scene(HdRenderer *renderer, const HdScene *scene, HdPrecision precision,
                          const HdSceneTables *like, HdError *error);
 
-/* Renders a frame of the scene uploaded last, with a grid of samples. The caller frees it. */
-HdStatus hd_render_grid(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                        HdPrecision precision, HdFrame *frame, HdError *error);
-
-/* Uploads and renders, with the samples that the scene asks for. The caller frees the frame. */
+/* Uploads and renders, with the samples that the scene asks for, and with those layers
+   (hd_frame_add_layers). The caller frees the frame. */
 HdStatus hd_render_scene(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
-                         HdPrecision precision, const HdSceneTables *like, HdFrame *frame,
-                         HdError *error);
+                         HdPrecision precision, const HdSceneTables *like, unsigned layers,
+                         HdFrame *frame, HdError *error);
 
 #endif

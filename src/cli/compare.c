@@ -4,9 +4,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/commands.h"
 #include "image/difference.h"
+#include "image/format_exr.h"
 #include "image/heat_map.h"
 #include "image/row_reader.h"
 #include "input/json/json_device_text.h"
@@ -14,6 +16,13 @@
 #include "system/path.h"
 
 enum { PICTURES = 2, FIGURE_WIDTH = 20 };
+
+/* A channel that is no colour and that both have. */
+typedef struct Further {
+    const char *name;
+    int places[PICTURES];
+    HdChannelDifference difference;
+} Further;
 
 typedef struct Comparison {
     const HdOptions *options;
@@ -26,9 +35,59 @@ typedef struct Comparison {
     HdHeatMap *map; /* NULL: none is asked for, or it is written */
     HdPictureDifference *difference;
     HdPictureFigures figures;
+    Further further[HD_MOST_FURTHER];
+    int further_count;
 } Comparison;
 
 static const char *const channel_names[] = {"red", "green", "blue"};
+
+/* ---- further channels ---- */
+
+/* Negative: the picture has none of that name. */
+static int place_of_channel(const HdPictureFacts *facts, const char *name) {
+    for (int i = 0; i < facts->further; i++)
+        if (strcmp(facts->names[i], name) == 0)
+            return i;
+    return -1;
+}
+
+static void match_further(Comparison *comparison) {
+    const HdPictureFacts *facts = comparison->facts;
+    for (int i = 0; i < facts[0].further; i++) {
+        const char *name = facts[0].names[i];
+        const int other = place_of_channel(&facts[1], name);
+        if (other >= 0)
+            comparison->further[comparison->further_count++] =
+                (Further){.name = name, .places = {i, other}};
+    }
+}
+
+static void compare_further(Comparison *comparison, int y) {
+    HdPictureReader *const *readers = comparison->readers;
+    for (int i = 0; i < comparison->further_count; i++) {
+        Further *further = &comparison->further[i];
+        const float *first = hd_picture_reader_further(readers[0], further->places[0]);
+        const float *second = hd_picture_reader_further(readers[1], further->places[1]);
+        for (int x = 0; x < comparison->facts[0].width; x++)
+            hd_channel_difference_add(&further->difference, first[x], second[x], x, y);
+    }
+}
+
+/* The one with the largest difference; NULL: there is none. */
+static const Further *most_different(const Comparison *comparison) {
+    const Further *most = NULL;
+    for (int i = 0; i < comparison->further_count; i++) {
+        const Further *further = &comparison->further[i];
+        const double least = most != NULL ? most->difference.largest : 0.0;
+        if (further->difference.largest > least)
+            most = further;
+    }
+    return most;
+}
+
+static bool is_identical(const Comparison *comparison) {
+    return comparison->figures.identical && most_different(comparison) == NULL;
+}
 
 /* ---- text ---- */
 
@@ -75,6 +134,28 @@ static void print_share(const char *name, double share) {
     printf("%-20s%*s\n", name, FIGURE_WIDTH, text);
 }
 
+static void print_further(const Comparison *comparison) {
+    const Further *most = most_different(comparison);
+    if (comparison->further_count > 0)
+        printf("\n%-20s%*s\n", "further channels", FIGURE_WIDTH, "largest difference");
+    for (int i = 0; i < comparison->further_count; i++) {
+        const Further *further = &comparison->further[i];
+        const HdChannelDifference *difference = &further->difference;
+        char name[64];
+        snprintf(name, sizeof name, "  %.40s", further->name);
+        if (difference->largest > 0.0)
+            printf("%-20s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
+                   difference->x, difference->y, further == most ? ", the largest" : "");
+        else
+            printf("%-20s%*s\n", name, FIGURE_WIDTH, "none");
+    }
+    for (int p = 0; p < PICTURES; p++)
+        for (int i = 0; i < comparison->facts[p].further; i++)
+            if (place_of_channel(&comparison->facts[1 - p], comparison->facts[p].names[i]) < 0)
+                printf("%-20.40s only in the %s\n", comparison->facts[p].names[i],
+                       p == 0 ? "first" : "second");
+}
+
 static void print_text(const Comparison *comparison) {
     const HdPictureFigures *figures = &comparison->figures;
     const HdDifferenceFigures *display = &figures->display, *linear = &figures->linear;
@@ -93,7 +174,8 @@ static void print_text(const Comparison *comparison) {
     if (figures->not_finite[0] + figures->not_finite[1] > 0)
         printf("%-20s%*" PRIu64 "%*" PRIu64 "\n", "NaN or infinite", FIGURE_WIDTH,
                figures->not_finite[0], FIGURE_WIDTH, figures->not_finite[1]);
-    if (figures->identical)
+    print_further(comparison);
+    if (is_identical(comparison))
         printf("\nThe pictures are identical.\n");
 }
 
@@ -124,16 +206,33 @@ static json_t *describe_picture(const Comparison *comparison, int i) {
                      (json_int_t)comparison->figures.not_finite[i]);
 }
 
+static json_t *describe_further(const Comparison *comparison) {
+    json_t *list = json_array();
+    for (int i = 0; i < comparison->further_count; i++) {
+        const Further *further = &comparison->further[i];
+        const HdChannelDifference *difference = &further->difference;
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o}", "name", hd_json_device_text(further->name),
+                            "largest", number_or_null(difference->largest), "at",
+                            difference->largest > 0.0
+                                ? json_pack("{s:i, s:i}", "x", difference->x, "y", difference->y)
+                                : json_null()));
+    }
+    return list;
+}
+
 static HdStatus print_json(const Comparison *comparison, HdError *error) {
     const HdPictureFigures *figures = &comparison->figures;
-    json_t *root =
-        json_pack("{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o}", "first",
-                  describe_picture(comparison, 0), "second", describe_picture(comparison, 1),
-                  "width", comparison->facts[0].width, "height", comparison->facts[0].height,
-                  "curve", hd_curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels,
-                  "identical", figures->identical, "display", describe_figures(&figures->display),
-                  "linear", describe_figures(&figures->linear), "above_1",
-                  number_or_null(figures->above_1), "above_8", number_or_null(figures->above_8));
+    const Further *most = most_different(comparison);
+    json_t *root = json_pack(
+        "{s:o, s:o, s:i, s:i, s:s, s:I, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "first",
+        describe_picture(comparison, 0), "second", describe_picture(comparison, 1), "width",
+        comparison->facts[0].width, "height", comparison->facts[0].height, "curve",
+        hd_curve_names[comparison->curve], "pixels", (json_int_t)figures->pixels, "identical",
+        is_identical(comparison), "display", describe_figures(&figures->display), "linear",
+        describe_figures(&figures->linear), "above_1", number_or_null(figures->above_1), "above_8",
+        number_or_null(figures->above_8), "channels", describe_further(comparison),
+        "most_different", most != NULL ? hd_json_device_text(most->name) : json_null());
     return hd_json_print(root, "the figures", error);
 }
 
@@ -179,6 +278,8 @@ static HdStatus open_pictures(Comparison *comparison, HdError *error) {
         status = check_sizes(comparison, error);
     if (status == HD_OK)
         status = choose_curve(comparison, error);
+    if (status == HD_OK)
+        match_further(comparison);
     return status;
 }
 
@@ -214,7 +315,7 @@ static HdStatus start(Comparison *comparison, HdError *error) {
     return open_map(comparison, error);
 }
 
-static HdStatus compare_row(Comparison *comparison, HdError *error) {
+static HdStatus compare_row(Comparison *comparison, int y, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; i < PICTURES && status == HD_OK; i++)
         status = hd_picture_reader_next(comparison->readers[i], comparison->rows[i], error);
@@ -222,6 +323,7 @@ static HdStatus compare_row(Comparison *comparison, HdError *error) {
         return status;
     hd_difference_add_row(comparison->difference, comparison->rows[0], comparison->rows[1],
                           comparison->facts[0].width, comparison->errors);
+    compare_further(comparison, y);
     return comparison->map != NULL ? hd_heat_map_add_row(comparison->map, comparison->errors, error)
                                    : HD_OK;
 }
@@ -231,7 +333,7 @@ static HdStatus compare_rows(Comparison *comparison, HdError *error) {
     for (int y = 0; y < comparison->facts[0].height && status == HD_OK; y++) {
         if (hd_interrupt_signal() != 0)
             return hd_fail(error, HD_INTERRUPTED, "interrupted after %d rows", y);
-        status = compare_row(comparison, error);
+        status = compare_row(comparison, y, error);
     }
     if (status == HD_OK && comparison->map != NULL) {
         HdHeatMap *map = comparison->map;

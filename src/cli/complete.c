@@ -119,10 +119,25 @@ static void offer_devices(const Line *line) {
     }
 }
 
+/* What follows the last comma, after the words before it. */
+static void offer_further(const Line *line) {
+    const char *const *choices = line->option->choices;
+    const char *comma = strrchr(line->typed, ',');
+    Line further = *line;
+    if (comma != NULL) {
+        further.typed = comma + 1;
+        further.kept_length = (int)(further.typed - line->kept);
+    }
+    for (const char *const *choice = choices; *choice != NULL; choice++)
+        offer(&further, *choice, "");
+}
+
 static void offer_value(const Line *line) {
     const HdOptionSpec *spec = line->option;
     if (spec->type == HD_OPTION_CHANGES)
         hd_offer_scene_paths(line->operand, line->typed, offer, line);
+    else if (spec->type == HD_OPTION_SET)
+        offer_further(line);
     else if (spec->choices != NULL)
         for (const char *const *choice = spec->choices; *choice != NULL; choice++)
             offer(line, *choice, "");

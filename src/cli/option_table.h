@@ -23,6 +23,11 @@ OPTION(const char *outputs[HD_MAX_OUTPUTS];
 ROW("--output", "-o", "SCENE", "the scene file to be written (default: standard output)",
     HD_COMMAND_CONVERT, TEXTS(HD_OPTION_TEXTS, outputs, output_count, 1),
     .expected = "the name of a file", .takes_file = true)
+OPTION(unsigned layers, "--layers", NULL, "LIST",
+       "further channels of the OpenEXR outputs, such as depth,object: depth and normal of what is "
+       "met first, its number (object), how many samples the pixel took (samples), what was left "
+       "out of it at most (bound)",
+       HD_COMMAND_RENDER, .type = HD_OPTION_SET, AT(layers), .choices = hd_layer_names)
 OPTION(const char *changes[HD_MAX_CHANGES];
        int change_count, "--set", NULL, "PATH=VALUE",
        "replace a value of the scene file, for example camera.field_of_view=40; up to 64 times",

@@ -170,6 +170,37 @@ static HdStatus apply_choice(const Given *given, HdError *error) {
     return HD_OK;
 }
 
+/* The word up to a comma. */
+static int choice_of_length(const char *const *choices, const char *word, size_t length) {
+    for (int i = 0; choices[i] != NULL; i++)
+        if (strncmp(choices[i], word, length) == 0 && choices[i][length] == '\0')
+            return i;
+    return -1;
+}
+
+static HdStatus apply_set(const Given *given, HdError *error) {
+    const HdOptionSpec *spec = given->spec;
+    unsigned *set = given->member;
+    char list[256];
+    *set = 0;
+    for (const char *word = given->text;;) {
+        const size_t length = strcspn(word, ",");
+        const int number = choice_of_length(spec->choices, word, length);
+        hd_option_list_choices(spec->choices, list, sizeof list);
+        if (number < 0)
+            return hd_fail(error, HD_BAD_INPUT,
+                           "%s has '%.*s', expected some of %s, separated by commas", spec->name,
+                           (int)length, word, list);
+        if ((*set >> number & 1) != 0)
+            return hd_fail(error, HD_BAD_INPUT, "%s has %s twice", spec->name,
+                           spec->choices[number]);
+        *set |= 1u << number;
+        if (word[length] == '\0')
+            return HD_OK;
+        word += length + 1;
+    }
+}
+
 /* ---- texts ---- */
 
 static HdStatus set_text(const Given *given, const char **out, HdError *error) {
@@ -219,9 +250,10 @@ HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const cha
         [HD_OPTION_FLAG] = apply_flag,       [HD_OPTION_COMMAND] = apply_command,
         [HD_OPTION_INTEGER] = apply_integer, [HD_OPTION_REAL] = apply_real,
         [HD_OPTION_CHOICE] = apply_choice,   [HD_OPTION_NUMERAL] = apply_choice,
-        [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SIZE] = apply_size,
-        [HD_OPTION_CROP] = apply_crop,       [HD_OPTION_TEXT] = apply_text,
-        [HD_OPTION_TEXTS] = apply_texts,     [HD_OPTION_CHANGES] = apply_change,
+        [HD_OPTION_WORD] = apply_choice,     [HD_OPTION_SET] = apply_set,
+        [HD_OPTION_SIZE] = apply_size,       [HD_OPTION_CROP] = apply_crop,
+        [HD_OPTION_TEXT] = apply_text,       [HD_OPTION_TEXTS] = apply_texts,
+        [HD_OPTION_CHANGES] = apply_change,
     };
     const Given given = {options, spec, value, at(options, spec->offset)};
     return apply[spec->type](&given, error);

@@ -46,6 +46,7 @@ typedef enum HdOptionType {
     HD_OPTION_CHOICE,  /* one of `choices`; int or an enum: which of them, from 0 */
     HD_OPTION_NUMERAL, /* one of `choices`, which are whole numbers; int */
     HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first of them */
+    HD_OPTION_SET,     /* some of `choices`, with commas; unsigned: the bit 1 << i for number i */
     HD_OPTION_SIZE,    /* WxH; HdOptionSize */
     HD_OPTION_CROP,    /* WxH+X+Y; HdOptionCrop */
     HD_OPTION_TEXT,    /* const char * */

@@ -50,6 +50,9 @@ static HdStatus render_frames(const HdOptions *options, const HdSceneFile *file,
     };
     HdStatus status = settle_outputs(&outputs, options, &file->output, frames->count, error);
     if (status == HD_OK)
+        status = hd_outputs_add_layers(&outputs, options->layers,
+                                       hd_scene_is_surveyed(&file->scene), error);
+    if (status == HD_OK)
         status = hd_render(&rendering, options, error);
     return status == HD_OK ? print_names(options, &outputs, frames, error) : status;
 }

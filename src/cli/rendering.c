@@ -73,6 +73,7 @@ static HdStatus open_devices(Run *run, HdError *error) {
         .job = &job,
     };
     render.has_deep_trees = hd_scene_has_deep_trees(&plain);
+    render.first_hits = run->rendering->outputs->wish.layers != 0;
     hd_scene_drop_survey(&plain);
     HdStatus status = hd_open_devices(&run->team, &wish, error);
     hd_console_clear(&run->console);

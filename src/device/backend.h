@@ -70,6 +70,12 @@ typedef struct HdRendererFunctions {
     HdStatus (*collect)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                         HdError *error);
 
+    /* Fills the frame's `first` with what is met first in that of `tables`, which is not listed and
+       may be under way or not; waits for it. The renderer was opened for that.
+       HD_INTERRUPTED as above. */
+    HdStatus (*first_hits)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
+                           HdError *error);
+
     /* The seconds of the longest launch of the frame collected last; negative: not known. NULL
        instead of a function where the device drives no display. */
     double (*longest_launch)(const void *renderer);

@@ -17,6 +17,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_PIXELS_PER_ITEM", shape->pixels_per_item},
         {"HD_GROUP_SIZE", shape->group_size},
         {"HD_WAVEFRONT", shape->wavefront},
+        {"HD_FIRST_HITS", shape->first_hits},
         {"HD_PLANE_BOUND", shape->needs.plane_bound},
         {"HD_DEPTH_BOUND", shape->needs.depth_bound},
         {"HD_NODE_STACK", shape->needs.node_stack_bound},
@@ -61,6 +62,8 @@ const char *hd_kernel_name(const HdKernelShape *shape, HdKernel kernel) {
         return shape->wavefront && has_groups ? "hedron_store_batch" : NULL;
     case HD_KERNEL_SUM:
         return "hedron_sum_counts";
+    case HD_KERNEL_FIRST_HITS:
+        return shape->first_hits ? "hedron_first_hits" : NULL;
     default:
         return has_groups ? "hedron_encode" : NULL;
     }

@@ -29,6 +29,7 @@ typedef struct HdKernelShape {
     int pixels_per_item; /* a divisor of HD_BLOCK_PIXELS */
     int group_size;      /* most threads of a group that share items; 0: none do */
     bool wavefront;      /* the kernels of that pipeline, or those of the other one */
+    bool first_hits;     /* a kernel for these is there too */
     HdKernelNeeds needs;
     HdPrecision precision;
     HdMath math;
@@ -59,6 +60,7 @@ typedef enum HdKernel {
     HD_KERNEL_STORE,  /* stores the pixels of a wavefront's batch, where threads work in groups */
     HD_KERNEL_SUM,    /* adds counts up */
     HD_KERNEL_ENCODE, /* makes 8 bits of pixels, where threads work in groups */
+    HD_KERNEL_FIRST_HITS,
     HD_KERNEL_COUNT
 } HdKernel;
 

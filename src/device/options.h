@@ -49,6 +49,8 @@ typedef struct HdRenderOptions {
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;
+    bool first_hits;     /* frames may be asked for what is met first (hd_renderer_first_hits). No
+                            option of the command line */
     bool has_deep_trees; /* hd_scene_has_deep_trees of the scene that is to be rendered; counts
                             where the pipeline is left open. No option of the command line */
     struct {

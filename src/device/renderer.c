@@ -308,6 +308,20 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     return note_failure(renderer, status, error);
 }
 
+HdStatus hd_renderer_first_hits(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                                HdError *error) {
+    HdStatus status = check_frame_tables(renderer, tables, error);
+    if (status != HD_OK)
+        return status;
+    if (!renderer->options.first_hits)
+        return hd_fail(error, HD_BAD_INPUT, "a renderer was not opened for what is met first");
+    if (frame->first == NULL || frame->width != tables->width || frame->height != tables->height)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "a frame was given that has no room for what is met first");
+    status = renderer->backend->functions->first_hits(renderer->state, tables, frame, error);
+    return note_failure(renderer, status, error);
+}
+
 bool hd_renderer_has_failed(const HdRenderer *renderer) {
     return renderer->has_failed;
 }

@@ -32,6 +32,12 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
    (interrupt.h). */
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
 
+/* Fills the frame's `first`, which it must have (hd_frame_add_layers), with what is met first in
+   the frame of those tables, for a renderer that was opened with `first_hits`. Frames may be under
+   way. HD_INTERRUPTED as above. */
+HdStatus hd_renderer_first_hits(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                                HdError *error);
+
 /* Whether the backend failed in any of the functions above: that another device may do better,
    while other errors are due to what was asked for. */
 bool hd_renderer_has_failed(const HdRenderer *renderer);

@@ -118,6 +118,17 @@ void hd_difference_add_row(HdPictureDifference *difference, const HdPictureValue
     difference->rows++;
 }
 
+void hd_channel_difference_add(HdChannelDifference *difference, float first, float second, int x,
+                               int y) {
+    double size = fabs((double)first - (double)second);
+    if (first == second || (isnan(first) && isnan(second)))
+        size = 0.0;
+    else if (!isfinite(size))
+        size = (double)INFINITY;
+    if (size > difference->largest)
+        *difference = (HdChannelDifference){size, x, y};
+}
+
 /* ---- figures ---- */
 
 /* `unit` is what the space's values are divided by, `peak` its largest value after that. */

@@ -28,6 +28,16 @@ typedef struct HdPictureFigures {
     bool identical;              /* all values are finite and alike in both spaces */
 } HdPictureFigures;
 
+/* Of a channel that is no colour. */
+typedef struct HdChannelDifference {
+    double largest; /* infinite where one value is so, or is NaN, and the other is not */
+    int x, y;       /* of it, the first one from the top left; of account where it is not 0 */
+} HdChannelDifference;
+
+/* Takes a pixel; the difference is all 0 at first. */
+void hd_channel_difference_add(HdChannelDifference *difference, float first, float second, int x,
+                               int y);
+
 typedef struct HdPictureDifference HdPictureDifference;
 
 /* `clamps` says that linear values are clamped to 0..1 before they are compared, since one of the

@@ -52,6 +52,7 @@ struct HdFormat {
        NULL: nothing. */
     HdStatus (*write)(const HdFrame *frame, const HdPictureStyle *style,
                       const HdPictureLabel *label, FILE *stream, const char *path, HdError *error);
+    bool has_layers;       /* holds an alpha, and the layers that the frame has */
     int most_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
                               written of one that is encoded, on the style's curve */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenEXR by the library's C interface: radiance in half or float. */
+/* OpenEXR by the library's C interface: radiance and alpha in half or float, layers in float. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "image/format_exr.h"
@@ -25,8 +25,31 @@ bool hd_image_is_exr(const unsigned char *bytes, size_t size) {
 enum { CHANNELS = 3, MESSAGE_SIZE = 256 };
 static const uint64_t MAX_CHUNK_BYTES = UINT64_C(1) << 30;
 
-/* By the order of r, g, b. */
-static const char *const channel_names[CHANNELS] = {"R", "G", "B"};
+/* Where a frame has the numbers of a channel. */
+typedef enum Source { RADIANCE, FIRST, EFFORT } Source;
+
+/* What a frame may be written as: r, g, b first. */
+typedef struct Channel {
+    const char *name;
+    Source source;
+    int offset;    /* in the pixel's numbers there */
+    HdLayer layer; /* whose it is; radiance is always there */
+} Channel;
+
+static const Channel channels[] = {
+    {"R", RADIANCE, 0, HD_LAYER_ALPHA},
+    {"G", RADIANCE, 1, HD_LAYER_ALPHA},
+    {"B", RADIANCE, 2, HD_LAYER_ALPHA},
+    {"A", FIRST, HD_FIRST_ALPHA, HD_LAYER_ALPHA},
+    {"Z", FIRST, HD_FIRST_DEPTH, HD_LAYER_DEPTH},
+    {"normal.X", FIRST, HD_FIRST_NORMAL, HD_LAYER_NORMAL},
+    {"normal.Y", FIRST, HD_FIRST_NORMAL + 1, HD_LAYER_NORMAL},
+    {"normal.Z", FIRST, HD_FIRST_NORMAL + 2, HD_LAYER_NORMAL},
+    {"object", FIRST, HD_FIRST_OBJECT, HD_LAYER_OBJECT},
+    {"samples", EFFORT, HD_EFFORT_SAMPLES, HD_LAYER_SAMPLES},
+    {"bound", EFFORT, HD_EFFORT_BOUND, HD_LAYER_BOUND},
+};
+enum { ALL_CHANNELS = sizeof channels / sizeof *channels };
 
 /* What the library's calls work on, and the first thing that it said of an error. */
 typedef struct File {
@@ -96,13 +119,36 @@ static uint16_t half_of(float value) {
     return (uint16_t)(sign | (uint16_t)((exponent + 13) * 1024 + (int)steps));
 }
 
+static bool is_written(const HdFrame *frame, const Channel *channel) {
+    return channel->source == RADIANCE || (frame->layers & HD_LAYER_BIT(channel->layer)) != 0;
+}
+
+/* Colour and coverage are as the style has it; numbers of objects need more than half has. */
+static exr_pixel_type_t type_of(const Channel *channel, bool is_half) {
+    const bool is_picture = channel->source == RADIANCE || channel->layer == HD_LAYER_ALPHA;
+    return is_half && is_picture ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+}
+
+static exr_result_t add_channels(exr_context_t context, int part, const HdFrame *frame,
+                                 bool is_half) {
+    exr_result_t result = EXR_ERR_SUCCESS;
+    for (int i = 0; i < ALL_CHANNELS && result == EXR_ERR_SUCCESS; i++) {
+        const Channel *channel = &channels[i];
+        const bool is_light = channel->source == RADIANCE;
+        if (is_written(frame, channel))
+            result = exr_add_channel(
+                context, part, channel->name, type_of(channel, is_half),
+                is_light ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    }
+    return result;
+}
+
 static exr_result_t write_attributes(exr_context_t context, int part, const HdFrame *frame,
-                                     exr_pixel_type_t type, const HdPictureLabel *label) {
+                                     bool is_half, const HdPictureLabel *label) {
     exr_result_t result = exr_initialize_required_attr_simple(context, part, frame->width,
                                                               frame->height, EXR_COMPRESSION_ZIP);
-    for (int c = 0; c < CHANNELS && result == EXR_ERR_SUCCESS; c++)
-        result = exr_add_channel(context, part, channel_names[c], type,
-                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (result == EXR_ERR_SUCCESS)
+        result = add_channels(context, part, frame, is_half);
     if (label == NULL || result != EXR_ERR_SUCCESS)
         return result;
     result = exr_attr_set_string(context, part, "software", "hedron " HD_VERSION);
@@ -115,26 +161,55 @@ static exr_result_t write_attributes(exr_context_t context, int part, const HdFr
     return result;
 }
 
-/* Which of r, g, b a channel is; CHANNELS: none. */
-static int channel_index(const char *name) {
-    int index = 0;
-    while (index < CHANNELS && strcmp(channel_names[index], name) != 0)
-        index++;
-    return index;
+static const Channel *channel_named(const char *name) {
+    const Channel *channel = channels;
+    while (strcmp(channel->name, name) != 0)
+        channel++;
+    return channel;
 }
 
-/* The lines of a chunk, whose r, g, b lie beside each other, `bytes` each. */
-static void set_source(exr_encode_pipeline_t *pipeline, const unsigned char *pixels, int bytes) {
+static float value_of(const HdFrame *frame, const Channel *channel, size_t pixel) {
+    if (channel->source == RADIANCE)
+        return frame->rgb[pixel * CHANNELS + (size_t)channel->offset];
+    if (channel->source == EFFORT)
+        return frame->effort[pixel * HD_EFFORT_FLOATS + (size_t)channel->offset];
+    const float *first = frame->first + pixel * (size_t)frame->first_floats;
+    if (channel->layer == HD_LAYER_DEPTH && first[HD_FIRST_OBJECT] == 0.0F)
+        return INFINITY;
+    return first[channel->offset];
+}
+
+/* The values of a channel in `count` pixels from the first one on; returns the end. */
+static unsigned char *fill_plane(const HdFrame *frame, const exr_coding_channel_info_t *to,
+                                 size_t first, size_t count, unsigned char *plane) {
+    const Channel *channel = channel_named(to->channel_name);
+    for (size_t i = 0; i < count; i++) {
+        const float value = value_of(frame, channel, first + i);
+        const uint16_t half = to->data_type == EXR_PIXEL_HALF ? half_of(value) : 0;
+        if (to->data_type == EXR_PIXEL_HALF)
+            memcpy(plane + i * sizeof half, &half, sizeof half);
+        else
+            memcpy(plane + i * sizeof value, &value, sizeof value);
+    }
+    return plane + count * (size_t)to->bytes_per_element;
+}
+
+/* The lines of a chunk, channel after channel. */
+static void fill_chunk(exr_encode_pipeline_t *pipeline, const HdFrame *frame, int y, int lines,
+                       unsigned char *plane) {
+    const size_t width = (size_t)frame->width;
     for (int i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        channel->user_pixel_stride = CHANNELS * bytes;
-        channel->user_line_stride = channel->width * CHANNELS * bytes;
-        channel->encode_from_ptr = pixels + channel_index(channel->channel_name) * bytes;
+        channel->user_pixel_stride = channel->bytes_per_element;
+        channel->user_line_stride = channel->width * channel->bytes_per_element;
+        channel->encode_from_ptr = plane;
+        plane = fill_plane(frame, channel, width * (size_t)y, width * (size_t)lines, plane);
     }
 }
 
-static exr_result_t write_chunk(exr_context_t context, int part, int y, const unsigned char *pixels,
-                                int bytes, exr_encode_pipeline_t *pipeline) {
+static exr_result_t write_chunk(exr_context_t context, int part, int y, int lines,
+                                const HdFrame *frame, unsigned char *planes,
+                                exr_encode_pipeline_t *pipeline) {
     exr_chunk_info_t chunk;
     exr_result_t result = exr_write_scanline_chunk_info(context, part, y, &chunk);
     if (result == EXR_ERR_SUCCESS)
@@ -142,27 +217,20 @@ static exr_result_t write_chunk(exr_context_t context, int part, int y, const un
                         : exr_encoding_update(context, part, &chunk, pipeline);
     if (result != EXR_ERR_SUCCESS)
         return result;
-    set_source(pipeline, pixels, bytes);
+    fill_chunk(pipeline, frame, y, lines, planes);
     if (y == 0)
         result = exr_encoding_choose_default_routines(context, part, pipeline);
     return result == EXR_ERR_SUCCESS ? exr_encoding_run(context, part, pipeline) : result;
 }
 
-/* `halves` has room for the lines of a chunk; NULL: the frame's floats are written. */
+/* `planes` has room for the lines of a chunk. */
 static exr_result_t write_chunks(exr_context_t context, int part, int lines, const HdFrame *frame,
-                                 uint16_t *halves) {
-    const size_t values = (size_t)frame->width * CHANNELS;
+                                 unsigned char *planes) {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t result = EXR_ERR_SUCCESS;
     for (int y = 0; y < frame->height && result == EXR_ERR_SUCCESS; y += lines) {
-        const float *rgb = frame->rgb + values * (size_t)y;
         const int count = y + lines <= frame->height ? lines : frame->height - y;
-        for (size_t i = 0; halves != NULL && i < values * (size_t)count; i++)
-            halves[i] = half_of(rgb[i]);
-        result =
-            write_chunk(context, part, y,
-                        halves != NULL ? (const unsigned char *)halves : (const unsigned char *)rgb,
-                        halves != NULL ? 2 : 4, &pipeline);
+        result = write_chunk(context, part, y, count, frame, planes, &pipeline);
     }
     exr_encoding_destroy(context, &pipeline);
     return result;
@@ -171,24 +239,21 @@ static exr_result_t write_chunks(exr_context_t context, int part, int lines, con
 static exr_result_t write_part(File *file, const HdFrame *frame, bool is_half,
                                const HdPictureLabel *label) {
     int part, lines = 0;
-    const exr_pixel_type_t type = is_half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
     exr_result_t result = exr_add_part(file->context, "frame", EXR_STORAGE_SCANLINE, &part);
     if (result == EXR_ERR_SUCCESS)
-        result = write_attributes(file->context, part, frame, type, label);
+        result = write_attributes(file->context, part, frame, is_half, label);
     if (result == EXR_ERR_SUCCESS)
         result = exr_write_header(file->context);
     if (result == EXR_ERR_SUCCESS)
         result = exr_get_scanlines_per_chunk(file->context, part, &lines);
     if (result != EXR_ERR_SUCCESS)
         return result;
-    uint16_t *halves = NULL;
-    if (is_half) {
-        halves = malloc((size_t)frame->width * CHANNELS * (size_t)lines * sizeof *halves);
-        if (halves == NULL)
-            return EXR_ERR_OUT_OF_MEMORY;
-    }
-    result = write_chunks(file->context, part, lines, frame, halves);
-    free(halves);
+    unsigned char *planes =
+        malloc((size_t)frame->width * (size_t)lines * ALL_CHANNELS * sizeof(float));
+    if (planes == NULL)
+        return EXR_ERR_OUT_OF_MEMORY;
+    result = write_chunks(file->context, part, lines, frame, planes);
+    free(planes);
     return result;
 }
 
@@ -213,9 +278,11 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 struct HdExrRows {
     File file;
-    int top, width, height, next; /* of the data window, `next` counts from its top */
-    int lines;                    /* of a chunk */
-    float *values;                /* owned; of a chunk */
+    int top, width, height, next;       /* of the data window, `next` counts from its top */
+    int lines;                          /* of a chunk */
+    int channels;                       /* that are taken */
+    const char *names[HD_MOST_FURTHER]; /* of those beside r, g, b; the library's */
+    float *values;                      /* owned; of a chunk */
     exr_decode_pipeline_t pipeline;
     bool has_pipeline;
 };
@@ -257,20 +324,34 @@ static HdStatus fail_reading(const HdExrRows *rows, exr_result_t code, HdError *
                    "cannot read %s as OpenEXR: %s", rows->file.path, message);
 }
 
-/* Whether R, G and B are there, for each pixel, as numbers with a point. */
-static bool find_channels(const exr_attr_chlist_t *list, int *bits) {
+/* Where the channel's values are in a pixel's; negative: it is not taken. */
+static int place_of(const HdExrRows *rows, const char *name) {
+    for (int i = 0; i < CHANNELS; i++)
+        if (strcmp(channels[i].name, name) == 0)
+            return i;
+    for (int i = CHANNELS; i < rows->channels; i++)
+        if (strcmp(rows->names[i - CHANNELS], name) == 0)
+            return i;
+    return -1;
+}
+
+/* Takes what there is for each pixel as numbers with a point; false where R, G or B is not. */
+static bool find_channels(HdExrRows *rows, const exr_attr_chlist_t *list, int *bits) {
     int found = 0;
     *bits = 16;
+    rows->channels = CHANNELS;
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *channel = &list->entries[i];
-        if (channel_index(channel->name.str) == CHANNELS)
-            continue;
-        if (channel->pixel_type == EXR_PIXEL_UINT || channel->x_sampling != 1 ||
-            channel->y_sampling != 1)
+        const bool is_light = place_of(rows, channel->name.str) >= 0;
+        const bool is_taken = channel->pixel_type != EXR_PIXEL_UINT && channel->x_sampling == 1 &&
+                              channel->y_sampling == 1;
+        if (is_light && !is_taken)
             return false;
-        if (channel->pixel_type == EXR_PIXEL_FLOAT)
+        if (is_light && channel->pixel_type == EXR_PIXEL_FLOAT)
             *bits = 32;
-        found++;
+        found += is_light;
+        if (!is_light && is_taken && rows->channels < CHANNELS + HD_MOST_FURTHER)
+            rows->names[rows->channels++ - CHANNELS] = channel->name.str;
     }
     return found == CHANNELS;
 }
@@ -278,7 +359,7 @@ static bool find_channels(const exr_attr_chlist_t *list, int *bits) {
 static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     const exr_const_context_t context = rows->file.context;
     const char *path = rows->file.path;
-    const exr_attr_chlist_t *channels = NULL;
+    const exr_attr_chlist_t *list = NULL;
     exr_attr_box2i_t window;
     exr_storage_t storage;
     uint64_t bytes = 0;
@@ -287,7 +368,7 @@ static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     if (result == EXR_ERR_SUCCESS)
         result = exr_get_storage(context, 0, &storage);
     if (result == EXR_ERR_SUCCESS)
-        result = exr_get_channels(context, 0, &channels);
+        result = exr_get_channels(context, 0, &list);
     if (result == EXR_ERR_SUCCESS)
         result = exr_get_data_window(context, 0, &window);
     if (result != EXR_ERR_SUCCESS)
@@ -296,7 +377,7 @@ static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is an OpenEXR of several parts, tiles or depths, expected one of lines",
                        path);
-    if (!find_channels(channels, &facts->bits))
+    if (!find_channels(rows, list, &facts->bits))
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is an OpenEXR without R, G and B in half or float for each pixel", path);
     const int64_t width = (int64_t)window.max.x - window.min.x + 1;
@@ -316,6 +397,8 @@ static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     rows->top = window.min.y;
     rows->width = facts->width = (int)width;
     rows->height = facts->height = (int)height;
+    facts->further = rows->channels - CHANNELS;
+    facts->names = rows->names;
     return HD_OK;
 }
 
@@ -329,8 +412,8 @@ static HdStatus open_file(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     const HdStatus status = check_head(rows, facts, error);
     if (status != HD_OK)
         return status;
-    rows->values =
-        malloc((size_t)rows->width * CHANNELS * (size_t)rows->lines * sizeof *rows->values);
+    const size_t values = (size_t)rows->width * (size_t)rows->channels * (size_t)rows->lines;
+    rows->values = malloc(values * sizeof *rows->values);
     return rows->values != NULL ? HD_OK : fail_reading(rows, EXR_ERR_OUT_OF_MEMORY, error);
 }
 
@@ -348,17 +431,23 @@ HdStatus hd_exr_open(HdExrRows **out, FILE *file, const char *path, HdExrFacts *
     return status;
 }
 
+/* A plane for each channel: of four halves beside each other, as floats, the library of version 3.1
+   makes nonsense where they are wanted in another order than the file's. */
+static size_t plane_size(const HdExrRows *rows) {
+    return (size_t)rows->width * (size_t)rows->lines;
+}
+
 static void set_target(HdExrRows *rows) {
     for (int i = 0; i < rows->pipeline.channel_count; i++) {
         exr_coding_channel_info_t *channel = &rows->pipeline.channels[i];
-        const int index = channel_index(channel->channel_name);
-        if (index == CHANNELS)
+        const int place = place_of(rows, channel->channel_name);
+        if (place < 0)
             continue;
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_bytes_per_element = sizeof(float);
-        channel->user_pixel_stride = CHANNELS * (int)sizeof(float);
-        channel->user_line_stride = rows->width * CHANNELS * (int)sizeof(float);
-        channel->decode_to_ptr = (uint8_t *)(rows->values + index);
+        channel->user_pixel_stride = sizeof(float);
+        channel->user_line_stride = rows->width * (int)sizeof(float);
+        channel->decode_to_ptr = (uint8_t *)(rows->values + plane_size(rows) * (size_t)place);
     }
 }
 
@@ -380,15 +469,17 @@ static exr_result_t read_chunk(HdExrRows *rows) {
     return result == EXR_ERR_SUCCESS ? exr_decoding_run(context, 0, &rows->pipeline) : result;
 }
 
-HdStatus hd_exr_next_row(HdExrRows *rows, float *values, HdError *error) {
-    const size_t count = (size_t)rows->width * CHANNELS;
-    const int line = rows->next % rows->lines;
-    const exr_result_t result = line == 0 ? read_chunk(rows) : EXR_ERR_SUCCESS;
+HdStatus hd_exr_next_row(HdExrRows *rows, HdError *error) {
+    const exr_result_t result = rows->next % rows->lines == 0 ? read_chunk(rows) : EXR_ERR_SUCCESS;
     if (result != EXR_ERR_SUCCESS)
         return fail_reading(rows, result, error);
-    memcpy(values, rows->values + count * (size_t)line, count * sizeof *values);
     rows->next++;
     return HD_OK;
+}
+
+const float *hd_exr_channel(const HdExrRows *rows, int channel) {
+    const int line = (rows->next - 1) % rows->lines;
+    return rows->values + plane_size(rows) * (size_t)channel + (size_t)rows->width * (size_t)line;
 }
 
 void hd_exr_close(HdExrRows *rows) {
@@ -426,10 +517,15 @@ HdStatus hd_exr_open(HdExrRows **rows, FILE *file, const char *path, HdExrFacts 
     return fail_missing(path, error);
 }
 
-HdStatus hd_exr_next_row(HdExrRows *rows, float *values, HdError *error) {
+HdStatus hd_exr_next_row(HdExrRows *rows, HdError *error) {
     (void)rows;
-    (void)values;
     return fail_missing("the picture", error);
+}
+
+const float *hd_exr_channel(const HdExrRows *rows, int channel) {
+    (void)rows;
+    (void)channel;
+    return NULL;
 }
 
 void hd_exr_close(HdExrRows *rows) {
@@ -438,4 +534,5 @@ void hd_exr_close(HdExrRows *rows) {
 
 #endif
 
-const HdFormat hd_format_exr = {.name = "OpenEXR", .write = write_frame, .most_encoded_bits = 0};
+const HdFormat hd_format_exr = {
+    .name = "OpenEXR", .write = write_frame, .has_layers = true, .most_encoded_bits = 0};

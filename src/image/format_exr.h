@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Reading OpenEXR in colour: a single part of lines, whose channels R, G and B are half or float.
- */
+/* Reading OpenEXR in colour: a single part of lines, whose channels R, G and B are half or float,
+   and those further channels that are so too. */
 #ifndef HD_IMAGE_FORMAT_EXR_H
 #define HD_IMAGE_FORMAT_EXR_H
 
@@ -13,9 +13,13 @@
 /* A file that is being read. */
 typedef struct HdExrRows HdExrRows;
 
+enum { HD_MOST_FURTHER = 64 }; /* what is beyond is passed over */
+
 typedef struct HdExrFacts {
-    int width, height; /* of the data window, 1..65535 each */
-    int bits;          /* of the channel with the most of R, G and B: 16 or 32 */
+    int width, height;        /* of the data window, 1..65535 each */
+    int bits;                 /* of the channel with the most of R, G and B: 16 or 32 */
+    int further;              /* channels beside R, G and B */
+    const char *const *names; /* theirs; they live as long as the rows */
 } HdExrFacts;
 
 /* True where the bytes begin with OpenEXR's number. */
@@ -27,8 +31,11 @@ bool hd_image_is_exr(const unsigned char *bytes, size_t size);
 HdStatus hd_exr_open(HdExrRows **rows, FILE *file, const char *path, HdExrFacts *facts,
                      HdError *error);
 
-/* The next row from the top: 3 values for each pixel. */
-HdStatus hd_exr_next_row(HdExrRows *rows, float *values, HdError *error);
+/* Goes on to the next row, the first one from the top. */
+HdStatus hd_exr_next_row(HdExrRows *rows, HdError *error);
+
+/* The row's values of a channel: R, G, B, then the further ones; until the next row. */
+const float *hd_exr_channel(const HdExrRows *rows, int channel);
 
 /* NULL is allowed. */
 void hd_exr_close(HdExrRows *rows);

@@ -4,19 +4,51 @@
 #define HD_IMAGE_FRAME_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
 #include "image/curve.h"
 
+/* What pictures may hold beside radiance. All but alpha can be asked for, by hd_layer_names. */
+typedef enum HdLayer {
+    HD_LAYER_DEPTH,
+    HD_LAYER_NORMAL,
+    HD_LAYER_OBJECT,
+    HD_LAYER_SAMPLES,
+    HD_LAYER_BOUND, /* of surveyed scenes alone */
+    HD_LAYER_ALPHA
+} HdLayer;
+
+/* A set of layers has the bits of its members. */
+#define HD_LAYER_BIT(layer) (1u << (layer))
+
+extern const char *const hd_layer_names[]; /* by HdLayer; NULL ends them */
+
 /* What is wanted of a frame's pixels. */
 typedef struct HdFrameWish {
-    bool radiance; /* `rgb` must be filled */
-    HdCurve curve; /* without it: 8 bits on this curve will do, where the device makes them */
+    bool radiance;   /* `rgb` must be filled */
+    HdCurve curve;   /* without it: 8 bits on this curve will do, where the device makes them */
+    unsigned layers; /* what `first` and `effort` must have room for */
 } HdFrameWish;
 
 /* Of a pixel; those of surveyed scenes. */
 enum { HD_RADIANCE_FLOATS = 3, HD_SURVEY_FLOATS = 5 };
+
+/* Of HdFrame.first: alpha alone, or all that is known of the first hit, in this order. */
+enum {
+    HD_FIRST_ALPHA,  /* the share of the pixel's samples whose ray from the eye meets anything */
+    HD_FIRST_DEPTH,  /* of the ray through the pixel's middle: from the eye to what it meets */
+    HD_FIRST_NORMAL, /* three numbers: of the surface there, unit, turned to where it is seen from
+                      */
+    HD_FIRST_OBJECT = HD_FIRST_NORMAL + 3, /* its number, from 1 on: solids in the scene's order,
+                                              the floor if there is one, then meshes. Depth, normal
+                                              and number are 0 where nothing is met */
+    HD_MOST_FIRST_FLOATS
+};
+
+/* Of HdFrame.effort. */
+enum { HD_EFFORT_SAMPLES, HD_EFFORT_BOUND, HD_EFFORT_FLOATS };
 
 typedef struct HdFrame {
     int width, height;
@@ -34,6 +66,12 @@ typedef struct HdFrame {
     double trace_seconds;  /* on the device, copies left out */
     bool has_bound;        /* of a surveyed scene: what was left out, in steps of 255 */
     double largest_bound, mean_bound;
+    unsigned layers;  /* of HD_LAYER_BIT, that there is room for */
+    int first_floats; /* of a pixel in `first`: 0, 1 or HD_MOST_FIRST_FLOATS */
+    float *first;     /* owned; what the eye's rays meet first; NULL: not asked for */
+    float *effort;    /* owned; HD_EFFORT_FLOATS for each pixel: its samples, and of surveyed scenes
+                         by how many steps of 255 it can be off at most for what was left out; NULL:
+                         not asked for */
 } HdFrame;
 
 /* What the kernels count in a part of a frame, laid out as their RayCounts; as in HdFrame. */
@@ -53,6 +91,15 @@ HdStatus hd_frame_check_size(const HdFrame *frame, HdError *error);
 
 /* Gives a frame of such a size `rgba`. */
 HdStatus hd_frame_add_rgba(HdFrame *frame, HdError *error);
+
+/* Gives a frame room for those layers. */
+HdStatus hd_frame_add_layers(HdFrame *frame, unsigned layers, HdError *error);
+
+/* The bytes that this takes for each pixel. */
+size_t hd_layer_bytes(unsigned layers);
+
+/* Says in `effort`, if there is any, that each pixel took so many samples. */
+void hd_frame_fill_samples(HdFrame *frame, int samples);
 
 /* Fills `rgba` from the radiance of a frame of HD_RADIANCE_FLOATS. */
 void hd_frame_encode(const HdFrame *frame, HdCurve curve);

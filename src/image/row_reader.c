@@ -25,7 +25,7 @@ struct HdPictureReader {
     HdPngReader *png; /* owned; this and the next NULL: PFM is read */
     HdExrRows *exr;   /* owned */
     HdPfmRows pfm;
-    void *row;               /* owned; codes of PNG, radiances of the others */
+    void *row;               /* owned; codes of PNG, radiances of PFM */
     HdPictureValue *by_code; /* owned; of PNG: CODES of them */
 };
 
@@ -78,6 +78,8 @@ static HdStatus open_exr(HdPictureReader *reader, HdError *error) {
         .height = facts.height,
         .bits = facts.bits,
         .curve = HD_CURVE_LINEAR,
+        .further = facts.further,
+        .names = facts.names,
     };
     return status;
 }
@@ -161,21 +163,41 @@ static HdStatus next_of_png(HdPictureReader *reader, HdPictureValue *values, HdE
     return status;
 }
 
-static HdStatus next_of_floats(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
-    const float *radiances = reader->row;
-    const HdStatus status = reader->exr != NULL ? hd_exr_next_row(reader->exr, reader->row, error)
-                                                : hd_pfm_next_row(&reader->pfm, reader->row, error);
-    for (size_t i = 0; i < (size_t)reader->facts.width * 3 && status == HD_OK; i++) {
-        const double linear = (double)radiances[i];
-        values[i].linear = linear;
-        values[i].display = HD_DISPLAY_TOP * hd_curve_to_display(reader->curve, linear);
+static HdPictureValue value_of(const HdPictureReader *reader, float radiance) {
+    const double linear = (double)radiance;
+    return (HdPictureValue){
+        .linear = linear,
+        .display = HD_DISPLAY_TOP * hd_curve_to_display(reader->curve, linear),
+    };
+}
+
+static HdStatus next_of_exr(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    const HdStatus status = hd_exr_next_row(reader->exr, error);
+    for (int channel = 0; channel < 3 && status == HD_OK; channel++) {
+        const float *radiances = hd_exr_channel(reader->exr, channel);
+        for (int x = 0; x < reader->facts.width; x++)
+            values[3 * x + channel] = value_of(reader, radiances[x]);
     }
     return status;
 }
 
+static HdStatus next_of_pfm(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    const float *radiances = reader->row;
+    const HdStatus status = hd_pfm_next_row(&reader->pfm, reader->row, error);
+    for (int i = 0; i < reader->facts.width * 3 && status == HD_OK; i++)
+        values[i] = value_of(reader, radiances[i]);
+    return status;
+}
+
 HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
-    return reader->png != NULL ? next_of_png(reader, values, error)
-                               : next_of_floats(reader, values, error);
+    if (reader->png != NULL)
+        return next_of_png(reader, values, error);
+    return reader->exr != NULL ? next_of_exr(reader, values, error)
+                               : next_of_pfm(reader, values, error);
+}
+
+const float *hd_picture_reader_further(const HdPictureReader *reader, int channel) {
+    return hd_exr_channel(reader->exr, 3 + channel);
 }
 
 void hd_picture_reader_close(HdPictureReader *reader) {

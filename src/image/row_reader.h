@@ -11,16 +11,19 @@
 typedef struct HdPictureFacts {
     const HdFormat *format; /* PNG, OpenEXR or PFM */
     int width, height;
-    int bits;      /* of a channel: 8 or 16, in OpenEXR 16 or 32, in PFM 32 */
-    HdCurve curve; /* of PNG: sRGB where a chunk says so, else linear, as it is written;
-                      of the others: linear */
+    int bits;                 /* of a channel: 8 or 16, in OpenEXR 16 or 32, in PFM 32 */
+    HdCurve curve;            /* of PNG: sRGB where a chunk says so, else linear, as it is written;
+                                 of the others: linear */
+    int further;              /* channels of OpenEXR beside R, G and B */
+    const char *const *names; /* theirs, by the alphabet */
 } HdPictureFacts;
 
 typedef struct HdPictureReader HdPictureReader;
 
 /* Opens a regular file and reads its head. PNG: every kind that is not interlaced; alpha is
-   dropped. OpenEXR: R, G and B of a part of lines. PFM: in colour, of either byte order.
-   HD_BAD_INPUT, with the file's name and what was expected, where it is something else. */
+   dropped. OpenEXR: a part of lines with R, G and B; and up to HD_MOST_FURTHER other channels. PFM:
+   in colour, of either byte order. HD_BAD_INPUT, with the file's name and what was expected, where
+   it is something else. */
 HdStatus hd_picture_reader_open(HdPictureReader **reader, const char *path, HdError *error);
 
 const HdPictureFacts *hd_picture_reader_facts(const HdPictureReader *reader);
@@ -31,6 +34,9 @@ HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError
 
 /* The next row from the top: 3 values for each pixel. */
 HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error);
+
+/* The last row's values of a further channel, by its place among the names; until the next row. */
+const float *hd_picture_reader_further(const HdPictureReader *reader, int channel);
 
 /* NULL is allowed. */
 void hd_picture_reader_close(HdPictureReader *reader);

@@ -263,7 +263,9 @@ static bool has_image(const HdOutputPlan *outputs) {
 
 static size_t bytes_of_place(const HdFrameStorePlan *plan) {
     const size_t pixels = (size_t)plan->width * (size_t)plan->height;
-    return sizeof(Place) + pixels * 3 * sizeof(float) + (has_image(plan->outputs) ? 4 * pixels : 0);
+    const size_t layers = hd_layer_bytes(plan->outputs->wish.layers);
+    return sizeof(Place) + pixels * (3 * sizeof(float) + layers) +
+           (has_image(plan->outputs) ? 4 * pixels : 0);
 }
 
 /* While a picture is closed it has one descriptor more. */
@@ -333,6 +335,8 @@ static HdStatus create_place(Place *place, const HdFrameStorePlan *plan, HdError
     HdStatus status = hd_frame_create(&place->frame, plan->width, plan->height, error);
     if (status == HD_OK && has_image(plan->outputs))
         status = hd_frame_add_rgba(&place->frame, error);
+    if (status == HD_OK)
+        status = hd_frame_add_layers(&place->frame, plan->outputs->wish.layers, error);
     return status;
 }
 

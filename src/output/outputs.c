@@ -84,6 +84,7 @@ static void sum_up(HdOutputPlan *plan) {
         const bool can_mark = output->format->load != NULL;
         plan->can_mark |= can_mark;
         plan->wish.radiance |= !output->is_film && bits > output->format->most_encoded_bits;
+        plan->wish.layers |= output->format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
         sequences += can_mark && output->is_numbered;
     }
     plan->can_resume = sequences + plan->film_count == plan->count;
@@ -107,6 +108,21 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
     if (status == HD_OK)
         sum_up(plan);
     return status;
+}
+
+HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
+                               HdError *error) {
+    if (layers == 0)
+        return HD_OK;
+    if (plan->wish.layers == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--layers is for OpenEXR: expected an output that ends in .exr");
+    if (!is_surveyed && (layers & HD_LAYER_BIT(HD_LAYER_BOUND)) != 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--layers has bound, which is known with --max-error, --aa adaptive or "
+                       "--reference alone");
+    plan->wish.layers |= layers;
+    return HD_OK;
 }
 
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {

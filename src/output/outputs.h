@@ -45,6 +45,12 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error);
 
+/* Has the pictures that can hold layers get these, a set of HD_LAYER_BIT, besides alpha, which they
+   always do. HD_BAD_INPUT, in terms of the option --layers, where no output can, or where they have
+   a bound and the scene is not surveyed (hd_scene_is_surveyed). */
+HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
+                               HdError *error);
+
 /* Has the plan's pictures marked with the fingerprint of the run, where they can be; with `resumes`
    those that are there are kept, where that can be. Films are made by segments. */
 void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);

@@ -393,6 +393,11 @@ static void fill_pixels(void *context, int first, int end) {
         double darkest = (double)(least < rgb[2] ? least : rgb[2]);
         r->steps[i] = hd_missing_steps(r->curve, (double)pixel->bound, darkest);
         memcpy(filling->frame->rgb + 3 * (size_t)i, rgb, sizeof pixel->mean);
+        if (filling->frame->effort != NULL) {
+            float *effort = filling->frame->effort + HD_EFFORT_FLOATS * (size_t)i;
+            effort[HD_EFFORT_SAMPLES] = (float)pixel->samples;
+            effort[HD_EFFORT_BOUND] = (float)r->steps[i];
+        }
     }
 }
 
@@ -419,6 +424,19 @@ static void fill_counts(const HdFrame *sums, HdFrame *frame) {
     frame->clamps = sums->clamps;
 }
 
+/* The grid's samples tell what is covered, however many of them a pixel took. */
+static HdStatus find_first_hits(const HdRefinement *r, const HdCamera *camera, HdFrame *frame,
+                                HdError *error) {
+    const HdSurveyor *surveyor = &r->surveyor;
+    HdFrameTables tables;
+    HdStatus status =
+        hd_compile_frame(&tables, surveyor->scene, camera, surveyor->precision, error);
+    if (status == HD_OK)
+        status = hd_renderer_first_hits(surveyor->renderer, &tables, frame, error);
+    hd_frame_tables_free(&tables);
+    return status;
+}
+
 HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdFrame *frame,
                               HdError *error) {
     double start = hd_monotonic_seconds();
@@ -426,6 +444,8 @@ HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdFrame *
     HdStatus status = r->surveyor.scene->sampling == HD_SAMPLING_ADAPTIVE
                           ? refine(r, camera, error)
                           : sample_all(r, camera, r->samples.count, error);
+    if (status == HD_OK && frame->first != NULL)
+        status = find_first_hits(r, camera, frame, error);
     if (status != HD_OK)
         return status;
     frame->is_encoded = false;

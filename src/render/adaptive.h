@@ -13,8 +13,9 @@ typedef struct HdRefinement HdRefinement;
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
                               HdPrecision precision, HdCurve curve, HdError *error);
 
-/* Renders a frame, none being under way: fills radiance (3 floats a pixel), counts, time and what
-   is known of the error. The same bytes come of it everywhere, whatever was rendered before.
+/* Renders a frame, none being under way: fills radiance (3 floats a pixel), the layers that it has
+   room for, counts, time and what is known of the error. The same bytes come of it everywhere,
+   whatever was rendered before.
 
    Adaptive sampling (after Whitted 1980, section 6) begins with one sample a pixel. A pixel gets 4
    where a neighbour's identity or its picture differs, or where a neighbour has turned out to be

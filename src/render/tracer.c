@@ -93,6 +93,9 @@ static HdStatus collect(Tracer *tracer, Flight *flight, HdFrame *frame, HdFrameT
                         HdError *error) {
     double waited_from = seconds_since_start(tracer);
     HdStatus status = hd_renderer_collect(tracer->renderer, frame, error);
+    if (status == HD_OK && frame->first != NULL)
+        status = hd_renderer_first_hits(tracer->renderer, &flight->tables, frame, error);
+    hd_frame_fill_samples(frame, flight->tables.samples);
     hd_frame_tables_free(&flight->tables);
     if (status == HD_OK)
         note_times(tracer, flight, waited_from, frame->trace_seconds, times);

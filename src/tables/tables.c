@@ -12,6 +12,7 @@
 _Static_assert((int)HD_SURVEY_FLOATS == HD_SURVEY_SUMS &&
                    (int)HD_RADIANCE_FLOATS == HD_RADIANCE_SUMS,
                "a float comes of each sum");
+_Static_assert((int)HD_MOST_FIRST_FLOATS == HD_FIRST_FLOATS, "a frame has what kernels find");
 
 _Static_assert(HD_RADIANCE_LIMIT == HD_CONTRIBUTION_LIMIT * (HD_MAX_DEPTH + 1),
                "the deepest tree has so many levels");

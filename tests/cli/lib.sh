@@ -340,6 +340,16 @@ interrupt_at_work() {
     expect_end 130
 }
 
+# expect_output_json EXPRESSION: true of `j`, the JSON on standard output.
+expect_output_json() {
+    if ! python3 -B -c "import json, math, sys
+j = json.load(open(sys.argv[1]))
+sys.exit(not ($1))" "$logs/stdout"; then
+        fail "JSON: not $1"
+        show_logs
+    fi
+}
+
 # expect_python EXPECTED STATEMENTS...: what they print.
 expect_python() {
     local expected=$1 found

@@ -37,34 +37,24 @@ pictures() {
 $1"
 }
 
-# expect_json EXPRESSION: true of `j`, the JSON on standard output.
-expect_json() {
-    if ! python3 -B -c "import json, math, sys
-j = json.load(open(sys.argv[1]))
-sys.exit(not ($1))" "$logs/stdout"; then
-        fail "JSON: not $1"
-        show_logs
-    fi
-}
-
 # ---- figures that are known, errors 0, 1, 3 and 9 in a channel each
 pictures '
 png("a.png", [(10, 20, 30), (0, 0, 0)], [(200, 0, 0), (5, 6, 7)])
 png("b.png", [(10, 20, 30), (0, 1, 0)], [(203, 0, 0), (5, 6, 16)])'
 expect_exit 0 "$hedron" compare --json a.png b.png
 expect_silent_stderr
-expect_json 'j["first"] == {"file": "a.png", "format": "PNG", "bits": 8, "not_finite": 0}'
-expect_json 'j["second"]["file"] == "b.png" and j["curve"] == "srgb" and j["pixels"] == 4'
-expect_json 'j["width"] == 2 and j["height"] == 2 and not j["identical"]'
-expect_json 'abs(j["display"]["rmse"] - math.sqrt(91 / 12)) < 1e-12'
-expect_json 'abs(j["display"]["psnr"] - 20 * math.log10(255 / math.sqrt(91 / 12))) < 1e-12'
-expect_json 'abs(j["display"]["mean"] - 13 / 12) < 1e-12 and j["display"]["p999"] == 9'
-expect_json 'j["display"]["largest"] == 9'
-expect_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
-expect_json 'j["above_1"] == 0.5 and j["above_8"] == 0.25'
+expect_output_json 'j["first"] == {"file": "a.png", "format": "PNG", "bits": 8, "not_finite": 0}'
+expect_output_json 'j["second"]["file"] == "b.png" and j["curve"] == "srgb" and j["pixels"] == 4'
+expect_output_json 'j["width"] == 2 and j["height"] == 2 and not j["identical"]'
+expect_output_json 'abs(j["display"]["rmse"] - math.sqrt(91 / 12)) < 1e-12'
+expect_output_json 'abs(j["display"]["psnr"] - 20 * math.log10(255 / math.sqrt(91 / 12))) < 1e-12'
+expect_output_json 'abs(j["display"]["mean"] - 13 / 12) < 1e-12 and j["display"]["p999"] == 9'
+expect_output_json 'j["display"]["largest"] == 9'
+expect_output_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
+expect_output_json 'j["above_1"] == 0.5 and j["above_8"] == 0.25'
 curve='lambda c: ((c / 255 + 0.055) / 1.055) ** 2.4'
-expect_json "abs(j['linear']['largest'] - ($curve)(203) + ($curve)(200)) < 1e-12"
-expect_json 'j["linear"]["at"] == {"x": 0, "y": 1, "channel": "red"}'
+expect_output_json "abs(j['linear']['largest'] - ($curve)(203) + ($curve)(200)) < 1e-12"
+expect_output_json 'j["linear"]["at"] == {"x": 0, "y": 1, "channel": "red"}'
 expect_exit 0 "$hedron" compare a.png b.png
 expect_silent_stderr
 for line in 'first   a.png: PNG, 8 bits, 2 x 2 pixels' 'curve   srgb' '  at x, y                      1, 1 blue' \
@@ -84,12 +74,12 @@ for limit in 9 9.0 255; do
     expect_silent_stderr
 done
 expect_exit 1 "$hedron" compare --json a.png b.png --fail-above 3
-expect_json 'j["display"]["largest"] == 9'
+expect_output_json 'j["display"]["largest"] == 9'
 expect_exit 0 "$hedron" compare a.png a.png --fail-above 0
 expect_stdout_contains 'The pictures are identical.'
 expect_exit 0 "$hedron" compare --json a.png a.png --fail-above 0
-expect_json 'j["identical"] and j["display"]["psnr"] is None and j["linear"]["psnr"] is None'
-expect_json 'j["display"]["at"] is None and j["display"]["largest"] == 0'
+expect_output_json 'j["identical"] and j["display"]["psnr"] is None and j["linear"]["psnr"] is None'
+expect_output_json 'j["display"]["at"] is None and j["display"]["largest"] == 0'
 
 # ---- 16 bits, and PNG beside PFM, whose values above 1 no PNG holds
 pictures '
@@ -99,16 +89,16 @@ pfm("white.pfm", [(1, 0.5, 1), (0, 0, 0)])
 png("half.png", [(255, 188, 255), (0, 0, 0)])
 png("plain.png", [(255, 128, 255), (0, 0, 0)], srgb=False)'
 expect_exit 0 "$hedron" compare --json a.png deep.png
-expect_json 'j["second"]["bits"] == 16 and abs(j["display"]["largest"] - 1 / 257) < 1e-15'
-expect_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
+expect_output_json 'j["second"]["bits"] == 16 and abs(j["display"]["largest"] - 1 / 257) < 1e-15'
+expect_output_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
 expect_exit 0 "$hedron" compare --json bright.pfm white.pfm
-expect_json 'j["display"]["largest"] == 0 and j["linear"]["largest"] == 6 and not j["identical"]'
-expect_json 'j["display"]["psnr"] is None and abs(j["linear"]["mean"] - 9 / 6) < 1e-12'
+expect_output_json 'j["display"]["largest"] == 0 and j["linear"]["largest"] == 6 and not j["identical"]'
+expect_output_json 'j["display"]["psnr"] is None and abs(j["linear"]["mean"] - 9 / 6) < 1e-12'
 for order in 'bright.pfm half.png' 'half.png bright.pfm'; do
     # shellcheck disable=SC2086 # two names
     expect_exit 0 "$hedron" compare --json $order --fail-above 0.5
-    expect_json 'j["curve"] == "srgb" and 0 < j["linear"]["largest"] < 0.003'
-    expect_json '0 < j["display"]["largest"] < 0.5 and j["display"]["at"]["channel"] == "green"'
+    expect_output_json 'j["curve"] == "srgb" and 0 < j["linear"]["largest"] < 0.003'
+    expect_output_json '0 < j["display"]["largest"] < 0.5 and j["display"]["at"]["channel"] == "green"'
 done
 
 # ---- OpenEXR: in float the same as PFM, in half the nearest; the same bytes from every backend
@@ -119,9 +109,9 @@ if [[ ! -s half.exr ]]; then
 else
     expect_exit 0 "$hedron" "${frame[@]}" --backend c --lanes 1 --set output.bits=32 -o float.exr
     expect_exit 0 "$hedron" compare --json true.pfm float.exr
-    expect_json 'j["identical"] and j["second"]["format"] == "OpenEXR" and j["second"]["bits"] == 32'
+    expect_output_json 'j["identical"] and j["second"]["format"] == "OpenEXR" and j["second"]["bits"] == 32'
     expect_exit 0 "$hedron" compare --json true.pfm half.exr
-    expect_json 'j["second"]["bits"] == 16 and not j["identical"] and 0 < j["linear"]["largest"] < 0.002'
+    expect_output_json 'j["second"]["bits"] == 16 and not j["identical"] and 0 < j["linear"]["largest"] < 0.002'
     if has_opencl; then
         expect_exit 0 "$hedron" "${frame[@]}" --backend opencl -o other.exr
         expect_same half.exr other.exr
@@ -136,24 +126,24 @@ rm -f ./*.exr true.pfm
 
 # ---- curves: what the files say, or else --curve
 expect_exit 0 "$hedron" compare --json bright.pfm plain.png --fail-above 0.51
-expect_json 'j["curve"] == "linear" and abs(j["display"]["largest"] - 0.5) < 1e-9'
+expect_output_json 'j["curve"] == "linear" and abs(j["display"]["largest"] - 0.5) < 1e-9'
 expect_refusal 2 "$hedron" compare plain.png half.png
 expect_stderr_contains 'half.png says that it is on the sRGB curve, and plain.png does not'
 for curve in linear srgb; do
     expect_exit 0 "$hedron" compare --json plain.png half.png --curve "$curve"
-    expect_json "j['curve'] == '$curve' and j['display']['largest'] == 60"
+    expect_output_json "j['curve'] == '$curve' and j['display']['largest'] == 60"
 done
-expect_json 'abs(j["linear"]["largest"] - 0.287) < 0.001'
+expect_output_json 'abs(j["linear"]["largest"] - 0.287) < 0.001'
 expect_exit 0 "$hedron" compare --json white.pfm bright.pfm --curve linear
-expect_json 'j["curve"] == "linear"'
+expect_output_json 'j["curve"] == "linear"'
 
 # ---- what the program itself writes: a rounding to 8 bits is half a step
 for bits in 8 16; do
     expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o own.png -o own.pfm \
         --set "output.bits=$bits"
     expect_exit 0 "$hedron" compare --json own.png own.pfm --fail-above 0.5
-    expect_json "j['pixels'] == 768 and j['display']['largest'] > 0.4 / (1 if $bits == 8 else 257)"
-    expect_json "$bits == 8 or j['display']['largest'] < 0.6 / 257"
+    expect_output_json "j['pixels'] == 768 and j['display']['largest'] > 0.4 / (1 if $bits == 8 else 257)"
+    expect_output_json "$bits == 8 or j['display']['largest'] < 0.6 / 257"
 done
 
 # ---- other kinds of PNG: grey, with alpha; an interlaced one
@@ -173,12 +163,12 @@ pfm("worse.pfm", [(0, 0, 0), (0, 0, -inf)])'
 expect_exit 1 "$hedron" compare --json white.pfm wrong.pfm
 expect_sentence
 expect_stderr_contains '0 values of white.pfm and 2 of wrong.pfm are NaN or infinite'
-expect_json 'j["second"]["not_finite"] == 2 and j["pixels"] == 1 and j["display"]["largest"] == 0'
-expect_json 'not j["identical"]'
+expect_output_json 'j["second"]["not_finite"] == 2 and j["pixels"] == 1 and j["display"]["largest"] == 0'
+expect_output_json 'not j["identical"]'
 expect_exit 1 "$hedron" compare wrong.pfm wrong.pfm
 expect_stdout_contains 'NaN or infinite                        2                   2'
 expect_exit 1 "$hedron" compare --json wrong.pfm worse.pfm --fail-above 255
-expect_json 'j["pixels"] == 0 and j["display"]["rmse"] is None and j["above_1"] is None'
+expect_output_json 'j["pixels"] == 0 and j["display"]["rmse"] is None and j["above_1"] is None'
 
 # ---- the heat map
 pictures '
@@ -281,8 +271,8 @@ if grep -q -a -F __asan_init "$hedron"; then
 fi
 for name in tall wide; do
     expect_exit 0 bash -c "$limit; exec '$hedron' compare --json $name.png $name.pfm --diff $name-heat.png"
-    expect_json 'j["display"]["largest"] == 255 and j["display"]["at"]["channel"] == "blue"'
-    expect_json '(j["display"]["at"]["x"], j["display"]["at"]["y"]) in ((2, 65534), (65534, 2))'
+    expect_output_json 'j["display"]["largest"] == 255 and j["display"]["at"]["channel"] == "blue"'
+    expect_output_json '(j["display"]["at"]["x"], j["display"]["at"]["y"]) in ((2, 65534), (65534, 2))'
 done
 
 finish

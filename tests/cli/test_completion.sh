@@ -75,6 +75,8 @@ expect_completions 'camera.' render --set c
 expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.target=' render --set camera.
 expect_completions 'grid adaptive' render --set image.aa = ''
 expect_completions 'adaptive' render --set image.aa = a
+expect_completions 'samples' render --layers s
+expect_completions 'depth,normal' render --layers depth,n
 # ---- the scene's own materials and solids
 rm a.json
 "$hedron" new a.json >"$logs/new"

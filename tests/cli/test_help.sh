@@ -27,7 +27,7 @@ rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipe
     --cutoff --aa --max-error --help --version'
 rendering=$(tr -s ' \n' '  ' <<<"$rendering")
 classic="--no-sync --gpu --cpu --default --variant ${rendering% }"
-render="--no-sync --frame-lines --output --set --again --crop --reference ${rendering% }"
+render="--no-sync --frame-lines --output --layers --set --again --crop --reference ${rendering% }"
 
 for option in --help -h help; do
     expect_help "$classic" "$hedron" "$option"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The conformance suite: renders the fixed list of frames on every backend, device and lane count
    that opens, in float and double, and demands one hash for each frame and precision, the committed
-   one; with --write-golden FILE that of the first renderer, and writes them. The options --backend,
+   one, and another one of what is met first; no scene's own kernels are built with the latter. With
+   --write-golden FILE those of the first renderer are written instead. The options --backend,
    --lanes, --precision and --threads leave out the others; with
    --one-build no scene has kernels of its own. Then it renders with the other pipeline and with
    other launches (variants.h). Each renderer also has frames under way together (flights.h). With
@@ -21,6 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "certify/golden.h"
 #include "device/renderer.h"
 #include "flights.h"
@@ -46,7 +48,7 @@ static const char *const thread_names[] = {"1", "2"};
 static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 
 typedef struct Golden {
-    uint64_t hash[MAX_FRAMES][2];
+    HdGoldenHashes hashes[MAX_FRAMES][2];
     bool known[MAX_FRAMES][2];
 } Golden;
 
@@ -70,12 +72,20 @@ static bool read_golden(Golden *golden) {
     for (int i = 0; i < hd_golden_frame_count; i++)
         for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++) {
             const char *name = hd_golden_frames[i].name;
-            golden->known[i][p] = hd_golden_hash(name, (HdPrecision)p, &golden->hash[i][p]);
+            golden->known[i][p] =
+                hd_golden_find_hashes(name, (HdPrecision)p, &golden->hashes[i][p]);
             if (!golden->known[i][p])
-                fprintf(stderr, "tests/golden/frames.txt has no hash of the frame '%s'\n", name);
+                fprintf(stderr, "tests/golden/frames.txt has no hashes of the frame '%s'\n", name);
             good = good && golden->known[i][p];
         }
     return good;
+}
+
+static void print_line(FILE *file, const Golden *golden, int frame) {
+    const HdGoldenHashes *hash = golden->hashes[frame];
+    fprintf(file, "%-20s %016" PRIx64 " %016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n",
+            hd_golden_frames[frame].name, hash[0].frame, hash[1].frame, hash[0].first_hits,
+            hash[1].first_hits);
 }
 
 static bool write_golden(const Golden *golden, const char *path) {
@@ -90,8 +100,7 @@ static bool write_golden(const Golden *golden, const char *path) {
         return false;
     }
     for (int i = 0; i < hd_golden_frame_count; i++)
-        fprintf(file, "%-20s %016" PRIx64 " %016" PRIx64 "\n", hd_golden_frames[i].name,
-                golden->hash[i][0], golden->hash[i][1]);
+        print_line(file, golden, i);
     bool good = !ferror(file);
     good = fclose(file) == 0 && good;
     if (!good)
@@ -110,34 +119,48 @@ static void save_picture(const Options *options, const char *name, const HdFrame
         fail(path, &error);
 }
 
-static uint64_t render_hash(const Target *target, int number, const Options *options) {
+static HdGoldenHashes render_hashes(const Target *target, int number, const Options *options) {
     HdScene scene;
     HdCamera camera;
     const char *name = hd_golden_frames[number].name;
     hd_golden_frames[number].build(&scene, &camera);
     HdFrame frame = render_scene(target, &scene, &camera, name);
-    uint64_t hash = hd_frame_hash(&frame);
+    const size_t firsts = (size_t)frame.width * (size_t)frame.height * (size_t)frame.first_floats;
+    HdGoldenHashes hashes = {.frame = hd_frame_hash(&frame)};
+    if (target->first_hits)
+        hashes.first_hits = hd_hash_bytes(HD_HASH_START, frame.first, firsts * sizeof *frame.first);
     save_picture(options, name, &frame);
     hd_frame_free(&frame);
     hd_scene_free(&scene);
-    return hash;
+    return hashes;
 }
 
+static void compare_hash(const Target *target, const char *name, uint64_t hash, uint64_t expected,
+                         Tally *tally) {
+    if (expected == hash)
+        return;
+    tally->different++;
+    printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n", name, hash, expected,
+           target->label);
+}
+
+/* The first renderer, which is plain C's, knows all of it. */
 static void compare_frame(const Target *target, int number, const Options *options, Golden *golden,
                           Tally *tally) {
-    HdPrecision precision = target->precision;
-    uint64_t hash = render_hash(target, number, options);
-    uint64_t *expected = &golden->hash[number][precision];
+    const HdPrecision precision = target->precision;
+    const char *name = hd_golden_frames[number].name;
+    const HdGoldenHashes hashes = render_hashes(target, number, options);
+    HdGoldenHashes *expected = &golden->hashes[number][precision];
+    char first[MAX_NAME];
     if (!golden->known[number][precision]) {
-        *expected = hash;
+        *expected = hashes;
         golden->known[number][precision] = true;
     }
     tally->frames++;
-    if (*expected == hash)
-        return;
-    tally->different++;
-    printf("DIFFERENT %-20s %016" PRIx64 ", expected %016" PRIx64 " on %s\n",
-           hd_golden_frames[number].name, hash, *expected, target->label);
+    compare_hash(target, name, hashes.frame, expected->frame, tally);
+    snprintf(first, sizeof first, "%s, met first,", name);
+    if (target->first_hits)
+        compare_hash(target, first, hashes.first_hits, expected->first_hits, tally);
 }
 
 static void compare_frames(const Target *target, bool only_few, const Options *options,
@@ -161,11 +184,13 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     HdError error;
     HdRenderOptions chosen = *wanted;
     Target target = {.precision = wanted->precision, .one_build = one_build};
+    target.first_hits = one_build || device->backend->functions->kernels == NULL;
     char text[256], ptx[32] = "";
     const char *precision = precision_names[wanted->precision];
     if (is_left_out(options, wanted))
         return;
     chosen.test.ptx_arch = options->ptx_arch;
+    chosen.first_hits = target.first_hits;
     if (options->ptx_arch > 0)
         snprintf(ptx, sizeof ptx, ", PTX for compute_%d", options->ptx_arch);
     HdStatus status = hd_renderer_open(&target.renderer, device, &chosen, &error);
@@ -307,10 +332,10 @@ static bool parse_options(Options *options, int count, char **arguments) {
 }
 
 static void print_hashes(const Golden *golden) {
-    printf("\n%-20s %-16s %-16s\n", "frame", "float", "double");
+    printf("\n%-20s %-16s %-16s %-16s %-16s\n", "frame", "float", "double", "first hits",
+           "in double");
     for (int i = 0; i < hd_golden_frame_count; i++)
-        printf("%-20s %016" PRIx64 " %016" PRIx64 "\n", hd_golden_frames[i].name,
-               golden->hash[i][0], golden->hash[i][1]);
+        print_line(stdout, golden, i);
 }
 
 int main(int count, char **arguments) {

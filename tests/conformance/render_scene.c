@@ -36,7 +36,9 @@ HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera 
     HdFrame frame;
     if (hd_scene_validate(scene, &error) != HD_OK ||
         hd_render_scene(target->renderer, scene, camera, target->precision,
-                        target->one_build ? &hd_golden_needs : NULL, &frame, &error) != HD_OK)
+                        target->one_build ? &hd_golden_needs : NULL,
+                        target->first_hits ? HD_LAYER_BIT(HD_LAYER_DEPTH) : 0, &frame,
+                        &error) != HD_OK)
         fail(name, &error);
     return frame;
 }

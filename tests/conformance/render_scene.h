@@ -15,6 +15,7 @@ typedef struct Target {
     HdPrecision precision;
     bool one_build;   /* the kernels are built for all scenes of the suite at once, which saves time
                          where building takes most of it; otherwise for what each scene needs */
+    bool first_hits;  /* the renderer was opened for these, and frames come with all of them */
     char label[1024]; /* for messages */
 } Target;
 

@@ -9,6 +9,7 @@
 void check_truths(const Target *target, int *checked, int *failed);
 
 /* Those of one theme. */
+void check_first_hits(Check *check);
 void check_geometry(Check *check);
 void check_shading(Check *check);
 void check_lights(Check *check);

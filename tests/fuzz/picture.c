@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "fuzz.h"
+#include "image/difference.h"
 #include "image/png.h"
 #include "image/row_reader.h"
 #include "png_sums.h"
@@ -17,8 +18,14 @@ static HdStatus read_rows(HdPictureReader *reader, HdError *error) {
     HdPictureValue *values = malloc((size_t)facts->width * 3 * sizeof *values);
     fuzz_expect(values != NULL, "no memory");
     HdStatus status = hd_picture_reader_start(reader, facts->curve, error);
-    for (int y = 0; y < facts->height && status == HD_OK; y++)
+    HdChannelDifference difference = {0};
+    for (int y = 0; y < facts->height && status == HD_OK; y++) {
         status = hd_picture_reader_next(reader, values, error);
+        for (int i = 0; i < facts->further && status == HD_OK; i++)
+            for (int x = 0; x < facts->width; x++)
+                hd_channel_difference_add(&difference, hd_picture_reader_further(reader, i)[x],
+                                          0.0F, x, y);
+    }
     free(values);
     return status;
 }

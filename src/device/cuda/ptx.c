@@ -11,6 +11,7 @@ static bool does_all(const HdKernelShape *ptx, const HdKernelShape *shape) {
            (shape->is_probe || shape->wavefront == ptx->wavefront) &&
            shape->precision == ptx->precision && shape->math == ptx->math &&
            shape->group_size <= ptx->group_size && shape->needs.surveyed == ptx->needs.surveyed &&
+           (ptx->first_hits || !shape->first_hits) &&
            shape->needs.plane_bound <= ptx->needs.plane_bound &&
            shape->needs.depth_bound <= ptx->needs.depth_bound &&
            shape->needs.node_stack_bound <= ptx->needs.node_stack_bound;

@@ -28,6 +28,8 @@ typedef struct Renderer {
     HdGpuMemory scene[HD_SCENE_TABLE_COUNT];
     HdGpuMemory frame[HD_FRAME_TABLE_COUNT];
     HdGpuMemory counts;
+    HdGpuMemory first_hits;
+    HdGpuMark first_hits_found;
     HdGpuMemory thresholds; /* of `curve`, if there are any */
     HdCurve curve;
     HdGpuWaveQueue queue;
@@ -60,6 +62,7 @@ static void choose_shape(Renderer *renderer) {
         .pixels_per_item = has_groups ? 1 : HD_BLOCK_PIXELS,
         .group_size = has_groups ? group_size : 0,
         .wavefront = hd_pipeline_is_wavefront(options->pipeline),
+        .first_hits = options->first_hits,
         .precision = options->precision,
         .math = options->math,
         .ptx_arch = options->test.ptx_arch,
@@ -109,6 +112,8 @@ static void release_all(Renderer *renderer) {
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
         hd_gpu_release(gpu, &renderer->frame[i]);
     hd_gpu_release(gpu, &renderer->counts);
+    hd_gpu_release(gpu, &renderer->first_hits);
+    gpu->driver->forget(gpu->handle, &renderer->first_hits_found);
     hd_gpu_release(gpu, &renderer->thresholds);
     hd_gpu_wave_queue_release(&renderer->queue, gpu);
     hd_gpu_flights_close(&renderer->flights, gpu);
@@ -203,6 +208,7 @@ HD_GPU_ARGUMENTS(Queue, add_queue, QUEUE_LIST)
 HD_GPU_ARGUMENTS(TraceTake, add_trace_take, HD_TRACE_TAKE_ARGUMENTS)
 HD_GPU_ARGUMENTS(StoreBatch, add_store_batch, HD_STORE_BATCH_ARGUMENTS)
 HD_GPU_ARGUMENTS(RenderByWaves, add_render_by_waves, HD_RENDER_BY_WAVES_ARGUMENTS)
+HD_GPU_ARGUMENTS(FirstHits, add_first_hits, HD_FIRST_HITS_ARGUMENTS)
 HD_GPU_ARGUMENTS(SumCounts, add_sum_counts, HD_SUM_COUNTS_ARGUMENTS)
 HD_GPU_ARGUMENTS(Encode, add_encode, HD_ENCODE_ARGUMENTS)
 
@@ -212,8 +218,9 @@ static HdGpuLaunch launch_of(const Renderer *renderer, HdKernel kernel) {
     return (HdGpuLaunch){.kernel = kernel, .group_size = renderer->program.group_size};
 }
 
-static HdGpuLaunch tracing_of(const Renderer *renderer) {
-    HdGpuLaunch launch = launch_of(renderer, HD_KERNEL_TRACE);
+/* With the tables as its first arguments. */
+static HdGpuLaunch tracing_of(const Renderer *renderer, HdKernel kernel) {
+    HdGpuLaunch launch = launch_of(renderer, kernel);
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
         hd_gpu_add_memory(&launch, &renderer->scene[i]);
     for (int i = 0; i < HD_FRAME_TABLE_COUNT; i++)
@@ -262,7 +269,7 @@ static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, int items, 
     int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
     int per_group = group_size / parts;
     Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
-    HdGpuLaunch launch = tracing_of(renderer);
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_render(&launch, &own);
     HdStatus status = HD_OK;
     for (; status == HD_OK && left > 0; left -= own.item_count) {
@@ -303,7 +310,7 @@ static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, int item
     const Queue queue = queue_of(renderer);
     const RenderByWaves own = {
         .item_count = items, .pixels = &flight->pixels, .counts = &renderer->counts};
-    HdGpuLaunch launch = tracing_of(renderer);
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_render_by_waves(&launch, &own);
     launch.groups = worker_count(renderer, items);
@@ -325,7 +332,7 @@ static HdStatus trace_step(Renderer *renderer, HdGpuFlight *flight, const HdWave
         .taken = &renderer->queue.taken,
         .counts = &renderer->counts,
     };
-    HdGpuLaunch launch = tracing_of(renderer);
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
@@ -457,6 +464,15 @@ static HdStatus reserve_queue(Renderer *renderer, int items, int samples, HdErro
                                      worker_count(renderer, items), error);
 }
 
+/* `from` must live until the device has it. */
+static HdStatus write_frame_table(Renderer *renderer, int table, const void *from, size_t bytes,
+                                  HdError *error) {
+    HdStatus status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[table], from, bytes,
+                                         "tables of the frame", error);
+    return status == HD_OK ? write_constant(renderer, frame_tables[table], from, bytes, error)
+                           : status;
+}
+
 static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
                             HdError *error) {
     HdStatus status = HD_OK;
@@ -465,10 +481,7 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
         const HdTable *table = &tables->table[i];
         if (table->bytes > 0)
             memcpy(from, table->data, table->bytes);
-        status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[i], from, table->bytes,
-                                    "tables of the frame", error);
-        if (status == HD_OK)
-            status = write_constant(renderer, frame_tables[i], from, table->bytes, error);
+        status = write_frame_table(renderer, i, from, table->bytes, error);
         from += table->bytes;
     }
     return status;
@@ -530,6 +543,74 @@ static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *f
                            : status;
 }
 
+/* ---- what is met first ---- */
+
+static HdStatus wait_for_first_hits(const Renderer *renderer, HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    HdStatus status = gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error);
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
+    return status;
+}
+
+/* A sample costs less here than where light is traced, by which the size of launches is learned:
+   they are short enough. */
+static HdStatus launch_first_hits(Renderer *renderer, const HdFrameTables *tables, int items,
+                                  int floats, HdError *error) {
+    enum { MOST_THREADS = 64 }; /* of a group, which has nothing to do together */
+    HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
+    FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
+    HdStatus status = HD_OK;
+    add_first_hits(&launch, &own);
+    if (launch.group_size > MOST_THREADS)
+        launch.group_size = MOST_THREADS;
+    for (int left = items; status == HD_OK && left > 0; left -= own.item_count) {
+        status = left < items ? wait_for_first_hits(renderer, error) : HD_OK;
+        own.first_item = items - left;
+        own.item_count = left;
+        if (renderer->has_groups)
+            own.item_count = hd_launch_size_items(&renderer->flights.size, left,
+                                                  tables->samples + 1, launch.group_size);
+        launch.groups = group_count(renderer, own.item_count, launch.group_size);
+        if (status == HD_OK)
+            status = queue_launch(renderer, &launch, &renderer->first_hits_found, error);
+    }
+    return status;
+}
+
+static HdStatus find_first_hits(Renderer *renderer, const HdFrameTables *tables, HdFrame *frame,
+                                HdError *error) {
+    const HdGpu *gpu = &renderer->gpu;
+    const size_t pixels = (size_t)tables->width * (size_t)tables->height;
+    const size_t bytes = pixels * (size_t)frame->first_floats * sizeof *frame->first;
+    const int items = hd_kernel_item_count(tables->width, tables->height,
+                                           renderer->program.cache.shape.pixels_per_item);
+    HdStatus status = hd_gpu_reserve(gpu, &renderer->first_hits, HD_GPU_DEVICE, bytes,
+                                     "pixels' first hits", error);
+    for (int i = 0; status == HD_OK && i < HD_FRAME_TABLE_COUNT; i++)
+        status =
+            write_frame_table(renderer, i, tables->table[i].data, tables->table[i].bytes, error);
+    if (status == HD_OK)
+        status = launch_first_hits(renderer, tables, items, frame->first_floats, error);
+    return status == HD_OK
+               ? gpu->driver->read(gpu->handle, &renderer->first_hits, frame->first, bytes, error)
+               : status;
+}
+
+/* The launches follow those of the frames under way, whose tables they may replace. */
+static HdStatus gpu_first_hits(void *state, const HdFrameTables *tables, HdFrame *frame,
+                               HdError *error) {
+    Renderer *renderer = state;
+    HdError later;
+    HdStatus status = enter(renderer, error);
+    if (status != HD_OK)
+        return status;
+    status = find_first_hits(renderer, tables, frame, error);
+    if (status != HD_OK) /* copies that are under way read the tables, which are the caller's */
+        renderer->gpu.driver->finish(renderer->gpu.handle, &later);
+    return status;
+}
+
 /* What the launches on a CPU take does no harm. */
 static double gpu_longest_launch(const void *state) {
     const Renderer *renderer = state;
@@ -588,6 +669,7 @@ const HdRendererFunctions hd_gpu_functions = {
     .upload = gpu_upload,
     .submit = gpu_submit,
     .collect = gpu_collect,
+    .first_hits = gpu_first_hits,
     .longest_launch = gpu_longest_launch,
     .drop = gpu_drop,
     .kernels = gpu_kernels,

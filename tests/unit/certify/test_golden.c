@@ -13,21 +13,23 @@ static void every_frame_has_one_line(void **state) {
     assert_int_equal(lines, hd_golden_frame_count);
     for (int i = 0; i < hd_golden_frame_count; i++)
         for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++) {
-            uint64_t hash = 0;
-            assert_true(hd_golden_hash(hd_golden_frames[i].name, (HdPrecision)p, &hash));
-            assert_int_not_equal(hash, 0);
+            HdGoldenHashes hashes = {0};
+            assert_true(hd_golden_find_hashes(hd_golden_frames[i].name, (HdPrecision)p, &hashes));
+            assert_int_not_equal(hashes.frame, 0);
+            assert_int_not_equal(hashes.first_hits, 0);
         }
 }
 
 static void precisions_and_names_are_told_apart(void **state) {
     (void)state;
-    uint64_t single, both, unknown;
-    assert_true(hd_golden_hash("tetrahedron", HD_PRECISION_FLOAT, &single));
-    assert_true(hd_golden_hash("tetrahedron", HD_PRECISION_DOUBLE, &both));
-    assert_true(single != both);
-    assert_false(hd_golden_hash("tetra", HD_PRECISION_FLOAT, &unknown));
-    assert_false(hd_golden_hash("hedron", HD_PRECISION_FLOAT, &unknown));
-    assert_false(hd_golden_hash("", HD_PRECISION_FLOAT, &unknown));
+    HdGoldenHashes single, both, unknown;
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_FLOAT, &single));
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_DOUBLE, &both));
+    assert_true(single.frame != both.frame && single.first_hits != both.first_hits);
+    assert_true(single.frame != single.first_hits);
+    assert_false(hd_golden_find_hashes("tetra", HD_PRECISION_FLOAT, &unknown));
+    assert_false(hd_golden_find_hashes("hedron", HD_PRECISION_FLOAT, &unknown));
+    assert_false(hd_golden_find_hashes("", HD_PRECISION_FLOAT, &unknown));
 }
 
 static void every_frame_is_built(void **state) {

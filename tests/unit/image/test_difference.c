@@ -177,6 +177,21 @@ static void quantiles_leave_one_in_so_many_above(void **state) {
     assert_true(quantile_of(6, extreme, 2) == 1e-30);
 }
 
+static void further_channels_differ_by_their_values(void **state) {
+    (void)state;
+    HdChannelDifference difference = {0};
+    hd_channel_difference_add(&difference, 5.0F, 5.0F, 1, 1);
+    hd_channel_difference_add(&difference, INFINITY, INFINITY, 2, 1);
+    hd_channel_difference_add(&difference, NAN, NAN, 3, 1);
+    assert_true(difference.largest == 0.0);
+    hd_channel_difference_add(&difference, 1.0F, 1.25F, 4, 2);
+    hd_channel_difference_add(&difference, 3.25F, 3.0F, 5, 2);
+    assert_true(difference.largest == 0.25 && difference.x == 4 && difference.y == 2);
+    hd_channel_difference_add(&difference, 1.0F, NAN, 6, 3);
+    hd_channel_difference_add(&difference, INFINITY, 0.0F, 7, 3);
+    assert_true(isinf(difference.largest) && difference.x == 6 && difference.y == 3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_those_of_the_formulas),
@@ -186,6 +201,7 @@ int main(void) {
         cmocka_unit_test(values_that_are_no_numbers_are_counted_and_left_out),
         cmocka_unit_test(without_a_finite_pixel_there_are_no_figures),
         cmocka_unit_test(one_step_is_exact_with_16_bits),
+        cmocka_unit_test(further_channels_differ_by_their_values),
         cmocka_unit_test(quantiles_leave_one_in_so_many_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

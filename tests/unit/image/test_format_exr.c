@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 
 #include <fcntl.h>
+#include <math.h>
 
 #include "image/picture.h"
 #include "image/row_reader.h"
@@ -100,6 +101,92 @@ static void halves_are_the_nearest(void **state) {
         if (read[i] != cases[i].half)
             fail_msg("%a became %a, expected %a", (double)cases[i].value, read[i], cases[i].half);
     assert_true(isnan(read[count]));
+}
+
+/* Numbers that half has not. */
+static float number_at(int pixel, int which) {
+    return (float)(70001 + 16 * pixel + which);
+}
+
+static void fill_layers(HdFrame *frame) {
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        for (int k = 0; k < frame->first_floats; k++)
+            frame->first[i * frame->first_floats + k] = number_at(i, k);
+        frame->first[i * frame->first_floats + HD_FIRST_ALPHA] = (float)(i % 5) / 4.0F;
+        for (int k = 0; k < HD_EFFORT_FLOATS && frame->effort != NULL; k++)
+            frame->effort[i * HD_EFFORT_FLOATS + k] = number_at(i, 10 + k);
+    }
+    if (frame->first_floats > 1) /* nothing is met there */
+        frame->first[HD_FIRST_DEPTH] = frame->first[HD_FIRST_OBJECT] = 0.0F;
+}
+
+static void write_layers(unsigned layers) {
+    HdAtomicFile file;
+    HdFrame frame;
+    assert_int_equal(hd_frame_create(&frame, WIDTH, HEIGHT, &error), HD_OK);
+    assert_int_equal(hd_frame_add_layers(&frame, layers, &error), HD_OK);
+    fill_layers(&frame);
+    assert_int_equal(
+        hd_picture_prepare(&file, &frame, &hd_format_exr, &HALF, &LABEL, "a.exr", &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
+    hd_frame_free(&frame);
+}
+
+/* What a channel should hold in a pixel. */
+static float expected_of(const char *name, int pixel) {
+    static const char *const firsts[] = {"A", "Z", "normal.X", "normal.Y", "normal.Z", "object"};
+    if (strcmp(name, "A") == 0)
+        return (float)(pixel % 5) / 4.0F;
+    if (pixel == 0 && strcmp(name, "Z") == 0)
+        return INFINITY;
+    if (pixel == 0 && strcmp(name, "object") == 0)
+        return 0.0F;
+    for (int i = 0; i < HD_MOST_FIRST_FLOATS; i++)
+        if (strcmp(firsts[i], name) == 0)
+            return number_at(pixel, i);
+    return number_at(pixel, strcmp(name, "samples") == 0 ? 10 : 11);
+}
+
+/* The file's further channels are those, and hold what they should. */
+static void expect_channels(const char *const *names, int count) {
+    HdPictureReader *reader;
+    HdPictureValue row[WIDTH * 3];
+    assert_int_equal(hd_picture_reader_open(&reader, "a.exr", &error), HD_OK);
+    const HdPictureFacts *facts = hd_picture_reader_facts(reader);
+    assert_int_equal(facts->bits, 16);
+    assert_int_equal(facts->further, count);
+    for (int i = 0; i < count; i++)
+        assert_string_equal(facts->names[i], names[i]);
+    assert_int_equal(hd_picture_reader_start(reader, HD_CURVE_SRGB, &error), HD_OK);
+    for (int y = 0; y < HEIGHT; y++) {
+        assert_int_equal(hd_picture_reader_next(reader, row, &error), HD_OK);
+        for (int i = 0; i < count * WIDTH; i++) {
+            const int x = i % WIDTH;
+            const float found = hd_picture_reader_further(reader, i / WIDTH)[x];
+            const float expected = expected_of(names[i / WIDTH], y * WIDTH + x);
+            if (found != expected)
+                fail_msg("%s at %d, %d: %g, expected %g", names[i / WIDTH], x, y, (double)found,
+                         (double)expected);
+        }
+    }
+    hd_picture_reader_close(reader);
+}
+
+static void layers_become_channels(void **state) {
+    (void)state;
+    static const char *const all[] = {"A",        "Z",        "bound",  "normal.X",
+                                      "normal.Y", "normal.Z", "object", "samples"};
+    static const char *const some[] = {"A", "object"};
+    static const char *const effort[] = {"A", "samples"};
+    const unsigned alpha = HD_LAYER_BIT(HD_LAYER_ALPHA);
+    write_layers(2 * alpha - 1);
+    expect_channels(all, 8);
+    write_layers(alpha | HD_LAYER_BIT(HD_LAYER_OBJECT));
+    expect_channels(some, 2);
+    write_layers(alpha | HD_LAYER_BIT(HD_LAYER_SAMPLES));
+    expect_channels(effort, 2);
+    write_layers(alpha);
+    expect_channels(all, 1);
 }
 
 static void start_capture(int *old_descriptor) {
@@ -205,6 +292,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floats_come_back),
         cmocka_unit_test(halves_are_the_nearest),
+        cmocka_unit_test(layers_become_channels),
         cmocka_unit_test(damaged_files_are_refused_quietly),
         cmocka_unit_test(other_kinds_are_refused),
     };

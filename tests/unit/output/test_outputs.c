@@ -51,6 +51,26 @@ static void every_output_is_checked(void **state) {
     check_refused("a.png", "a.png", 1, "twice");
 }
 
+static void layers_are_for_outputs_that_hold_them(void **state) {
+    (void)state;
+    const unsigned alpha = HD_LAYER_BIT(HD_LAYER_ALPHA), depth = HD_LAYER_BIT(HD_LAYER_DEPTH),
+                   bound = HD_LAYER_BIT(HD_LAYER_BOUND);
+    HdOutputPlan plan;
+    assert_int_equal(settle(&plan, "a.png", "a.pfm", 8, 1), HD_OK);
+    assert_int_equal(plan.wish.layers, 0);
+    assert_int_equal(hd_outputs_add_layers(&plan, 0, false, &error), HD_OK);
+    assert_int_equal(hd_outputs_add_layers(&plan, depth, true, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "--layers is for OpenEXR: expected an output that ends in .exr");
+    assert_int_equal(settle(&plan, "a.png", "a.exr", 8, 1), HD_OK);
+    assert_int_equal(plan.wish.layers, alpha);
+    assert_int_equal(hd_outputs_add_layers(&plan, bound | depth, false, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "--max-error, --aa adaptive or --reference");
+    assert_int_equal(hd_outputs_add_layers(&plan, depth, false, &error), HD_OK);
+    assert_int_equal(plan.wish.layers, alpha | depth);
+    assert_int_equal(hd_outputs_add_layers(&plan, bound, true, &error), HD_OK);
+    assert_int_equal(plan.wish.layers, alpha | depth | bound);
+}
+
 static void names_tell_what_to_write(void **state) {
     (void)state;
     static const char *const good[] = {"a.png", "a.DATA", "a.pfm", "a.mp4", "a.mkv", "a.gif"};
@@ -116,6 +136,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(outputs_suit_the_number_of_frames),
         cmocka_unit_test(every_output_is_checked),
+        cmocka_unit_test(layers_are_for_outputs_that_hold_them),
         cmocka_unit_test(names_tell_what_to_write),
         cmocka_unit_test(a_plan_says_what_frames_must_hold),
         cmocka_unit_test(only_what_can_be_resumed_is),
