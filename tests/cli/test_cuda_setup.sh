@@ -119,6 +119,7 @@ expect_stderr_contains 'no NVRTC library here compiles for Fake device 0 (sm_60)
 with_ptx=$build/tests/fake_cuda/hedron_with_fake_ptx
 if [[ -e $with_ptx ]]; then
     "$hedron" render "${strict[@]}" --backend c --quiet -o expected.data >"$logs/stdout"
+    "$hedron" render "${strict[@]}" --backend c --quiet -o expected.exr >"$logs/stdout" 2>&1 || true
     for card in '61 64' '90 128'; do
         expect_exit 0 env FAKE_CUDA_CAPABILITY="${card% *}" "$with_ptx" render "${strict[@]}" --backend cuda --verbose -o picture.data
         expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test ('
@@ -126,6 +127,11 @@ if [[ -e $with_ptx ]]; then
         expect_same picture.data expected.data
         rm picture.data
     done
+    if [[ -e expected.exr ]]; then # else this build has no OpenEXR
+        expect_exit 0 "$with_ptx" render "${strict[@]}" --backend cuda --quiet -o picture.exr
+        expect_same picture.exr expected.exr
+        rm picture.exr expected.exr
+    fi
     for more in '--math fast' '--precision double' '--depth 100' '--block 256'; do
         # shellcheck disable=SC2086
         expect_refusal 3 "$with_ptx" render "${strict[@]}" --backend cuda --quiet $more -o picture.data
