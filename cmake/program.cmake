@@ -61,8 +61,14 @@ install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/he
 
 install(FILES completions/hedron.bash RENAME hedron
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
-install(FILES completions/hedron.zsh RENAME _hedron
-        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions)
+# The zsh of Debian looks elsewhere for what comes by packages.
+install(CODE "
+    set(folder site-functions)
+    if(CMAKE_INSTALL_PREFIX MATCHES \"/usr/?$\" AND EXISTS /etc/debian_version)
+        set(folder vendor-completions)
+    endif()
+    file(INSTALL \"${PROJECT_SOURCE_DIR}/completions/hedron.zsh\" RENAME _hedron
+         DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATAROOTDIR}/zsh/\${folder}\")")
 install(FILES completions/hedron.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d)
 
 # The man page is what the program prints, written whenever it is built, so that it can be installed where

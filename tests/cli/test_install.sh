@@ -54,7 +54,13 @@ if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; 
     for file in "$work"/package/*.deb; do
         dpkg-deb -x "$file" "$work/root"
     done
-    expect_same <(cd "$work/root/usr" && find . -type f | sort) <(cd "$prefix" && find . -type f | sort)
+    zsh=share/zsh/site-functions
+    if [[ -e /etc/debian_version ]]; then
+        zsh=share/zsh/vendor-completions
+    fi
+    expect_same "$work/root/usr/$zsh/_hedron" <("$hedron" help completion-zsh)
+    expect_same <(cd "$work/root/usr" && find . -type f | sed "s,$zsh,share/zsh/site-functions," | sort) \
+        <(cd "$prefix" && find . -type f | sort)
     expect_exit 0 env -i "$work/root/usr/bin/hedron" --version
     dpkg-deb -f "${package[0]}" Depends Recommends >"$logs/fields"
     for needed in libpng16-16 libjpeg libopenexr libjansson4 ocl-icd-libopencl1 ffmpeg pocl-opencl-icd; do
