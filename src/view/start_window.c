@@ -28,8 +28,10 @@ HdStatus hd_start_window(char **arguments, HdError *error) {
         execv(path, arguments);
     }
     execvp(program, arguments);
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "the window's program, %s, cannot be started (%s): it is built where SDL 2 is "
-                   "(libsdl2-dev) and needs libsdl2-2.0-0; 'hedron view --terminal' needs neither",
-                   program, strerror(errno));
+    return hd_fail(
+        error, HD_UNAVAILABLE,
+        "the window's program, %s, cannot be started (%s): it is the package hedron-view, "
+        "or is built where SDL 2 is (libsdl2-dev); 'hedron view --terminal' needs "
+        "neither",
+        program, strerror(errno));
 }
