@@ -5,21 +5,27 @@
 #   compare  fewer lanes than that, there to compare bytes
 #   wide     more lanes than that, to compare as well: at -O1 and without a pass that vectors of many
 #            registers make slow, which bounds gcc's compile time
+# Those of HEDRON_PLAIN_KERNELS are built once more for plain scenes: without meshes, refraction and light from
+# behind, which take registers from code that all scenes need.
 # Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
 if(processor MATCHES "^(x86_64|amd64)$")
     set(HEDRON_KERNELS avx512:16:float:full avx512:8:double:full avx512:8:float:compare avx512:16:double:wide
         avx2:8:float:full avx2:4:double:full avx2:4:float:compare avx2:8:double:wide
         avx2:1:float:full avx2:1:double:full generic:1:float:compare generic:1:double:compare)
+    set(HEDRON_PLAIN_KERNELS avx512:16:float avx2:8:float)
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
 else()
     set(HEDRON_KERNELS generic:4:float:full generic:4:double:compare generic:8:float:wide generic:8:double:wide
         generic:16:float:wide generic:16:double:wide generic:1:float:full generic:1:double:full)
+    set(HEDRON_PLAIN_KERNELS generic:4:float)
 endif()
 
 # Sanitizers make a kernel several times as dear to compile, and what they build runs here: kernels that this
 # processor never takes are left out, and of the bundles they look at those taken where nobody asks for lanes.
+# Kernels for plain scenes have no code of their own.
 if(HEDRON_SANITIZE)
+    set(HEDRON_PLAIN_KERNELS "")
     include(CheckCSourceRuns)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx512bw\"); }" HEDRON_RUNS_AVX512)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx2\"); }" HEDRON_RUNS_AVX2)
@@ -51,6 +57,17 @@ if(HEDRON_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(level_compare -O1)
 endif()
 
+# Adds the object library hedron_kernel_NAME to the core; the further arguments are options of the compiler.
+function(hedron_kernel name set lanes precision)
+    add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
+    target_compile_definitions(hedron_kernel_${name} PRIVATE
+        HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes} HD_DOUBLE=$<STREQUAL:${precision},double>)
+    target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS} ${ARGN} ${flags_${set}}
+        -fno-math-errno -fno-trapping-math ${flags_strict})
+    target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
+    set_property(GLOBAL APPEND_STRING PROPERTY HEDRON_KERNEL_NAMES " X(hd_kernel_${name})")
+endfunction()
+
 # Rows of HD_CPU_BUILDS, for cpu/instruction_set.c.
 set(rows "")
 foreach(kernel IN LISTS HEDRON_KERNELS)
@@ -62,18 +79,21 @@ foreach(kernel IN LISTS HEDRON_KERNELS)
         set(sanitizers -fno-sanitize=all) # threads share the same with either precision
     endif()
     set(name ${set}_${lanes}_${precision})
-    add_library(hedron_kernel_${name} OBJECT cpu/kernel.c)
-    target_compile_definitions(hedron_kernel_${name} PRIVATE
-        HD_KERNEL_NAME=hd_kernel_${name} HD_LANES=${lanes} HD_DOUBLE=$<STREQUAL:${precision},double>)
-    target_compile_options(hedron_kernel_${name} PRIVATE ${HEDRON_KERNEL_WARNINGS}
-        ${level_${kind}} ${flags_${set}} -fno-math-errno -fno-trapping-math ${flags_strict} ${sanitizers})
-    target_sources(hedron_core PRIVATE $<TARGET_OBJECTS:hedron_kernel_${name}>)
+    hedron_kernel(${name} ${set} ${lanes} ${precision} ${level_${kind}} ${sanitizers})
+    set(plain NULL)
+    if("${set}:${lanes}:${precision}" IN_LIST HEDRON_PLAIN_KERNELS)
+        set(plain hd_kernel_plain_${name})
+        hedron_kernel(plain_${name} ${set} ${lanes} ${precision} ${level_${kind}} -DHD_PLAIN=1)
+    endif()
     string(TOUPPER "${precision}" constant)
-    string(APPEND rows " \\\n    X(${set}, ${lanes}, ${constant}, hd_kernel_${name})")
+    string(APPEND rows " \\\n    X(${set}, ${lanes}, ${constant}, hd_kernel_${name}, ${plain})")
 endforeach()
+get_property(names GLOBAL PROPERTY HEDRON_KERNEL_NAMES)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/cpu_builds.h CONTENT
 "/* SPDX-License-Identifier: MIT */
-/* X(instruction set, lanes, precision, kernel), the best first; of cmake/cpu_kernels.cmake. */
+/* X(kernel), all of them; of cmake/cpu_kernels.cmake. */
+#define HD_CPU_KERNELS(X)@names@
+/* X(instruction set, lanes, precision, kernel, that of plain scenes or NULL), the best first. */
 #define HD_CPU_BUILDS(X)@rows@
 " @ONLY)
 target_include_directories(hedron_core PRIVATE ${PROJECT_BINARY_DIR})

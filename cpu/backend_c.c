@@ -29,6 +29,7 @@ typedef struct CRenderer {
     HdCpuQueue *queues;  /* one for each thread; their memory is the first one's */
     size_t queue_bytes;  /* of all of them */
     const HdCpuBuild *build;
+    HdCpuKernel *kernel; /* of the build, for the scene */
     HdSceneTables scene; /* our own copy */
     HdRayCounts *counts; /* one for each item of the last frame size */
     int item_capacity;
@@ -109,9 +110,16 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
     return HD_OK;
 }
 
+static HdCpuKernel *kernel_for(const CRenderer *c, const HdSceneTables *tables) {
+    bool is_plain = tables->node_stack == 0 && !tables->refracts && !tables->lit_from_behind;
+    bool has_plain = c->build->plain_kernel != NULL && c->queues == NULL;
+    return is_plain && has_plain ? c->build->plain_kernel : c->build->kernel;
+}
+
 static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *error) {
     CRenderer *c = renderer;
     hd_scene_tables_free(&c->scene);
+    c->kernel = kernel_for(c, tables);
     c->scene = *tables;
     c->scene.table_count = 0;
     for (int i = 0; i < tables->table_count; i++) {
@@ -185,8 +193,8 @@ typedef struct FrameWork {
 static void render_one_item(void *context, int thread, int item) {
     FrameWork *work = context;
     CRenderer *c = work->c;
-    c->build->kernel(c->scene.table, work->tables->table, item,
-                     c->queues != NULL ? &c->queues[thread] : NULL, work->pixels, c->counts);
+    c->kernel(c->scene.table, work->tables->table, item,
+              c->queues != NULL ? &c->queues[thread] : NULL, work->pixels, c->counts);
 }
 
 static bool is_interrupted(void) {

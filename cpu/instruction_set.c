@@ -8,13 +8,14 @@
 
 #include "generated/cpu_builds.h"
 
-#define DECLARE_BUILD(set, lanes, precision, kernel)                                               \
-    HdCpuKernel kernel;                                                                            \
+#define DECLARE_KERNEL(kernel) HdCpuKernel kernel;
+HD_CPU_KERNELS(DECLARE_KERNEL)
+#define DECLARE_FIRST_HITS(set, lanes, precision, kernel, plain_kernel)                            \
     HdCpuFirstHits kernel##_first_hits;
-HD_CPU_BUILDS(DECLARE_BUILD)
+HD_CPU_BUILDS(DECLARE_FIRST_HITS)
 
-#define LIST_BUILD(set, lanes, precision, kernel)                                                  \
-    {#set, lanes, HD_PRECISION_##precision, kernel, kernel##_first_hits},
+#define LIST_BUILD(set, lanes, precision, kernel, plain_kernel)                                    \
+    {#set, lanes, HD_PRECISION_##precision, kernel, plain_kernel, kernel##_first_hits},
 static const HdCpuBuild builds[] = {HD_CPU_BUILDS(LIST_BUILD)};
 enum { BUILD_COUNT = sizeof builds / sizeof builds[0] };
 

@@ -1,8 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry points for plain C, named by HD_KERNEL_NAME. */
+/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN the one that renders is for
+   plain scenes alone, in the pipeline of whole trees, and the only one: what other scenes need takes
+   registers, even where it never runs. */
 #include "cpu/kernel.h"
 
 #include "cpu/kernel_tables.h"
+
+HdCpuKernel HD_KERNEL_NAME;
+
+#if HD_PLAIN
+
+#include "kernels/common/render.h"
+
+void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const HdCpuQueue *queue,
+                    float *pixels, void *counts) {
+    HD_DECLARE_TABLES(scene, frame)
+    (void)queue;
+    render_item(SCENE_ARGUMENTS item, pixels, (RayCounts *)counts + item);
+}
+
+#else
+
 #include "kernels/common/wavefront.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */
@@ -24,8 +42,6 @@ FN_APART RayCounts render_by_waves(const HdTable *scene, const HdTable *frame, i
     return counted;
 }
 
-HdCpuKernel HD_KERNEL_NAME;
-
 void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const HdCpuQueue *queue,
                     float *pixels, void *counts) {
     ((RayCounts *)counts)[item] = queue == NULL
@@ -42,3 +58,5 @@ void HD_FIRST_HITS_OF(HD_KERNEL_NAME)(const HdTable *scene, const HdTable *frame
     HD_DECLARE_TABLES(scene, frame)
     find_first_hits(SCENE_ARGUMENTS item, floats, hits);
 }
+
+#endif

@@ -42,14 +42,17 @@
 #define NODE_STACK(header)      (HD_NODE_STACK + 1)
 #define WIDE_STACK(header)      (HD_WIDE_STACK + 1)
 #else
+#ifndef HD_PLAIN
+#define HD_PLAIN 0
+#endif
 #define PLANE_BOUND(header)     ((header)->plane_count + 1)
 #define SOLID_BOUND(header)     ((header)->solid_count + 1)
 #define DEPTH_BOUND(view)       ((view)->depth + 1)
-#define REFRACTS(header)        ((header)->refracts)
-#define LIT_FROM_BEHIND(header) ((header)->lit_from_behind)
+#define REFRACTS(header)        (!HD_PLAIN && (header)->refracts)
+#define LIT_FROM_BEHIND(header) (!HD_PLAIN && (header)->lit_from_behind)
 #define SURVEYED(header)        ((header)->surveyed)
 #define PIXEL_SUMS              HD_SURVEY_SUMS
-#define MESHES(header)          ((header)->instance_count > 0)
+#define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)
 #define NODE_STACK(header)      ((header)->node_stack + 1)
 #define WIDE_STACK(header)      ((header)->wide_stack + 1)
 #endif

@@ -32,7 +32,9 @@
 #include "variants.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
-enum { OWN_BUILDS = 8 }; /* with this many lanes each scene has the kernels that it needs */
+/* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.
+ */
+enum { OWN_BUILDS = 8 };
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 static const char usage[] =
@@ -241,7 +243,8 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .math = (HdMath)options->math,
             .pipeline = HD_PIPELINE_MEGA,
         };
-        bool own_builds = !options->one_build && (!device->is_cpu || lane_counts[i] == OWN_BUILDS);
+        bool compiles = device->is_cpu && !device->backend->needs_no_driver;
+        bool own_builds = !options->one_build && (!compiles || lane_counts[i] == OWN_BUILDS);
         bool only_few = options->few || lane_counts[i] > most_for_all;
         if (options->brief || !own_builds)
             check_renderer(device, &wanted, only_few, true, options, golden, tally);
