@@ -18,6 +18,9 @@ typedef real_bits vint __attribute__((vector_size(HD_LANES * sizeof(real))));
 typedef int64_t vfix __attribute__((vector_size(HD_LANES * 8)));
 typedef vint vbits;
 
+/* Compilers are not to see through the array: they take its numbers from where it has them. */
+#define HD_KEEP_IN_MEMORY(array) __asm__("" : "+m"(array))
+
 FN vreal splat(real a) {
     return a - (vreal){0};
 }

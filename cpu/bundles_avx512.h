@@ -113,15 +113,24 @@ FN FourWords transpose_quarters(const __m512i row[4]) {
     return words;
 }
 
+/* Lanes as numbers of entries: read one by one they are cheaper than taken out of the register. */
+FN void store_places(int64_t at[HD_LANES], vint index) {
+    __m512i all = (__m512i)index;
+    _mm512_storeu_si512(at, _mm512_cvtepi32_epi64(_mm512_castsi512_si256(all)));
+    _mm512_storeu_si512(at + 8, _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(all, 1)));
+    HD_KEEP_IN_MEMORY(*(int64_t(*)[HD_LANES])at);
+}
+
 /* Four lanes to a register. */
 FN FourWords fetch_four_words(const uint *table, vint index) {
     __m512i lanes[4];
+    int64_t at[HD_LANES];
+    store_places(at, index);
     for (int i = 0; i < 4; i++) {
-        __m512i row = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + index[i])));
-        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 4])), 1);
-        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 8])), 2);
-        lanes[i] =
-            _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + index[i + 12])), 3);
+        __m512i row = _mm512_castsi128_si512(_mm_loadu_si128((const void *)(table + at[i])));
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 4])), 1);
+        row = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 8])), 2);
+        lanes[i] = _mm512_inserti32x4(row, _mm_loadu_si128((const void *)(table + at[i + 12])), 3);
     }
     return transpose_quarters(lanes);
 }

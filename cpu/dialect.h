@@ -46,13 +46,6 @@ FN vreal built_in_root(vreal a) {
 
 #include "kernels/common/wide_masks.h"
 
-FN vreal pick(vmask m, vreal a, vreal b) {
-    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
-}
-FN vint pick_int(vmask m, vint a, vint b) {
-    return (m & a) | (~m & b);
-}
-
 /* Neither compiler has multiply_add, square_root and any_lane for vectors: instructions where the
    width is the machine's, lane by lane elsewhere. */
 #if defined(__AVX2__) && defined(__FMA__) && HD_LANES * (HD_DOUBLE + 1) <= 8
@@ -75,6 +68,15 @@ FN int any_lane(vmask m) {
     for (int lane = 0; lane < HD_LANES; lane++)
         joined |= m[lane];
     return joined != 0;
+}
+#endif
+
+#ifndef HD_OWN_PICK
+FN vreal pick(vmask m, vreal a, vreal b) {
+    return (vreal)((m & (vmask)a) | (~m & (vmask)b));
+}
+FN vint pick_int(vmask m, vint a, vint b) {
+    return (m & a) | (~m & b);
 }
 #endif
 

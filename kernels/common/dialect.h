@@ -60,10 +60,14 @@ FN vmask mask_all(void) {
 
 /* The number of the first lane whose mask is set; only for masks with any_lane(m). */
 FN int first_lane(vmask m) {
+#ifdef HD_OWN_LANE_BITS
+    return lowest_bit(lane_bits(m));
+#else
     int lane = 0;
     while (lane < HD_LANES - 1 && !lane_int(&m, lane))
         lane++;
     return lane;
+#endif
 }
 #endif
 

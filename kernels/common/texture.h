@@ -63,9 +63,11 @@ FN Vec3 blend_row(GLOBAL const uint *texels, vint index, vreal weight) {
                 blend(low_half(words.word[1]), low_half(words.word[3]), weight));
 }
 
-/* Between four texels, the upper two from number `upper`, the lower two from `lower` on. */
-FN Vec3 blend_texels(GLOBAL const uint *texels, vint upper, vint lower, vreal across, vreal down) {
-    Vec3 above = blend_row(texels, upper, across), below = blend_row(texels, lower, across);
+/* Between four texels: two from number `place` on, and those `stride` texels behind them. One place
+   serves both rows, so that its lanes are taken apart once. */
+FN Vec3 blend_texels(GLOBAL const uint *texels, vint place, int stride, vreal across, vreal down) {
+    Vec3 above = blend_row(texels, place, across);
+    Vec3 below = blend_row(texels + 2 * stride, place, across);
     vreal scale = splat(R(1.5259021896696422e-5)); /* 1 / 65535 */
     return vec3(blend(above.x, below.x, down) * scale, blend(above.y, below.y, down) * scale,
                 blend(above.z, below.z, down) * scale);
@@ -103,7 +105,7 @@ FN Vec3 sample_picture(GLOBAL const Picture *picture, GLOBAL const uint *texels,
     vint row = least_int(to_int(y), splat_int(picture->height - 1));
     int stride = picture->width + 1;
     vint place = row * stride + column + picture->first_texel;
-    return blend_texels(texels, place, place + stride, x - to_real(column), y - to_real(row));
+    return blend_texels(texels, place, stride, x - to_real(column), y - to_real(row));
 }
 
 #endif
