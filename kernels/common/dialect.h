@@ -159,39 +159,36 @@ FN real greatest_lane(vreal a, vmask m) {
 /* ---- division and roots ---- */
 
 /* 1 / a of normal a > 0 whose reciprocal is normal too, within 1 unit in the last place: a guess by
-   the exponent's bits (Blinn 1997, Floating-Point Tricks), then steps of third order, which on CPUs
-   cost a fraction of a division. */
+   the exponent's bits (Blinn 1997, Floating-Point Tricks), then two steps of third order (three of
+   doubles), which on CPUs cost a fraction of a division. Not a loop, for PoCL leaves it one. */
+FN vreal better_reciprocal(vreal a, vreal guess) {
+    vreal error = multiply_add(-a, guess, splat(R(1.0)));
+    return multiply_add(guess, multiply_add(error, error, error), guess);
+}
 FN vreal reciprocal(vreal a) {
-    vreal one = splat(R(1.0));
 #if HD_DOUBLE
-    enum { STEPS = 3 };
     vreal guess = from_bits(splat_bits(0x7fde623822fc16e6) - bits_of(a));
+    guess = better_reciprocal(a, guess);
 #else
-    enum { STEPS = 2 };
     vreal guess = from_bits(splat_bits(0x7ef311c3) - bits_of(a));
 #endif
-    for (int i = 0; i < STEPS; i++) {
-        vreal error = multiply_add(-a, guess, one);
-        guess = multiply_add(guess, multiply_add(error, error, error), guess);
-    }
-    return guess;
+    return better_reciprocal(a, better_reciprocal(a, guess));
 }
 
 /* 1 / square root of a, likewise (steps by Halley's method), within 1.5 units in the last place. */
+FN vreal better_root(vreal a, vreal guess) {
+    vreal error = multiply_add(-a, guess * guess, splat(R(1.0)));
+    vreal part = error * multiply_add(error, splat(R(0.375)), splat(R(0.5)));
+    return multiply_add(guess, part, guess);
+}
 FN vreal reciprocal_root(vreal a) {
-    vreal one = splat(R(1.0)), one_half = splat(R(0.5));
 #if HD_DOUBLE
-    enum { STEPS = 3 };
     vreal guess = from_bits(splat_bits(0x5fe6eb50c7b537a9) - (bits_of(a) >> 1));
+    guess = better_root(a, guess);
 #else
-    enum { STEPS = 2 };
     vreal guess = from_bits(splat_bits(0x5f375a86) - (bits_of(a) >> 1));
 #endif
-    for (int i = 0; i < STEPS; i++) {
-        vreal error = multiply_add(-a, guess * guess, one);
-        guess = multiply_add(guess, error * multiply_add(error, splat(R(0.375)), one_half), guess);
-    }
-    return guess;
+    return better_root(a, better_root(a, guess));
 }
 
 /* Correctly rounded: the device's own, or made of multiply_add where HD_ROUNDED_BY_FMA says that it

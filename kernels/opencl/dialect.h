@@ -71,8 +71,18 @@ FN vreal pick(vmask m, vreal a, vreal b) {
 FN vint pick_int(vmask m, vint a, vint b) {
     return select(b, a, m);
 }
-/* A byte for each lane: drivers for CPUs are slow with any(). */
-#if HD_LANES == 16
+/* Drivers for CPUs are slow with any(). Clang's reduction becomes a test of a mask register, if
+   what it reduces is a comparison; elsewhere a byte for each lane. */
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define HD_REDUCES
+#endif
+#endif
+#ifdef HD_REDUCES
+FN int any_lane(vmask m) {
+    return __builtin_reduce_or(m != 0) != 0;
+}
+#elif HD_LANES == 16
 FN int any_lane(vmask m) {
     ulong2 bytes = as_ulong2(convert_char16(m));
     return (bytes.x | bytes.y) != 0;
@@ -117,6 +127,54 @@ FN vint load_ints(GLOBAL const int *from) {
     return HD_CONVERT_INT(HD_WIDE(vload)(0, from));
 }
 
+#endif
+
+#include "../common/rows.h"
+
+#if HD_LANES > 1 && !HD_DOUBLE
+#define HD_OWN_ROWS
+/* The rows of four lanes; the halves of its halves are what the rows have at one place. Written
+   lane by lane, as elsewhere, PoCL makes scattered stores of it. */
+FN int16 load_four_rows(GLOBAL const int *table, vint index, int lane) {
+    return (int16)(vload4(0, table + lane_int(&index, lane)),
+                   vload4(0, table + lane_int(&index, lane + 1)),
+                   vload4(0, table + lane_int(&index, lane + 2)),
+                   vload4(0, table + lane_int(&index, lane + 3)));
+}
+#if HD_LANES == 4
+#define HD_OF_ROWS(part) a.part
+#elif HD_LANES == 8
+#define HD_OF_ROWS(part) (int8)(a.part, b.part)
+#else
+#define HD_OF_ROWS(part) (int16)(a.part, b.part, c.part, d.part)
+#endif
+FN FourWords fetch_four_words(GLOBAL const uint *table, vint index) {
+    GLOBAL const int *words = (GLOBAL const int *)table;
+    FourWords found;
+    int16 a = load_four_rows(words, index, 0);
+#if HD_LANES >= 8
+    int16 b = load_four_rows(words, index, 4);
+#endif
+#if HD_LANES == 16
+    int16 c = load_four_rows(words, index, 8), d = load_four_rows(words, index, 12);
+#endif
+    found.word[0] = HD_OF_ROWS(even.even);
+    found.word[1] = HD_OF_ROWS(odd.even);
+    found.word[2] = HD_OF_ROWS(even.odd);
+    found.word[3] = HD_OF_ROWS(odd.odd);
+    return found;
+}
+FN FourReals fetch_four_reals(GLOBAL const real *table, vint index) {
+    FourWords words = fetch_four_words((GLOBAL const uint *)table, index);
+    FourReals found;
+    for (int i = 0; i < 4; i++)
+        found.number[i] = HD_WIDE(as_float)(words.word[i]);
+    return found;
+}
+FN FourReals load_rows(GLOBAL const real *table, vint index, int count) {
+    (void)count;
+    return fetch_four_reals(table, index);
+}
 #endif
 
 #if HD_DOUBLE
