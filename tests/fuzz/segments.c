@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* Files beside a film that is being made: its segments and what a killed run was writing to are
+   removed, and nothing else is. Input: names of files, one a line. */
+#define _XOPEN_SOURCE 700
+
+#include "output/segments.h"
+
+#include <fcntl.h>
+#include <regex.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "fuzz.h"
+#include "image/formats.h"
+
+enum { MOST_NAMES = 8, MOST_LENGTH = 200 };
+
+static const char segment[] = "^film[.]mkv[.]part-[0-9]+-[0-9a-f]{1,16}$";
+static const char unfinished[] = "^film[.]mkv[.]part-.*[.]tmp-[0-9]+-[0-9]+$";
+
+static bool matches(const char *pattern, const char *name) {
+    regex_t compiled;
+    fuzz_expect(regcomp(&compiled, pattern, REG_EXTENDED | REG_NOSUB) == 0, "no pattern");
+    const bool found = regexec(&compiled, name, 0, NULL, 0) == 0;
+    regfree(&compiled);
+    return found;
+}
+
+static void path_of(char path[HD_MAX_PATH], const char *film, const char *name) {
+    const char *slash = strrchr(film, '/');
+    snprintf(path, HD_MAX_PATH, "%.*s/%s", (int)(slash - film), film, name);
+}
+
+/* What has no name that a file can have is left out; returns how many there are. */
+static int make_files(char *text, const char *film, const char *names[MOST_NAMES]) {
+    char path[HD_MAX_PATH], *rest = NULL;
+    int count = 0;
+    for (char *name = strtok_r(text, "\n", &rest); name != NULL && count < MOST_NAMES;
+         name = strtok_r(NULL, "\n", &rest)) {
+        path_of(path, film, name);
+        const int file = strlen(name) > MOST_LENGTH || strchr(name, '/') != NULL
+                             ? -1
+                             : open(path, O_CREAT | O_EXCL | O_WRONLY, 0600);
+        if (file < 0)
+            continue;
+        close(file);
+        names[count++] = name;
+    }
+    return count;
+}
+
+/* Those that match are gone, the others are there; these are removed if it is the end. */
+static void check_files(const char *film, const char *names[], int count, const char *gone,
+                        bool is_end) {
+    char path[HD_MAX_PATH];
+    for (int i = 0; i < count; i++) {
+        path_of(path, film, names[i]);
+        const bool is_there = access(path, F_OK) == 0;
+        if (matches(gone, names[i]))
+            fuzz_expect(!is_there, "a file of an earlier run that stays");
+        else if (!matches(segment, names[i]) && !matches(unfinished, names[i]))
+            fuzz_expect(is_there, "somebody else's file that is removed");
+        if (is_end)
+            unlink(path);
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static HdError error;
+    static int numbers[2 * HD_LEAST_SEGMENT];
+    const HdFrameList frames = {.frames = numbers, .count = 2 * HD_LEAST_SEGMENT};
+    const char *film = fuzz_file("film.mkv", "", 0), *names[MOST_NAMES];
+    HdOutputPlan plan = {.style = {.frames_per_second = 1}, .keeps_films = true, .resumes = true};
+    const HdOutput output = {.name = film, .format = hd_format_of(film), .is_film = true};
+    HdSegments segments;
+    char *text = fuzz_text(data, size);
+    const int count = make_files(text, film, names);
+    const HdStatus status = hd_segments_find(&segments, &plan, &output, &frames, &error);
+    fuzz_expect(status == HD_OK, error.message);
+    check_files(film, names, count, unfinished, false);
+    hd_segments_remove(&segments);
+    check_files(film, names, count, segment, true);
+    hd_segments_free(&segments);
+    free(text);
+    return 0;
+}
