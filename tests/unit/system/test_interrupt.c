@@ -204,8 +204,7 @@ static void who_does_not_end_in_time_is_ended(void **state) {
     setenv("HEDRON_STOP_PATIENCE", "0.1", 1);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(outcome_of(acts[i]), -SIGTERM);
-        assert_string_equal(said,
-                            "hedron: interrupted; what was at work did not end in time\n");
+        assert_string_equal(said, "hedron: interrupted; what was at work did not end in time\n");
         assert_int_not_equal(access("left", F_OK), 0);
         assert_true(took >= 0.1);
     }

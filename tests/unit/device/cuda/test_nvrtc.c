@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "device/cuda/nvrtc.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 
 #include "test_folder.h"
@@ -63,13 +64,188 @@ static void without_a_cache_it_is_loaded_each_time(void **state) {
     assert_int_equal(check(61, 12), HD_UNAVAILABLE);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+/* ---- which is taken: of stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
+
+static HdNvrtc nvrtc;
+static const char *const places[] = {"CUDA_HOME", "CUDA_PATH", "HOME", "VIRTUAL_ENV",
+                                     "CONDA_PREFIX"};
+
+static int begin_search(void **state) {
+    (void)state;
+    unsetenv("HEDRON_NVRTC");
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        unsetenv(places[i]);
+    return 0;
+}
+
+static int end_search(void **state) {
+    (void)state;
+    remove_folder("there");
+    return 0;
+}
+
+/* Below the folder that such a variable names. */
+static void put(const char *below, const char *name) {
+    char path[600], command[2000];
+    snprintf(path, sizeof path, "there/%s", below);
+    snprintf(command, sizeof command, "mkdir -p %s && cp %s %s/%s", path, STUB_NVRTC, path, name);
+    assert_int_equal(system(command), 0);
+}
+
+static void expect_version(int arch, int driver_major, const char *path, int major, int minor) {
+    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", arch, driver_major, path, &error), HD_OK);
+    int told_major, told_minor;
+    assert_int_equal(nvrtc.functions.version(&told_major, &told_minor), 0);
+    assert_int_equal(nvrtc.major, major);
+    assert_int_equal(nvrtc.minor, minor);
+    assert_true(told_major == major && told_minor == minor);
+    hd_nvrtc_close(&nvrtc);
+    assert_null(nvrtc.library);
+}
+
+static void expect_none(const char *path, const char *message) {
+    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", 7, 12, path, &error), HD_UNAVAILABLE);
+    expect_contains(error.message, message);
+}
+
+static void the_newest_that_suits_the_driver_is_taken(void **state) {
+    (void)state;
+    setenv("CUDA_HOME", "there", 1);
+    put("lib64", "libnvrtc.so.12.3");
+    put("lib64", "libnvrtc.so.12.8");
+    put("lib64", "libnvrtc.so.11.9");
+    put("lib64", "libnvrtc.so.13.0");
+    put("lib64", "libnvrtc.so.14.1");
+    expect_version(7, 12, NULL, 12, 8);
+    expect_version(7, 11, NULL, 11, 9);
+    expect_version(7, 13, NULL, 13, 0);
+    expect_version(7, 0, NULL, 14, 1);
+    expect_version(7, 10, NULL, 14, 1);
+    expect_version(110, 12, NULL, 11, 9);
+    expect_version(130, 12, NULL, 13, 0);
+}
+
+static void it_is_looked_for_where_people_put_it(void **state) {
+    (void)state;
+    static const char packages[] = "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib";
+    static const struct {
+        const char *variable, *below;
+        bool is_package;
+    } found[] = {
+        {"CUDA_HOME", "lib64", false},
+        {"CUDA_PATH", "lib64", false},
+        {"CONDA_PREFIX", "lib", false},
+        {"CONDA_PREFIX", "", true},
+        {"VIRTUAL_ENV", "", true},
+        {"HOME", ".local/", true},
+        {"HOME", ".local/share/hedron/", true},
+    };
+    char below[200];
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
+        snprintf(below, sizeof below, "%s%s", found[i].below, found[i].is_package ? packages : "");
+        put(below, "libnvrtc.so.12.8");
+        setenv(found[i].variable, "there", 1);
+        expect_version(7, 12, NULL, 12, 8);
+        setenv("HEDRON_NVRTC", "off", 1);
+        expect_none(NULL, "found: none");
+        unsetenv("HEDRON_NVRTC");
+        unsetenv(found[i].variable);
+        remove_folder("there");
+    }
+    setenv("CUDA_HOME", "", 1);
+    put("lib64", "libnvrtc.so.12.8");
+    expect_none(NULL, "compiles for some device (sm_7); to install one that does: python3 -m venv "
+                      "~/.local/share/hedron && ~/.local/share/hedron/bin/pip install "
+                      "nvidia-cuda-nvrtc-cu11, or name a libnvrtc.so in HEDRON_NVRTC; the "
+                      "driver's branch 470 is the last for this card; found: ");
+}
+
+static void one_that_is_named_is_the_only_one(void **state) {
+    (void)state;
+    char named[600];
+    setenv("CUDA_HOME", "there", 1);
+    put("lib64", "libnvrtc.so.13.0");
+    put("lib64", "libnvrtc.so.12.99");
+    put("lib64", "libnvrtc.so.0.1");
+    put("", "libnvrtc.so.12.3");
+    put("", "libnvrtc-builtins.so.12.3");
+    snprintf(named, sizeof named, "%s/there/libnvrtc.so.12.3", test_folder);
+    setenv("HEDRON_NVRTC", named, 1);
+    assert_true(hd_nvrtc_is_named());
+    expect_version(7, 12, NULL, 12, 3);
+    snprintf(named, sizeof named, "%s/there/libnvrtc-builtins.so.12.3", test_folder);
+    void *builtins = dlopen(named, RTLD_NOLOAD | RTLD_LAZY);
+    assert_non_null(builtins);
+    dlclose(builtins);
+    expect_version(7, 12, "there/lib64/libnvrtc.so.13.0", 13, 0);
+    expect_none("there/lib64/libnvrtc.so.12.99", "; found: NVRTC 12.99 for sm_0 to sm_0");
+    expect_none("there/lib64/libnvrtc.so.0.1",
+                "there/lib64/libnvrtc.so.0.1 cannot be loaded as an NVRTC library, version 11.2");
+    expect_none(library, "/library.so cannot be loaded as an NVRTC library, version 11.2 or newer");
+    setenv("HEDRON_NVRTC", "", 1);
+    assert_false(hd_nvrtc_is_named());
+    setenv("HEDRON_NVRTC", "off", 1);
+    assert_false(hd_nvrtc_is_named());
+}
+
+static void what_is_found_and_does_not_fit_is_told_once(void **state) {
+    (void)state;
+    setenv("CUDA_HOME", "there", 1);
+    setenv("CUDA_PATH", "there", 1);
+    put("lib64", "libnvrtc.so.12.3");
+    put("lib64", "libnvrtc.so.13.0");
+    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", 8, 12, NULL, &error), HD_UNAVAILABLE);
+    expect_contains(error.message, "NVRTC 12.3 for sm_7 to sm_120, NVRTC 13.0 for sm_7 to sm_130");
+    assert_ptr_equal(strstr(error.message, "NVRTC 12.3"),
+                     strstr(error.message, "NVRTC 12.3 for sm_7 to sm_120, NVRTC 13.0"));
+    const char *first = strstr(error.message, "NVRTC 12.3");
+    assert_null(strstr(first + 1, "NVRTC 12.3"));
+}
+
+static void packages_suit_card_and_driver(void **state) {
+    (void)state;
+    static const struct {
+        int arch, driver_major;
+        const char *package;
+    } cases[] = {
+        {37, 12, "nvidia-cuda-nvrtc-cu11"}, {49, 0, "nvidia-cuda-nvrtc-cu11"},
+        {50, 12, "nvidia-cuda-nvrtc-cu12"}, {50, 11, "nvidia-cuda-nvrtc-cu11"},
+        {74, 13, "nvidia-cuda-nvrtc-cu12"}, {75, 13, "nvidia-cuda-nvrtc"},
+        {75, 12, "nvidia-cuda-nvrtc-cu12"}, {120, 11, "nvidia-cuda-nvrtc-cu11"},
+        {75, 0, "nvidia-cuda-nvrtc"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_string_equal(hd_nvrtc_package(cases[i].arch, cases[i].driver_major),
+                            cases[i].package);
+}
+
+static void a_library_that_compiles_is_remembered(void **state) {
+    (void)state;
+    char named[600];
+    setenv("HEDRON_CACHE", "there/cache", 1);
+    put("lib64", "libnvrtc.so.12.5");
+    snprintf(named, sizeof named, "%s/there/lib64/libnvrtc.so.12.5", test_folder);
+    setenv("HEDRON_NVRTC", named, 1);
+    assert_int_equal(check(7, 12), HD_OK);
+    assert_true(count_entries("there/cache") > 0);
+    assert_int_equal(check(8, 12), HD_UNAVAILABLE);
+    expect_contains(error.message, "found: NVRTC 12.5 for sm_7 to sm_120");
+}
+
+#define TEST(function)   cmocka_unit_test_setup_teardown(function, begin, end)
+#define SEARCH(function) cmocka_unit_test_setup_teardown(function, begin_search, end_search)
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(what_is_remembered_is_not_loaded),
         TEST(a_library_that_changed_is_looked_at),
         TEST(without_a_cache_it_is_loaded_each_time),
+        SEARCH(the_newest_that_suits_the_driver_is_taken),
+        SEARCH(it_is_looked_for_where_people_put_it),
+        SEARCH(one_that_is_named_is_the_only_one),
+        SEARCH(what_is_found_and_does_not_fit_is_told_once),
+        SEARCH(packages_suit_card_and_driver),
+        SEARCH(a_library_that_compiles_is_remembered),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: MIT */
+/* Which devices are taken, among those of a registry of this test's own: "near" and "far", whose
+   devices are plain C under other names, and "c". */
+#define _XOPEN_SOURCE 700
+#include "choice/devices.h"
+
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "system/machine.h"
+#include "test_folder.h"
+
+static HdError error;
+static HdRenderOptions options;
+static HdScene scene;
+static HdJob job;
+static HdDeviceTeam team;
+
+/* ---- the registry ---- */
+
+enum { NEAR, FAR, C, MOST = 40 };
+
+static struct {
+    HdDevice list[MOST];
+    int count, asked;
+    HdStatus status;
+} there[HD_BACKEND_COUNT];
+
+static HdStatus list_devices(int backend, HdDevice *devices, int capacity, int *count,
+                             HdError *failure) {
+    there[backend].asked++;
+    assert_true(there[backend].count <= capacity);
+    *count = there[backend].count;
+    memcpy(devices, there[backend].list, sizeof *devices * (size_t)*count);
+    return there[backend].status == HD_OK
+               ? HD_OK
+               : hd_fail(failure, there[backend].status, "its driver is ill");
+}
+
+static HdStatus list_near(HdDevice *devices, int capacity, int *count, HdError *failure) {
+    return list_devices(NEAR, devices, capacity, count, failure);
+}
+
+static HdStatus list_far(HdDevice *devices, int capacity, int *count, HdError *failure) {
+    return list_devices(FAR, devices, capacity, count, failure);
+}
+
+static HdStatus list_c(HdDevice *devices, int capacity, int *count, HdError *failure) {
+    return list_devices(C, devices, capacity, count, failure);
+}
+
+static HdStatus open_c(const HdDevice *device, const HdRenderOptions *asked, void **renderer,
+                       HdError *failure) {
+    return fake.is_missing ? hd_fail(failure, HD_UNAVAILABLE, "it is missing")
+                           : hd_backend_c.functions->open(device, asked, renderer, failure);
+}
+
+static HdRendererFunctions c_functions;
+static HdBackend near = {.name = "near", .functions = &c_functions, .enumerate = list_near};
+static HdBackend far = {.name = "far", .functions = &c_functions, .enumerate = list_far};
+static const HdBackend c = {.name = "c",
+                            .needs_no_driver = true,
+                            .uses_host_threads = true,
+                            .functions = &c_functions,
+                            .enumerate = list_c};
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&near, &far, &c};
+
+const HdBackend *hd_backend_find(const char *name) {
+    for (int i = 0; i < HD_BACKEND_COUNT; i++)
+        if (strcmp(hd_backends[i]->name, name) == 0)
+            return hd_backends[i];
+    return NULL;
+}
+
+const HdBackend *hd_backend_always_there(void) {
+    return &c;
+}
+
+/* Returns the device, to be changed. */
+static HdDevice *add(int backend, const char *name, int units) {
+    const int index = there[backend].count++;
+    HdDevice *device = &there[backend].list[index];
+    *device = (HdDevice){.index = index,
+                         .compute_units = units,
+                         .clock_mhz = 1000,
+                         .has_wide_atomics = true,
+                         .is_cpu = backend == C};
+    snprintf(device->name, sizeof device->name, "%s", name);
+    snprintf(device->driver, sizeof device->driver, "driver 1");
+    return device;
+}
+
+static int begin(void **state) {
+    (void)state;
+    c_functions = *hd_backend_c.functions;
+    c_functions.open = open_c;
+    near.needs_no_driver = far.needs_no_driver = false;
+    setenv("HEDRON_CACHE", "off", 1);
+    memset(there, 0, sizeof there);
+    memset(&fake, 0, sizeof fake);
+    options = (HdRenderOptions){.threads = 1};
+    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
+        return 1;
+    job = (HdJob){.scene = &scene, .frame_count = 1};
+    add(C, "Processor", 2);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_close_devices(&team);
+    hd_scene_free(&scene);
+    return 0;
+}
+
+/* ---- what comes of it ---- */
+
+/* "near:0 far:1"; or the message. */
+static const char *opened_by(const HdDeviceWish *wish, HdStatus status) {
+    static char text[1024];
+    HdDeviceWish whole = *wish;
+    whole.options = &options;
+    whole.job = &job;
+    hd_close_devices(&team);
+    assert_int_equal(hd_open_devices(&team, &whole, &error), status);
+    if (status != HD_OK) {
+        assert_int_equal(team.count, 0);
+        return error.message;
+    }
+    text[0] = '\0';
+    for (int i = 0; i < team.count; i++) {
+        const size_t length = strlen(text);
+        assert_non_null(team.list[i].renderer);
+        snprintf(text + length, sizeof text - length, "%s%s:%d", i > 0 ? " " : "",
+                 team.list[i].device.backend->name, team.list[i].device.index);
+    }
+    return text;
+}
+
+#define expect_opened(expected, ...)                                                               \
+    assert_string_equal(opened_by(&(HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
+#define expect_failure(status, part, ...)                                                          \
+    expect_contains(opened_by(&(HdDeviceWish){__VA_ARGS__}, status), part)
+
+/* ---- one ---- */
+
+static void gpus_come_first_then_the_fastest(void **state) {
+    (void)state;
+    expect_opened("c:0", .kind = HD_ONLY_CPU);
+    assert_string_equal(team.why, "the C backend, since only a CPU will do");
+    assert_int_equal(there[NEAR].asked + there[FAR].asked, 0);
+    add(FAR, "Processor by driver", 9)->is_cpu = true;
+    add(FAR, "Slow", 1);
+    add(FAR, "Fast", 3)->clock_mhz = 900;
+    add(FAR, "Cool", 5)->clock_mhz = 500;
+    there[NEAR].status = HD_UNAVAILABLE;
+    expect_opened("far:2", .backend = "far");
+    assert_string_equal(team.why, "the best device of the backend named by --backend");
+    there[NEAR].status = HD_OK;
+    add(NEAR, "Old", 1);
+    HdCandidates candidates;
+    const HdDeviceWish gpu = {.kind = HD_PREFER_GPU, .options = &options, .job = &job};
+    assert_int_equal(hd_candidates_find(&candidates, &gpu, &error), HD_OK);
+    static const char *const order[] = {"Old",      "Fast", "Cool", "Slow", "Processor by driver",
+                                        "Processor"};
+    assert_int_equal(candidates.count, 6);
+    for (int i = 0; i < 6; i++)
+        assert_string_equal(candidates.list[i].device.name, order[i]);
+    assert_int_equal(candidates.compared, 4);
+    assert_true(candidates.is_free && candidates.frame_seconds > 0.0);
+}
+
+static void names_are_numbers_and_parts_of_names(void **state) {
+    (void)state;
+    add(NEAR, "Turbo 10", 1);
+    add(NEAR, "Giga 20", 9);
+    add(FAR, "Giga 30", 9);
+    expect_opened("near:0", .device = "turbo");
+    assert_string_equal(team.why,
+                        "named by --device; passed over: far: no device of that number or name");
+    expect_opened("near:1", .device = "near:1");
+    expect_opened("far:0", .device = "GIGA", .backend = "far");
+    expect_opened("far:0", .device = "0", .backend = "far");
+    expect_opened("near:0", .device = "0");
+    expect_opened("near:1", .device = "1");
+    expect_opened("c:0", .device = "proc");
+    expect_failure(HD_UNAVAILABLE,
+                   "no device can do this (asked for device '30 '): near: no device of that number "
+                   "or name",
+                   .device = "30 ");
+    expect_contains(error.message, "; see 'hedron devices'");
+    expect_failure(HD_UNAVAILABLE, "near: no device of that", .device = "near:2");
+    expect_failure(HD_BAD_INPUT, "--device is 'near:1', but --backend is 'far'", .device = "near:1",
+                   .backend = "far");
+    expect_failure(HD_UNAVAILABLE, "near: no device", .device = "near:x");
+}
+
+static void a_small_job_asks_no_driver(void **state) {
+    (void)state;
+    add(NEAR, "Turbo", 9);
+    expect_opened("c:0", .kind = HD_WANT_ANY);
+    assert_int_equal(there[NEAR].asked, 0);
+    expect_contains(team.why, "it needs about ");
+    expect_contains(team.why, " s, less than other devices take to start");
+    assert_string_equal(team.note, "");
+}
+
+/* Nobody has so many frames in a quarter of a second. */
+static void a_large_job_compares_all_but_processors_by_drivers(void **state) {
+    (void)state;
+    HdCandidates candidates;
+    HdDeviceWish any = {.options = &options, .job = &job};
+    job.frame_count = 1 << 24;
+    add(NEAR, "Turbo", 9);
+    add(FAR, "Processor by driver", 9)->is_cpu = true;
+    assert_int_equal(hd_candidates_find(&candidates, &any, &error), HD_OK);
+    assert_int_equal(candidates.count, 2);
+    assert_int_equal(candidates.compared, 2);
+    assert_true(candidates.is_free);
+    assert_string_equal(candidates.list[1].device.name, "Processor");
+    any.device = "c:0";
+    assert_int_equal(hd_candidates_find(&candidates, &any, &error), HD_OK);
+    assert_int_equal(candidates.compared, 0);
+    assert_false(candidates.is_free);
+}
+
+static void more_devices_than_there_is_room_for(void **state) {
+    (void)state;
+    HdCandidates candidates;
+    const HdDeviceWish gpu = {.backend = "near", .options = &options, .job = &job};
+    for (int i = 0; i < MOST; i++)
+        add(NEAR, "Card", 1 + i % 20);
+    assert_int_equal(hd_candidates_find(&candidates, &gpu, &error), HD_OK);
+    assert_int_equal(candidates.count, HD_MAX_CANDIDATES);
+    for (int i = 0; i < HD_MAX_CANDIDATES; i++)
+        assert_int_equal(candidates.list[i].device.index, 19 - i / 2 + (i % 2) * 20);
+}
+
+static void a_gpu_that_is_passed_over_is_told(void **state) {
+    (void)state;
+    HdDevice *broken = add(NEAR, "Broken", 9);
+    snprintf(broken->unusable, sizeof broken->unusable, "no compiler is here");
+    snprintf(add(FAR, "Wrong", 9)->not_strict, 100, "it computes wrongly: 1 + 1");
+    there[C].list[0].is_cpu = true;
+    job.frame_count = 1 << 24;
+    HdCandidates candidates;
+    HdDeviceWish wish = {.options = &options, .job = &job};
+    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    assert_string_equal(candidates.passed,
+                        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is "
+                        "passed over: it computes wrongly: 1 + 1; --math fast would take it, for "
+                        "other bytes");
+    assert_string_equal(candidates.reasons,
+                        "Broken: no compiler is here; Wrong: it computes wrongly: 1 + 1");
+    expect_opened("c:0", .kind = HD_PREFER_GPU);
+    assert_string_equal(team.note,
+                        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is "
+                        "passed over: it computes wrongly: 1 + 1; --math fast would take it, for "
+                        "other bytes; no suitable GPU was found; tracing with c on Processor");
+    expect_contains(team.why, "no GPU can do this; passed over: Broken: no compiler is here; ");
+    /* Whose own wish rules them out need not be told. */
+    options.lanes = 4;
+    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    assert_string_equal(candidates.passed, "");
+    options.lanes = 1;
+    wish.backend = "far";
+    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_UNAVAILABLE);
+    assert_string_equal(candidates.passed, "");
+    assert_string_equal(error.message, "no device can do this: Wrong: it computes wrongly: 1 + 1");
+    there[FAR].status = HD_FAILED;
+    wish.backend = NULL;
+    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    expect_contains(candidates.passed, "; far is passed over: its driver is ill");
+    there[FAR].status = HD_UNAVAILABLE;
+    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    assert_null(strstr(candidates.passed, "far"));
+    expect_contains(candidates.reasons, "; far: its driver is ill");
+}
+
+static void only_a_cpu_is_no_gpu(void **state) {
+    (void)state;
+    add(NEAR, "Turbo", 9);
+    expect_failure(HD_UNAVAILABLE, "no device can do this: Turbo: it is not a CPU",
+                   .kind = HD_ONLY_CPU, .backend = "near");
+}
+
+/* ---- several ---- */
+
+static void a_list_names_each_once(void **state) {
+    (void)state;
+    add(NEAR, "Turbo", 9);
+    add(NEAR, "Giga", 9);
+    expect_opened("near:1 c:0 near:0", .device = "near:1,c:0,turbo");
+    expect_failure(HD_BAD_INPUT, "--device is 'near:1,giga', which names near:1 (Giga) twice",
+                   .device = "near:1,giga");
+    expect_failure(HD_BAD_INPUT, "'near:1,,c:0', which has an empty part", .device = "near:1,,c:0");
+    expect_failure(HD_BAD_INPUT, "which has an empty part", .device = "near:1,");
+    expect_failure(HD_BAD_INPUT, "--device is 'c:0,all', but 'all' stands alone",
+                   .device = "c:0,all");
+    expect_failure(HD_UNAVAILABLE, "(asked for device '2'): near: no device of that",
+                   .device = "near:0,near:2");
+    expect_failure(HD_BAD_INPUT, "--device is 'near:0,c:0', expected one device",
+                   .device = "near:0,c:0", .is_for_one = true);
+    expect_failure(HD_BAD_INPUT, "--device is 'all', expected one device", .device = "all",
+                   .is_for_one = true);
+}
+
+static void a_list_has_an_end(void **state) {
+    (void)state;
+    char list[8 * HD_MOST_TRACERS + 8] = "";
+    near.needs_no_driver = far.needs_no_driver =
+        true; /* nothing is remembered of their arithmetic */
+    for (int i = 0; i < MOST; i++)
+        add(NEAR, "Card", 1), add(FAR, "Chip", 1);
+    for (int i = 0; i < HD_MOST_TRACERS + 1; i++) {
+        const size_t length = strlen(list);
+        snprintf(list + length, sizeof list - length, "%s%s:%d", i > 0 ? "," : "",
+                 i < MOST ? "near" : "far", i % MOST);
+    }
+    expect_failure(HD_BAD_INPUT, "--device names more than 64 devices", .device = list);
+    *strrchr(list, ',') = '\0';
+    opened_by(&(HdDeviceWish){.device = list}, HD_OK);
+    assert_int_equal(team.count, HD_MOST_TRACERS);
+    opened_by(&(HdDeviceWish){.device = "all"}, HD_OK);
+    assert_int_equal(team.count, HD_MOST_TRACERS);
+}
+
+static void all_are_those_that_can_do_it(void **state) {
+    (void)state;
+    add(NEAR, "Turbo", 9)->nvidia_arch = 61;
+    add(NEAR, "Turbo", 9)->nvidia_arch = 61;
+    add(FAR, "Turbo", 9)->nvidia_arch = 61;
+    add(FAR, "Giga", 9);
+    add(FAR, "Processor by driver", 9)->is_cpu = true;
+    expect_opened("near:0 near:1 far:1 c:0", .device = "all");
+    assert_string_equal(team.why, "one of all, by --device");
+    assert_string_equal(team.note, "");
+    expect_opened("far:0 far:1 far:2", .device = "all", .backend = "far");
+    expect_opened("c:0", .device = "all", .kind = HD_ONLY_CPU);
+    snprintf(there[FAR].list[1].unusable, 100, "no compiler is here");
+    expect_opened("near:0 near:1 c:0", .device = "all");
+    assert_string_equal(team.note, "far:1 (Giga) is left out: no compiler is here");
+    fake.is_missing = true;
+    expect_failure(HD_UNAVAILABLE,
+                   "no device can do this: near:0 (Turbo) is left out: near: it is missing; "
+                   "near:1 (Turbo) is left out: near: it is missing; far:0 ",
+                   .device = "all");
+    there[FAR].count = 0;
+    there[FAR].status = HD_UNAVAILABLE;
+    expect_failure(HD_UNAVAILABLE, "no device can do this: far: its driver is ill", .device = "all",
+                   .backend = "far");
+}
+
+/* A core of plain C's goes to each GPU. */
+static void plain_c_leaves_cores_to_gpus(void **state) {
+    (void)state;
+    char text[256];
+    const int all = hd_processor_count();
+    options.threads = 0;
+    for (int gpus = 0; gpus < 3; gpus++) {
+        opened_by(&(HdDeviceWish){.device = "all"}, HD_OK);
+        assert_int_equal(team.count, gpus + 1);
+        hd_renderer_describe(team.list[gpus].renderer, text, sizeof text);
+        const int threads = all - gpus > 1 ? all - gpus : 1;
+        char expected[64];
+        snprintf(expected, sizeof expected, "%d thread%s", threads, threads == 1 ? "" : "s");
+        expect_contains(text, expected);
+        add(NEAR, "Turbo", 9);
+    }
+}
+
+/* ---- lists of what is there ---- */
+
+static void devices_are_named_whatever_they_can_do(void **state) {
+    (void)state;
+    static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
+    int count;
+    snprintf(add(NEAR, "Turbo", 9)->unusable, 100, "no compiler is here");
+    add(NEAR, "Giga", 9);
+    there[FAR].status = HD_FAILED;
+    assert_int_equal(hd_devices_named(NULL, NULL, devices, &count, &error), HD_OK);
+    assert_int_equal(count, 3);
+    assert_string_equal(devices[0].name, "Turbo");
+    assert_string_equal(devices[2].name, "Processor");
+    assert_int_equal(hd_devices_named("near", "all", devices, &count, &error), HD_OK);
+    assert_int_equal(count, 2);
+    assert_int_equal(hd_devices_named(NULL, "giga", devices, &count, &error), HD_OK);
+    assert_int_equal(count, 1);
+    assert_string_equal(devices[0].name, "Giga");
+    assert_int_equal(hd_devices_named(NULL, "near:0", devices, &count, &error), HD_OK);
+    assert_int_equal(count, 1);
+    assert_int_equal(hd_devices_named("c", "near:0", devices, &count, &error), HD_BAD_INPUT);
+    assert_int_equal(hd_devices_named(NULL, "7", devices, &count, &error), HD_UNAVAILABLE);
+    assert_string_equal(error.message,
+                        "there is no such device ('7'): near: no device of that number or name; "
+                        "far: its driver is ill");
+    assert_int_equal(hd_devices_named("far", NULL, devices, &count, &error), HD_UNAVAILABLE);
+    assert_string_equal(error.message, "there is no such device: far: its driver is ill");
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(gpus_come_first_then_the_fastest),
+        TEST(names_are_numbers_and_parts_of_names),
+        TEST(a_small_job_asks_no_driver),
+        TEST(a_large_job_compares_all_but_processors_by_drivers),
+        TEST(more_devices_than_there_is_room_for),
+        TEST(a_gpu_that_is_passed_over_is_told),
+        TEST(only_a_cpu_is_no_gpu),
+        TEST(a_list_names_each_once),
+        TEST(a_list_has_an_end),
+        TEST(all_are_those_that_can_do_it),
+        TEST(plain_c_leaves_cores_to_gpus),
+        TEST(devices_are_named_whatever_they_can_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* The driver: the fake one (tests/fake_cuda), one that lacks functions, none; each in a process of
+   its own, which the loader tells where to look. */
+#define _XOPEN_SOURCE 700
+#include "device/cuda/api.h"
+
+#include <sys/wait.h>
+
+#include "device/backend.h"
+#include "test_folder.h"
+
+static HdError error;
+static HdCudaDriver driver;
+static char program[4096], said[4096];
+
+/* ---- loading ---- */
+
+/* The program again: loads the driver, tells what came of it, and ends with the status. */
+static int load(void) {
+    HdStatus status = hd_cuda_load_driver(&driver, &error);
+    printf("%s", status == HD_OK ? hd_cuda_error_name(&driver, HD_CU_ERROR_OUT_OF_MEMORY)
+                                 : error.message);
+    return (int)status;
+}
+
+static void expect_loading(const char *folder, HdStatus expected, const char *message) {
+    setenv("LD_LIBRARY_PATH", folder, 1);
+    FILE *output = popen(program, "r");
+    assert_non_null(output);
+    said[fread(said, 1, sizeof said - 1, output)] = '\0';
+    const int status = pclose(output);
+    unsetenv("LD_LIBRARY_PATH");
+    assert_string_equal(said, message);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), expected);
+}
+
+static void a_driver_is_loaded_or_told_to_be_missing_or_old(void **state) {
+    (void)state;
+    expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY");
+    assert_int_equal(symlink(STUB_NVRTC, "libcuda.so.1"), 0);
+    expect_loading(test_folder, HD_UNAVAILABLE,
+                   "the NVIDIA driver is too old: libcuda.so.1 has no function cuInit");
+    assert_int_equal(remove("libcuda.so.1"), 0);
+    write_bytes("libcuda.so.1", "no library", 10);
+    expect_loading(test_folder, HD_UNAVAILABLE,
+                   "the NVIDIA driver (libcuda.so.1) is not installed");
+}
+
+static void expect_no_start(const char *code, const char *version, HdStatus status,
+                            const char *advice) {
+    char message[512];
+    setenv("FAKE_CUDA_FAILS", "cuInit", 1);
+    setenv("FAKE_CUDA_FAILS_AT", "1", 1);
+    setenv("FAKE_CUDA_ERROR", code, 1);
+    setenv("FAKE_CUDA_DRIVER", version, 1);
+    snprintf(message, sizeof message, "the NVIDIA driver does not start: cuInit failed with %s",
+             advice);
+    expect_loading(FAKE_CUDA, status, message);
+    unsetenv("FAKE_CUDA_FAILS");
+}
+
+static void what_may_help_a_driver_to_start_is_told(void **state) {
+    (void)state;
+    expect_no_start("999", "13010", HD_FAILED,
+                    "CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: sudo rmmod "
+                    "nvidia_uvm && sudo modprobe nvidia_uvm, or a restart");
+    expect_no_start("100", "13010", HD_UNAVAILABLE,
+                    "CUDA_ERROR_NO_DEVICE (100); it is of branch 590 or newer, which drives no "
+                    "card before sm_75: the branch 580 is the last for older ones, such as a GTX "
+                    "1050");
+    expect_no_start("100", "13009", HD_UNAVAILABLE,
+                    "CUDA_ERROR_NO_DEVICE (100); no card is there that it drives, or "
+                    "CUDA_VISIBLE_DEVICES hides it");
+    expect_no_start("2", "13010", HD_FAILED, "CUDA_ERROR_OUT_OF_MEMORY (2)");
+}
+
+/* ---- errors ---- */
+
+static HdCuResult outcome; /* of asking for words */
+static const char *word;
+
+static HdCuResult tell(HdCuResult code, const char **text) {
+    (void)code;
+    *text = word;
+    return outcome;
+}
+
+static void expect_failure(const char *function, HdCuResult code, bool is_loss,
+                           const char *message) {
+    assert_int_equal(hd_cuda_fail(&driver, function, code, &error),
+                     is_loss ? HD_UNAVAILABLE : HD_FAILED);
+    assert_int_equal(hd_is_loss(&error), is_loss);
+    expect_contains(error.message, message);
+}
+
+static void errors_have_their_words(void **state) {
+    (void)state;
+    driver = (HdCudaDriver){.cuGetErrorName = tell, .cuGetErrorString = tell};
+    outcome = HD_CU_SUCCESS;
+    word = "WORD";
+    expect_failure("cuMemAlloc", 2, false, "cuMemAlloc failed with WORD (2: WORD)");
+    word = NULL;
+    expect_failure("cuMemAlloc", 2, false,
+                   "cuMemAlloc failed with an unknown error (2: no description)");
+    word = "WORD";
+    outcome = 1;
+    expect_failure("cuMemAlloc", 2, false,
+                   "cuMemAlloc failed with an unknown error (2: no description)");
+}
+
+static void what_a_device_does_not_survive_is_a_loss(void **state) {
+    (void)state;
+    static const HdCuResult losses[] = {46, 214, 220, 700, 702, 709, 714, 715, 716, 717, 718, 719};
+    for (HdCuResult code = 1; code < 1000; code++) {
+        bool is_loss = false;
+        for (size_t i = 0; i < sizeof losses / sizeof *losses; i++)
+            is_loss = is_loss || losses[i] == code;
+        expect_failure("cuLaunchKernel", code, is_loss, "cuLaunchKernel failed");
+    }
+    /* Another program has the device for itself. */
+    expect_failure("cuDevicePrimaryCtxRetain", 46, false, "cuDevicePrimaryCtxRetain failed");
+    expect_failure("cuDevicePrimaryCtxRetain", 700, true, "cuDevicePrimaryCtxRetain failed");
+}
+
+int main(int count, char **arguments) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_driver_is_loaded_or_told_to_be_missing_or_old),
+        cmocka_unit_test(what_may_help_a_driver_to_start_is_told),
+        cmocka_unit_test(errors_have_their_words),
+        cmocka_unit_test(what_a_device_does_not_survive_is_a_loss),
+    };
+    char own[2048];
+    if (count > 1 && strcmp(arguments[1], "load") == 0)
+        return load();
+    if (realpath(arguments[0], own) == NULL)
+        return 1;
+    snprintf(program, sizeof program, "'%s' load", own);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}
