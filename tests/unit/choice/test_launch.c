@@ -288,9 +288,18 @@ static void options_of_a_run_win(void **state) {
     options.grid = 2;
     assert_false(is_recalled());
     options.grid = 0;
+    options.registers = 64;
+    assert_false(is_recalled());
+    assert_false(recall(&launch));
+    assert_int_equal(launch.registers, 64);
+    options.registers = 0;
     assert_true(is_recalled());
     /* Nor does a record that says otherwise change what they say. */
     options.block = 128;
+    remember();
+    assert_false(is_recalled());
+    options.block = 0;
+    options.registers = 64;
     remember();
     assert_false(is_recalled());
 }
@@ -380,6 +389,116 @@ static void what_is_remembered_is_opened(void **state) {
     assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
 }
 
+/* ---- what makes jobs alike ---- */
+
+static void expect_alike(bool is_alike) {
+    char text[16];
+    assert_int_equal(hd_record_get("test", &scene, &options, "", text, sizeof text), is_alike);
+}
+
+/* Remembered under the number `from`, recalled under others: the powers of two that they are
+   rounded up to decide, and 0 is as good as 1. */
+static void expect_rounded(int *number) {
+    const int kept = *number;
+    static const struct {
+        int from, alike, other;
+    } cases[] = {{5, 8, 9}, {5, 6, 4}, {1, 1, 2}, {0, 0, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        *number = cases[i].from;
+        assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
+        expect_alike(true);
+        *number = cases[i].alike;
+        expect_alike(true);
+        *number = cases[i].other;
+        expect_alike(false);
+        *number = kept;
+        remove_folder("cache");
+    }
+}
+
+static void jobs_alike_serve_each_other(void **state) {
+    (void)state;
+    scene.width = scene.height = 4;
+    scene.samples_per_side = 1;
+    expect_rounded(&scene.width);
+    expect_rounded(&scene.height);
+    expect_rounded(&scene.depth);
+    expect_rounded(&scene.instance_count);
+    scene.instance_count = 0;
+    const HdSolidKind kinds[] = {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON};
+    for (int i = 0; i < 4; i++) { /* 4, 6, 8, 12 planes */
+        scene.solids[0].kind = kinds[i];
+        assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
+        for (int k = 0; k < 4; k++) {
+            scene.solids[0].kind = kinds[k];
+            const bool both_are_of_8 = (i == 1 || i == 2) && (k == 1 || k == 2);
+            expect_alike(i == k || both_are_of_8);
+        }
+        remove_folder("cache");
+    }
+}
+
+static void samples_are_squares(void **state) {
+    (void)state;
+    scene.width = scene.height = 16;
+    scene.samples_per_side = 4;
+    assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
+    scene.samples_per_side = 2;
+    expect_alike(false);
+    scene.width = 64;
+    expect_alike(true);
+}
+
+static void devices_and_kinds_are_told_apart(void **state) {
+    (void)state;
+    char text[16], lines[3000];
+    memset(lines, 'a', sizeof lines);
+    lines[sizeof lines - 1] = '\0';
+    assert_int_equal(hd_record_put("test", &scene, &options, lines, "x", &error), HD_OK);
+    assert_true(hd_record_get("test", &scene, &options, lines, text, sizeof text));
+    assert_false(hd_record_get("tests", &scene, &options, lines, text, sizeof text));
+    lines[sizeof lines - 2] = 'b';
+    assert_false(hd_record_get("test", &scene, &options, lines, text, sizeof text));
+}
+
+/* ---- trials ---- */
+
+static int measured;
+
+static double fall(const HdRenderOptions *asked) {
+    (void)asked;
+    return 5.0 - (double)measured++;
+}
+
+static void the_least_of_several_counts(void **state) {
+    (void)state;
+    HdRenderer *renderer;
+    HdTrialTime time;
+    measured = 0;
+    fake.trace_seconds = fall;
+    scene.width = 64;
+    scene.height = 32;
+    options.math = HD_MATH_FAST; /* no self-test */
+    assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
+    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
+                     HD_OK);
+    assert_int_equal(fake.rendered, 3);
+    assert_true(time.trace_seconds == 3.0);
+    assert_int_equal(time.width, 32);
+    assert_int_equal(time.height, 16);
+    assert_true(time.share == 0.25);
+    assert_true(time.seconds > 0.0 && time.seconds < 3600.0);
+    measured = -100; /* rising */
+    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 1e-9, 1, &time, &error),
+                     HD_OK);
+    assert_true(time.trace_seconds == 105.0);
+    assert_int_equal(time.width * time.height, 1);
+    fake.fails = true;
+    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
+                     HD_FAILED);
+    hd_renderer_close(renderer);
+}
+
 /* ---- limits of registers ---- */
 
 static void limits_of_registers_suit_the_device(void **state) {
@@ -422,6 +541,10 @@ int main(void) {
         TEST(deep_trees_are_another_kind_of_job),
         TEST(without_a_folder_nothing_is_remembered),
         TEST(what_is_remembered_is_opened),
+        TEST(jobs_alike_serve_each_other),
+        TEST(samples_are_squares),
+        TEST(devices_and_kinds_are_told_apart),
+        TEST(the_least_of_several_counts),
         TEST(limits_of_registers_suit_the_device),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
