@@ -126,6 +126,36 @@ static void rays_see_what_is_there(void **state) {
     expect_near(seen[2].outside.x, 0.1 + 0.5 * 8.0 + 0.25 * 8.0, 0.3); /* and is not met twice */
 }
 
+/* What meshes show by themselves and send on, with their own materials and with a place's. */
+static void meshes_are_seen_from_all_sides(void **state) {
+    (void)state;
+    HdMeshMaterial materials[2] = {{.material = plain(), .emission = {0.5, 6.0, 0.0}},
+                                   {.material = plain(), .emission = {2.0, 0.0, 0.0}}};
+    HdMesh mesh = {.material_count = 2, .materials = materials};
+    HdInstance instance = {.material = plain()};
+    HdSolid solids[2];
+    HdSeen seen[4];
+    HdScene scene = {.solid_count = 2,
+                     .solids = solids,
+                     .meshes = &mesh,
+                     .mesh_count = 1,
+                     .instances = &instance,
+                     .instance_count = 1};
+    two_solids(solids, 3.0);
+    solids[1].face.ambient = 1.0;
+    hd_seen_bounds(&scene, seen);
+    for (int i = 0; i < 4; i++) {
+        expect_near(seen[i].outside.x, 2.0, 0.1);
+        expect_near(seen[i].outside.y, 6.0, 0.2);
+        expect_near(seen[i].inside.y, 6.0, 0.2);
+        assert_true(seen[i].outside.x >= 2.0 && seen[i].outside.y >= 6.0);
+    }
+    instance.has_material = true; /* which mirrors, so that what the mesh emits is seen again */
+    instance.material.reflection = 0.5;
+    hd_seen_bounds(&scene, seen);
+    expect_near(seen[0].outside.y, 6.0 / (1.0 - 0.5), 0.3);
+}
+
 static void depth_follows_the_strongest_ray(void **state) {
     (void)state;
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 2.0};
@@ -145,6 +175,7 @@ int main(void) {
         cmocka_unit_test(total_reflection_counts),
         cmocka_unit_test(the_brightest_counts),
         cmocka_unit_test(rays_see_what_is_there),
+        cmocka_unit_test(meshes_are_seen_from_all_sides),
         cmocka_unit_test(depth_follows_the_strongest_ray),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
