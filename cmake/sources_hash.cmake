@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -DFOLDER=... -DOUTPUT=... -P sources_hash.cmake writes a C file with a hash of all sources that
-# may decide a pixel. A changed comment counts as well: a hash that errs, errs to the safe side.
+# may decide a pixel, and one of those among them that compute it: the kernels, and how CPUs run them. A changed comment counts as well: a hash that errs, errs to the safe side.
 set(patterns "")
 foreach(folder src cpu kernels)
     foreach(ending c h cl cu)
@@ -13,9 +13,15 @@ if(NOT files)
 endif()
 list(SORT files)
 set(all "")
+set(kernels "")
 foreach(file IN LISTS files ITEMS CMakeLists.txt cmake/compile_options.cmake cmake/cpu_kernels.cmake)
     file(SHA256 ${FOLDER}/${file} hash)
     string(APPEND all "${file} ${hash}\n")
+    if(file MATCHES "^(kernels|cpu)/")
+        string(APPEND kernels "${file} ${hash}\n")
+    endif()
 endforeach()
-string(SHA256 hash "${all}")
-file(WRITE ${OUTPUT} "extern const char hd_sources_hash[];\nconst char hd_sources_hash[] = \"${hash}\";\n")
+string(SHA256 all "${all}")
+string(SHA256 kernels "${kernels}")
+file(WRITE ${OUTPUT} "extern const char hd_sources_hash[], hd_kernels_hash[];\n"
+     "const char hd_sources_hash[] = \"${all}\";\nconst char hd_kernels_hash[] = \"${kernels}\";\n")

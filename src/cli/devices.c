@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "input/json/json_device_text.h"
+#include "output/fingerprint.h"
 
 /* What a driver says may command a terminal. */
 static void print_text(const char *before, const char *text) {
@@ -80,6 +81,7 @@ HdStatus hd_command_devices(const HdOptions *options, HdError *error) {
         return HD_OK;
     if (list_failed)
         json_decref(list);
-    return hd_json_print(list_failed ? NULL : json_pack("{s:o}", "backends", list),
-                         "the list of devices", error);
+    return hd_json_print(
+        list_failed ? NULL : json_pack("{s:s, s:o}", "kernels", hd_kernels_hash, "backends", list),
+        "the list of devices", error);
 }

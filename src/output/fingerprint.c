@@ -6,7 +6,7 @@
 #include "base/hash.h"
 #include "input/write.h"
 
-/* Made by cmake/sources_hash.cmake. */
+/* Made by cmake/sources_hash.cmake, like hd_kernels_hash. */
 extern const char hd_sources_hash[];
 
 static void add(uint64_t *hash, const void *data, size_t size) {

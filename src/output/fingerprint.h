@@ -17,4 +17,8 @@
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style);
 
+/* SHA-256 of the text of the kernels and of what runs them on CPUs, as 64 digits: what differs in
+   it may compute at another speed. */
+extern const char hd_kernels_hash[];
+
 #endif

@@ -350,6 +350,17 @@ sys.exit(not ($1))" "$logs/stdout"; then
     fi
 }
 
+# expect_svg FILE: a picture with text in it, and no bars.
+expect_svg() {
+    local found
+    found=$(python3 -c 'import sys, xml.dom.minidom as xml
+svg = xml.parse(sys.argv[1]).documentElement
+print(svg.tagName, len(svg.getElementsByTagName("text")) > 0, len(svg.getElementsByTagName("rect")))' "$1" 2>&1) || true
+    if [[ $found != 'svg True 1' ]]; then # the paper
+        fail "$1 is no chart: $found"
+    fi
+}
+
 # expect_python EXPECTED STATEMENTS...: what they print.
 expect_python() {
     local expected=$1 found

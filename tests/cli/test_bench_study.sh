@@ -8,10 +8,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 need_python
 bench=$project/bench/study
-has_gnuplot=0
-if command -v gnuplot >"$logs/which"; then
-    has_gnuplot=1
-fi
 
 # expect_value FILE EXPRESSION EXPECTED: what Python makes of the result `r`, its measurements by part, series,
 # x and device, and their medians.
@@ -98,22 +94,16 @@ FAKE
 chmod +x fake/hedron
 export FAKE_LOG=$work/fake.log FAKE_HOLD=$work/hold
 
-# A gnuplot that draws nothing, for pages whose charts nobody looks at.
-mkdir plain
-printf '#!/bin/sh\nexec cat >plain/script\n' >plain/gnuplot
-chmod +x plain/gnuplot
-tools=$PWD/plain:$PATH
-
-# fake_study CODE MODE OPTIONS...: no run is rejected, and no other machine's results are there; charts where `tools` is PATH.
+# fake_study CODE MODE OPTIONS...: no run is rejected, and no other machine's results are there.
 fake_study() {
     local expected=$1 mode=$2
     shift 2
-    FAKE_MODE=$mode expect_exit "$expected" timeout 300 env PATH="$tools" "$bench" --hedron fake/hedron --others 100 \
+    FAKE_MODE=$mode expect_exit "$expected" timeout 300 "$bench" --hedron fake/hedron --others 100 \
         --results none "$@"
 }
 
 # ---- figures: the first frame warms up, CPUs' smaller pictures count so many times, the machine's name
-tools=$PATH fake_study 0 '' --quick --out one --machine 'Made & up' --parts lights,lanes,threads,blocks,official
+fake_study 0 '' --quick --out one --machine 'Made & up' --parts lights,lanes,threads,blocks,official
 expect_value one/study.json '[r["hedron_bench"], r["bench"], r["complete"], r["quick"], r["repeats"], r["machine"]["name"], r["failures"], r["interference_limit"]]' \
     '[1, "study", false, true, 2, "Made & up", [], 1.0]'
 # It is complete with every part only, and tells which are missing.
@@ -139,21 +129,17 @@ grep -q -F 'same bytes from every device' one/report.html || fail "the page does
 if (($(wc -l <one/study.csv) != $(python3 -c 'import json; print(1 + len(json.load(open("one/study.json"))["measurements"]))'))); then
     fail "the CSV has not a line for each measurement"
 fi
-if ((has_gnuplot)); then
-    for name in official lights lanes threads blocks_block blocks_grid; do
-        if [[ $(head -c 4 "one/study_$name.png" | tail -c 3) != PNG ]]; then
-            fail "study_$name.png is no PNG"
-        fi
-        grep -q "<figure id=\"study_$name\"" one/report.html || fail "the page has no chart $name"
-    done
-fi
+for name in official lights lanes threads blocks_block blocks_grid; do
+    expect_svg "one/study_$name.svg"
+    grep -q "<figure id=\"study_$name\"" one/report.html || fail "the page has no chart $name"
+done
 cat >page.py <<'PYTHON'
 import re, sys
 from html.parser import HTMLParser
 page = open(sys.argv[1], encoding="utf-8").read()
 names = re.findall(r"\bid=[\"']([^\"']+)", page)
 used = re.findall(r"href=[\"']#([^\"']+)", page)
-print(len(names) == len(set(names)), set(used) <= set(names), "http://" in page.replace("http://www.w3.org", ""), "src=" in page)
+print(len(names) == len(set(names)), set(used) <= set(names), "http://" in page.replace("http://www.w3.org", ""), re.search("src=.(?!data:)", page) is not None)
 PYTHON
 # expect_page FILE: one page with nothing beside it, whose names are there once.
 expect_page() {
@@ -229,8 +215,8 @@ for name in ("whole", "killed"):
     json.dump(r, open(f"{name}/study.json", "w", encoding="utf-8"))
 PYTHON
 expect_python '' "$(cat even.py)"
-tools=$PATH fake_study 0 '' --report --out whole
-tools=$PATH fake_study 0 '' --report --out killed
+fake_study 0 '' --report --out whole
+fake_study 0 '' --report --out killed
 for file in report.html study.csv study.json; do
     expect_same whole/$file killed/$file
 done
@@ -262,7 +248,7 @@ grep -q 'unfinished' stopped/report.html || fail "the page does not say that the
 # ---- a wrong picture fails the study; a device that fails leaves the others
 fake_study 1 wrong --quick --out wrong --parts lights,threads
 expect_stdout_contains 'THE PICTURES DIFFER'
-grep -q 'class="bad">.*THE PICTURES DIFFER' wrong/report.html || fail "the page does not tell of the wrong picture"
+grep -q 'class="wrong">.*THE PICTURES DIFFER' wrong/report.html || fail "the page does not tell of the wrong picture"
 expect_value wrong/study.json '[r["pictures"]["same"], r["complete"], max(len(e["runs"]) for e in r["measurements"])]' '[false, false, 1]'
 fake_study 1 'broken opencl' --quick --out broken --parts lights
 expect_stdout_contains 'the card burns'

@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: MIT
 """Error against time: a chart for each device and each kind of error, and one for each scene with the fronts of all."""
-import math
-
 from harness.accuracy import front
 from harness.accuracy.points import recommended
 from harness.accuracy.settings import FAMILIES
 from harness.accuracy.truth import own_error
-from harness.chart.gnuplot import TICKS, Chart, colour, device_title, plain, quoted
+from harness.chart.axes import Axis
+from harness.chart.lines import Line, lines
+from harness.chart.rows import one_value
+from harness.chart.sheet import device_title
 from harness.measure.numbers import number
 
 ERRORS = {"rmse": "root mean square error", "largest": "largest error"}
-MARKS = (7, 5, 9, 13, 11, 4, 6, 8, 12)
 ENOUGH_NEARER = 10  # times nearer to the truth is a reference than what is held to it
 LEAST = 1e-4  # of 255: what is less is drawn there
-# Characters that the plot is wide and high, and how wide one of a name is: all about, for gnuplot does not tell.
-PLOT = (133.0, 25.0)
-LETTER, LINE, MARK = 0.86, 0.85, 0.8
-# Where a name may stand, the best first: how it is aligned, and how far it is from the point.
-SIDES = (("left", 0.8, 0.6), ("right", -0.8, -0.7), ("left", 0.8, -0.7), ("right", -0.8, 0.6), ("left", 0.8, 1.5),
-         ("right", -0.8, -1.6), ("left", 0.8, -1.6), ("right", -0.8, 1.5))
+TIME = Axis("milliseconds for each frame", True)
+
+
+def error_axis(error):
+    return Axis(f"{ERRORS[error]}, steps of 255", True)
 
 
 def caption(truth, points, error):
@@ -30,81 +29,29 @@ def caption(truth, points, error):
                      made, "Times are medians of frames next to the one that is judged."]).strip()
 
 
-# ---- names beside points, where there is room
-
-def is_free(box, taken):
-    inside = 0 <= box[0] and box[2] <= PLOT[0] and 0 <= box[1] and box[3] <= PLOT[1]
-    return inside and not any(box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
-                              for other in taken)
-
-
-def find_room(ranges, points, names):
-    """For each (point, name, whether it must be named): (alignment, characters to the right, up), or None where there is no
-    room. `ranges` are of x and y; `points` are pairs that names must not hide."""
-    def position(point):
-        return [size * math.log(value / first) / math.log(last / first)
-                for size, value, (first, last) in zip(PLOT, point, ranges)]
-    taken = [(x - MARK, y - MARK / 2, x + MARK, y + MARK / 2) for x, y in map(position, points)]
-    for point, name, must in names:
-        (x, y), width, boxes = position(point), LETTER * (len(name) + 1), {}
-        for side in SIDES:
-            left, middle = x + side[1] - (width if side[0] == "right" else 0), y + side[2]
-            boxes[side] = (left, middle - LINE / 2, left + width, middle + LINE / 2)
-        found = next((side for side, box in boxes.items() if is_free(box, taken)), SIDES[0] if must else None)
-        taken += [boxes[found]] if found else []
-        yield found
-
-
-def labels(points, error, ranges):
-    """Those on the front are named where there is room, and what is recommended in words of its own."""
-    named = [point for point in points if point["recommended"]]
-    named += [point for point in front.front(points, error) if point not in named]
-    names = [((point["ms"], point[error]), plain(f"{point['name']} ({point['recommended']})", 40) if point["recommended"] else
-              plain(point["name"], 40), point["recommended"]) for point in named]
-    rooms = find_room(ranges, [(point["ms"], point[error]) for point in points], names)
-    for place, (((x, y), name, _), where) in enumerate(zip(names, rooms)):
-        if where:
-            to, right, up = where
-            yield (f"set label {place + 10} {quoted(name)} at {x!r}, {y!r} {to} offset character {right}, {up} noenhanced "
-                   "font ',11'")
-
-
-# ---- the chart
-
-def ticks(values):
-    """1, 2 and 5 times the powers of ten."""
-    first, last = math.floor(math.log10(min(values))) - 1, math.ceil(math.log10(max(values))) + 1
-    return {f"{digit * 10.0 ** power:g}": digit * 10.0 ** power for power in range(first, last) for digit in TICKS}
+def point_line(name, points, error, **named):
+    return Line(name, [(point["ms"], one_value(point[error])) for point in points], **named)
 
 
 def chart(result, label, error):
+    """Every setting of a device by its family, the best front, and what is recommended."""
     points = [{**point, error: max(point[error], LEAST)} for point in result["points"] if point["device"] == label]
-    families = [name for name in FAMILIES if any(each["family"] == name for each in points)]
     device = next(each for each in result["devices"] if each["label"] == label)
-    rows = (len(families) + 3) // 2
-    made = Chart(result, f"{ERRORS[error].capitalize()} against time, {device_title(device)}",
-                 caption(result["truth"], points, error), rows)
-    times, errors = [point["ms"] for point in points], [point[error] for point in points]
-    ranges = (min(times) / 1.5, max(times) * 2.5), (min(errors) / 1.6, max(errors) * 1.6)
-    made.add("set logscale xy", *(f"set {name}range [{low!r}:{high!r}]" for name, (low, high) in zip("xy", ranges)),
-             "set xlabel 'milliseconds for each frame (logarithmic)'",
-             f"set ylabel '{ERRORS[error]}, steps of 255 (logarithmic)'",
-             *labels(points, error, ranges))
-    made.ticks("x", ticks(times))
-    made.ticks("y", ticks(errors))
-    made.legend(rows)
+    title = f"{ERRORS[error].capitalize()} against time, {device_title(device)}"
+    drawn = [device_front(points, error, "the best front", 0)]
+    for place, family in enumerate(name for name in FAMILIES if any(each["family"] == name for each in points)):
+        drawn.append(point_line(FAMILIES[family], [each for each in points if each["family"] == family], error, colour=place + 1,
+                                mark=place, joined=False))
+    return lines(result, title, caption(result["truth"], points, error), TIME, error_axis(error), drawn)
 
-    def draw(name, these, look, title):
-        made.data(name, ((each["ms"], each[error]) for each in these))
-        made.plot(f"${name} using 1:2 with {look} title {quoted(title)}")
-    draw("front", front.front(points, error), "lines linewidth 2.5 linecolor rgb '#999999'", "the best front")
-    for place, family in enumerate(families):
-        draw(f"f{place}", (each for each in points if each["family"] == family), f"points pointtype {MARKS[place % len(MARKS)]} "
-             f"pointsize 1.3 linewidth 1.5 linecolor rgb '{colour(place)}'", FAMILIES[family])
-    best = [each for each in points if each["recommended"]]
-    if best:
-        draw("best", best, "points pointtype 6 pointsize 3 linewidth 2 linecolor rgb '#000000'", "recommended")
-    return made.finished(640 + 20 * rows)
+
+def device_front(points, error, name, colour, **named):
+    """The best front of a device's points, on which what is recommended is named."""
+    words = {}
+    for word, point in recommended(points):
+        words.setdefault((point["ms"], point[error]), word)
+    return point_line(name, front.front(points, error), error, colour=colour,
+                      labels=tuple((*place, word) for place, word in words.items()), **named)
 
 
 # ---- all devices
@@ -129,21 +76,9 @@ def fronts_chart(about, memory):
     limit, drawn = fronts(memory)
     if not drawn:
         return None
-    titles = {device["label"]: device_title(device) for device in about["devices"] if device["label"] in drawn}
-    rows = (len(drawn) + 2) // 2
-    made = Chart(about, "Error against time, the front of every device", fronts_caption(limit, drawn), rows)
-    for name, key, words in (("x", "ms", "milliseconds for each frame"), ("y", "rmse", f"{ERRORS['rmse']}, steps of 255")):
-        values = [point[key] for these in drawn.values() for point in these]
-        made.axis(name, words, min(values), max(values), True, ticks(values))
-    made.legend(rows)
-    best = front.front([point for these in drawn.values() for point in these])
-    made.data("best", ((each["ms"], each["rmse"]) for each in best))
-    made.plot("$best using 1:2 with lines linewidth 7 linecolor rgb '#cccccc' title 'the best of all'")
-    for place, (label, these) in enumerate(drawn.items()):
-        made.data(f"d{place}", ((each["ms"], each["rmse"]) for each in these))
-        made.plot(f"$d{place} using 1:2 with linespoints pointtype {MARKS[place % len(MARKS)]} pointsize 1.2 linewidth 1.5 "
-                  f"linecolor rgb '{colour(place)}' title {quoted(titles[label])}")
-    return made.finished(640 + 20 * rows)
+    titles = {device["label"]: device_title(device) for device in about["devices"]}
+    return lines(about, "Error against time, the front of every device", fronts_caption(limit, drawn), TIME, error_axis("rmse"), [
+        point_line(titles[label], these, "rmse", colour=place, mark=place) for place, (label, these) in enumerate(drawn.items())])
 
 
 def fronts_charts(result):

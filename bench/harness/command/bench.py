@@ -6,7 +6,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from harness.chart import gnuplot
+from harness.chart import files
 from harness.command.options import Command, part_names, whole_number
 from harness.measure.plan import Plan
 from harness.page import tables
@@ -92,7 +92,7 @@ class Bench(Command):
         self.runnable = self.plan.runnable
         self.result = results.begin(self.name, program, arguments, entries, scene={"name": self.scene}, rows=[],
                                     measurements=self.plan.jobs, **dict.fromkeys(self.keys))
-        gnuplot.remove_old(arguments.out, self.chart_files)
+        files.remove_old(arguments.out, self.chart_files)
 
     # ---- what a measurement says of itself
 
@@ -158,7 +158,7 @@ class Bench(Command):
         document = self.file.with_suffix(".md")
         results.write_text(document, tables.markdown(self.result, self.tables()))
         failures = [f"FAILED: {failure}" for failure in self.result["failures"]]
-        print(tables.text(self.result, self.tables()), *gnuplot.draw(self.charts(), self.arguments.out), *failures,
+        print(tables.text(self.result, self.tables()), *files.draw(self.charts(), self.arguments.out), *failures,
               f"All of it: {self.file}; the tables for documents: {document}", sep="\n")
 
     def exit_code(self):

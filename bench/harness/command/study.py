@@ -5,14 +5,14 @@ import importlib
 import sys
 from pathlib import Path
 
-from harness.chart import gnuplot
+from harness.chart import files
 from harness.command.bench import OWN, Bench
 from harness.measure import jobs
 from harness.measure.numbers import spread_text
 from harness.measure.plan import DEFAULT, OFFICIAL
-from harness.page import html, tables
+from harness.page import answer, html, tables
 from harness.page.section import sections
-from harness.run.program import ROOT, Problem
+from harness.run.program import ROOT, Problem, Program
 from harness.store import result as results
 
 FOLDER = Path(__file__).resolve().parent.parent / "measurements"
@@ -74,7 +74,8 @@ class Study(Bench):
         for left in arguments.out.glob("study.json.tmp-*"):
             left.unlink()
         self.result["machine"] = {"name": arguments.machine, **self.result["machine"]}
-        self.result["hedron"]["sha256"] = hashlib.sha256(self.program.path.read_bytes()).hexdigest()
+        self.kernels = self.program.kernels()
+        self.result["hedron"].update(sha256=hashlib.sha256(self.program.path.read_bytes()).hexdigest(), kernels=self.kernels)
         self.result.update(interference_limit=arguments.others / 100, bounds=None, accuracy=None, stability=None)
         plan.save, plan.slow_seconds, plan.slow_rounds = self.save, SLOW_SECONDS, SLOW_ROUNDS
 
@@ -133,8 +134,14 @@ class Study(Bench):
             raise Problem(2, f"there is no {self.file} to make a page of: leave --report away to measure")
         self.result = results.read_study(self.file)
         self.result["machine"]["name"] = arguments.machine or self.result["machine"]["name"]
+        self.kernels = Program(arguments.hedron).kernels() if arguments.hedron.is_file() else None
         code = self.finish()
         return 0 if code == 130 else code
+
+    def is_same(self, result):
+        """Whether this program's kernels measured it; where none is known, what is new counts as its own."""
+        kernels, wanted = result["hedron"].get("kernels"), self.kernels or self.result["hedron"].get("kernels")
+        return kernels == wanted if wanted else result is self.result
 
     def finish(self):
         """Everything that follows from what was saved: the page, the charts, the table; the exit code."""
@@ -143,17 +150,17 @@ class Study(Bench):
         missing = results.missing_parts(result, PARTS)
         result.update(pictures=compare(result), failures=failures(result), missing=missing, complete=not missing)
         self.save()
-        found = [result, *others(self.arguments.results, result)]
+        found = [{**each, "same_kernels": self.is_same(each)} for each in (result, *others(self.arguments.results, result))]
         drawn = sections(PARTS, found)
-        gnuplot.remove_old(out, ["study_*"])  # charts of sections that are gone go too
+        files.remove_old(out, ["study_*"])  # charts of sections that are gone go too
         charts = {name: chart for section in drawn for name, (chart, _) in section.charts.items()}
-        problems = [line for line in gnuplot.draw(charts, out) if not line.startswith("Chart: ")]
+        files.draw(charts, out)
         wrong, told = [[f"{each['machine']['name']}: {each['pictures']['sentence']}" for each in found
                         if (each["pictures"]["same"] is False) is differ] for differ in (True, False)]
         failed = [f"FAILED: {words}" for words in result["failures"]]
-        results.write_text(out / "report.html", html.page(found, drawn, [*wrong, *failed], told, out))
+        results.write_text(out / "report.html", html.page(found, drawn, answer.paragraph(PARTS, found), [*wrong, *failed], told))
         results.write_text(out / "study.csv", html.csv_text(found))
-        print(*summary_lines(result), "", *problems, *failed, *wrong, *told, sep="\n")
+        print(*summary_lines(result), "", *failed, *wrong, *told, sep="\n")
         if results.is_unfinished(result):
             print("Interrupted: the same call goes on where it stopped.")
         print(f"The page: {out / 'report.html'}; all figures: {self.file} and study.csv")

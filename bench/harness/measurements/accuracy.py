@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Error against time for many settings, and the targets of accuracy; the study has the chart of each device."""
 import argparse
+import html
 import re
 
-from harness.accuracy import chart, choices
+from harness.accuracy import chart, choices, front, settings
 from harness.accuracy.points import SCENE, Points, empty_memory, equal_error, recommended
 from harness.accuracy.targets import SceneTargets
+from harness.chart.lines import lines
 from harness.command.bench import Bench
 from harness.measure.numbers import number, spread_text
 from harness.measure.plan import Plan
 from harness.measure.rows import NONE, Target
-from harness.page.section import Part, all_devices
+from harness.page import answer
+from harness.page.section import Part, all_devices, dagger
 from harness.run import devices
 from harness.run.program import ROOT
 
@@ -199,29 +202,85 @@ def measure(study):
     return None
 
 
-def add_device(section, device, memory):
-    label, own = device.label, [point for point in memory["points"] if point["device"] == device.label]
-    if not own:
-        return
-    place, (width, height) = device.result["machine"], memory["size"]
-    about = {"hedron": device.result["hedron"], "machine": {"words": f"{place['name']}, {place['cores']} cores"},
-             "devices": [device.entry], "points": memory["points"], "truth": memory["truth"],
-             "scene": {"name": f"built-in scene, {width} x {height}"}}
-    told = [f"{word}: {' '.join(point['options'])} in {number(point['ms'], 3)} ms" for word, point in recommended(own)]
-    section.add(f"accuracy{device.machine}_{label.replace(':', '')}", chart.chart(about, label, "rmse"),
-                f"On {device.short} {sum(point['on_front'] for point in own)} of {len(own)} settings are on the "
-                f"front, which no other beats in both time and error; recommended: {'; '.join(told)}.")
-    section.table += [[label, place["name"], point["name"], " ".join(point["options"]),
-                       number(point["ms"]), number(point["rmse"], 3), number(point["largest"], 3),
-                       "yes" if point["on_front"] else "", point["recommended"] or ""] for point in own]
+LIMITS = (20, 10, 5, 2, 1)  # of errors for which a setting is told
+GUIDE = 5  # the one that is marked in the chart
+USUAL_GRID = "grid 4"
+
+
+def panels(device, memory):
+    """The device's front, and its other settings."""
+    own = [point for point in memory["points"] if point["device"] == device.label and point["rmse"] > 0]
+    title = f"{device.name}, {memory['size'][0]} x {memory['size'][1]}"
+    others = [point for point in own if not point["on_front"]]
+    return [chart.device_front(own, "rmse", "the best settings", device.place, mark=device.place, panel=title),
+            chart.point_line("other settings", others, "rmse", colour=device.place, mark=device.place + 1, panel=title,
+                             joined=False)] if own else []
+
+
+def choice(points, limit):
+    """The fastest setting whose error is no greater; what hedron chooses by itself is none."""
+    return front.cheapest([point for point in points if point["family"] != settings.CHOSEN], limit)
+
+
+def choice_rows(memory):
+    """For each error the setting, by the fastest device, and what the same takes on each."""
+    labels = list(dict.fromkeys(point["device"] for point in memory["points"]))
+    yield ["RMSE at most", "setting", *(f"ms on {label}" for label in labels)]
+    for limit in LIMITS:
+        best = choice(memory["points"], limit)
+        if best:
+            same = {point["device"]: point for point in memory["points"] if point["options"] == best["options"]}
+            yield [str(limit), " ".join(best["options"]), *(number(same[label]["ms"], 3) if label in same else "-"
+                                                            for label in labels)]
 
 
 def fill(section):
     section.table = [["device", "machine", "setting", "options", "milliseconds", "RMSE", "largest error", "front",
                       "recommended"]]
-    for device in all_devices(section.results, section.part):
+    drawn, found = [], all_devices(section.results, section.part)
+    for device in found:
         for memory in (device.result["accuracy"] or {}).values():
-            add_device(section, device, memory)
+            drawn += panels(device, memory)
+            section.table += [[device.label, device.result["machine"]["name"], point["name"], " ".join(point["options"]),
+                               number(point["ms"]), number(point["rmse"], 3), number(point["largest"], 3),
+                               "yes" if point["on_front"] else "", point["recommended"] or ""]
+                              for point in memory["points"] if point["device"] == device.label]
+    for result in section.results:
+        for memory in (result["accuracy"] or {}).values():
+            title = f"Which setting, on {result['machine']['name']}, {memory['size'][0]} x {memory['size'][1]}{dagger(result)}"
+            section.shown.append((title, list(choice_rows(memory))))
+    if drawn:
+        section.draw(lines, "built-in scene", "Error against time", "Draft, usual and fine are the fastest settings that are at "
+                     "least as good as a plain grid of 2 x 2, 4 x 4 and 8 x 8 samples. Further left is faster, further down is "
+                     "nearer to the truth.", chart.TIME, chart.error_axis("rmse"), drawn, guides={f"error {GUIDE}": GUIDE})
+
+
+def code(options):
+    return f"<code>{html.escape(' '.join(options))}</code>"
+
+
+def answers(results):
+    """At the error of the chart's mark, and at the time of the usual grid."""
+    found = [(result, memory) for result in results for memory in (result["accuracy"] or {}).values() if memory["points"]]
+    if not found:
+        yield "Accuracy at equal time: <em>missing</em>, for it was measured on no machine here."
+    for result, memory in found:
+        best = choice(memory["points"], GUIDE)
+        if best is None:
+            continue
+        where = f"{answer.BACKENDS[best['device'].split(':')[0]]} of {html.escape(result['machine']['name'])}{dagger(result)}"
+        words = (f"For an error of {GUIDE} of 255 take {code(best['options'])}: "
+                 f"{answer.milliseconds('ms_at_error', best['ms'])} for {memory['size'][0]} x {memory['size'][1]} by {where}")
+        own = [point for point in memory["points"] if point["device"] == best["device"]]
+        grid = next((point for point in own if point["name"] == USUAL_GRID), None)
+        if grid:
+            rival = min((point for point in own if point["ms"] <= grid["ms"] and point["family"] != settings.CHOSEN),
+                        key=lambda point: point["rmse"])
+            words += (f"; in the time of a plain grid of 4 x 4, which is off by {answer.figure('rmse_grid', grid['rmse'])}, "
+                      + (f"{code(rival['options'])} is off by {answer.figure('rmse_best', rival['rmse'])}"
+                         if rival["rmse"] < grid["rmse"] else "no setting is nearer"))
+        yield f"{words}."
+        return
 
 
 def failures(result):
@@ -235,4 +294,4 @@ def failures(result):
 
 PART = Part(15, "Speed against accuracy", "Root mean square error of many settings against a reference of dense samples in "
             "double, by the time of a frame of the built-in scene; see bench/README.md, bench/study accuracy.", measure=measure,
-            fill=fill, failures=failures)
+            fill=fill, failures=failures, answer=answers, lead=3)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The built-in scene along its animation."""
-from harness.chart.lines import Axis, lines
+from harness.chart.axes import Axis
+from harness.chart.lines import lines
 from harness.measure.jobs import chosen_runs, counted
 from harness.measure.numbers import spread
 from harness.measure.plan import DEFAULT
-from harness.page.section import WHOLE_FRAME, Part, ratio, y_axis
+from harness.page.section import TIME_AXIS, WHOLE_FRAME, Part, ratio
 
 BETWEEN = {True: 24, False: 8}  # frames between those that are timed, quickly and not so quickly: they are 240
 
@@ -35,7 +36,7 @@ def fill(section):
     slowest = max(line.points, key=lambda point: point[1]["median"])
     section.draw(lines, WHOLE_FRAME, "Time of tracing along the animation",
                  f"The slowest frame ({slowest[0]}) takes {ratio(times)} as long as the fastest on {line.short}, where that "
-                 "differs most.", Axis("frame number"), y_axis(drawn), drawn)
+                 "differs most.", Axis("frame number"), TIME_AXIS, drawn)
     section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 

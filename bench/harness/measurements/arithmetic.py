@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Strict and fast arithmetic, float and double."""
-from harness.chart.bars import rows
+from harness.chart.rows import Row, rows
+from harness.measure.numbers import number
 from harness.measure.plan import DEFAULT
-from harness.page.section import MS, TOO_LITTLE, WHOLE_FRAME, Part, few, middle, ratio, sentence
+from harness.page.section import TOO_LITTLE, WHOLE_FRAME, Part, few, middle, ratio, relative, sentence
 
 ARITHMETIC = [(precision, math) for precision in ("float", "double") for math in ("strict", "fast")]
 
@@ -18,14 +19,16 @@ def fill(section):
     drawn, told = [], []
     for device in section.devices:
         found = {ARITHMETIC[int(entry["x"])]: entry for entry in device.entries()}
-        drawn += [section.bar(device, ", ".join(kind), entry, ARITHMETIC.index(kind)) for kind, entry in found.items()]
         base = found.get(("float", "strict"))
+        drawn += [Row(device.name, relative(entry, base), f"{number(middle(entry) / middle(base), 3)} x", device.place,
+                      variant=", ".join(kind)) for kind, entry in found.items() if base and entry is not base]
         others = [f"{words} takes {ratio(middle(found[kind]) / middle(base))} as long" for kind, words in
                   ((("float", "fast"), "fast arithmetic"), (("double", "strict"), "double")) if base and kind in found]
         if others:
             told.append(f"on {device.short} {' and '.join(others)}")
     caption = sentence(few(told) + ", all against strict arithmetic in float.") if told else TOO_LITTLE
-    section.draw(rows, WHOLE_FRAME, "Strict and fast, float and double", caption, MS, drawn)
+    if drawn:
+        section.draw(rows, WHOLE_FRAME, "Strict and fast, float and double", caption, "times the time in float, strict", drawn)
     section.tabulate(lambda entry: ", ".join(ARITHMETIC[int(entry["x"])]))
 
 

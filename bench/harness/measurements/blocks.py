@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Block and grid sizes of GPUs."""
-from harness.chart.lines import Axis, lines
-from harness.page.section import WHOLE_FRAME, Part, best_words, ticks_of, y_axis
+from harness.chart.axes import Axis
+from harness.chart.lines import lines
+from harness.page.section import TIME_AXIS, WHOLE_FRAME, Part, best_words, ticks_of
 
 BLOCKS = (32, 64, 128, 256, 512, 1024)
 GRIDS = (1, 4, 16, 64, 256, 1024, 4096, 16384, 65536)
@@ -18,7 +19,7 @@ def fill(section):
         drawn = [device.line(series=series) for device in section.devices if device.entries(series=series)]
         if drawn:
             section.draw(lines, WHOLE_FRAME, f"Time against {what}", f"The fastest: {best_words(drawn)}.",
-                         Axis(what, True, ticks_of(drawn)), y_axis(drawn), drawn, name=f"blocks_{series}")
+                         Axis(what, True, ticks_of(drawn)), TIME_AXIS, drawn, name=f"blocks_{series}")
     section.tabulate(lambda entry: f"--{entry['series']} {entry['x']:g}", "option")
 
 

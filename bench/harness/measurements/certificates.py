@@ -37,4 +37,4 @@ def fill(section):
 
 
 PART = Part(0, "Certificates", "What hedron selftest says of every device: whether its arithmetic and known frames have the bytes "
-            "that they have everywhere.", measure=measure, fill=fill)
+            "that they have everywhere.", measure=measure, fill=fill, lead=5)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The time of a frame against its depth."""
-from harness.chart.lines import Axis
+from harness.chart.axes import Axis
 from harness.page.section import Part, growth_words
 
 DEPTHS = {True: (0, 2, 6, 14, 30), False: (0, 1, 2, 4, 6, 10, 14, 20, 30)}

@@ -4,16 +4,17 @@ import math
 from pathlib import Path
 from statistics import median
 
-from harness.chart import gnuplot
-from harness.chart.bars import Row, ms, rows
-from harness.chart.gnuplot import device_title
-from harness.chart.lines import Axis, Line, lines
+from harness.chart import files
+from harness.chart.axes import Axis
+from harness.chart.lines import Line, lines
+from harness.chart.rows import Row, ms, rows
+from harness.chart.sheet import device_title
 from harness.command.bench import Bench
 from harness.measure.jobs import counted_frames, picture_groups
 from harness.measure.numbers import number, rays, spread, spread_text
 from harness.measurements.animation import by_frame, most_varied
 from harness.page import tables
-from harness.page.section import MS, ratio, y_axis
+from harness.page.section import MS, TIME_AXIS, ratio
 from harness.run.program import Problem
 from harness.store.result import machine_words, scene_words
 
@@ -123,19 +124,19 @@ class Frames(Bench):
                  for each in [*self.result["devices"], *self.plan.jobs] if each["reason"] is not None]
         if not self.result["complete"]:
             told.append("Interrupted: only what was measured before counts.")
-        print(*told, self.result["pictures"]["sentence"], *gnuplot.draw(self.charts(), self.arguments.out),
+        print(*told, self.result["pictures"]["sentence"], *files.draw(self.charts(), self.arguments.out),
               f"All times: {self.file}", sep="\n")
 
     def charts(self):
-        return {"frames": self.bars(), "frames_animation": self.animation()} if self.measured else {}
+        return {"frames": self.dots(), "frames_animation": self.animation()} if self.measured else {}
 
-    def bars(self):
+    def dots(self):
         fastest, slowest = min(self.measured, key=trace_ms), max(self.measured, key=trace_ms)
         caption = f"{device_title(self.device(fastest))} traces a frame in {ms(trace_ms(fastest))}"
         if slowest is not fastest:
             caption += f", and {slowest['device']}, the slowest, takes {ratio(slowest['summary']['ratio_to_fastest'])} as long"
         return rows(self.result, "Time of a frame on each device",
-                    f"{caption}; bars are medians of {fastest['summary']['frames']} frames, whiskers reach from the first to "
+                    f"{caption}; dots are medians of {fastest['summary']['frames']} frames, whiskers reach from the first to "
                     "the third quartile.", MS,
                     [Row(device_title(self.device(job)), job["summary"]["trace_ms"],
                          f"{ms(trace_ms(job))}, whole {ms(job['summary']['frame_ms'])}", place, job["summary"]["frame_ms"])
@@ -155,7 +156,7 @@ class Frames(Bench):
         kind = "the only run" if self.arguments.repeats == 1 else f"the median of {self.arguments.repeats} runs"
         return lines(self.result, "Time of tracing along the animation",
                      f"{words}; each point is {kind}, without the first frame, which warms up.", Axis("frame number"),
-                     y_axis(drawn), drawn)
+                     TIME_AXIS, drawn)
 
     def exit_code(self):
         code = super().exit_code()

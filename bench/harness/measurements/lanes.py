@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rays that a CPU traces together."""
-from harness.chart.lines import Axis
+from harness.chart.axes import Axis
 from harness.page.section import Part, best_words, proportional
 
 LANES = (1, 4, 8, 16)

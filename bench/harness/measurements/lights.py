@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The default scene under many point lights."""
-from harness.chart.lines import Axis
+from harness.chart.axes import Axis
 from harness.measure.scenes import write_lights
 from harness.page.section import Part
 

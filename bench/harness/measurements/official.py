@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""The official example beside the figures of the report that it comes from."""
-from harness.chart.bars import Row, ms, one_value, rows, spread_words
+"""The official example beside the figures of the report that it comes from; and what the page says first of speed: GPU against
+CPU of one machine, and backends of one device against each other."""
+import html
+from statistics import median
+
+from harness.chart.rows import Row, ms, one_value, rows, spread_words
 from harness.measure.plan import OFFICIAL
 from harness.measurements import bounds
-from harness.page.section import MS, Part, speed_words
+from harness.page import answer
+from harness.page.section import MS, Part, dagger, middle, speed_words
 
 FRAMES = ",".join(map(str, range(0, 1024, 128)))
 CPU, GPU = "the report's CPU", "the report's GTX 1050"
 REPORT = {CPU: 84.5e3, GPU: 1.10e3}  # milliseconds of a frame of the same scene
-REPORT_COLOUR = 6
+REPORT_COLOUR = "ink"
 
 
 def add(plan):
@@ -24,7 +29,7 @@ def add(plan):
 def fill(section):
     found = [(device, device.entries()[0]) for device in section.devices]
     times = sorted(((entry["summary"]["frame_ms"], device, entry) for device, entry in found), key=lambda each: each[0]["median"])
-    drawn = [Row(name, one_value(value), ms(value), REPORT_COLOUR, group="report") for name, value in REPORT.items()]
+    drawn = [Row(name, one_value(value), ms(value), REPORT_COLOUR) for name, value in REPORT.items()]
     drawn += [Row(device.name, spread, spread_words(spread), device.place,
                   bounds.milliseconds(device.result, device.entry, entry)) for spread, device, entry in times]
     fastest, slowest = times[0][0]["median"], times[-1][0]["median"]
@@ -37,5 +42,83 @@ def fill(section):
     section.tabulate(lambda entry: f"frames {entry['frames']}")
 
 
+# ---- what it says first
+
+# Parts in which every device does the same work as it does by default.
+ALIKE = ("official", "animation", "triangles", "lights", "samples", "depth")
+
+
+def times(result, label):
+    """{what: median milliseconds} of what all devices do alike; of triangles by the hierarchy."""
+    return {(entry["part"], entry["x"]): middle(entry) for entry in result["measurements"]
+            if entry["device"] == label and entry["part"] in ALIKE and entry["series"] in ("", "bvh") and entry["summary"]}
+
+
+def ratios(slow, fast):
+    return [slow[key] / fast[key] for key in slow if fast.get(key)]
+
+
+def frame_ms(result, label):
+    """Of the official example; None: not measured."""
+    return next((entry["summary"]["frame_ms"]["median"] for entry in result["measurements"]
+                 if (entry["device"], entry["part"]) == (label, "official") and entry["summary"]), None)
+
+
+def fastest(result, is_cpu):
+    """(milliseconds, device); None where there is none of the kind."""
+    found = [(frame_ms(result, device["label"]), device) for device in answer.runnable(result) if device["is_cpu"] is is_cpu]
+    return min((pair for pair in found if pair[0]), key=lambda pair: pair[0], default=None)
+
+
+def place_words(result):
+    return f"{html.escape(result['machine']['name'])}{dagger(result)}"
+
+
+def gpu_words(results):
+    both = [(result, fastest(result, False), fastest(result, True)) for result in results]
+    both = [each for each in both if each[1] and each[2]]
+    if not both:
+        yield ("GPU against CPU: <em>missing</em>, for no machine here has a GPU that drew the official example beside its CPU.")
+    for result, (gpu_ms, gpu), (cpu_ms, cpu) in both:
+        all_ratios = ratios(*(times(result, device["label"]) for device in (cpu, gpu)))
+        yield (f"On {place_words(result)} the GPU ({html.escape(gpu['name'])}, {answer.BACKENDS[gpu['backend']]}) is "
+               f"{answer.figure('gpu_to_cpu', cpu_ms / gpu_ms)} times as fast as the CPU with all its "
+               f"{result['machine']['cores']} cores ({answer.BACKENDS[cpu['backend']]}): "
+               f"{answer.milliseconds('gpu_ms', gpu_ms)} against {answer.milliseconds('cpu_ms', cpu_ms)} for a frame of the "
+               f"official example, and {answer.figure('gpu_to_cpu_least', min(all_ratios))} to "
+               f"{answer.figure('gpu_to_cpu_most', max(all_ratios))} times in other scenes.")
+
+
+def backend_clauses(result):
+    """Each OpenCL device against the backend that is made for the same hardware."""
+    for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
+        own = next((each for each in answer.runnable(result) if each["backend"] == ("c" if device["is_cpu"] else "cuda")
+                    and (device["is_cpu"] or each["name"] == device["name"])), None)
+        found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
+        if found:
+            yield (f"{answer.figure('opencl_to_' + own['backend'], median(found))} times as long as "
+                   f"{answer.BACKENDS[own['backend']]} on the {'CPU' if device['is_cpu'] else 'GPU'} of {place_words(result)}")
+
+
+def trust_words(results):
+    judged = [result["pictures"] for result in results if result["pictures"] and result["pictures"]["same"] is not None]
+    wrong = [result["machine"]["name"] for result in results if result["pictures"] and result["pictures"]["same"] is False]
+    if wrong:
+        return f"<strong>Do not trust these figures: the pictures of backends differ on {html.escape(', '.join(wrong))}.</strong>"
+    if not judged:
+        return "Which backend to trust: <em>missing</em>, for no pictures were compared."
+    count = sum(each["compared"] for each in judged)
+    return (f"Trust any backend, for all made the same bytes in {answer.figure('frames_alike', count, f'{count}')} compared "
+            "frames, and take the fastest")
+
+
+def answers(results):
+    yield from gpu_words(results)
+    clauses, trust = [clause for result in results for clause in backend_clauses(result)], trust_words(results)
+    if clauses:
+        trust = f"{trust.removesuffix('.')}: OpenCL takes {', '.join(clauses)}"
+    yield f"{trust.removesuffix('.')}."
+
+
 PART = Part(1, "Mean time of a frame", "The official example beside the figures of the report that it comes from. A frame is "
-            "prepared, traced and copied.", add, fill=fill)
+            "prepared, traced and copied.", add, fill=fill, answer=answers, lead=2)

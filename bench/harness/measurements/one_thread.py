@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The same picture by one thread, and by everything else."""
-from harness.chart.bars import Row, ms, rows
+from harness.chart.rows import Row, ms, rows
 from harness.measure.numbers import number
 from harness.measure.plan import OFFICIAL
 from harness.measurements import bounds
@@ -39,7 +39,7 @@ def fill(section):
         if plain:
             caption += f", which is {speed_words(middle(plain) / middle(base), 'one thread that traces ray by ray')}"
     section.draw(rows, "official example, 640 x 480, 4 x 4 samples, depth 10", "One thread against everything else",
-                 caption + ". The factors at the bars are against one thread.", MS, drawn, bounds.NAME)
+                 caption + ". The factors beside the times are against one thread.", MS, drawn, bounds.NAME)
     section.tabulate(lambda entry: entry["series"])
 
 

@@ -2,12 +2,12 @@
 """The megakernel and the wavefront: what the choices behind them are worth, and the study's chart of all machines."""
 from statistics import median
 
-from harness.chart.bars import Row, one_value, rows
+from harness.chart.rows import Row, ms, one_value, rows
 from harness.command.bench import Bench
 from harness.measure.numbers import number, spread, spread_text
 from harness.measure.plan import DEFAULT, OFFICIAL
 from harness.measure.rows import Missing
-from harness.page.section import MS, TOO_LITTLE, Part, middle, ratio
+from harness.page.section import TOO_LITTLE, Part, middle, ratio, relative
 from harness.pipelines import cuda, order
 from harness.run.program import ROOT
 
@@ -113,10 +113,10 @@ class Pipelines(Bench):
     def chart(self, measured):
         wavefronts = [each for each in measured if each["pipeline"] == "wavefront"]
         best = min(wavefronts or measured, key=lambda each: each["ratio_to_mega"])
-        caption = (f"A bar of 1 is as long as the megakernel takes. The wavefront does best on {best['device']} with "
+        caption = (f"At 1 it takes as long as the megakernel. The wavefront does best on {best['device']} with "
                    f"{best['scene']}: {number(best['ratio_to_mega'], 3)}. Medians of the rounds' ratios.")
         return rows(self.result, "Time of tracing, against the megakernel", caption, "times the megakernel's time", [
-            Row(f"{each['device']} {each['scene']}, {each['pipeline']}", one_value(each["ratio_to_mega"]),
+            Row(each["pipeline"], one_value(each["ratio_to_mega"]),
                 f"{number(each['ratio_to_mega'], 3)}  ({number(each['trace_ms']['median'], 3)} ms)",
                 PIPELINES.index(each["pipeline"]), group=f"{each['device']} {each['scene']}") for each in measured])
 
@@ -146,13 +146,14 @@ def fill(section):
     for device in section.devices:
         for scene in (DEFAULT, OFFICIAL):
             found = {PIPELINES[int(entry["x"])]: entry for entry in device.entries(series=scene)}
-            drawn += [section.bar(device, f"{scene}, {name}", found[name], place)
-                      for place, name in enumerate(PIPELINES) if name in found]
+            drawn += [Row(scene, relative(found[name], found["mega"]), ms(middle(found[name])), device.place, group=device.name,
+                          variant=name) for name in PIPELINES if name in found and "mega" in found]
             if len(found) == len(PIPELINES):
                 mega, wavefront, uncompacted = (middle(found[name]) for name in PIPELINES)
                 gains.append((wavefront / mega, uncompacted / wavefront, f"{device.short}, {scene}"))
-    section.draw(rows, "built-in scene, 1280 x 720, and official example, 640 x 480, 2 x 2 samples", "Megakernel and wavefront",
-                 gain_words(gains), MS, drawn)
+    if drawn:
+        section.draw(rows, "built-in scene, 1280 x 720, and official example, 640 x 480, 2 x 2 samples", "Megakernel and wavefront",
+                     gain_words(gains), "times the megakernel's time", drawn)
     section.tabulate(lambda entry: f"{entry['series']}, {PIPELINES[int(entry['x'])]}")
 
 

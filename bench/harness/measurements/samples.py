@@ -2,7 +2,7 @@
 """The time of a frame against its samples."""
 from dataclasses import replace
 
-from harness.chart.lines import Axis
+from harness.chart.axes import Axis
 from harness.page.section import Part
 
 SIDES = {True: (1, 2, 4), False: (1, 2, 3, 4, 6, 8)}

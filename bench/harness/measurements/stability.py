@@ -5,7 +5,9 @@ from pathlib import Path
 
 from harness.command.bench import Bench
 from harness.command.options import whole_number
+from harness.measure.numbers import count_words
 from harness.measure.rows import NONE, Missing, Target, known
+from harness.page import answer
 from harness.page.section import Part
 from harness.run.program import ROOT, Problem
 from harness.stability import charts, methods, pictures, scenes, table
@@ -149,8 +151,40 @@ def fill(section):
     about = {**found["stability"], "hedron": found["hedron"], "machine": found["machine"],
              "scene": {"name": "solids and triangles"}}
     for name, chart in charts.charts(about).items():
-        section.add(name, chart, "")
+        section.add(name, chart, chart.caption)
     section.table = [table.HEAD, *[list(row.values()) for row in table.rows(about)]]
+
+
+PLAIN = "ours_triangles"
+NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows", "sums": "sums"}  # and its study
+
+
+def answers(results):
+    """Of the first machine that has it."""
+    found = next((result["stability"] for result in results if result["stability"] and result["stability"]["counts"]), None)
+    if found is None:
+        yield "Stability: <em>missing</em>, for it was measured on no machine here."
+        return
+    ours = [methods.tally([each for each in found["counts"] if each["study"] == study and each["method"] in methods.OURS
+                           and each["case"] not in methods.CRACKS], what) for what, study in NEVER.items()]
+    wrong, tried = map(sum, zip(*ours))
+    others = {method: methods.worst(methods.select(found["counts"], "crossings", charts.EDGES, method), "crossings")[0]
+              for method in methods.methods(found["counts"], "crossings") if method not in methods.OURS}
+    best, worst = min(others, key=others.get), max(others, key=others.get)
+    strayed, paths = methods.tally(methods.select(found["counts"], "paths", method=PLAIN), "paths")
+    words = (f"What fails where: hedron's geometry and sums failed in {answer.figure('ours_failed', wrong, f'{wrong}')} of "
+             f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} tries at every size and distance, where other "
+             f"methods lose {answer.figure('others_least', 100 * others[best])} % ({methods.NAMES[best]}) to "
+             f"{answer.figure('others_most', 100 * others[worst])} % ({methods.NAMES[worst]}) of the rays at edges; of its mirror "
+             f"paths {answer.figure('paths_strayed', 100 * strayed / paths)} % leave the exact path within 30 bounces in triangles")
+    near, pixels = pictures.total(found["precision"], pictures.FLOAT)
+    if pixels:
+        scenes_off = {scene: 1 - pictures.share([each for each in found["precision"] if each["scene"] == scene])
+                      for scene in {each["scene"] for each in found["precision"]}}
+        scene = max(scenes_off, key=scenes_off.get)
+        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - near / pixels))} % of all pixels, most in "
+               f"{scene} ({answer.figure('float_off_most', 100 * scenes_off[scene])} %)")
+    yield f"{words}."
 
 
 def failures(result):
@@ -158,4 +192,4 @@ def failures(result):
 
 
 PART = Part(16, "Stability", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes and "
-            "distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures)
+            "distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures, answer=answers, lead=4)

@@ -2,7 +2,7 @@
 """A run of one frame, with all that comes before and after."""
 from statistics import median
 
-from harness.chart.bars import Row, ms, rows
+from harness.chart.rows import Row, ms, rows
 from harness.measure.jobs import chosen_runs
 from harness.measure.numbers import spread
 from harness.measure.plan import DEFAULT
@@ -46,8 +46,8 @@ def fill(section):
     drawn, told = [], []
     for device in section.devices:
         found = stage_spreads(device)
-        drawn += [Row(f"{device.short}, {name}", found[name], ms(found[name]["median"]), place, group=str(device.place))
-                  for place, name in enumerate(STAGES) if name in found]
+        drawn += [Row(name, found[name], ms(found[name]["median"]), device.place, group=device.name) for name in STAGES
+                  if name in found]
         if found:
             longest = max(found, key=lambda name: found[name]["median"])
             told.append(f"{longest} takes longest on {device.short}, {ms(found[longest]['median'])}")

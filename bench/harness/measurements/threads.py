@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Threads of the C backend."""
-from harness.chart.lines import Axis
+from harness.chart.axes import Axis
 from harness.page.section import Part, few, growth, proportional, speed_words
 from harness.run import machine
 

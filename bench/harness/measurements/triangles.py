@@ -3,13 +3,14 @@
 from dataclasses import replace
 from statistics import median
 
-from harness.chart.lines import Axis, lines
+from harness.chart.axes import Axis
+from harness.chart.lines import lines
 from harness.command.bench import Bench
 from harness.command.options import whole_number
 from harness.measure.numbers import count_words, spread
 from harness.measure.rows import Missing
 from harness.measure.scenes import TRIANGLE_TICKS, make_object, write_object_scene
-from harness.page.section import Part, few, growth_words, y_axis
+from harness.page.section import TIME_AXIS, Part, few, growth_words
 from harness.run import machine
 from harness.triangles import leaks, primary, rates, sweep
 from harness.triangles.sweep import scene_name
@@ -202,14 +203,14 @@ def fill(section):
     drawn, trees = [], []
     for device in section.devices:
         if device.entries(series="bvh"):
-            trees.append(device.line(f"{device.short}, hierarchy", series="bvh"))
-            drawn += [trees[-1], replace(device.line(f"{device.short}, each triangle tried", series="brute"), dash=4)]
+            trees.append(device.line(f"{device.title}, hierarchy", series="bvh"))
+            drawn += [trees[-1], replace(device.line(f"{device.title}, each triangle tried", series="brute"), dash=4)]
     if not trees:
         return
     caption = growth_words(trees, "triangles", lambda x: count_words(int(x)))
     caption += f" The hierarchy is the faster one {few(list(map(crossing_words, section.devices)))}."
     section.draw(lines, "mirrored, transparent sphere with bumps, 1280 x 960, 2 x 2 samples",
-                 "Time against the number of triangles", caption, Axis("triangles", True, TRIANGLE_TICKS), y_axis(), drawn)
+                 "Time against the number of triangles", caption, Axis("triangles", True, TRIANGLE_TICKS), TIME_AXIS, drawn)
     section.tabulate(lambda entry: f"{entry['x']:g}, {entry['series']}", "triangles")
 
 

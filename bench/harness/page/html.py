@@ -3,18 +3,24 @@
 import csv
 import html
 import io
-import re
 
-from harness.store.result import is_unfinished
+from harness.chart.sheet import NARROW, STYLE, WIDE
+from harness.page.section import dagger
+from harness.store.result import is_unfinished, scene_words
 
-STYLE = """body{font:16px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em;color:#222}
-h1,h2{line-height:1.2}h2{margin-top:2.2em;border-top:1px solid #ccc;padding-top:.8em}
-figure{margin:1em 0}svg{width:100%;height:auto;display:block}
-table{border-collapse:collapse;font-size:14px;margin:1em 0}th,td{border:1px solid #ccc;padding:.2em .6em;text-align:left;
-vertical-align:top;overflow-wrap:break-word}th{background:#f3f3f3}.wide{overflow-x:auto}
-.bad{background:#b00020;color:#fff;padding:.6em 1em}
-nav a{margin-right:1em;white-space:nowrap}summary{cursor:pointer;color:#0072B2}"""
-
+# Where a screen is narrower it gets the narrow charts.
+PAGE_STYLE = STYLE + """
+body{font:16px/1.5 sans-serif;max-width:1100px;margin:0 auto;padding:0 1rem 3rem;color:var(--ink);background:var(--paper)}
+h1{font-size:1.3rem;margin:.7rem 0 .3rem}h2{margin:2.6rem 0 .3rem;border-top:1px solid var(--grid);padding-top:.9rem}
+h1,h2,h3{line-height:1.25}h3{margin:1.4rem 0 .2rem}p,figcaption{max-width:75ch}.answer{font-size:1.06rem;margin:.3rem 0}
+figure{margin:.6rem 0 1.2rem}svg{width:100%;height:auto;display:block}.narrow{display:none;max-width:520px}
+@media(max-width:760px){.wide{display:none}.narrow{display:block}body{line-height:1.42}.answer{font-size:1rem}}
+table{border-collapse:collapse;font-size:14px;margin:.4rem 0}th,td{border:1px solid var(--grid);padding:.2em .5em;text-align:left;
+vertical-align:top;overflow-wrap:break-word}th{font-weight:bold}.scroll{overflow-x:auto}
+.wrong{background:#b00020;color:#fff;padding:.6em 1em}.soft{color:var(--soft)}a,summary{color:var(--k0)}summary{cursor:pointer}
+details{margin:.5rem 0}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
+.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,300px),1fr));gap:1rem 1.2rem}.pictures figure{margin:0}
+.pictures img{width:100%;height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}"""
 
 METHOD = ("Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "
           "charts of time. The first frame of a run warms up and does not count. A run's figure is the mean of its frames, "
@@ -29,18 +35,21 @@ def table(rows):
     head, *body = rows
     lines = ["<table>", "<tr>" + "".join(f"<th>{text(cell)}</th>" for cell in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{text(cell)}</td>" for cell in row) + "</tr>" for row in body]
-    return "<div class=\"wide\">" + "\n".join([*lines, "</table>"]) + "</div>"
+    return "<div class=\"scroll\">" + "\n".join([*lines, "</table>"]) + "</div>"
 
 
-def figure(name, caption, folder):
-    """With the SVG in it, but for its head; names within it are its own on a page with others."""
-    file = folder / f"{name}.svg"
-    if not file.is_file():
-        return f"<p>{text(caption)}</p>"
-    svg = file.read_text(encoding="utf-8")
-    svg = re.sub(r"<title>.*?</title>\s*|<desc>.*?</desc>\s*", "", svg[svg.index("<svg"):], flags=re.S)
-    svg = re.sub(r"(\bid=['\"]|href=['\"]#|url\(['\"]?#)", rf"\g<1>{name}-", svg).strip()
-    return f"<figure id=\"{name}\" role=\"img\" aria-label=\"{text(caption)}\">\n{svg}\n</figure>"
+def figure(name, chart, caption, is_alone):
+    """Both ways it can be drawn, of which a screen shows one."""
+    heading = "" if is_alone else f"<h3>{text(chart.title)}</h3>\n"
+    drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{text(caption or chart.title)}\">{chart.svg(width)}</div>"
+                      for kind, width in (("wide", WIDE), ("narrow", NARROW)))
+    return (f"<figure id=\"{name}\">\n{heading}<p class=\"soft\">{text(scene_words(chart.about))}</p>\n{drawn}\n"
+            f"<figcaption>{text(caption)}</figcaption>\n</figure>")
+
+
+def picture(title, words, png):
+    return (f"<figure><h3>{text(title)}</h3><img alt=\"{text(title)}\" src=\"data:image/png;base64,{png}\">"
+            f"<figcaption>{text(words)}</figcaption></figure>")
 
 
 def machine_rows(results):
@@ -69,38 +78,55 @@ def noise_words(result):
     return words + (f" The load was {min(loads)} to {max(loads)}." if loads else "")
 
 
-def head(results, failures, pictures):
-    words = ["<h1>hedron: a study of speed</h1>", *(f"<p class=\"bad\">{text(each)}</p>" for each in failures)]
-    if any(map(is_unfinished, results)):
-        words.append("<p class=\"bad\">A study here is unfinished: bench/study goes on where it stopped.</p>")
-    if any(result["quick"] for result in results):
-        words.append("<p>Quick studies have few repeats and small pictures; they are rough.</p>")
+def machines(results, pictures):
+    """What the figures come from, folded away."""
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
     absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(result['missing'])}." for result in results
               if result.get("missing")]
     told = [*changed, *map(noise_words, results), *absent, *pictures]
-    words += [table(machine_rows(results)), "<ul>", *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul>"]
+    return ["<details id=\"machines\"><summary>Machines, programs and method</summary>", table(machine_rows(results)), "<ul>",
+            *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul></details>"]
+
+
+def warnings(results, failures):
+    words = [f"<p class=\"wrong\">{text(each)}</p>" for each in failures]
+    if any(map(is_unfinished, results)):
+        words.append("<p class=\"wrong\">A study here is unfinished: bench/study goes on where it stopped.</p>")
+    quick = [result["machine"]["name"] for result in results if result["quick"]]
+    if quick:
+        words.append(f"<p class=\"soft\">Rough, for quick studies have few repeats and small pictures: {text('; '.join(quick))}.</p>")
+    strange = [result["machine"]["name"] for result in results if dagger(result)]
+    if strange:
+        words.append(f"<p class=\"soft\">\u2020 Measured with other kernels than this program's, so its own may be faster or slower: "
+                     f"{text('; '.join(strange))}.</p>")
     return words
 
 
-def section_words(section, folder):
+def section_words(section):
     words = [f"<h2 id=\"{section.part}\">{text(section.title)}</h2>", f"<p>{text(section.about)}</p>"]
-    words += [figure(name, caption, folder) for name, (_, caption) in section.charts.items()]
+    if section.pictures:
+        words += ["<div class=\"pictures\">", *(picture(*each) for each in section.pictures), "</div>"]
+    for title, rows in section.shown:
+        words += [f"<h3>{text(title)}</h3>", table(rows)]
+    words += [figure(name, chart, caption, len(section.charts) == 1) for name, (chart, caption) in section.charts.items()]
     words += [f"<p>{text(note)}</p>" for note in section.notes]
     if len(section.table) > 1:
         words.append(f"<details><summary>The figures</summary>{table(section.table)}</details>")
     return words
 
 
-def page(results, sections, failures, pictures, folder):
+def page(results, sections, answer, failures, pictures):
+    """`answer` is HTML, what the page opens with."""
     links = "\n".join(f"<a href=\"#{section.part}\">{text(section.title)}</a>" for section in sections)
     words = ["<!DOCTYPE html>", "<html lang=\"en\"><head><meta charset=\"utf-8\">",
-             "<meta name=\"viewport\" content=\"width=device-width\"><title>hedron: a study of speed</title>",
-             f"<style>{STYLE}</style></head><body>", *head(results, failures, pictures), f"<nav>{links}</nav>"]
+             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">",
+             f"<title>hedron: how fast, how exact, how stable</title><style>{PAGE_STYLE}</style></head><body>",
+             "<h1>hedron: how fast, how exact, how stable</h1>", answer, *warnings(results, failures),
+             f"<details><summary>Contents</summary><nav>{links}</nav></details>"]
     for section in sections:
-        words += section_words(section, folder)
-    return "\n".join([*words, "</body></html>", ""])
+        words += section_words(section)
+    return "\n".join([*words, *machines(results, pictures), "</body></html>", ""])
 
 
 CSV_HEAD = ["machine", "device", "device_name", "part", "series", "x", "scene", "options", "renderer", "runs", "rejected",

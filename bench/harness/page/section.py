@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from harness.chart.bars import Row, spread_words
-from harness.chart.gnuplot import axis_number, device_title, is_wide, plain
-from harness.chart.lines import Axis, Line, lines
+from harness.chart.axes import Axis, axis_number
+from harness.chart.lines import Line, lines
+from harness.chart.sheet import device_title, plain
 from harness.measure.numbers import number, spread_text
 from harness.store.result import machine_words
 
@@ -13,6 +13,7 @@ NAME_LENGTH, MACHINE_LENGTH = 28, 24
 MOST_CLAUSES = 4
 TOO_LITTLE = "Too little was measured to compare."
 MS = "milliseconds for each frame"
+TIME_AXIS = Axis(MS, True)
 WHOLE_FRAME = "one frame of the built-in scene, 1280 x 720, 2 x 2 samples"
 
 
@@ -28,19 +29,22 @@ class Part:
     measure: Callable = None
     fill: Callable = None  # fills its section, from the results
     failures: Callable = lambda result: []
+    answer: Callable = None  # gives sentences of HTML for the page's first paragraph, from the results (page/answer.py)
+    lead: int = 9  # its place among those that answer, at the top of the page; the others follow in their order
 
 
 @dataclass(frozen=True)
 class Device:
-    """One of one machine, and what it measured of a part; `place` counts through all of them and gives the colour."""
+    """One of one machine, and what it measured of a part; `place` counts through all that differ and gives the colour."""
     result: dict
     entry: dict
     place: int
-    machine: int
     part: str
     label: str
+    title: str  # beside those of the same machine
     short: str  # in sentences
     name: str  # of the machine too, where there are several
+    machine: str  # where there are several
 
     def entries(self, **wanted):
         """The measured ones."""
@@ -51,19 +55,27 @@ class Device:
     def line(self, name=None, points=None, **wanted):
         """Time against what the part varies."""
         points = points or sorted((each["x"], each["summary"]["trace_ms"]) for each in self.entries(**wanted))
-        return Line(name or self.name, points, self.place, self.machine + 1, self.place, self.short)
+        return Line(name or self.title, points, self.place, 1, self.place, self.short, self.machine)
 
 
 def all_devices(results, part):
     """`results` are in the order of the page; this machine's, if any, comes first."""
-    found = []
-    for count, result in enumerate(results):
+    found, places = [], {}
+    for result in results:
         machine = plain(result["machine"]["name"], MACHINE_LENGTH)
         for entry in (entry for entry in result["devices"] if entry["reason"] is None):
-            names = (entry["label"], device_title(entry)) if len(results) == 1 else (
-                f"{entry['label']} ({machine})", f"{plain(device_title(entry), NAME_LENGTH)}, {machine}")
-            found.append(Device(result, entry, len(found), count, part, entry["label"], *names))
+            title = device_title(entry)
+            names = (entry["label"], title, "") if len(results) == 1 else (
+                f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
+                f"{machine}{dagger(result)}")
+            place = places.setdefault((result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]), len(places))
+            found.append(Device(result, entry, place, part, entry["label"], title, *names))
     return found
+
+
+def dagger(result):
+    """Marks what other kernels than this program's measured."""
+    return "" if result.get("same_kernels", True) else " \u2020"
 
 
 @dataclass
@@ -76,6 +88,8 @@ class Section:
     charts: dict = field(default_factory=dict)  # (chart, caption) by their names
     table: list = field(default_factory=list)  # rows of cells, the first is the head
     notes: list = field(default_factory=list)
+    shown: list = field(default_factory=list)  # (title, rows of cells) of tables that are not folded away
+    pictures: list = field(default_factory=list)  # (title, words, PNG as base64)
 
     def __post_init__(self):
         self.devices = [device for device in all_devices(self.results, self.part) if device.entries()]
@@ -104,18 +118,13 @@ class Section:
                     each["trace_ms"], " .. ") + (" (disturbed)" if each["noisy"] else ""), str(entry["scale"]),
                     str(each["runs"]), str(each["rejected"]), " ".join(entry["options"]), entry["renderer"]])
 
-    def bar(self, device, name, entry, colour):
-        """Of a group: the device's, or that of a series of it."""
-        times = entry["summary"]["trace_ms"]
-        return Row(f"{device.short}, {name}", times, spread_words(times), colour, group=f"{device.place} {entry['series']}")
-
     def sweep(self, title, x_axis, caption=None, *, scene=WHOLE_FRAME, points=lambda line: line, name=lambda x: f"{x:g}",
               bounds=None):
         """A line for each device, and a table; `bounds` makes what cannot be undercut from the lines."""
         drawn = [points(device.line()) for device in self.devices]
         words = caption(drawn) if caption else growth_words(drawn, x_axis.words)
         self.draw(lines, scene, title, words, replace(x_axis, ticks=ticks_of(drawn)),
-                  y_axis(None if x_axis.logarithmic else drawn), drawn, **(bounds(drawn) if bounds else {}))
+                  TIME_AXIS, drawn, **(bounds(drawn) if bounds else {}))
         self.tabulate(lambda entry: name(entry["x"]), x_axis.words)
 
     def note_scales(self):
@@ -137,9 +146,9 @@ def sections(parts, results):
         if part.fill and (part.measure or section.devices):
             part.fill(section)
             section.note_scales()
-        if part.fill and (section.charts or section.notes):
+        if part.fill and (section.charts or section.notes or section.pictures):
             found.append(section)
-    return found
+    return sorted(found, key=lambda section: parts[section.part].lead)
 
 
 # ---- what the sentences of all have in common
@@ -160,9 +169,9 @@ def middle(entry):
     return entry["summary"]["trace_ms"]["median"]
 
 
-def y_axis(drawn=None):
-    """Logarithmic, or as the lines need it."""
-    return Axis(MS, drawn is None or is_wide([spread["median"] for line in drawn for _, spread in line.points]))
+def relative(entry, base):
+    """A spread, in times of the other's median."""
+    return {key: value / middle(base) for key, value in entry["summary"]["trace_ms"].items()}
 
 
 def ticks_of(drawn):

@@ -4,7 +4,7 @@ import json
 import shutil
 from pathlib import Path
 
-from harness.chart.bars import Row, one_value, rows
+from harness.chart.rows import Row, one_value, rows
 from harness.measure.numbers import number
 from harness.run.program import ROOT, Problem, run_tool
 
@@ -91,6 +91,6 @@ def lookup_chart(result):
                f"unit with floats by {found['hardware_floats']['error_noise']['max']:.3g}, with 8 bits by "
                f"{found['hardware_8_bits']['error_noise']['max']:.3g}.")
     return rows(result, "Texture lookups", caption, "nanoseconds for each lookup, the whole GPU at work", [
-        Row(f"{name}, {kind}", one_value(found[key][f"{kind}_ns"]), f"{number(found[key][f'{kind}_ns'], 3)} ns", place,
+        Row(name, one_value(found[key][f"{kind}_ns"]), f"{number(found[key][f'{kind}_ns'], 3)} ns", place,
             group=kind)
         for kind in ("coherent", "random") for place, (key, name) in enumerate(LOOKUPS.items())])

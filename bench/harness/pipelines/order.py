@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What it gives to sort a wavefront's queue: hedron_queue_order's figures, and their table and chart."""
-import itertools
 from statistics import median
 
-from harness.chart.bars import boxes, shade
+from harness.chart.rows import Row, one_value, rows
 from harness.measure.numbers import number
 from harness.run.program import run_tool
 
@@ -11,6 +10,7 @@ ORDERS = {"product": "product: item by item", "uncompacted": "with dead rays", "
           "segments": "passing, then mirrored", "touched": "sorted by object touched",
           "touched_face": "sorted by face touched", "met": "sorted by face to be met"}
 PARTS = ("first", "trace", "key", "sort")
+WORDS = dict(zip(PARTS, ("level 0", "levels below", "finding keys", "sorting")))
 
 
 def run(program, *words):
@@ -73,8 +73,9 @@ def chart(result):
                "the processor's time; the product's own loop is timed as a whole.")
     drawn = []
     for each in shown:
-        ends = list(itertools.accumulate(each["ns_a_ray"][part] for part in PARTS))
-        drawn.append((f"{each['batch']} samples, {ORDERS[each['order']]}", f"{number(each['ns_a_ray']['all'], 3)} ns",
-                      [(begin, end, shade(place)) for place, (begin, end) in enumerate(zip([0, *ends], ends))]))
-    return boxes(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray", drawn,
-                 ("level 0", "levels below", "finding keys", "sorting"))
+        name = f"{each['batch']} samples, {ORDERS[each['order']]}"
+        parts = {WORDS[part]: each["ns_a_ray"][part] for part in PARTS if each["ns_a_ray"][part]}
+        parts["all of it"] = each["ns_a_ray"]["all"]
+        drawn += [Row(name, one_value(ns), f"{number(ns, 3)} ns" if variant == "all of it" else "", place, variant=variant)
+                  for place, (variant, ns) in enumerate(parts.items())]
+    return rows(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray", drawn)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs hedron, and the programs beside it. Hedron's statistics are the source of times: no start of a program, no compiling of
 kernels is in them. What a whole run takes is beside them, as `wall`, and what other programs took of the processors meanwhile."""
+import functools
 import hashlib
 import json
 import os
@@ -52,12 +53,21 @@ class Program:
             raise Problem(2, f"{self.path} {' '.join(words)} fails: {message_in(answer.stderr)}")
         return answer.stdout
 
-    def backends(self):
-        """The list of `hedron devices --json`."""
+    @functools.cached_property
+    def listed(self):
+        """What `hedron devices --json` prints."""
         try:
-            return json.loads(self._ask("devices", "--json"))["backends"]
-        except (ValueError, KeyError, TypeError) as error:
+            found = json.loads(self._ask("devices", "--json"))
+            return {"kernels": found.get("kernels"), "backends": found["backends"]}
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise Problem(2, f"{self.path} devices --json prints no list of backends") from error
+
+    def backends(self):
+        return self.listed["backends"]
+
+    def kernels(self):
+        """The hash of its kernels; None: it does not tell."""
+        return self.listed["kernels"]
 
     def beside(self, name):
         """A program that the build put next to hedron, or below."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Which stage of a run was busy when, from the statistics' `seconds` and `began`."""
-from harness.chart.bars import boxes, shade
+from harness.chart.rows import Row, rows
 from harness.measure.rows import Missing
 
 
@@ -48,17 +48,13 @@ def table(timeline):
         f"{timeline['slowest']}."])
 
 
-def light(colour):
-    return sum((((colour >> shift & 255) + 255) // 2) << shift for shift in (0, 8, 16))
-
-
 def chart(result):
     """A row for each stage, a box for each frame."""
     timeline = result["timeline"]
     first = min(box[0] for stage in timeline["boxes"].values() for box in stage)
     caption = (f"{timeline['slowest']} sets the pace: the run takes {timeline['ratio_to_slowest']:.2f} times as long as "
-               "it is busy. Boxes are frames, of alternating shade.")
-    drawn = [(stage, f"{100 * timeline['stages'][stage]['busy_share']:.0f} % busy",
-              [(1e3 * (begin - first), 1e3 * (end - first), light(shade(place)) if frame % 2 else shade(place))
-               for begin, end, frame in frames]) for place, (stage, frames) in enumerate(timeline["boxes"].items())]
-    return boxes(result, "Stages of a run", caption, "milliseconds since the first stage began", drawn)
+               "it is busy. Frames alternate in colour.")
+    drawn = [Row(stage, {"median": 1e3 * (begin - first), "q1": 1e3 * (begin - first), "q3": 1e3 * (end - first)},
+                 "" if place else f"{100 * timeline['stages'][stage]['busy_share']:.0f} % busy", frame % 2)
+             for stage, frames in timeline["boxes"].items() for place, (begin, end, frame) in enumerate(frames)]
+    return rows(result, "Stages of a run", caption, "milliseconds since the first stage began", drawn, spans=True)

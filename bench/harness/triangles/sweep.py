@@ -2,8 +2,9 @@
 """The time of a frame against the number of triangles, by the hierarchy and by brute force: what is compared, and the chart."""
 import math
 
-from harness.chart.gnuplot import device_title
-from harness.chart.lines import Axis, Line, lines
+from harness.chart.axes import Axis
+from harness.chart.lines import Line, lines
+from harness.chart.sheet import device_title
 from harness.measure.numbers import count_words, number
 from harness.measure.rows import Target
 from harness.measure.scenes import TRIANGLE_TICKS

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""Charts as files of SVG."""
+from harness.store.result import write_text
+
+
+def remove_old(folder, patterns):
+    """So that no chart stands beside numbers that are not its own."""
+    for file in (file for pattern in patterns for file in folder.glob(f"{pattern}.svg")):
+        file.unlink()
+
+
+def draw(wanted, folder):
+    """Charts by their names; returns lines that tell what became of them."""
+    for name, chart in wanted.items():
+        write_text(folder / f"{name}.svg", chart.document())
+    return [f"Chart: {folder / name}.svg" for name in wanted]

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""What the figures look like: the built-in scene as it really is, and in two settings, with maps of where they are off; and
+where backends, precisions and arithmetics differ."""
+import base64
+
+from harness.measure.numbers import number
+from harness.page.section import Part, dagger
+from harness.run import devices, pfm
+from harness.run.program import Problem, run_tool
+
+SIZES, REFERENCE_SIDES = {True: (192, 108), False: (320, 180)}, {True: 4, False: 8}
+MISSING = "4"  # steps of 255 that may be left out of the reference
+DRAFT, FINE = ("--samples", "2"), ("--samples", "8", "--aa", "adaptive")
+SETTINGS = {"A draft": DRAFT, "Fine": FINE}
+REFERENCE = "The scene as it is"
+LEGEND = "Black: no difference; violet 1, red 4, orange 16, yellow 128 steps of 255."
+
+
+class Gallery:
+    def __init__(self, study, judge):
+        self.study, self.judge, self.size = study, judge, SIZES[study.arguments.quick]
+        self.entries, self.files = [], {}
+
+    def render(self, name, label, *options):
+        """Returns the name, under which the picture is then known."""
+        study = self.study
+        study.news(f"pictures: {name}")
+        self.files[name] = study.folder / f"gallery-{len(self.files)}.png"
+        done = study.program.render(study.plan.devices[label], None, "0",
+                                    (*options, "--size", f"{self.size[0]}x{self.size[1]}", *study.arguments.options),
+                                    study.folder, output=str(self.files[name]))
+        if done["code"] != 0:
+            raise Problem(done["code"], done["message"])
+        return name
+
+    def add(self, name, png, **more):
+        self.entries.append({"name": name, **more, "png": base64.b64encode(png.read_bytes()).decode("ascii")})
+
+    def compare(self, title, name, with_name, **more):
+        """A map of where two pictures differ."""
+        one, other = self.files[name], self.files[with_name]
+        found, heat = pfm.compare(self.study.program, one, other), self.study.folder / "heat.png"
+        run_tool(self.study.program.path, "compare", one, other, "--diff", heat)
+        self.add(title, heat, **more, off={"rmse": found["display"]["rmse"], "largest": found["display"]["largest"],
+                                           "above_1": found["above_1"]})
+
+    def make(self):
+        judge, runnable = self.judge["label"], self.study.runnable
+        side = REFERENCE_SIDES[self.study.arguments.quick]
+        self.render(REFERENCE, judge, "--reference", "--samples", str(side), "--max-error", MISSING)
+        self.add(REFERENCE, self.files[REFERENCE], device=judge, options=["--reference", "--samples", str(side)])
+        for name, options in SETTINGS.items():
+            self.render(name, judge, *options)
+            self.add(name, self.files[name], device=judge, options=list(options))
+            self.compare(f"{name}: where it is off", name, REFERENCE, device=judge, options=list(options))
+        draft = next(iter(SETTINGS))
+        for label, device in runnable.items():
+            if label != judge and device["strict"]:
+                self.compare(f"{label} against {judge}", self.render(label, label, *DRAFT), draft, device=label, options=list(DRAFT))
+        self.compare("Float against double", draft, self.render("double", judge, *DRAFT, "--precision", "double"), device=judge,
+                     options=[*DRAFT, "--precision", "double"])
+        able = next((label for label, device in runnable.items() if device["backend"] != "c"), None)
+        if able:
+            self.compare("Fast against strict arithmetic", self.render("fast", able, *DRAFT, "--math", "fast"), draft, device=able,
+                         options=[*DRAFT, "--math", "fast"])
+        return {"size": list(self.size), "entries": self.entries}
+
+
+def measure(study):
+    """Raises Problem where a run fails."""
+    judge = devices.judge(study.runnable.values())
+    if judge is None:
+        return "No device that is strict has double precision, so there is no reference."
+    if not study.result.get("gallery"):
+        study.result["gallery"] = Gallery(study, judge).make()
+        study.save()
+    return None
+
+
+def words(each):
+    made = f"{' '.join(each['options'])}, on {each['device']}."
+    if "off" not in each:
+        return made
+    off = each["off"]
+    same = off["largest"] == 0
+    said = "No pixel differs" if same else (f"RMSE {number(off['rmse'], 3)}, at most {number(off['largest'], 3)}; "
+                                            f"{number(100 * off['above_1'], 3)} % of the pixels are off by more than 1")
+    return f"{said}. {made}{'' if same else ' ' + LEGEND}"
+
+
+def fill(section):
+    """Of the first machine that has them: only times are others elsewhere."""
+    found = next((result for result in section.results if result.get("gallery")), None)
+    if found:
+        section.pictures = [(each["name"], words(each), each["png"]) for each in found["gallery"]["entries"]]
+        section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
+
+
+PART = Part(19, "Pictures, and where they differ", "The built-in scene against a reference of dense samples, and backends, "
+            "precisions and arithmetics against each other.", measure=measure, fill=fill, lead=1)
