@@ -61,6 +61,9 @@ if command -v jq >"$logs/which"; then
         if [[ $found != "[\"cuda opencl c\",$listed,$missing]" ]]; then
             fail "the JSON has $found, the list has $listed devices, and $missing backends are missing"
         fi
+        if ! jq -e '.kernels | test("^[0-9a-f]{64}$")' devices.json >"$logs/jq"; then
+            fail "the JSON has no hash of the kernels"
+        fi
         fields=$(jq -c '[.backends[].devices[] | keys_unsorted] | unique' devices.json)
         if [[ $fields != '[["backend","index","name","driver","is_cpu","compute_units","clock_mhz","has_double","unusable","is_measured","not_strict"]]' ]]; then
             fail "the devices have the fields $fields"

@@ -210,9 +210,9 @@ USUAL_GRID = "grid 4"
 def panels(device, memory):
     """The device's front, and its other settings."""
     own = [point for point in memory["points"] if point["device"] == device.label and point["rmse"] > 0]
-    title = f"{device.name}, {memory['size'][0]} x {memory['size'][1]}"
+    title = f"{device.short}, {memory['size'][0]} x {memory['size'][1]}"
     others = [point for point in own if not point["on_front"]]
-    return [chart.device_front(own, "rmse", "the best settings", device.place, mark=device.place, panel=title),
+    return [chart.device_front(own, "rmse", f"{device.title}, best settings", device.place, mark=device.place, panel=title),
             chart.point_line("other settings", others, "rmse", colour=device.place, mark=device.place + 1, panel=title,
                              joined=False)] if own else []
 

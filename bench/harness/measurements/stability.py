@@ -177,12 +177,12 @@ def answers(results):
              f"methods lose {answer.figure('others_least', 100 * others[best])} % ({methods.NAMES[best]}) to "
              f"{answer.figure('others_most', 100 * others[worst])} % ({methods.NAMES[worst]}) of the rays at edges; of its mirror "
              f"paths {answer.figure('paths_strayed', 100 * strayed / paths)} % leave the exact path within 30 bounces in triangles")
-    near, pixels = pictures.total(found["precision"], pictures.FLOAT)
-    if pixels:
-        scenes_off = {scene: 1 - pictures.share([each for each in found["precision"] if each["scene"] == scene])
-                      for scene in {each["scene"] for each in found["precision"]}}
+    compared = [each for each in found["precision"] if each["what"] == pictures.FLOAT]
+    if compared:
+        scenes_off = {scene: 1 - pictures.share([each for each in compared if each["scene"] == scene])
+                      for scene in dict.fromkeys(each["scene"] for each in compared)}
         scene = max(scenes_off, key=scenes_off.get)
-        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - near / pixels))} % of all pixels, most in "
+        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all pixels, most in "
                f"{scene} ({answer.figure('float_off_most', 100 * scenes_off[scene])} %)")
     yield f"{words}."
 
