@@ -76,7 +76,7 @@ wrong += [f"{name}: {value} is told as {words}" for name, value, words in said
           if abs(digits(words) - float(value)) > 0.006 * float(value)]
 told = re.sub("<[^>]+>", "", answer)
 print(wrong, f"take {' '.join(best['options'])}:" in told, len(said) >= 15, page.index('<p class="answer">') < page.index("<h2"),
-      "H200 and 16 cores \u2020" in told, "EPYC \u2020" in page)
+      "\u201cH200 and 16 cores\u201d \u2020" in told, "EPYC \u2020" in page)
 PYTHON
 expect_python '[] True True True True False' 'import runpy, sys' \
     "sys.argv = ['', '$page', 'out/study.json', '$project/bench/results/nvidia-h200.json', '$project/bench/results/nvidia-h200-accuracy-quick.json']" \

@@ -110,7 +110,7 @@ def rows(about, title, caption, unit, drawn, bound_name="", spans=False):
     def paint(sheet):
         painter = Painter(sheet, drawn, axis, ends, spans)
         painter.legend(bound_name)
-        top, before = sheet.y, None
+        top, before, under = sheet.y, None, len(sheet.parts)
         for (group, _), these in itertools.groupby(drawn, key=lambda row: (row.group, row.name)):
             if group and group != before:
                 sheet.y += 4
@@ -118,6 +118,9 @@ def rows(about, title, caption, unit, drawn, bound_name="", spans=False):
             before = group
             painter.line(list(these))
         words = f"{unit}{'' if spans else ', logarithmic'}"
+        over = sheet.parts[under:]
+        del sheet.parts[under:]
         sheet.y = draw_below(sheet, painter.scale, sheet.y + 4, words, None if sheet.is_narrow else top)
+        sheet.parts += over
     return Chart(about, title, caption, paint)
 

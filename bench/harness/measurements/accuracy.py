@@ -228,10 +228,11 @@ def choice_rows(memory):
     yield ["RMSE at most", "setting", *(f"ms on {label}" for label in labels)]
     for limit in LIMITS:
         best = choice(memory["points"], limit)
-        if best:
-            same = {point["device"]: point for point in memory["points"] if point["options"] == best["options"]}
-            yield [str(limit), " ".join(best["options"]), *(number(same[label]["ms"], 3) if label in same else "-"
-                                                            for label in labels)]
+        if best is None:
+            yield [str(limit), "none that was tried", *["-"] * len(labels)]
+            return
+        same = {point["device"]: point for point in memory["points"] if point["options"] == best["options"]}
+        yield [str(limit), " ".join(best["options"]), *(number(same[label]["ms"], 3) if label in same else "-" for label in labels)]
 
 
 def fill(section):
@@ -268,7 +269,7 @@ def answers(results):
         best = choice(memory["points"], GUIDE)
         if best is None:
             continue
-        where = f"{answer.BACKENDS[best['device'].split(':')[0]]} of {html.escape(result['machine']['name'])}{dagger(result)}"
+        where = f"{answer.BACKENDS[best['device'].split(':')[0]]} of “{html.escape(result['machine']['name'])}”{dagger(result)}"
         words = (f"For an error of {GUIDE} of 255 take {code(best['options'])}: "
                  f"{answer.milliseconds('ms_at_error', best['ms'])} for {memory['size'][0]} x {memory['size'][1]} by {where}")
         own = [point for point in memory["points"] if point["device"] == best["device"]]
@@ -292,6 +293,6 @@ def failures(result):
     return found
 
 
-PART = Part(15, "Speed against accuracy", "Root mean square error of many settings against a reference of dense samples in "
+PART = Part(15, "Accuracy: error against time", "Root mean square error of many settings against a reference of dense samples in "
             "double, by the time of a frame of the built-in scene; see bench/README.md, bench/study accuracy.", measure=measure,
             fill=fill, failures=failures, answer=answers, lead=3)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What hedron selftest says of every device, also of those that it finds wrong."""
+import html
 import json
 
+from harness.page import answer
 from harness.page.section import Part
 from harness.run.program import run_tool
 
@@ -36,5 +38,14 @@ def fill(section):
             section.notes.append(f"{result['machine']['name']}: {right} of {len(found)} devices compute rightly, to the last bit.")
 
 
+def answers(results):
+    """Only where devices were asked."""
+    found = [(result, each) for result in results for each in result.get("certificates") or []]
+    wrong = [f"{each['backend']}:{each['index']} of {result['machine']['name']}" for result, each in found if each["verdict"] != "right"]
+    if found:
+        yield (f"The self-test finds {answer.figure('devices_right', len(found) - len(wrong), f'{len(found) - len(wrong)}')} of "
+               f"{len(found)} devices right{html.escape(', but not ' + ', '.join(wrong)) if wrong else ''}.")
+
+
 PART = Part(0, "Certificates", "What hedron selftest says of every device: whether its arithmetic and known frames have the bytes "
-            "that they have everywhere.", measure=measure, fill=fill, lead=5)
+            "that they have everywhere.", measure=measure, fill=fill, answer=answers, lead=5)

@@ -71,7 +71,7 @@ def fastest(result, is_cpu):
 
 
 def place_words(result):
-    return f"{html.escape(result['machine']['name'])}{dagger(result)}"
+    return f"“{html.escape(result['machine']['name'])}”{dagger(result)}"
 
 
 def gpu_words(results):
@@ -89,15 +89,19 @@ def gpu_words(results):
                f"{answer.figure('gpu_to_cpu_most', max(all_ratios))} times in other scenes.")
 
 
-def backend_clauses(result):
-    """Each OpenCL device against the backend that is made for the same hardware."""
-    for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
-        own = next((each for each in answer.runnable(result) if each["backend"] == ("c" if device["is_cpu"] else "cuda")
-                    and (device["is_cpu"] or each["name"] == device["name"])), None)
-        found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
-        if found:
-            yield (f"{answer.figure('opencl_to_' + own['backend'], median(found))} times as long as "
-                   f"{answer.BACKENDS[own['backend']]} on the {'CPU' if device['is_cpu'] else 'GPU'} of {place_words(result)}")
+def backend_words(results):
+    """OpenCL against the backend that is made for the same hardware, clauses."""
+    for base, where in (("c", "CPUs"), ("cuda", "GPUs")):
+        told = []
+        for result in results:
+            for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
+                own = next((each for each in answer.runnable(result) if each["backend"] == base and each["is_cpu"] is device["is_cpu"]
+                            and (device["is_cpu"] or each["name"] == device["name"])), None)
+                found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
+                if found:
+                    told.append(f"{answer.figure(f'opencl_to_{base}', median(found))} ({place_words(result)})")
+        if told:
+            yield f"{' and '.join(told)} times as long as {answer.BACKENDS[base]} on {where}"
 
 
 def trust_words(results):
@@ -109,16 +113,16 @@ def trust_words(results):
         return "Which backend to trust: <em>missing</em>, for no pictures were compared."
     count = sum(each["compared"] for each in judged)
     return (f"Trust any backend, for all made the same bytes in {answer.figure('frames_alike', count, f'{count}')} compared "
-            "frames, and take the fastest")
+            "frames, and take the fastest.")
 
 
 def answers(results):
     yield from gpu_words(results)
-    clauses, trust = [clause for result in results for clause in backend_clauses(result)], trust_words(results)
+    yield trust_words(results)
+    clauses = list(backend_words(results))
     if clauses:
-        trust = f"{trust.removesuffix('.')}: OpenCL takes {', '.join(clauses)}"
-    yield f"{trust.removesuffix('.')}."
+        yield f"OpenCL takes {' and '.join(clauses)}."
 
 
-PART = Part(1, "Mean time of a frame", "The official example beside the figures of the report that it comes from. A frame is "
+PART = Part(1, "Speed: the mean time of a frame", "The official example beside the figures of the report that it comes from. A frame is "
             "prepared, traced and copied.", add, fill=fill, answer=answers, lead=2)

@@ -13,7 +13,8 @@ MISSING = "4"  # steps of 255 that may be left out of the reference
 DRAFT, FINE = ("--samples", "2"), ("--samples", "8", "--aa", "adaptive")
 SETTINGS = {"A draft": DRAFT, "Fine": FINE}
 REFERENCE = "The scene as it is"
-LEGEND = "Black: no difference; violet 1, red 4, orange 16, yellow 128 steps of 255."
+BLACK = 1  # steps of 255: hardly to be seen
+LEGEND = "In maps, black: no difference; violet 1, red 4, orange 16, yellow 128 steps of 255."
 
 
 class Gallery:
@@ -79,21 +80,24 @@ def measure(study):
 
 def words(each):
     made = f"{' '.join(each['options'])}, on {each['device']}."
-    if "off" not in each:
-        return made
-    off = each["off"]
-    same = off["largest"] == 0
-    said = "No pixel differs" if same else (f"RMSE {number(off['rmse'], 3)}, at most {number(off['largest'], 3)}; "
-                                            f"{number(100 * off['above_1'], 3)} % of the pixels are off by more than 1")
-    return f"{said}. {made}{'' if same else ' ' + LEGEND}"
+    off = each.get("off")
+    return made if off is None else (f"RMSE {number(off['rmse'], 3)}, at most {number(off['largest'], 3)}; "
+                                     f"{number(100 * off['above_1'], 3)} % of the pixels are off by more than 1. {made}")
 
 
 def fill(section):
-    """Of the first machine that has them: only times are others elsewhere."""
+    """Of the first machine that has them: only times are others elsewhere. Maps that would be all black are told of."""
     found = next((result for result in section.results if result.get("gallery")), None)
-    if found:
-        section.pictures = [(each["name"], words(each), each["png"]) for each in found["gallery"]["entries"]]
-        section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
+    if found is None:
+        return
+    entries = found["gallery"]["entries"]
+    black = {each["name"]: each["off"]["largest"] for each in entries if each.get("off", {}).get("largest", BLACK + 1) <= BLACK}
+    section.pictures = [(each["name"], words(each), each["png"]) for each in entries if each["name"] not in black]
+    section.notes.append(LEGEND)
+    if black:
+        told = [f"{name}, {f'at most {number(most, 3)} of 255' if most else 'no pixel'}" for name, most in black.items()]
+        section.notes.append(f"Not shown, for the maps are black: {'; '.join(told)}.")
+    section.notes.append(f"Made on {found['machine']['name']}{dagger(found)}, {' x '.join(map(str, found['gallery']['size']))}.")
 
 
 PART = Part(19, "Pictures, and where they differ", "The built-in scene against a reference of dense samples, and backends, "

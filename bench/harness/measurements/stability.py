@@ -182,7 +182,7 @@ def answers(results):
         scenes_off = {scene: 1 - pictures.share([each for each in compared if each["scene"] == scene])
                       for scene in dict.fromkeys(each["scene"] for each in compared)}
         scene = max(scenes_off, key=scenes_off.get)
-        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all pixels, most in "
+        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all pixels, most in the scene "
                f"{scene} ({answer.figure('float_off_most', 100 * scenes_off[scene])} %)")
     yield f"{words}."
 
@@ -191,5 +191,5 @@ def failures(result):
     return methods.failures(result["stability"]["counts"]) if result["stability"] else []
 
 
-PART = Part(16, "Stability", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes and "
+PART = Part(16, "Stability: what fails where", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes and "
             "distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures, answer=answers, lead=4)

@@ -3,6 +3,7 @@
 import csv
 import html
 import io
+import re
 
 from harness.chart.sheet import NARROW, STYLE, WIDE
 from harness.page.section import dagger
@@ -14,13 +15,13 @@ body{font:16px/1.5 sans-serif;max-width:1100px;margin:0 auto;padding:0 1rem 3rem
 h1{font-size:1.3rem;margin:.7rem 0 .3rem}h2{margin:2.6rem 0 .3rem;border-top:1px solid var(--grid);padding-top:.9rem}
 h1,h2,h3{line-height:1.25}h3{margin:1.4rem 0 .2rem}p,figcaption{max-width:75ch}.answer{font-size:1.06rem;margin:.3rem 0}
 figure{margin:.6rem 0 1.2rem}svg{width:100%;height:auto;display:block}.narrow{display:none;max-width:520px}
-@media(max-width:760px){.wide{display:none}.narrow{display:block}body{line-height:1.42}.answer{font-size:1rem}}
+@media(max-width:860px){.wide{display:none}.narrow{display:block}body{line-height:1.42}.answer{font-size:1rem}}
 table{border-collapse:collapse;font-size:14px;margin:.4rem 0}th,td{border:1px solid var(--grid);padding:.2em .5em;text-align:left;
 vertical-align:top;overflow-wrap:break-word}th{font-weight:bold}.scroll{overflow-x:auto}
 .wrong{background:#b00020;color:#fff;padding:.6em 1em}.soft{color:var(--soft)}a,summary{color:var(--k0)}summary{cursor:pointer}
-details{margin:.5rem 0}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
+code,.option{white-space:nowrap}details{margin:.5rem 0}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,300px),1fr));gap:1rem 1.2rem}.pictures figure{margin:0}
-.pictures img{width:100%;height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}"""
+.pictures img{width:100%;box-sizing:border-box;border:1px solid var(--grid);height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}"""
 
 METHOD = ("Times are the statistics' own: no start of a program and no building of kernels is in them, but in the last of the "
           "charts of time. The first frame of a run warms up and does not count. A run's figure is the mean of its frames, "
@@ -28,7 +29,8 @@ METHOD = ("Times are the statistics' own: no start of a program and no building 
 
 
 def text(words):
-    return html.escape(str(words))
+    """No option is torn from its dashes or its value."""
+    return re.sub(r"--[a-z][a-z-]*( [\w./]+(?=[ ,;.:]|$))?", r'<span class="option">\g<0></span>', html.escape(str(words)))
 
 
 def table(rows):
@@ -41,14 +43,14 @@ def table(rows):
 def figure(name, chart, caption, is_alone):
     """Both ways it can be drawn, of which a screen shows one."""
     heading = "" if is_alone else f"<h3>{text(chart.title)}</h3>\n"
-    drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{text(caption or chart.title)}\">{chart.svg(width)}</div>"
+    drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{html.escape(caption or chart.title)}\">{chart.svg(width)}</div>"
                       for kind, width in (("wide", WIDE), ("narrow", NARROW)))
     return (f"<figure id=\"{name}\">\n{heading}<p class=\"soft\">{text(scene_words(chart.about))}</p>\n{drawn}\n"
             f"<figcaption>{text(caption)}</figcaption>\n</figure>")
 
 
 def picture(title, words, png):
-    return (f"<figure><h3>{text(title)}</h3><img alt=\"{text(title)}\" src=\"data:image/png;base64,{png}\">"
+    return (f"<figure><h3>{text(title)}</h3><img alt=\"{html.escape(title)}\" src=\"data:image/png;base64,{png}\">"
             f"<figcaption>{text(words)}</figcaption></figure>")
 
 
