@@ -3,7 +3,7 @@
 narrower than the one below it, and its marks are others, so that none hides another."""
 from dataclasses import dataclass
 
-from harness.chart.axes import Axis, Scale, draw_below, limits
+from harness.chart.axes import Scale, draw_below, limits
 from harness.chart.sheet import Chart, mark_of
 from harness.measure.numbers import number
 

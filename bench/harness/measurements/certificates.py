@@ -41,10 +41,11 @@ def fill(section):
 def answers(results):
     """Only where devices were asked."""
     found = [(result, each) for result in results for each in result.get("certificates") or []]
-    wrong = [f"{each['backend']}:{each['index']} of {result['machine']['name']}" for result, each in found if each["verdict"] != "right"]
+    wrong = [f"{each['backend']}:{each['index']} of {result['machine']['name']}" for result, each in found
+             if each["verdict"] != "right"]
+    right = len(found) - len(wrong)
     if found:
-        yield (f"The self-test finds {answer.figure('devices_right', len(found) - len(wrong), f'{len(found) - len(wrong)}')} of "
-               f"{len(found)} devices right{html.escape(', but not ' + ', '.join(wrong)) if wrong else ''}.")
+        yield (f"The self-test finds {answer.figure('devices_right', right, f'{right}')} of {len(found)} devices right{html.escape(', but not ' + ', '.join(wrong)) if wrong else ''}.")
 
 
 PART = Part(0, "Certificates", "What hedron selftest says of every device: whether its arithmetic and known frames have the bytes "

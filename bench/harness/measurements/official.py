@@ -95,8 +95,8 @@ def backend_words(results):
         told = []
         for result in results:
             for device in (each for each in answer.runnable(result) if each["backend"] == "opencl"):
-                own = next((each for each in answer.runnable(result) if each["backend"] == base and each["is_cpu"] is device["is_cpu"]
-                            and (device["is_cpu"] or each["name"] == device["name"])), None)
+                own = next((each for each in answer.runnable(result) if each["backend"] == base
+                            and each["is_cpu"] is device["is_cpu"] and (device["is_cpu"] or each["name"] == device["name"])), None)
                 found = ratios(times(result, device["label"]), times(result, own["label"])) if own else []
                 if found:
                     told.append(f"{answer.figure(f'opencl_to_{base}', median(found))} ({place_words(result)})")
@@ -124,5 +124,5 @@ def answers(results):
         yield f"OpenCL takes {' and '.join(clauses)}."
 
 
-PART = Part(1, "Speed: the mean time of a frame", "The official example beside the figures of the report that it comes from. A frame is "
-            "prepared, traced and copied.", add, fill=fill, answer=answers, lead=2)
+PART = Part(1, "Speed: the mean time of a frame", "The official example beside the figures of the report that it comes from. A "
+            "frame is prepared, traced and copied.", add, fill=fill, answer=answers, lead=2)

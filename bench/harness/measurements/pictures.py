@@ -57,7 +57,8 @@ class Gallery:
         draft = next(iter(SETTINGS))
         for label, device in runnable.items():
             if label != judge and device["strict"]:
-                self.compare(f"{label} against {judge}", self.render(label, label, *DRAFT), draft, device=label, options=list(DRAFT))
+                self.compare(f"{label} against {judge}", self.render(label, label, *DRAFT), draft, device=label,
+                             options=list(DRAFT))
         self.compare("Float against double", draft, self.render("double", judge, *DRAFT, "--precision", "double"), device=judge,
                      options=[*DRAFT, "--precision", "double"])
         able = next((label for label, device in runnable.items() if device["backend"] != "c"), None)

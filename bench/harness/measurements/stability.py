@@ -155,8 +155,7 @@ def fill(section):
     section.table = [table.HEAD, *[list(row.values()) for row in table.rows(about)]]
 
 
-PLAIN = "ours_triangles"
-NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows", "sums": "sums"}  # and its study
+NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows", "sums": "sums"}  # in which study
 
 
 def answers(results):
@@ -165,25 +164,28 @@ def answers(results):
     if found is None:
         yield "Stability: <em>missing</em>, for it was measured on no machine here."
         return
-    ours = [methods.tally([each for each in found["counts"] if each["study"] == study and each["method"] in methods.OURS
+    counts = found["counts"]
+    ours = [methods.tally([each for each in counts if each["study"] == study and each["method"] in methods.OURS
                            and each["case"] not in methods.CRACKS], what) for what, study in NEVER.items()]
     wrong, tried = map(sum, zip(*ours))
-    others = {method: methods.worst(methods.select(found["counts"], "crossings", charts.EDGES, method), "crossings")[0]
-              for method in methods.methods(found["counts"], "crossings") if method not in methods.OURS}
-    best, worst = min(others, key=others.get), max(others, key=others.get)
-    strayed, paths = methods.tally(methods.select(found["counts"], "paths", method=PLAIN), "paths")
     words = (f"What fails where: hedron's geometry and sums failed in {answer.figure('ours_failed', wrong, f'{wrong}')} of "
-             f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} tries at every size and distance, where other "
-             f"methods lose {answer.figure('others_least', 100 * others[best])} % ({methods.NAMES[best]}) to "
-             f"{answer.figure('others_most', 100 * others[worst])} % ({methods.NAMES[worst]}) of the rays at edges; of its mirror "
-             f"paths {answer.figure('paths_strayed', 100 * strayed / paths)} % leave the exact path within 30 bounces in triangles")
+             f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} tries at every size and distance")
+    others = {method: methods.worst(methods.select(counts, "crossings", charts.EDGES, method), "crossings")[0]
+              for method in methods.methods(counts, "crossings") if method not in methods.OURS}
+    if others:
+        best, worst = min(others, key=others.get), max(others, key=others.get)
+        words += (f", where other methods lose {answer.figure('others_least', 100 * others[best])} % ({methods.NAMES[best]}) to "
+                  f"{answer.figure('others_most', 100 * others[worst])} % ({methods.NAMES[worst]}) of the rays at edges")
+    strayed = methods.share(methods.select(counts, "paths", method="ours_triangles"), "paths")
+    if strayed is not None:
+        words += f"; {answer.figure('paths_strayed', 100 * strayed)} % of mirror paths in triangles leave the exact one in 30 bounces"
     compared = [each for each in found["precision"] if each["what"] == pictures.FLOAT]
     if compared:
-        scenes_off = {scene: 1 - pictures.share([each for each in compared if each["scene"] == scene])
-                      for scene in dict.fromkeys(each["scene"] for each in compared)}
-        scene = max(scenes_off, key=scenes_off.get)
-        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all pixels, most in the scene "
-               f"{scene} ({answer.figure('float_off_most', 100 * scenes_off[scene])} %)")
+        off = {scene: 100 * (1 - pictures.share([each for each in compared if each["scene"] == scene]))
+               for scene in dict.fromkeys(each["scene"] for each in compared)}
+        scene = max(off, key=off.get)
+        words += (f"; float is off from double in {answer.figure('float_off', 100 * (1 - pictures.share(compared)))} % of all "
+                  f"pixels, most in the scene {scene} ({answer.figure('float_off_most', off[scene])} %)")
     yield f"{words}."
 
 
@@ -191,5 +193,6 @@ def failures(result):
     return methods.failures(result["stability"]["counts"]) if result["stability"] else []
 
 
-PART = Part(16, "Stability: what fails where", "How often methods of geometry and arithmetic fail, hedron's among them, at many sizes and "
-            "distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures, answer=answers, lead=4)
+PART = Part(16, "Stability: what fails where", "How often methods of geometry and arithmetic fail, hedron's among them, at many "
+            "sizes and distances; see bench/README.md, bench/study stability.", measure=measure, fill=fill, failures=failures,
+            answer=answers, lead=4)

@@ -43,7 +43,8 @@ def table(rows):
 def figure(name, chart, caption, is_alone):
     """Both ways it can be drawn, of which a screen shows one."""
     heading = "" if is_alone else f"<h3>{text(chart.title)}</h3>\n"
-    drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{html.escape(caption or chart.title)}\">{chart.svg(width)}</div>"
+    label = html.escape(caption or chart.title)
+    drawn = "\n".join(f"<div class=\"{kind}\" role=\"img\" aria-label=\"{label}\">{chart.svg(width)}</div>"
                       for kind, width in (("wide", WIDE), ("narrow", NARROW)))
     return (f"<figure id=\"{name}\">\n{heading}<p class=\"soft\">{text(scene_words(chart.about))}</p>\n{drawn}\n"
             f"<figcaption>{text(caption)}</figcaption>\n</figure>")
@@ -97,11 +98,12 @@ def warnings(results, failures):
         words.append("<p class=\"wrong\">A study here is unfinished: bench/study goes on where it stopped.</p>")
     quick = [result["machine"]["name"] for result in results if result["quick"]]
     if quick:
-        words.append(f"<p class=\"soft\">Rough, for quick studies have few repeats and small pictures: {text('; '.join(quick))}.</p>")
+        words.append("<p class=\"soft\">Rough, for quick studies have few repeats and small pictures: "
+                     f"{text('; '.join(quick))}.</p>")
     strange = [result["machine"]["name"] for result in results if dagger(result)]
     if strange:
-        words.append(f"<p class=\"soft\">\u2020 Measured with other kernels than this program's, so its own may be faster or slower: "
-                     f"{text('; '.join(strange))}.</p>")
+        words.append("<p class=\"soft\">\u2020 Measured with other kernels than this program's, so its own may be faster or "
+                     f"slower: {text('; '.join(strange))}.</p>")
     return words
 
 

@@ -68,7 +68,8 @@ def all_devices(results, part):
             names = (entry["label"], title, "") if len(results) == 1 else (
                 f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
                 f"{machine}{dagger(result)}")
-            place = places.setdefault((result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]), len(places))
+            known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
+            place = places.setdefault(known, len(places))
             found.append(Device(result, entry, place, part, entry["label"], title, *names))
     return found
 
