@@ -90,6 +90,7 @@ def fill(section):
     """Of the first machine that has them: only times are others elsewhere. Maps that would be all black are told of."""
     found = next((result for result in section.results if result.get("gallery")), None)
     if found is None:
+        section.notes.append("Missing, for no machine here made any.")
         return
     entries = found["gallery"]["entries"]
     black = {each["name"]: each["off"]["largest"] for each in entries if each.get("off", {}).get("largest", BLACK + 1) <= BLACK}

@@ -19,7 +19,7 @@ figure{margin:.6rem 0 1.2rem}svg{width:100%;height:auto;display:block}.narrow{di
 table{border-collapse:collapse;font-size:14px;margin:.4rem 0}th,td{border:1px solid var(--grid);padding:.2em .5em;text-align:left;
 vertical-align:top;overflow-wrap:break-word}th{font-weight:bold}.scroll{overflow-x:auto}
 .wrong{background:#b00020;color:#fff;padding:.6em 1em}.soft{color:var(--soft)}a,summary{color:var(--k0)}summary{cursor:pointer}
-code,.option{white-space:nowrap}details{margin:.5rem 0}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
+code,.option{white-space:nowrap}details{margin:.5rem 0}#machines{margin-top:2.6rem}nav a{display:inline-block;margin:.1rem .9rem .1rem 0}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,300px),1fr));gap:1rem 1.2rem}.pictures figure{margin:0}
 .pictures img{width:100%;box-sizing:border-box;border:1px solid var(--grid);height:auto;display:block}.pictures h3{font-size:1rem;margin:0 0 .25rem}.pictures figcaption{font-size:.9rem}"""
 
@@ -116,7 +116,8 @@ def section_words(section):
     words += [figure(name, chart, caption, len(section.charts) == 1) for name, (chart, caption) in section.charts.items()]
     words += [f"<p>{text(note)}</p>" for note in section.notes]
     if len(section.table) > 1:
-        words.append(f"<details><summary>The figures</summary>{table(section.table)}</details>")
+        remarks = "".join(f"<p>{text(remark)}</p>" for remark in section.remarks)
+        words.append(f"<details><summary>The figures</summary>{table(section.table)}{remarks}</details>")
     return words
 
 

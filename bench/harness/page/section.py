@@ -65,9 +65,12 @@ def all_devices(results, part):
         machine = plain(result["machine"]["name"], MACHINE_LENGTH)
         for entry in (entry for entry in result["devices"] if entry["reason"] is None):
             title = device_title(entry)
-            names = (entry["label"], title, "") if len(results) == 1 else (
-                f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
-                f"{machine}{dagger(result)}")
+            if len(results) == 1:
+                title += dagger(result)
+                names = entry["label"] + dagger(result), title, ""
+            else:
+                names = (f"{entry['label']} ({machine}){dagger(result)}", f"{plain(title, NAME_LENGTH)}, {machine}{dagger(result)}",
+                         f"{machine}{dagger(result)}")
             known = result["machine"]["cpu"], result["machine"]["cores"], entry["label"], entry["name"]
             place = places.setdefault(known, len(places))
             found.append(Device(result, entry, place, part, entry["label"], title, *names))
@@ -89,6 +92,7 @@ class Section:
     charts: dict = field(default_factory=dict)  # (chart, caption) by their names
     table: list = field(default_factory=list)  # rows of cells, the first is the head
     notes: list = field(default_factory=list)
+    remarks: list = field(default_factory=list)  # below the table
     shown: list = field(default_factory=list)  # (title, rows of cells) of tables that are not folded away
     pictures: list = field(default_factory=list)  # (title, words, PNG as base64)
 
@@ -132,7 +136,7 @@ class Section:
         entries = self.entries()
         for scale in sorted({entry["scale"] for entry in entries if entry["scale"] > 1}):
             devices = sorted({entry["device"] for entry in entries if entry["scale"] == scale})
-            self.notes.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
+            self.remarks.append(f"Times of {' and '.join(devices)} are those of a picture with 1/{scale} of the samples, "
                               f"times {scale}, where the figures say so.")
 
 
