@@ -86,9 +86,9 @@ def draw_below(sheet, scale, y, words, top=None):
     until = -1e9
     sheet.stroke([(scale.start, y), (scale.end, y)], None, 1, 'class="axis"')
     for name, x in sorted(scale.ticks().items(), key=lambda tick: tick[1]):
-        if top is not None:
+        before, until = until, draw_name(sheet, x, y + sheet.size + 4, name, until)
+        if top is not None and until != before:
             sheet.stroke([(x, top), (x, y)], None, 1, 'class="grid"')
-        until = draw_name(sheet, x, y + sheet.size + 4, name, until)
     lines = sheet.wrapped(words, scale.end - scale.start)
     for place, line in enumerate(lines):
         sheet.text(scale.end, y + (place + 2) * sheet.line + 2, line, "end", "soft")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from harness.store.result import machine_words, scene_words
 
-WIDE, NARROW = 960, 368
+WIDE, NARROW, MARGIN = 960, 368, 16  # the margin of charts in files of their own
 LETTER = 0.56  # its width by its height, for no browser is asked
 LABEL_LENGTH = 42
 MARKS = ("circle", "square", "diamond", "triangle", "cross", "down", "plus")
@@ -119,9 +119,9 @@ class Sheet:
             at += sample + self.length(words) + 18
         return y + 4
 
-    def svg(self, more=""):
-        return (f"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {self.width:g} {self.y + 4:.0f}\">{more}"
-                + "\n".join(self.parts) + "</svg>")
+    def svg(self, more="", margin=0):
+        box = f"{-margin} {-margin} {self.width + 2 * margin:g} {self.y + 4 + 2 * margin:.0f}"
+        return f"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{box}\">{more}" + "\n".join(self.parts) + "</svg>"
 
 
 @dataclass(frozen=True)
@@ -147,4 +147,5 @@ class Chart:
         self.paint(sheet)
         sheet.y += 6
         sheet.paragraph(self.caption)
-        return sheet.svg(f"<style>{STYLE}</style><rect width=\"100%\" height=\"100%\" class=\"paper\"/>\n") + "\n"
+        paper = f"<rect x=\"{-MARGIN}\" y=\"{-MARGIN}\" width=\"100%\" height=\"100%\" class=\"paper\"/>"
+        return sheet.svg(f"<style>{STYLE}</style>{paper}\n", MARGIN) + "\n"

@@ -14,7 +14,7 @@ from harness.measure.jobs import counted_frames, picture_groups
 from harness.measure.numbers import number, rays, spread, spread_text
 from harness.measurements.animation import by_frame, most_varied
 from harness.page import tables
-from harness.page.section import MS, TIME_AXIS, ratio
+from harness.page.section import MS, TIME_AXIS, ratio, ticks_of
 from harness.run.program import Problem
 from harness.store.result import machine_words, scene_words
 
@@ -155,7 +155,7 @@ class Frames(Bench):
                 else "which device is the fastest depends on the frame")
         kind = "the only run" if self.arguments.repeats == 1 else f"the median of {self.arguments.repeats} runs"
         return lines(self.result, "Time of tracing along the animation",
-                     f"{words}; each point is {kind}, without the first frame, which warms up.", Axis("frame number"),
+                     f"{words}; each point is {kind}, without the first frame, which warms up.", Axis("frame number", ticks=ticks_of(drawn)),
                      TIME_AXIS, drawn)
 
     def exit_code(self):

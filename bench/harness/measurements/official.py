@@ -101,7 +101,7 @@ def backend_words(results):
                 if found:
                     told.append(f"{answer.figure(f'opencl_to_{base}', median(found))} ({place_words(result)})")
         if told:
-            yield f"{' and '.join(told)} times as long as {answer.BACKENDS[base]} on {where}"
+            yield f"{' and '.join(filter(None, (', '.join(told[:-1]), told[-1])))} times as long as {answer.BACKENDS[base]} on {where}"
 
 
 def trust_words(results):

@@ -9,7 +9,8 @@ BACKENDS = {"c": "plain C", "cuda": "CUDA", "opencl": "OpenCL"}
 
 def figure(name, value, words=None):
     """A number of the sentence, which says by its name what it is."""
-    return f"<strong data-figure=\"{html.escape(name)}\" data-value=\"{value!r}\">{html.escape(words or number(value, 3))}</strong>"
+    words = words or (number(value, 3) if value else "0")
+    return f"<strong data-figure=\"{html.escape(name)}\" data-value=\"{value!r}\">{html.escape(words)}</strong>"
 
 
 def milliseconds(name, value):
