@@ -37,5 +37,5 @@ def fill(section):
                                  "times the time of what is chosen without tuning.")
 
 
-PART = Part(18, "Tuning", "Times of one frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
+PART = Part(20, "Tuning", "Times of one frame of the built-in scene by every pipeline, number of lanes and size of groups that the "
             "device can do; see hedron help tune.", measure=measure, fill=fill)

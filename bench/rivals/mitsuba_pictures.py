@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""Renders a scene by Mitsuba 3, by the Python that has it: harness/rivals/mitsuba.py calls it.
+
+Reads {"threads", "scene", "settings": [{"sampler", "spp", "file"}], "seed"} from standard input, where `scene` is a dictionary
+of plugins, with {"colour": [...]} for a colour and {"look_at": {...}} for a transformation. Every setting is rendered once to
+warm up, where kernels are compiled, and once with the seed, which becomes `file` and a line {"cpu", "wall"} in seconds."""
+import json
+import sys
+import time
+
+import drjit as dr
+import mitsuba as mi
+
+mi.set_variant("llvm_ad_rgb")
+
+
+class Whitted(mi.BSDF):
+    """A face by hedron's model: it is lit by lights alone, and rays go on mirrored or straight through; light to what lies behind
+    takes the colour."""
+
+    def __init__(self, props):
+        super().__init__(props)
+        self.lit, self.mirror, self.through = [mi.Color3f(props[name]) for name in ("lit", "mirror", "through")]
+        mirrored, passing = dr.max(self.mirror), dr.max(self.through)
+        self.share = dr.select(mirrored + passing > 0, mirrored / (mirrored + passing), 1)  # of the rays that are mirrored
+        sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide
+        self.m_components = [each | sides for each in (mi.BSDFFlags.DiffuseReflection, mi.BSDFFlags.DeltaReflection,
+                                                       mi.BSDFFlags.DeltaTransmission)]
+        self.m_flags = self.m_components[0] | self.m_components[1] | self.m_components[2]
+
+    def sample(self, _context, si, sample, _sample2, active=True):
+        """One of the rays that go on."""
+        is_mirrored, found = sample < self.share, mi.BSDFSample3f()
+        found.wo = dr.select(is_mirrored, mi.reflect(si.wi), -si.wi)
+        found.pdf = dr.select(is_mirrored, self.share, 1 - self.share)
+        found.eta = 1
+        found.sampled_component = dr.select(is_mirrored, mi.UInt32(1), mi.UInt32(2))
+        found.sampled_type = dr.select(is_mirrored, mi.UInt32(+mi.BSDFFlags.DeltaReflection),
+                                       mi.UInt32(+mi.BSDFFlags.DeltaTransmission))
+        return found, dr.select(is_mirrored, self.mirror, self.through) / found.pdf & (active & (found.pdf > 0))
+
+    def eval(self, _context, si, wo, active=True):
+        """Of light that comes straight from a light."""
+        facing = mi.Frame3f.cos_theta(wo)
+        return self.lit * dr.inv_pi * dr.abs(facing) & (active & (mi.Frame3f.cos_theta(si.wi) * facing > 0))
+
+    def pdf(self, _context, _si, _wo, _active=True):
+        """No ray goes on because of it."""
+        return mi.Float(0)
+
+    def eval_pdf(self, context, si, wo, active=True):
+        """Both."""
+        return self.eval(context, si, wo, active), mi.Float(0)
+
+    def eval_null_transmission(self, _si, active=True):
+        """Of light on its way to something else."""
+        return self.through & active
+
+
+def unpacked(value):
+    """With Mitsuba's own types."""
+    if not isinstance(value, dict):
+        return value
+    if "colour" in value:
+        return mi.ScalarColor3f(value["colour"])
+    if "look_at" in value:
+        return mi.ScalarTransform4f().look_at(**value["look_at"])
+    return {key: unpacked(each) for key, each in value.items()}
+
+
+def rendered(scene, setting, seed):
+    """The picture, and what it took."""
+    begin, worked = time.monotonic(), time.process_time()
+    picture = mi.render(scene, sensor=scene.sensors()[setting["sampler"]], spp=setting["spp"], seed=seed)
+    dr.eval(picture)
+    dr.sync_thread()
+    return picture, {"cpu": time.process_time() - worked, "wall": time.monotonic() - begin}
+
+
+def main():
+    """Everything that standard input asks for."""
+    asked = json.load(sys.stdin)
+    mi.register_bsdf("whitted", Whitted)
+    dr.set_thread_count(asked["threads"])
+    scene = mi.load_dict(unpacked(asked["scene"]))
+    for setting in asked["settings"]:
+        rendered(scene, {**setting, "spp": min(setting["spp"], 16)}, 0)
+        picture, took = rendered(scene, setting, asked["seed"])
+        mi.Bitmap(picture).write(setting["file"])
+        print(json.dumps({"version": mi.__version__, **took}), flush=True)
+
+
+if __name__ == "__main__":
+    main()
