@@ -11,6 +11,7 @@
                 followed_far (300 bounces)
      shadows    tried (segments that are open), blocked; tried_shut, opened; nan (of both)
      sums       tried (pixels), differing (with the order), ulps (most), error (most, relative)
+     touching   tried (pixels), off (by more than 1 of 255)
 
    Ends with 0, 1 where something goes wrong, 2 where it is called wrongly. */
 #include <stdio.h>
@@ -35,10 +36,9 @@ typedef struct Study {
 } Study;
 
 static const Study studies[] = {
-    {"crossings", hd_study_crossings},
-    {"paths", hd_study_paths},
-    {"shadows", hd_study_shadows},
-    {"sums", hd_study_sums},
+    {"crossings", hd_study_crossings}, {"paths", hd_study_paths},
+    {"shadows", hd_study_shadows},     {"sums", hd_study_sums},
+    {"touching", hd_study_touching},
 };
 
 bool hd_can_contract(void) {
@@ -56,7 +56,8 @@ int main(int count, char **words) {
             study = &studies[i];
     long number = study != NULL ? strtol(words[2], NULL, 10) : 0;
     if (number < 1 || number > 100 * 1000 * 1000) {
-        fprintf(stderr, "usage: hedron_stability_methods crossings|paths|shadows|sums COUNT\n");
+        fprintf(stderr,
+                "usage: hedron_stability_methods crossings|paths|shadows|sums|touching COUNT\n");
         return 2;
     }
     return study->run((int)number) ? 0 : 1;

@@ -13,17 +13,21 @@ typedef struct Avoidance {
     float epsilon;          /* nearer hits count as none */
     float relative_epsilon; /* likewise, times the largest coordinate of the ray's origin */
     bool moves_origin, skips_triangle, skips_face;
+    bool is_moeller_trumbore; /* instead of the watertight test with the tie rule */
 } Avoidance;
 
+enum { moeller_trumbore = 1 }; /* among the tests: that with a least determinant of 0 */
+
 static const Avoidance avoidances[HD_AVOIDANCES] = {
-    {.epsilon = 1e-3f},          {.epsilon = 1e-4f},     {.epsilon = 4e-6f},
-    {.relative_epsilon = 1e-5f}, {.moves_origin = true}, {.skips_triangle = true},
-    {.skips_face = true},
+    {.epsilon = 1e-3f},     {.epsilon = 1e-4f},
+    {.epsilon = 4e-6f},     {.relative_epsilon = 1e-5f},
+    {.moves_origin = true}, {.skips_triangle = true},
+    {.skips_face = true},   {.epsilon = 1e-4f, .is_moeller_trumbore = true},
 };
 
 const char *const hd_avoidance_names[HD_AVOIDANCES] = {
     "epsilon_1e-3",    "epsilon_1e-4", "epsilon_4e-6", "relative_epsilon",
-    "waechter_binder", "own_triangle", "own_face",
+    "waechter_binder", "own_triangle", "own_face",     "moeller_trumbore_epsilon_1e-4",
 };
 
 void hd_plain_scene_make(HdPlainScene *scene, const HdRoom *room, HdVec3 centre, double scale) {
@@ -91,22 +95,28 @@ static bool is_same(HdBounce a, HdBounce b) {
     return a.object == b.object && a.face == b.face;
 }
 
-/* The number of the triangle that is met first, -1 for none. */
-static int closest(const HdPlainScene *scene, const Avoidance *avoidance, HdFloatRay *ray, int last,
-                   HdMeeting *met) {
-    const HdTriangleTest *test = &hd_triangle_tests.tests[hd_triangle_tests.count - 1];
+bool hd_plain_cross(const HdPlainScene *scene, int number, const HdFloatRay *ray, int last,
+                    int triangle, HdMeeting *meeting) {
+    const Avoidance *avoidance = &avoidances[number];
+    const HdTriangleTests *tests = &hd_triangle_tests;
+    const HdTriangleTest *test =
+        &tests->tests[avoidance->is_moeller_trumbore ? moeller_trumbore : tests->count - 1];
     float least = avoidance->epsilon + avoidance->relative_epsilon * largest(ray->origin);
+    bool skipped = last >= 0 &&
+                   ((avoidance->skips_triangle && triangle == last) ||
+                    (avoidance->skips_face && is_same(scene->faces[triangle], scene->faces[last])));
+    return !skipped && test->cross(ray, &scene->triangles[triangle], meeting) &&
+           meeting->t > (last >= 0 ? least : 0.0f);
+}
+
+int hd_plain_closest(const HdPlainScene *scene, int number, HdFloatRay *ray, int last,
+                     HdMeeting *met) {
     int found = -1;
     hd_triangle_tests.prepare_ray(ray);
     met->t = INFINITY;
     for (int i = 0; i < scene->count; i++) {
         HdMeeting meeting;
-        bool skipped =
-            last >= 0 && ((avoidance->skips_triangle && i == last) ||
-                          (avoidance->skips_face && is_same(scene->faces[i], scene->faces[last])));
-        if (skipped || !test->cross(ray, &scene->triangles[i], &meeting))
-            continue;
-        if (!(meeting.t > (last >= 0 ? least : 0.0f)) || !(meeting.t < met->t))
+        if (!hd_plain_cross(scene, number, ray, last, i, &meeting) || !(meeting.t < met->t))
             continue;
         *met = meeting;
         found = i;
@@ -114,25 +124,28 @@ static int closest(const HdPlainScene *scene, const Avoidance *avoidance, HdFloa
     return found;
 }
 
+HdFloat3 hd_plain_leave(const HdPlainScene *scene, int number, const HdFloatRay *ray, int met,
+                        const HdMeeting *meeting, float side) {
+    HdFloat3 normal = scene->normals[met];
+    HdFloat3 towards = {side * normal.x, side * normal.y, side * normal.z};
+    if (avoidances[number].moves_origin)
+        return move_off(blend(&scene->triangles[met], meeting), towards);
+    return along(ray->origin, ray->direction, meeting->t);
+}
+
 int hd_plain_path(const HdPlainScene *scene, int number, HdFloat3 eye, HdFloat3 direction, int most,
                   HdBounce *bounces) {
-    const Avoidance *avoidance = &avoidances[number];
     HdFloatRay ray = {.origin = eye, .direction = direction};
     int last = -1;
     for (int count = 0; count < most; count++) {
         HdMeeting met;
-        last = closest(scene, avoidance, &ray, last, &met);
+        last = hd_plain_closest(scene, number, &ray, last, &met);
         if (last < 0)
             return count;
         bounces[count] = scene->faces[last];
         HdFloat3 normal = scene->normals[last];
         float facing = dot(normal, ray.direction);
-        ray.origin = along(ray.origin, ray.direction, met.t);
-        if (avoidance->moves_origin) {
-            float side = facing < 0.0f ? 1.0f : -1.0f;
-            HdFloat3 towards = {side * normal.x, side * normal.y, side * normal.z};
-            ray.origin = move_off(blend(&scene->triangles[last], &met), towards);
-        }
+        ray.origin = hd_plain_leave(scene, number, &ray, last, &met, facing < 0.0f ? 1.0f : -1.0f);
         ray.direction = along(ray.direction, normal, -2.0f * facing);
     }
     return most;

@@ -140,6 +140,13 @@ static double radiance(const HdTable *scene, const HdLitPoint *point) {
     return (double)lane_real(&sum.x, 0);
 }
 
+static double seen(const HdTable *scene, const HdTable *frame, HdVec3 direction) {
+    HD_DECLARE_TABLES(scene, frame)
+    Sample sample = no_sample();
+    trace(SCENE_ARGUMENTS rounded(direction), mask_all(), &sample);
+    return (double)sample.r / (double)view->to_fixed;
+}
+
 static long long fixed_sum(const float *contributions, int count) {
     vfix sum = 0;
     vint clamps = splat_int(0);
@@ -156,5 +163,6 @@ const HdProduct HD_PRODUCT = {
     .cross_triangles = cross_triangles,
     .transmittance = transmittance,
     .radiance = radiance,
+    .seen = seen,
     .fixed_sum = fixed_sum,
 };

@@ -17,7 +17,7 @@ SIZES = {False: ("--size", "160x120", "--samples", "2"), True: ("--size", "80x60
 ODD_SIZE = ("--size", "96x54", "--samples", "1")
 PATHS, NEAR = Target(99, 99.99), Target(99.9, 99.99)
 WRONG = {"crossings": "rays that miss, count twice or are misplaced", "shadows": "segments wrongly blocked or opened",
-         "sums": "pixels whose sum depends on the order"}
+         "sums": "pixels whose sum depends on the order", "touching": "pixels of solids that touch, off from those with a gap"}
 
 
 def percent(part, whole):
@@ -48,7 +48,7 @@ def add_rows(plan, result):
         def figure(study=study):
             these = known([each for each in counts if each["study"] == study and each["method"] in methods.OURS] or None)
             return [sum(methods.tally(these, wrong)[0] for wrong in (study, *["misplaced"] * (study == "crossings")))]
-        plan.row(study, f"{what}, ours", "pixels" if study == "sums" else "count", figure, target=NONE)
+        plan.row(study, f"{what}, ours", "pixels" if study in ("sums", "touching") else "count", figure, target=NONE)
     for geometry in pictures.GEOMETRIES:
         near, pixels = pictures.total(precision, pictures.FLOAT, geometry)
         plan.row("precision", f"pixels within 1 of 255, {pictures.FLOAT}, all scenes, {geometry}", "%",

@@ -3,7 +3,7 @@
 from harness.run.program import run_tool
 
 # Rays, paths or segments of each case, method and place; pixels.
-COUNTS = {"crossings": 20000, "paths": 5000, "shadows": 20000, "sums": 2000}
+COUNTS = {"crossings": 20000, "paths": 5000, "shadows": 20000, "sums": 2000, "touching": 2000}
 STUDIES = tuple(COUNTS)
 OURS = ("ours_solids", "ours_triangles", "ours")
 CHECK = "ours_double"  # the same in double: tells whether what is compared with is right
@@ -24,6 +24,8 @@ NAMES = {
     "waechter_binder": "Waechter-Binder offset",
     "own_triangle": "own triangle skipped",
     "own_face": "own face skipped",
+    "moeller_trumbore_epsilon_1e-4": "Moeller-Trumbore, distance above 1e-4",
+    "own_face_with_gap": "own face skipped, solids with a gap of 1e-6",
     "normalised": "unit direction, t < distance",
     "normalised_epsilon_1e-4": "unit direction, epsilon 1e-4",
     "unnormalised": "whole segment, t < 1",
@@ -44,6 +46,7 @@ WRONG = {
     "far": [("strayed_far", "tried_far")],
     "shadows": [("blocked", "tried"), ("opened", "tried_shut"), ("nan", "tried")],
     "sums": [("differing", "tried")],
+    "touching": [("off", "tried")],
 }
 
 
@@ -109,7 +112,7 @@ def methods(counts, study):
 
 # What ours must not do once, whatever the case.
 NEVER = {"crossings": ("missed", "twice", "misplaced"), "paths": ("lost",), "shadows": ("blocked", "opened", "nan"),
-         "sums": ("differing",)}
+         "sums": ("differing",), "touching": ("off",)}
 # Nor in double, where a light that is put on a face is on one side of it by rounding.
 DOUBLE_MAY = ("face_lights",)
 CRACKS = ("t_junctions",)  # the corners, as they are rounded, leave gaps, which nobody promises to close

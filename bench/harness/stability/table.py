@@ -24,6 +24,10 @@ PLACES = {
     ("shadows", "edge_lights_from_within"): ("lights on edges, seen from inside, are blocked", HERE),
     ("shadows", "face_lights"): ("lights on faces are blocked, or shine through", HERE),
     ("shadows", "light_at_the_point"): ("a light at the lit point gives no number", HERE),
+    ("touching", "on_the_floor"): ("pixels off: a glass cube on the floor", f"unit_test_scene_contact, {HERE}"),
+    ("touching", "stacked"): ("pixels off: glass cubes stacked on the floor", f"unit_test_scene_contact, {HERE}"),
+    ("touching", "side_by_side"): ("pixels off: glass cubes that share a part of a face", f"unit_test_scene_contact, {HERE}"),
+    ("touching", "doubled"): ("pixels off: a glass cube in the place of another", f"unit_test_scene_contact, {HERE}"),
     ("sums", "pixel"): ("a sum depends on the order of its parts", "cli_same_bytes, conformance_c"),
 }
 # Further ways to fail of the same places.
