@@ -46,7 +46,7 @@ static void filter_light(const struct RTCFilterFunctionNArguments *call) {
     }
 }
 
-HdRival *hd_rival_create(const HdObject *object, int threads) {
+HdRival *hd_rival_create(const HdObject *object, int threads, bool is_robust) {
     char setting[32];
     HdRival *rival = calloc(1, sizeof *rival);
     const HdMesh *mesh = &object->scene.meshes[0];
@@ -56,6 +56,7 @@ HdRival *hd_rival_create(const HdObject *object, int threads) {
     rival->device = rtcNewDevice(setting);
     rival->scene = rtcNewScene(rival->device);
     rtcSetSceneBuildQuality(rival->scene, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneFlags(rival->scene, is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     RTCGeometry geometry = rtcNewGeometry(rival->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

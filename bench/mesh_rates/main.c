@@ -5,8 +5,12 @@
      build SET LANES
      object TRIANGLES
      rate KIND TRIANGLES WHO PER_CPU_SECOND    rays, a line for each round; WHO: hedron, or a way of
-                                               Embree's with _ for blanks
+                                               Embree's with _ for blanks, robust_ before it in its
+                                               robust mode
      same KIND TRIANGLES WAY SHARE             of the rays both met the same, up to rounding
+     aimed TRIANGLES WHO RAYS LEAKS ODD        at edges and corners; so many pass through what they
+                                               are aimed at, so many cross the closed surface an
+                                               odd number of times: leaks, or hits that count twice
      built TRIANGLES WHO CPU_SECONDS           the hierarchy, on all threads, a line for each round
 
    Ends with 0, 1 where there is too little memory, 2 where it is called wrongly. */
@@ -34,7 +38,7 @@ static const HdWalks *const builds[] = {
     &hd_walks_generic_4,
 };
 
-enum { MOST_COUNTS = 16, MOST_THREADS = 64 };
+enum { MOST_COUNTS = 16, MOST_THREADS = 64, RIVALS = 2 };
 
 typedef struct Options {
     double seconds; /* of processor time for one rate */
@@ -56,13 +60,14 @@ static const HdWalks *find_build(void) {
 typedef struct Searcher {
     const HdWalks *walks;
     const HdObject *object;
-    const HdRival *rival;
-    const HdRivalWay *way; /* NULL: hedron's */
+    const HdRival *rivals[RIVALS]; /* plain and robust; NULL: there is none */
+    int rival;                     /* which one */
+    const HdRivalWay *way;         /* NULL: hedron's */
 } Searcher;
 
 static void search(const Searcher *searcher, const HdRays *rays, HdHits *hits) {
     if (searcher->way != NULL)
-        searcher->way->search(searcher->rival, rays, hits);
+        searcher->way->search(searcher->rivals[searcher->rival], rays, hits);
     else
         searcher->walks->search(searcher->object, rays, hits);
 }
@@ -77,9 +82,24 @@ static double rate(const Searcher *searcher, const HdRays *rays, HdHits *hits, d
     return done / (end - start);
 }
 
-static void print_name(const char *name) {
-    for (; *name != '\0'; name++)
+static void print_name(const Searcher *searcher) {
+    if (searcher->way == NULL) {
+        printf("hedron");
+        return;
+    }
+    printf("%s", searcher->rival > 0 ? "robust_" : "");
+    for (const char *name = searcher->way->name; *name != '\0'; name++)
         putchar(*name == ' ' ? '_' : *name);
+}
+
+/* The next one after hedron, then each way of each rival; false: there is no more. */
+static bool take_next(Searcher *searcher) {
+    searcher->way = searcher->way == NULL ? hd_rival_ways : searcher->way + 1;
+    if (searcher->rivals[searcher->rival] != NULL && searcher->way->name != NULL)
+        return true;
+    searcher->rival++;
+    searcher->way = hd_rival_ways;
+    return searcher->rival < RIVALS && searcher->rivals[searcher->rival] != NULL;
 }
 
 static bool is_near(float a, float b) {
@@ -99,27 +119,63 @@ static double agreement(const HdRays *rays, const HdHits *a, const HdHits *b) {
     return (double)same / rays->count;
 }
 
-static void measure(const Options *options, Searcher searcher, const HdRays *rays, HdHits *hits,
-                    HdHits *others) {
-    const char *kind = hd_ray_kind_names[rays->kind];
-    int triangles = searcher.object->triangle_count;
-    search(&searcher, rays, hits);
+static void print_rate(const Options *options, const Searcher *searcher, const HdRays *rays,
+                       HdHits *hits) {
+    printf("rate %s %d ", hd_ray_kind_names[rays->kind], searcher->object->triangle_count);
+    print_name(searcher);
+    printf(" %.6e\n", rate(searcher, rays, hits, options->seconds));
+}
+
+static void measure(const Options *options, const Searcher *hedron, const HdRays *rays,
+                    HdHits *hits, HdHits *others) {
+    search(hedron, rays, hits);
     for (int round = 0; round < options->rounds; round++) {
-        searcher.way = NULL;
-        printf("rate %s %d hedron %.6e\n", kind, triangles,
-               rate(&searcher, rays, hits, options->seconds));
-        for (searcher.way = hd_rival_ways; searcher.rival != NULL && searcher.way->name != NULL;
-             searcher.way++) {
-            printf("rate %s %d ", kind, triangles);
-            print_name(searcher.way->name);
-            printf(" %.6e\n", rate(&searcher, rays, others, options->seconds));
+        Searcher searcher = *hedron;
+        print_rate(options, hedron, rays, hits);
+        while (take_next(&searcher)) {
+            print_rate(options, &searcher, rays, others);
             if (round > 0)
                 continue;
-            printf("same %s %d ", kind, triangles);
-            print_name(searcher.way->name);
+            printf("same %s %d ", hd_ray_kind_names[rays->kind], searcher.object->triangle_count);
+            print_name(&searcher);
             printf(" %.6f\n", agreement(rays, hits, others));
         }
     }
+    fflush(stdout);
+}
+
+/* ---- leaks ---- */
+
+/* Each crossing of the sphere multiplies by its filter. */
+static int count_odd(const HdHits *hits, int count) {
+    int odd = 0;
+    for (int i = 0; i < count; i++)
+        odd += lround(log((double)hits->passing[0][i]) / log(hd_object_filter[0])) % 2 != 0;
+    return odd;
+}
+
+/* What a ray is aimed at lies in front of it: nothing that is met first is farther away. */
+static int count_leaks(const HdHits *hits, const float *distance, int count) {
+    const float rounding = 1e-3f;
+    int leaks = 0;
+    for (int i = 0; i < count; i++)
+        leaks += hits->triangle[i] < 0 || hits->t[i] > distance[i] * (1.0f + rounding);
+    return leaks;
+}
+
+static void measure_leaks(const Searcher *hedron, HdRays *rays, HdHits *hits, float *distance) {
+    Searcher searcher = *hedron;
+    hd_rays_aim(rays, hedron->object, distance);
+    do {
+        rays->kind = HD_RAYS_MIRRORED;
+        search(&searcher, rays, hits);
+        int leaks = count_leaks(hits, distance, rays->count);
+        rays->kind = HD_RAYS_SHADOW;
+        search(&searcher, rays, hits);
+        printf("aimed %d ", searcher.object->triangle_count);
+        print_name(&searcher);
+        printf(" %d %d %d\n", rays->count, leaks, count_odd(hits, rays->count));
+    } while (take_next(&searcher));
     fflush(stdout);
 }
 
@@ -138,8 +194,10 @@ static bool measure_kinds(const Options *options, const Searcher *searcher) {
     for (int kind = 0; kind < HD_RAY_KINDS && done; kind++) {
         if (kind != HD_RAYS_PRIMARY)
             hd_rays_continue(&rays[kind], searcher->object, &rays[HD_RAYS_PRIMARY], &first);
-        measure(options, *searcher, &rays[kind], &hits, &others);
+        measure(options, searcher, &rays[kind], &hits, &others);
     }
+    if (done)
+        measure_leaks(searcher, &rays[HD_RAYS_SHADOW], &hits, others.t);
     for (int kind = 0; kind < HD_RAY_KINDS; kind++)
         hd_rays_free(&rays[kind]);
     hd_hits_free(&hits);
@@ -170,7 +228,7 @@ static bool measure_builds(const Options *options, HdObject *object) {
         if (!build_again(&object->scene.meshes[0], options->threads, &seconds))
             return false;
         printf("built %d hedron %.6e\n", object->triangle_count, seconds);
-        HdRival *rival = hd_rival_create(object, options->threads);
+        HdRival *rival = hd_rival_create(object, options->threads, false);
         if (rival != NULL)
             printf("built %d embree %.6e\n", object->triangle_count, hd_rival_build_seconds(rival));
         hd_rival_free(rival);
@@ -185,10 +243,12 @@ static bool measure_object(const Options *options, const HdWalks *walks, int tri
     if (!hd_object_create(&object, triangles, walks->lanes))
         return false;
     printf("object %d\n", object.triangle_count);
-    HdRival *rival = hd_rival_create(&object, options->threads);
-    const Searcher searcher = {.walks = walks, .object = &object, .rival = rival};
+    HdRival *plain = hd_rival_create(&object, options->threads, false);
+    HdRival *robust = hd_rival_create(&object, options->threads, true);
+    const Searcher searcher = {.walks = walks, .object = &object, .rivals = {plain, robust}};
     bool done = measure_kinds(options, &searcher);
-    hd_rival_free(rival);
+    hd_rival_free(plain);
+    hd_rival_free(robust);
     done = done && measure_builds(options, &object);
     hd_object_free(&object);
     return done;

@@ -4,7 +4,8 @@
 
 #include "rival.h"
 
-HdRival *hd_rival_create(const HdObject *object, int threads) {
+HdRival *hd_rival_create(const HdObject *object, int threads, bool is_robust) {
+    (void)is_robust;
     (void)object;
     (void)threads;
     return NULL;

@@ -146,6 +146,13 @@ bool hd_object_create(HdObject *object, int triangles, int lanes) {
     return false;
 }
 
+HdVec3 hd_object_corner(const HdObject *object, int triangle, int corner) {
+    const Triangle *found =
+        (const Triangle *)object->tables.table[HD_TABLE_triangles].data + triangle;
+    const real *p = corner == 0 ? found->a : corner == 1 ? found->b : found->c;
+    return hd_vec3((double)p[0], (double)p[1], (double)p[2]);
+}
+
 void hd_object_free(HdObject *object) {
     free(object->normals);
     hd_frame_tables_free(&object->frame);

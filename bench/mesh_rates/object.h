@@ -23,6 +23,9 @@ typedef struct HdObject {
 bool hd_object_create(HdObject *object, int triangles, int lanes);
 void hd_object_free(HdObject *object);
 
+/* Corner 0 to 2 of a triangle by the kernels' numbers, as they have it. */
+HdVec3 hd_object_corner(const HdObject *object, int triangle, int corner);
+
 /* Of half the view's angle. */
 extern const double hd_object_tangent;
 

@@ -136,3 +136,29 @@ void hd_rays_continue(HdRays *rays, const HdObject *object, const HdRays *from,
         set_ray(rays, i, point, direction);
     }
 }
+
+static HdVec3 point_to_aim_at(const HdObject *object, uint64_t *state) {
+    const double outside_of_sphere = 2.0, least_cosine = 0.5;
+    for (;;) {
+        int triangle = (int)(next_number(state) * object->triangle_count);
+        HdVec3 a = hd_object_corner(object, triangle, 0);
+        HdVec3 b = hd_object_corner(object, triangle, 1);
+        double share = next_number(state) < 0.5 ? 0.0 : next_number(state);
+        HdVec3 way = hd_normalize(hd_sub(object->eye, a));
+        if (hd_dot(a, a) < outside_of_sphere &&
+            hd_dot(object->normals[triangle], way) > least_cosine)
+            return hd_add(a, hd_scale(hd_sub(b, a), share));
+    }
+}
+
+void hd_rays_aim(HdRays *rays, const HdObject *object, float *distance) {
+    const double beyond = 5.0; /* from the eye, whatever the direction to the sphere */
+    uint64_t state = 0x9e3779b97f4a7c15;
+    for (int i = 0; i < rays->count; i++) {
+        HdVec3 way = hd_sub(point_to_aim_at(object, &state), object->eye);
+        distance[i] = (float)(sqrt(hd_dot(way, way)) / beyond);
+        rays->triangle[i] = -1;
+        rays->is_inside[i] = 0;
+        set_ray(rays, i, object->eye, hd_scale(hd_normalize(way), beyond));
+    }
+}

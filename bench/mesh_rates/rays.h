@@ -43,6 +43,11 @@ void hd_hits_free(HdHits *hits);
 /* Rays of the view of the object's camera, `side` by `side`, a power of two. */
 void hd_rays_look(HdRays *rays, const HdObject *object, int side);
 
+/* Segments from the eye at edges and corners of the sphere that face it, of which each is at
+   `distance` of the direction. They end beyond the sphere, within the shell: so each crosses the
+   surface as often on its way in as on its way out. */
+void hd_rays_aim(HdRays *rays, const HdObject *object, float *distance);
+
 /* The rays of another kind from where `from` met the object, as `hits` say. Where they met nothing
    the rays of `from` stay. */
 void hd_rays_continue(HdRays *rays, const HdObject *object, const HdRays *from, const HdHits *hits);

@@ -14,8 +14,9 @@ typedef struct HdRivalWay {
 } HdRivalWay;
 extern const HdRivalWay hd_rival_ways[];
 
-/* With as many threads; they build the hierarchy only. NULL: there is none. */
-HdRival *hd_rival_create(const HdObject *object, int threads);
+/* With as many threads; they build the hierarchy only. Robust: in the mode that its makers call
+   watertight. NULL: there is none. */
+HdRival *hd_rival_create(const HdObject *object, int threads, bool is_robust);
 void hd_rival_free(HdRival *rival);
 
 /* The processor time that building its hierarchy took. */
