@@ -54,8 +54,8 @@ def read(file, bench):
 
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
         "bounds", "accuracy", "stability")
-KEPT = ("date", "bounds", "accuracy", "stability", "promise", "certificates", "rivals", "tuning",
-        "gallery")  # what goes on with the measurements
+# What goes on with the measurements.
+KEPT = ("date", "bounds", "accuracy", "stability", "promise", "certificates", "rivals", "searches", "tuning", "gallery")
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
 IDENTITY = ("part", "series", "x", "device", "scene", "options", "frames", "output", "warm_up", "scale", "cold")

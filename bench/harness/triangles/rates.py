@@ -24,8 +24,9 @@ SAME_FROM = 0.99  # a fast wrong search is no result
 
 def parse(text):
     """{"instruction_set", "lanes", "triangles", "rates": {kind: {who: [...]}}, "same": {kind: {way: share}},
-    "built": {who: [...]}} of one object; rates a CPU-second, one for each round."""
-    found = {"instruction_set": None, "lanes": None, "triangles": None, "rates": {}, "same": {}, "built": {}}
+    "aimed": {who: [rays, leaks, odd crossings]}, "built": {who: [...]}} of one object; rates a CPU-second, one for each
+    round."""
+    found = {"instruction_set": None, "lanes": None, "triangles": None, "rates": {}, "same": {}, "aimed": {}, "built": {}}
     for what, first, *rest in map(str.split, text.splitlines()):
         if what == "build":
             found["instruction_set"], found["lanes"] = first, int(rest[0])
@@ -35,6 +36,8 @@ def parse(text):
             found["rates"].setdefault(first, {}).setdefault(rest[1], []).append(float(rest[2]))
         elif what == "same":
             found["same"].setdefault(first, {})[rest[1]] = float(rest[2])
+        elif what == "aimed":
+            found["aimed"][rest[0]] = list(map(int, rest[1:]))
         elif what == "built":
             found["built"].setdefault(rest[0], []).append(float(rest[1]))
     return found
@@ -71,6 +74,10 @@ def failures(objects):
         if share <= SAME_FROM:
             found.append(f"THE SEARCHES DIFFER, so their rates are no result: only {100 * share:.2f} % of the "
                          f"{kind} rays meet the same at {count_words(count)} as Embree's {way}")
+        rays, leaks, odd = (0, 0, 0) if isinstance(measured, str) else measured["aimed"]["hedron"]
+        if leaks or odd:
+            found.append(f"of {rays} rays aimed at edges and corners of {count_words(count)} triangles {leaks} leak and {odd} cross "
+                         "the closed surface an odd number of times")
     return found
 
 
