@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Renders a scene by Mitsuba 3, by the Python that has it: harness/rivals/mitsuba.py calls it.
 
-Reads {"threads", "scene", "settings": [{"sampler", "spp", "file"}], "seed"} from standard input, where `scene` is a dictionary
-of plugins, with {"colour": [...]} for a colour and {"look_at": {...}} for a transformation. Every setting is rendered once to
-warm up, where kernels are compiled, and once with the seed, which becomes `file` and a line {"cpu", "wall"} in seconds."""
+Reads {"threads", "scene", "sampler", "spp", "seed", "file"} from standard input, where `scene` is a dictionary of plugins, with
+{"colour": [...]} for a colour and {"look_at": {...}} for a transformation, and `sampler` the number of the sensor. Renders with few
+samples to warm up, where kernels are compiled, and then what is asked for, which becomes the file; writes {"version", "cpu", "wall"},
+the last two in seconds."""
 import json
 import sys
 import time
@@ -12,6 +13,7 @@ import drjit as dr
 import mitsuba as mi
 
 mi.set_variant("llvm_ad_rgb")
+WARM_UP = 16  # samples a pixel
 
 
 class Whitted(mi.BSDF):
@@ -68,10 +70,10 @@ def unpacked(value):
     return {key: unpacked(each) for key, each in value.items()}
 
 
-def rendered(scene, setting, seed):
+def rendered(scene, asked, spp, seed):
     """The picture, and what it took."""
     begin, worked = time.monotonic(), time.process_time()
-    picture = mi.render(scene, sensor=scene.sensors()[setting["sampler"]], spp=setting["spp"], seed=seed)
+    picture = mi.render(scene, sensor=scene.sensors()[asked["sampler"]], spp=spp, seed=seed)
     dr.eval(picture)
     dr.sync_thread()
     return picture, {"cpu": time.process_time() - worked, "wall": time.monotonic() - begin}
@@ -83,11 +85,10 @@ def main():
     mi.register_bsdf("whitted", Whitted)
     dr.set_thread_count(asked["threads"])
     scene = mi.load_dict(unpacked(asked["scene"]))
-    for setting in asked["settings"]:
-        rendered(scene, {**setting, "spp": min(setting["spp"], 16)}, 0)
-        picture, took = rendered(scene, setting, asked["seed"])
-        mi.Bitmap(picture).write(setting["file"])
-        print(json.dumps({"version": mi.__version__, **took}), flush=True)
+    rendered(scene, asked, min(asked["spp"], WARM_UP), 0)
+    picture, took = rendered(scene, asked, asked["spp"], asked["seed"])
+    mi.Bitmap(picture).write(asked["file"])
+    print(json.dumps({"version": mi.__version__, **took}))
 
 
 if __name__ == "__main__":

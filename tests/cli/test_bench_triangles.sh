@@ -19,17 +19,18 @@ expect_value() {
 cat >rates.py <<'PYTHON'
 from harness.measure.plan import Plan
 from harness.triangles import rates as mesh_rates
-def text(share):
+def text(share, leaks=0, odd=0):
     rounds = zip((3e6, 5e6, 4e6), (9e6, 9e6, 9e6), (1e6, 8e6, 2e6))
     return f"build avx2 8\nobject 1056\nsame primary 1056 single 1\nsame primary 1056 packets_of_8 {share}\n" + "".join(
         f"rate primary 1056 hedron {a}\nrate primary 1056 single {b}\nrate primary 1056 packets_of_8 {c}\n"
-        for a, b, c in rounds) + "built 1056 hedron 3\nbuilt 1056 embree 2\n"
+        for a, b, c in rounds) + f"aimed 1056 hedron 9 {leaks} {odd}\naimed 1056 single 9 0 3\nbuilt 1056 hedron 3\nbuilt 1056 embree 2\n"
 good = mesh_rates.parse(text(0.995))
 rates = good["rates"]["primary"]
 print(good["triangles"], good["lanes"], good["built"], mesh_rates.against(rates["hedron"], rates["packets_of_8"]))
 print(mesh_rates.best_way(rates, mesh_rates.BUNDLED), mesh_rates.best_way(rates, mesh_rates.ANY),
       mesh_rates.best_way({"hedron": [1]}, mesh_rates.ANY))
 print(mesh_rates.failures({1000: good, 80000: "why not"}), len(mesh_rates.failures({1000: mesh_rates.parse(text(0.99))})))
+print(good["aimed"], mesh_rates.failures({1000: mesh_rates.parse(text(1, 2))}), len(mesh_rates.failures({1000: mesh_rates.parse(text(1, 0, 1))})))
 def finished(objects):
     plan = Plan({}, {})
     mesh_rates.add_comparison(plan, objects, "primary", 1000, mesh_rates.BUNDLED, mesh_rates.RATES[0][3])
@@ -44,6 +45,7 @@ PYTHON
 expect_python "1056 8 {'hedron': [3.0], 'embree': [2.0]} [1.5, 2.5, 2.0]
 packets_of_8 single None
 [] 1
+{'hedron': [9, 0, 0], 'single': [9, 0, 3]} ['of 9 rays aimed at edges and corners of 1 k triangles 2 leak and 0 cross the closed surface an odd number of times'] 1
 (\"primary rays, 1 k triangles, against Embree's packets of 8\", 2.0, 'aim', None)
 (\"primary rays, 1 k triangles, against Embree's packets of 8\", 2.0, 'aim', None)
 ('primary rays, 1 k triangles, against Embree', None, None, 'Embree is not installed (libembree-dev), so hedron stands alone')
@@ -119,6 +121,7 @@ expect_value '[["bvh", 12], ["bvh", 48], ["bvh", 100], ["bvh", 1000], ["brute", 
 expect_value '[12, 972]' '[r["sweep"][i]["triangles"] for i in (0, 3)]'
 expect_value true 'rows["primary c:0"]["figure"] > 0'
 if [[ -x $build/bench/hedron_mesh_rates ]]; then
+    expect_value '[262144, 0, 0]' 'r["mesh_rates"][0]["aimed"]["hedron"]'
     expect_value '[["primary", "mirrored", "diffuse", "shadow"], true, true]' \
         '[list(r["mesh_rates"][0]["rates"]), r["mesh_rates"][0]["rates"]["diffuse"]["hedron"][0] > 0, "--most" in r["mesh_rates"][1]["reason"]]'
 fi

@@ -20,10 +20,6 @@ HEAD = ["machine", "program", "setting", "processor ms [quartiles]", "ms by the 
 
 # ---- the work
 
-def compared(study, first, second):
-    return pfm.errors(study.program, first, second)
-
-
 def installed(study, scene, size, reasons):
     """The other programs that are there."""
     found = []
@@ -39,53 +35,62 @@ def installed(study, scene, size, reasons):
 
 def agreement(study, rival, ours, truth, deep):
     """How far its picture is from ours: of the same samples where it has a grid."""
-    setting = rival.deep(study.arguments.quick)
+    setting, grid = rival.deep(study.arguments.quick), study.folder / "rivals-grid.pfm"
     study.news(f"{rival.name}, deep")
     rival.render(setting, deep, 0)
-    other = truth
-    if isinstance(rival, Povray):
-        other = study.folder / "grid.pfm"
-        ours.grid(setting[0], other)
-    words = f"{setting[0]} x {setting[0]} samples, the same as ours" if other != truth else f"{setting[1]} samples a pixel"
-    return {"deep": words, **compared(study, deep, other)}
+    if not isinstance(rival, Povray):
+        return {"deep": f"its own has {setting[1]} samples a pixel", **pfm.errors(study.program, deep, truth)}
+    ours.grid(setting[0], grid)
+    return {"deep": f"{setting[0]} x {setting[0]} samples, the same ones", **pfm.errors(study.program, deep, grid)}
+
+
+def agreements(study, others, ours, deep, reasons):
+    """Of those that render the scene; of the others the reason why not."""
+    found = {}
+    for rival in others:
+        deep[rival.name] = study.folder / f"rivals-{rival.name}.pfm"
+        try:
+            found[rival.name] = agreement(study, rival, ours, deep[ours.name], deep[rival.name])
+        except Problem as problem:
+            if problem.code != 3:
+                raise
+            reasons[rival.name] = str(problem)
+    return found
+
+
+def timed(study, programs, deep):
+    """Every setting of every program, in turns."""
+    points, file = {}, study.folder / "rivals.pfm"
+    for turn in range(min(ROUNDS[study.arguments.quick], study.arguments.repeats)):
+        for program in programs:
+            for name, setting in program.settings(study.arguments.quick).items():
+                study.news(f"{program.name}, {name}")
+                took = program.render(setting, file, turn)
+                point = points.setdefault((program.name, name), {
+                    "program": program.name, "name": name, "cpu": [], "wall": [],
+                    **pfm.errors(study.program, file, deep["hedron"]),
+                    "own_rmse": pfm.errors(study.program, file, deep[program.name])["rmse"]})
+                for key in ("cpu", "wall"):
+                    point[key].append(1e3 * took[key])
+    return [{**point, "ms": spread(point["cpu"])["median"]} for point in points.values()]
 
 
 def measure(study):
-    """Raises Problem where a run fails; a program that is not there is left out, with the reason."""
+    """Raises Problem where a run of hedron fails; a program that cannot is left out, with the reason."""
     if study.result.get("rivals"):
         return None
-    quick = study.arguments.quick
-    scene, size = shapes.checked(read_scene(SCENE)), SIZES[quick]
-    reasons = {}
+    scene, size, reasons = shapes.checked(read_scene(SCENE)), SIZES[study.arguments.quick], {}
     ours, others = Hedron(study.program, scene, size, study.folder), installed(study, scene, size, reasons)
-    if not others:
+    deep = {ours.name: study.folder / "rivals-truth.pfm"}
+    if others:
+        ours.truth(deep[ours.name])
+    agreed = agreements(study, others, ours, deep, reasons)
+    if not agreed:
         return " ".join(f"{words}." for words in reasons.values())
-    truth = study.folder / "rivals-truth.pfm"
-    ours.truth(truth)
-    deep, agreements = {ours.name: truth}, {}
-    for rival in list(others):
-        deep[rival.name] = study.folder / f"rivals-{rival.name}.pfm"
-        try:
-            agreements[rival.name] = agreement(study, rival, ours, truth, deep[rival.name])
-        except Problem as problem:
-            reasons[rival.name] = str(problem)
-            others.remove(rival)
-    points = {}
-    for turn in range(min(ROUNDS[quick], study.arguments.repeats)):
-        for program in (ours, *others):
-            for name, setting in program.settings(quick).items():
-                study.news(f"{program.name}, {name}")
-                file = study.folder / "rivals.pfm"
-                took = program.render(setting, file, turn)
-                point = points.setdefault((program.name, name), {
-                    "program": program.name, "name": name, "cpu": [], "wall": [], **compared(study, file, truth),
-                    "own_rmse": compared(study, file, deep[program.name])["rmse"]})
-                for key in ("cpu", "wall"):
-                    point[key].append(1e3 * took[key])
-    study.result["rivals"] = {
-        "size": list(size), "threads": machine.cores(), "reasons": reasons, "agreements": agreements,
-        "versions": {each.name: each.version for each in (ours, *others)}, "points": [
-            {**point, "ms": spread(point["cpu"])["median"]} for point in points.values()]}
+    programs = [ours, *(rival for rival in others if rival.name in agreed)]
+    points = timed(study, programs, deep)
+    study.result["rivals"] = {"size": list(size), "threads": machine.cores(), "reasons": reasons, "agreements": agreed,
+                              "versions": {each.name: each.version for each in programs}, "points": points}
     return None
 
 
@@ -107,8 +112,8 @@ def times_words(found, rival):
 
 def agreement_words(found, rival):
     each = found["agreements"][rival]
-    return (f"{rival} {found['versions'][rival]} and hedron: pictures of the same model are {number(each['rmse'], 2)} apart (RMSE, steps "
-            f"of 255; {each['deep']}), {number(100 * (1 - each['above_1']), 4)} % of the pixels within 1.")
+    return (f"The deep pictures of {rival} {found['versions'][rival]} and of hedron are {number(each['rmse'], 2)} apart (RMSE, steps of 255; "
+            f"{each['deep']}), {number(100 * (1 - each['above_1']), 4)} % of the pixels within 1.")
 
 
 def line_of(found, name, place):

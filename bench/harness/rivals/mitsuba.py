@@ -7,7 +7,7 @@ import sys
 
 from harness.rivals import shapes
 from harness.run import machine
-from harness.run.program import ROOT, Problem
+from harness.run.program import ROOT, Problem, message_in
 
 PROGRAM = ROOT / "bench/rivals/mitsuba_pictures.py"
 PLACES = (sys.executable, ROOT / "build/rivals/bin/python")  # where it may be installed
@@ -81,11 +81,12 @@ class Mitsuba:
         return 1, 1024 if quick else 4096
 
     def render(self, setting, file, turn):
-        asked = {"threads": machine.cores(), "scene": self.scene, "seed": turn + 1, "settings": [
-            {"sampler": setting[0], "spp": setting[1], "file": str(file)}]}
+        asked = {"threads": machine.cores(), "scene": self.scene, "sampler": setting[0], "spp": setting[1], "seed": turn + 1,
+                 "file": str(file)}
         done = subprocess.run([self.python, PROGRAM], input=json.dumps(asked), capture_output=True, text=True)
         if done.returncode != 0:
-            raise Problem(3, f"Mitsuba 3 ends with {done.returncode}: {(done.stderr.strip().splitlines() or ['no word'])[-1][:200]}")
+            raise Problem(3, f"Mitsuba 3 cannot render: {message_in(done.stderr)[:200]}; an LLVM that is too old ends it "
+                             "(DRJIT_LIBLLVM_PATH names another)")
         found = json.loads(done.stdout)
         self.version = found.pop("version")
         return found

@@ -100,7 +100,7 @@ class Povray:
                                *options.split()], cwd=self.folder, capture_output=True, text=True, stdin=subprocess.DEVNULL)
         took = TOOK.search(done.stderr)
         if done.returncode != 0 or not took:
-            raise Problem(3, f"POV-Ray ends with {done.returncode}: {(done.stderr.strip().splitlines() or ['no word'])[-1][:200]}")
+            raise Problem(3, f"POV-Ray cannot render: {done.stderr.strip()[-200:]}")
         self.version = re.search(r"[Vv]ersion ([\d.]+\d)", done.stderr)[1]
         pfm.write(file, *smaller(read_picture(self.folder / "rivals.ppm"), factor))
         return {"cpu": float(took[2]), "wall": float(took[1])}

@@ -4,7 +4,7 @@ triangles what `run` gave, or the reason why there is nothing."""
 from statistics import median
 
 from harness.measure.numbers import count_words
-from harness.measure.rows import Target, known
+from harness.measure.rows import NONE, Target, known
 from harness.run.program import run_tool
 
 COUNTS = (1000, 80000, 1000000)
@@ -111,3 +111,6 @@ def add_rows(plan, objects):
     for count in COUNTS:
         plan.row("rates", f"  rays that meet the same as Embree's, least, {count_words(count)} triangles", "%",
                  lambda count=count: [100 * known(least_same(known(objects.get(count))), NO_RIVAL)[0]])
+    for count in COUNTS:
+        plan.row("rates", f"rays aimed at edges and corners that leak, or cross the closed surface an odd number of times, {count_words(count)} "
+                 "triangles", "rays", lambda count=count: [sum(known(objects.get(count))["aimed"]["hedron"][1:])], target=NONE)
