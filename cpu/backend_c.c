@@ -187,6 +187,7 @@ static HdStatus prepare_queues(CRenderer *c, int samples, HdError *error) {
 typedef struct FrameWork {
     CRenderer *c;
     const HdFrameTables *tables;
+    int items;
     float *pixels;
 } FrameWork;
 
@@ -195,6 +196,7 @@ static void render_one_item(void *context, int thread, int item) {
     CRenderer *c = work->c;
     c->kernel(c->scene.table, work->tables->table, item,
               c->queues != NULL ? &c->queues[thread] : NULL, work->pixels, c->counts);
+    hd_watched_add(&work->tables->watched, item, item + 1, work->items);
 }
 
 static bool is_interrupted(void) {
@@ -210,7 +212,7 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
         status = prepare_queues(c, tables->samples, error);
     if (status != HD_OK)
         return status;
-    FrameWork work = {c, tables, frame->rgb};
+    FrameWork work = {c, tables, items, frame->rgb};
     double start = hd_monotonic_seconds();
     if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, is_interrupted))
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");

@@ -167,7 +167,7 @@ static HdStatus open_all(const Bench *bench, Contender *contenders, int count, H
 
 static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
     HdStatus status = contender->refinement != NULL
-                          ? hd_refinement_render(contender->refinement, &bench->camera,
+                          ? hd_refinement_render(contender->refinement, &bench->camera, NULL,
                                                  &bench->frame, &contender->error)
                           : hd_renderer_render(contender->renderer, &bench->view, &bench->frame,
                                                &contender->error);

@@ -55,9 +55,11 @@
     X(NUMBER, int, item_count)                                                                     \
     LAST(BUFFER, float, pixels)
 
-/* hedron_render_by_waves, of devices without groups: TABLES, HD_QUEUE_ARGUMENTS, then these. */
+/* hedron_render_by_waves, of devices without groups: TABLES, HD_QUEUE_ARGUMENTS, then these. Items
+   [first_item, end_item) are rendered. */
 #define HD_RENDER_BY_WAVES_ARGUMENTS(X, LAST)                                                      \
-    X(NUMBER, int, item_count)                                                                     \
+    X(NUMBER, int, first_item)                                                                     \
+    X(NUMBER, int, end_item)                                                                       \
     X(BUFFER, float, pixels)                                                                       \
     LAST(BUFFER, RayCounts, counts)
 

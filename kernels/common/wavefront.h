@@ -227,15 +227,16 @@ FN void render_item_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item, GLOBAL 
     *counts = gathered.counts;
 }
 
-/* Renders every `workers`-th item from number `worker` on, with the worker's own part of the
-   buffers. */
-FN void render_items_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int item_count, int worker,
-                              int workers, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
+/* Renders every `workers`-th item from number first_item + worker to below end_item, with the
+   worker's own part of the buffers. */
+FN void render_items_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, int end_item,
+                              int worker, int workers, GLOBAL float *pixels,
+                              GLOBAL RayCounts *counts) {
     uint64 own = (uint64)worker;
     ray_reals += own * (WAVE_REALS * (uint64)queue_stride + WAVE_SPARE);
     ray_ints += own * (WAVE_INTS * (uint64)queue_stride + WAVE_SPARE);
     sums += own * (WAVE_SUMS * (uint64)sum_stride + WAVE_SPARE);
-    for (int item = worker; item < item_count; item += workers)
+    for (int item = first_item + worker; item < end_item; item += workers)
         render_item_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS item, pixels, counts + item);
 }
 

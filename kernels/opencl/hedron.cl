@@ -43,8 +43,8 @@ __kernel void hedron_store_batch(HD_STORE_BATCH_ARGUMENTS(HD_PARAMETER, HD_LAST_
 
 __kernel void hedron_render_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS HD_RENDER_BY_WAVES_ARGUMENTS(
     HD_PARAMETER, HD_LAST_PARAMETER)) {
-    render_items_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS item_count, (int)get_global_id(0),
-                          (int)get_global_size(0), pixels, counts);
+    render_items_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, end_item,
+                          (int)get_global_id(0), (int)get_global_size(0), pixels, counts);
 }
 
 #else

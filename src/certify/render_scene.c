@@ -39,7 +39,7 @@ static HdStatus refine(HdRenderer *renderer, const HdScene *scene, const HdCamer
     HdStatus status =
         hd_refinement_create(&refinement, scene, renderer, precision, HD_CURVE_SRGB, error);
     if (status == HD_OK)
-        status = hd_refinement_render(refinement, camera, frame, error);
+        status = hd_refinement_render(refinement, camera, NULL, frame, error);
     hd_refinement_free(refinement);
     return status;
 }

@@ -7,15 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/text.h"
 #include "device/kernel_source.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 #include "system/warnings.h"
 
 enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
+
+/* A frame is not looked into before it has taken so long, and then so often. Plain lines about it
+   wait until so much more of a frame is done, so that an hour's frame has a hundred of them. */
+static const double LONG_FRAME = 1.0, GLANCE = 0.2, LEAST_PART = 0.01;
 
 /* ---- progress ---- */
 
@@ -28,22 +34,47 @@ void hd_progress_time(double seconds, char text[32]) {
         snprintf(text, 32, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-void hd_progress_line(int done, int total, double elapsed_seconds, char text[128]) {
-    char time[32];
-    double rate = elapsed_seconds > 0.0 ? done / elapsed_seconds : 0.0;
-    bool is_end = done == total;
-    if (done == 0) {
+static double frames_of(const HdProgress *progress) {
+    return progress->done + progress->part;
+}
+
+/* "", or " 40 % of the next,"; of several, "2.4 of". */
+static void describe_part(double part, char text[32]) {
+    text[0] = '\0';
+    if (part >= 1.0)
+        snprintf(text, 32, " %.1f of the next,", part);
+    else if (part > 0.0)
+        snprintf(text, 32, " %d %% of the next,", (int)(100.0 * part));
+}
+
+static double seconds_left(const HdProgress *progress) {
+    const double frames = frames_of(progress);
+    const double tracing = progress->seconds - progress->seconds_preparing;
+    return (progress->total - frames) * tracing / frames;
+}
+
+void hd_progress_line(const HdProgress *progress, char text[128]) {
+    const int done = progress->done, total = progress->total;
+    char time[32], part[32], rate[32] = "";
+    const bool is_end = done == total;
+    if (frames_of(progress) <= 0.0) {
         snprintf(text, 128, "0/%d frames", total);
         return;
     }
-    hd_progress_time(is_end ? elapsed_seconds : rate > 0.0 ? (total - done) / rate : 0.0, time);
-    snprintf(text, 128, "%d/%d frames, %.2f frames/s, %s %s", done, total, rate, time,
+    describe_part(progress->part, part);
+    hd_progress_time(is_end ? progress->seconds : seconds_left(progress), time);
+    if (done > 0)
+        snprintf(rate, sizeof rate, " %.2f frames/s,",
+                 progress->seconds > 0.0 ? done / progress->seconds : 0.0);
+    snprintf(text, 128, "%d/%d frames,%s%s %s %s", done, total, part, rate, time,
              is_end ? "in all" : "left");
 }
 
-void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]) {
+void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]) {
     char bar[BAR_WIDTH + 1];
-    int filled = total > 0 ? (int)((long long)done * BAR_WIDTH / total) : BAR_WIDTH;
+    int filled = progress->total > 0
+                     ? (int)(frames_of(progress) * BAR_WIDTH / progress->total + 1e-9)
+                     : BAR_WIDTH;
     bool has_room = BAR_WIDTH + 3 + (int)strlen(line) <= columns;
     memset(bar, '.', BAR_WIDTH);
     memset(bar, '#', (size_t)filled);
@@ -71,23 +102,111 @@ void hd_console_clear(const HdConsole *console) {
         fprintf(stderr, "\r\033[K");
 }
 
+static bool is_frame_long(const HdConsole *console, double now) {
+    return console->tracing_from > 0.0 && now - console->frame_seconds >= LONG_FRAME;
+}
+
+/* Frames that are traced and not stored yet are under way too. What a device lost with a frame is
+   counted all the same, so that it may seem to be more than is left. */
+static double part_under_way(const HdConsole *console) {
+    const double part = hd_watch_frames(console->watch) - console->rendered;
+    const double most = console->total - console->rendered - 0.01;
+    return part > most ? most : part;
+}
+
+static HdProgress progress_of(const HdConsole *console, double now) {
+    const double preparing =
+        console->tracing_from > 0.0 ? console->tracing_from - console->start_seconds : 0.0;
+    HdProgress progress = {
+        .done = console->rendered,
+        .total = console->total,
+        .seconds = now - console->start_seconds,
+        .seconds_preparing = preparing,
+    };
+    if (is_frame_long(console, now) && part_under_way(console) > 0.0)
+        progress.part = part_under_way(console);
+    return progress;
+}
+
+static bool is_line_due(const HdConsole *console, const HdProgress *progress, double now) {
+    const double more = frames_of(progress) - console->line_frames;
+    return progress->done < progress->total &&
+           now - console->line_seconds >= SECONDS_BETWEEN_LINES && more >= LEAST_PART;
+}
+
+static bool shows_progress(const HdConsole *console) {
+    return console->form == HD_PROGRESS_BAR || console->form == HD_PROGRESS_LINES;
+}
+
 /* Redraws the bar, or writes a line if the last one is long enough ago. */
 static void update(HdConsole *console) {
     char line[128], bar[160];
     double now = hd_monotonic_seconds();
-    bool redraws = console->form == HD_PROGRESS_BAR || console->form == HD_PROGRESS_LINES;
-    if (!redraws || !hd_wait_to_write(STDERR_FILENO))
+    if (!shows_progress(console) || !hd_wait_to_write(STDERR_FILENO))
         return;
-    hd_progress_line(console->rendered, console->total, now - console->start_seconds, line);
+    const HdProgress progress = progress_of(console, now);
+    hd_progress_line(&progress, line);
     if (console->form == HD_PROGRESS_BAR) {
         /* In the last column some terminals begin a new line. */
-        hd_progress_bar(console->rendered, console->total, line, terminal_columns() - 1, bar);
+        hd_progress_bar(&progress, line, terminal_columns() - 1, bar);
         draw(bar);
-    } else if (console->rendered < console->total &&
-               now - console->line_seconds >= SECONDS_BETWEEN_LINES) {
+    } else if (is_line_due(console, &progress, now)) {
         fprintf(stderr, "%s\n", line);
         console->line_seconds = now;
+        console->line_frames = frames_of(&progress);
     }
+}
+
+/* ---- within frames ---- */
+
+static void wait_a_glance(HdConsole *console) {
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until); /* the condition's; where it jumps, a glance is longer */
+    until.tv_nsec += (long)(1e9 * GLANCE);
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&console->over, &console->mutex, &until);
+}
+
+static void *watch(void *argument) {
+    HdConsole *console = argument;
+    pthread_mutex_lock(&console->mutex);
+    while (!console->is_over) {
+        wait_a_glance(console);
+        const bool goes_on = !console->is_over && hd_interrupt_signal() == 0;
+        if (goes_on && is_frame_long(console, hd_monotonic_seconds()))
+            update(console);
+    }
+    pthread_mutex_unlock(&console->mutex);
+    return NULL;
+}
+
+/* Without a thread whole frames are told of. */
+void hd_console_watch(HdConsole *console, const HdWatch *frames) {
+    console->watch = frames;
+    console->is_over = !shows_progress(console);
+    if (!console->is_over && hd_start_thread(&console->watcher, watch, console) != 0)
+        console->is_over = true;
+}
+
+static void end_watch(HdConsole *console) {
+    pthread_mutex_lock(&console->mutex);
+    const bool was_over = console->is_over;
+    console->is_over = true;
+    pthread_cond_signal(&console->over);
+    pthread_mutex_unlock(&console->mutex);
+    if (!was_over)
+        pthread_join(console->watcher, NULL);
+}
+
+void hd_console_hold(HdConsole *console) {
+    pthread_mutex_lock(&console->mutex);
+    if (console->form == HD_PROGRESS_BAR && hd_wait_to_write(STDERR_FILENO))
+        hd_console_clear(console);
+}
+
+void hd_console_release(HdConsole *console) {
+    pthread_mutex_unlock(&console->mutex);
 }
 
 /* After all frames: a last plain line, with the rays of all of them for each second. */
@@ -96,7 +215,8 @@ static void tell_rate(const HdConsole *console) {
     double elapsed = hd_monotonic_seconds() - console->start_seconds;
     if (console->form != HD_PROGRESS_LINES)
         return;
-    hd_progress_line(console->total, console->total, elapsed, line);
+    const HdProgress all = {.done = console->total, .total = console->total, .seconds = elapsed};
+    hd_progress_line(&all, line);
     fprintf(stderr, "%s, %.2f M rays/s\n", line,
             elapsed > 0.0 ? 1e-6 * (double)console->rays / elapsed : 0.0);
 }
@@ -122,6 +242,7 @@ void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_li
         .quiet = options->quiet,
         .form = choose_form(options, wants_lines),
         .mutex = PTHREAD_MUTEX_INITIALIZER,
+        .over = PTHREAD_COND_INITIALIZER,
     };
 }
 
@@ -251,6 +372,8 @@ static void tell_fallbacks(const HdConsole *console) {
 void hd_console_tell_upload(HdConsole *console, const HdRenderer *renderer, const char *line,
                             const HdSceneTables *tables) {
     pthread_mutex_lock(&console->mutex);
+    if (console->tracing_from <= 0.0)
+        console->tracing_from = console->frame_seconds = hd_monotonic_seconds();
     if (console->verbose) {
         hd_console_clear(console);
         note_renderer(renderer, line, tables);
@@ -273,6 +396,7 @@ void hd_console_tell_loss(HdConsole *console, const HdDevice *device, const char
 
 static void count_frame(HdConsole *console, const HdFrame *frame) {
     console->rendered++;
+    console->frame_seconds = hd_monotonic_seconds();
     console->rays += hd_frame_rays(frame);
     if (frame->has_bound && frame->largest_bound > console->missing)
         console->missing = frame->largest_bound;
@@ -319,8 +443,9 @@ static void tell_missing(const HdConsole *console, const HdScene *scene) {
                 console->missing, scene->max_error);
 }
 
-void hd_console_end(const HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
+void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
                     const char (*lines)[HD_RENDERER_LINE], HdStatus status) {
+    end_watch(console);
     hd_interrupt_announce(NULL);
     hd_console_clear(console);
     tell_fallbacks(console);

@@ -6,6 +6,7 @@
 
 #include <pthread.h>
 
+#include "base/watch.h"
 #include "choice/devices.h"
 #include "cli/options.h"
 #include "output/frame_store.h"
@@ -19,16 +20,31 @@ typedef enum HdProgressForm {
     HD_PROGRESS_FRAMES /* a line for each frame, and nothing else, which programs read */
 } HdProgressForm;
 
+/* How far a run is, for its line. */
+typedef struct HdProgress {
+    int done, total;          /* frames */
+    double part;              /* of the next ones, in frames, what is traced */
+    double seconds;           /* since the begin */
+    double seconds_preparing; /* of them, before devices traced anything */
+} HdProgress;
+
 typedef struct HdConsole {
     bool verbose, quiet;
     HdProgressForm form;
+    const HdWatch *watch; /* of the frames; NULL: nobody watches them */
+    pthread_t watcher;
     int total; /* frames that are counted */
     double start_seconds;
     pthread_mutex_t mutex; /* of standard error while frames are rendered, and of what follows */
-    double line_seconds;   /* when the last plain line was written */
-    int rendered;          /* frames so far */
-    uint64_t rays;         /* of all frames so far */
-    double missing;        /* steps of 255 at most, of the worst frame so far */
+    pthread_cond_t over;   /* no more frames are watched: `is_over` */
+    bool is_over;
+    double tracing_from; /* when a device was ready; 0: none is */
+    double line_seconds; /* when the last plain line was written, and where the run was then */
+    double line_frames;
+    double frame_seconds; /* when the last frame was stored, or tracing began */
+    int rendered;         /* frames so far */
+    uint64_t rays;        /* of all frames so far */
+    double missing;       /* steps of 255 at most, of the worst frame so far */
 } HdConsole;
 
 /* `wants_lines`: progress in plain lines where standard error is no terminal. There is nothing to
@@ -51,6 +67,14 @@ void hd_console_clear(const HdConsole *console);
 
 void hd_console_tell_devices(const HdConsole *console, const HdDeviceTeam *team);
 
+/* The frames begin, and `watch` is told of them until the end below: on a terminal a frame that
+   takes long is seen to grow, and plain lines tell of it now and then. */
+void hd_console_watch(HdConsole *console, const HdWatch *watch);
+
+/* Between the two something else may be written where the bar is. Not for long. */
+void hd_console_hold(HdConsole *console);
+void hd_console_release(HdConsole *console);
+
 /* On any thread: a renderer got the scene and says `line` of itself (hd_renderer_describe); a
    device is left out of the rest of the run; a frame is stored. Of the last there is a line of its
    own where programs read it, "hedron: frame 17 stored, 3 of 40", as docs/farm.md promises. */
@@ -64,19 +88,20 @@ void hd_console_announce_interrupt(const HdConsole *console);
 
 /* All frames are rendered, or no more are. `lines` is what each of the team's renderers said when
    it got the scene, "" where it did not: its first frame may have changed that. */
-void hd_console_end(const HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
+void hd_console_end(HdConsole *console, const HdScene *scene, const HdDeviceTeam *team,
                     const char (*lines)[HD_RENDERER_LINE], HdStatus status);
 
 /* ---- texts ---- */
 
 /* "[####....] line", no wider than `columns`: a line that leaves no room for the bar stands alone,
    and is cut where it is too long itself. */
-void hd_progress_bar(int done, int total, const char *line, int columns, char text[160]);
+void hd_progress_bar(const HdProgress *progress, const char *line, int columns, char text[160]);
 
 /* "m:ss", or "h:mm:ss" from an hour on; rounded to the nearest second. */
 void hd_progress_time(double seconds, char text[32]);
 
-/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all". */
-void hd_progress_line(int done, int total, double elapsed_seconds, char text[128]);
+/* "12/120 frames, 1.41 frames/s, 1:16 left"; with all of them done, "..., 1:25 in all"; with a
+   part, "12/120 frames, 40 % of the next, ...". */
+void hd_progress_line(const HdProgress *progress, char text[128]);
 
 #endif

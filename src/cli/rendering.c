@@ -16,6 +16,7 @@ typedef struct Run {
     HdConsole console;
     HdStatistics statistics; /* stream NULL: not wanted */
     HdDeviceTeam team;
+    HdWatch watch;
     char scene_name[HD_MAX_PATH], spelled[8192];   /* what pictures say */
     char lines[HD_MOST_TRACERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
 } Run;
@@ -46,10 +47,12 @@ static HdStatus add_statistics(Run *run, const HdStoredFrame *stored, HdError *e
 static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
     Run *run = context;
     HdStatus status = HD_OK;
+    hd_console_hold(&run->console); /* both may go to the same terminal */
     if (run->rendering->stored != NULL)
         status = run->rendering->stored(stored, error);
     if (status == HD_OK && run->statistics.stream != NULL)
         status = add_statistics(run, stored, error);
+    hd_console_release(&run->console);
     if (status == HD_OK)
         hd_console_tell_frame(&run->console, stored);
     return status;
@@ -98,10 +101,12 @@ static HdStatus render_all(Run *run, HdError *error) {
         .dropped = device_dropped,
         .stored = frame_stored,
         .context = run,
+        .watch = &run->watch,
     };
     if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
         hd_console_prepare(&run->console, "building kernels");
     hd_console_announce_interrupt(&run->console);
+    hd_console_watch(&run->console, &run->watch);
     HdStatus status = hd_sequence_render(&sequence, error);
     hd_console_end(&run->console, sequence.scene, &run->team, run->lines, status);
     return status;

@@ -20,6 +20,11 @@
 /* The error that is aimed at where nobody said another. */
 #define USUAL_ERROR 2.0
 
+/* What is usual of a picture: pixels that are refined, dear as they are, and, of a pass, the
+   samples that it brings to neighbours. Progress is guessed by them, and nothing else. */
+#define USUAL_SHARE  0.75
+#define USUAL_SPREAD 0.05
+
 /* How often unevenness spreads to neighbours. */
 enum { MOST_SPREADS = 4, MOST_THREADS = 16 };
 
@@ -52,6 +57,7 @@ struct HdRefinement {
     HdSurveyRequest *requests;
     HdSurvey *surveys;
     int request_room, survey_room;
+    HdWatched left; /* of the frame, that no pass was given */
 };
 
 void hd_refinement_free(HdRefinement *r) {
@@ -224,9 +230,17 @@ static void add_samples(void *context, int first, int end) {
                     pass->parts, pass->each);
 }
 
-/* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. */
+/* The pass to come gets its share of what is left of the frame. */
+static void give_worth(HdRefinement *r, double own, double later) {
+    r->surveyor.pass = r->left;
+    r->surveyor.pass.worth = (uint64_t)((double)r->left.worth * own / (own + later));
+    r->left.worth -= r->surveyor.pass.worth;
+}
+
+/* The chosen pixels, in order, get the samples up to `samples` in `parts` equal parts. About
+   `later` samples follow in other passes. */
 static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count, int from,
-                              int samples, int parts, HdError *error) {
+                              int samples, int parts, double later, HdError *error) {
     Pass pass = {r, from, parts, (samples - from) / parts};
     if (count == 0)
         return HD_OK;
@@ -236,6 +250,7 @@ static HdStatus sample_chosen(HdRefinement *r, const HdCamera *camera, int count
     if (status != HD_OK)
         return status;
     hd_chunks_run(r->threads, count, request_samples, &pass);
+    give_worth(r, (double)count * (samples - from), later);
     status = hd_survey_pass(&r->surveyor, camera, r->requests, count * parts, pass.each, r->surveys,
                             error);
     if (status == HD_OK)
@@ -334,9 +349,10 @@ static int choose_next(HdRefinement *r, int samples, int count) {
 
 static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
     int pixels = r->width * r->height;
+    double later = USUAL_SHARE * pixels * (r->samples.count - samples);
     memset(r->pixels, 0, sizeof *r->pixels * (size_t)pixels);
     memcpy(r->chosen, r->order, sizeof *r->order * (size_t)pixels);
-    return sample_chosen(r, camera, pixels, 0, samples, 1, error);
+    return sample_chosen(r, camera, pixels, 0, samples, 1, later, error);
 }
 
 /* Into how many parts so many samples are cut: three, or else the least number that divides them.
@@ -357,10 +373,13 @@ static int next_level(const HdRefinement *r, int samples) {
 static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count, int samples,
                               int level, HdError *error) {
     int parts = part_count(level - samples);
-    HdStatus status = sample_chosen(r, camera, count, samples, level, parts, error);
+    double later = (double)count * (r->samples.count - level);
+    double spread_later = USUAL_SPREAD * count * (level - samples);
+    HdStatus status =
+        sample_chosen(r, camera, count, samples, level, parts, later + spread_later, error);
     for (int spread = 0; status == HD_OK && count > 0 && spread < MOST_SPREADS; spread++) {
         count = choose_next(r, samples, count);
-        status = sample_chosen(r, camera, count, samples, level, parts, error);
+        status = sample_chosen(r, camera, count, samples, level, parts, later, error);
     }
     return status;
 }
@@ -437,10 +456,11 @@ static HdStatus find_first_hits(const HdRefinement *r, const HdCamera *camera, H
     return status;
 }
 
-HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdFrame *frame,
-                              HdError *error) {
+HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdWatch *watch,
+                              HdFrame *frame, HdError *error) {
     double start = hd_monotonic_seconds();
     r->surveyor.sums = (HdFrame){0};
+    r->left = (HdWatched){watch, HD_WATCH_FRAME};
     HdStatus status = r->surveyor.scene->sampling == HD_SAMPLING_ADAPTIVE
                           ? refine(r, camera, error)
                           : sample_all(r, camera, r->samples.count, error);
@@ -448,6 +468,7 @@ HdStatus hd_refinement_render(HdRefinement *r, const HdCamera *camera, HdFrame *
         status = find_first_hits(r, camera, frame, error);
     if (status != HD_OK)
         return status;
+    hd_watched_add(&r->left, 0, 1, 1);
     frame->is_encoded = false;
     fill_frame(r, frame);
     fill_counts(&r->surveyor.sums, frame);

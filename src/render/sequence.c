@@ -242,6 +242,7 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
                 .frames = sequence->resume->all,
                 .precision = sequence->precision,
                 .wish = sequence->outputs->wish,
+                .watch = sequence->watch,
                 .start = hd_monotonic_seconds()},
         .turns = {.count = sequence->team->count},
         .waiting = sequence->team->count,

@@ -24,6 +24,7 @@ typedef struct HdSequence {
        are rendered. Must return HD_OK to go on. */
     HdStatus (*stored)(void *context, const HdStoredFrame *stored, HdError *error);
     void *context;
+    HdWatch *watch; /* counts the frames as they are traced; NULL: nobody looks */
 } HdSequence;
 
 /* Renders what is missing with one renderer, or with several together, and makes films of all:

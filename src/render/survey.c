@@ -93,7 +93,7 @@ static void add_counts(HdSurveyor *surveyor, int count, int samples, double seco
 }
 
 static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, int samples,
-                       double cutoff, HdError *error) {
+                       double cutoff, HdWatched watched, HdError *error) {
     HdFrameTables tables;
     const HdSampleList list = {
         .entries = surveyor->entries,
@@ -109,6 +109,7 @@ static HdStatus submit(HdSurveyor *surveyor, const HdCamera *camera, int count, 
                                               &list, error);
     if (status != HD_OK)
         return status;
+    tables.watched = watched;
     surveyor->frame.height = tables.height;
     status = hd_renderer_render(surveyor->renderer, &tables, &surveyor->frame, error);
     hd_frame_tables_free(&tables);
@@ -174,18 +175,30 @@ static int take_surveys(void *context, int first, int end, int *still_open) {
     return left;
 }
 
+/* What one of the passes with smaller and smaller cut-offs is worth: most of what is left, for few
+   samples need another one; without a limit there is one. */
+static HdWatched take_worth(HdSurveyor *surveyor) {
+    HdWatched taken = surveyor->pass;
+    if (surveyor->scene->max_error > 0.0)
+        taken.worth -= taken.worth / 8;
+    surveyor->pass.worth -= taken.worth;
+    return taken;
+}
+
 /* Of the requests that are open, in place: those that are not within the limit stay. */
 static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
                             const HdSurveyRequest *requests, int *open_count, int samples,
                             double cutoff, bool is_first, HdSurvey *surveys, HdError *error) {
     int left = 0;
+    const HdWatched all = take_worth(surveyor);
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
         int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
         int *open = surveyor->open + from;
         Part part = {surveyor, requests, surveys, open, count, is_first};
         double start = hd_monotonic_seconds();
         hd_chunks_run(surveyor->threads, count, list_entries, &part);
-        HdStatus status = submit(surveyor, camera, count, samples, cutoff, error);
+        const HdWatched own = {all.watch, hd_watched_worth(&all, from, from + count, *open_count)};
+        HdStatus status = submit(surveyor, camera, count, samples, cutoff, own, error);
         if (status != HD_OK)
             return status;
         add_counts(surveyor, count, samples, hd_monotonic_seconds() - start);
@@ -235,5 +248,7 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
         return status;
     for (int i = 0; i < count; i++)
         surveyor->open[i] = i;
-    return close_requests(surveyor, camera, requests, count, samples, surveys, error);
+    status = close_requests(surveyor, camera, requests, count, samples, surveys, error);
+    hd_watched_add(&surveyor->pass, 0, 1, 1);
+    return status;
 }

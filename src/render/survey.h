@@ -59,6 +59,7 @@ typedef struct HdSurveyor {
     HdErrorBudget budget;
     double most_left_out;  /* hd_most_left_out of the scene */
     HdThreadPool *threads; /* for the host's work */
+    HdWatched pass;        /* what the pass to come is worth */
     HdFrame sums;          /* counts and time of all passes so far; without pixels */
     int *entries, *open;   /* the surveyor's own from here on */
     int entry_room, open_room;

@@ -47,6 +47,7 @@ static HdStatus submit(Tracer *tracer, Flight *flight, const HdCamera *camera, H
     HdStatus status = hd_compile_frame(&flight->tables, job->scene, camera, job->precision, error);
     if (status != HD_OK)
         return status;
+    flight->tables.watched = (HdWatched){job->watch, HD_WATCH_FRAME};
     flight->prepare.seconds = seconds_since_start(tracer) - flight->begun;
     status = hd_renderer_submit(tracer->renderer, &flight->tables, &job->wish, error);
     if (status != HD_OK)
@@ -110,7 +111,7 @@ static HdStatus refine(Tracer *tracer, const Flight *flight, HdFrame *frame, HdF
     HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[flight->place], error);
     double prepared = seconds_since_start(tracer);
     if (status == HD_OK)
-        status = hd_refinement_render(tracer->refinement, &camera, frame, error);
+        status = hd_refinement_render(tracer->refinement, &camera, job->watch, frame, error);
     if (status == HD_OK) {
         times->prepare = (HdSpan){began, prepared - began};
         times->trace = (HdSpan){prepared, frame->trace_seconds};

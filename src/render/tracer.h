@@ -15,7 +15,8 @@ typedef struct HdTracerJob {
     const HdFrameList *frames;
     HdPrecision precision;
     HdFrameWish wish;
-    double start; /* of the run, by hd_monotonic_seconds */
+    HdWatch *watch; /* NULL: nobody looks */
+    double start;   /* of the run, by hd_monotonic_seconds */
     HdFrameStore *store;
     HdStages *stages; /* of the store */
     HdTurns *turns;

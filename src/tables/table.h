@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/watch.h"
+
 /* Bytes for a device, laid out as the kernels' structs. Empty tables are allowed. */
 typedef struct HdTable {
     void *data;
@@ -36,6 +38,7 @@ typedef struct HdFrameTables {
     int samples; /* of a pixel */
     int floats;  /* that come of a pixel: 3, of surveyed scenes 5 (HdFrame) */
     HdPrecision precision;
+    HdWatched watched; /* nobody, unless whoever had the tables compiled fills it in */
 } HdFrameTables;
 
 /* The pixels of a listed frame, of the whole picture and in any order, and the samples of each. */

@@ -279,7 +279,7 @@ static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, Hd
                                       wish->file->output.style.picture.curve, error);
     if (status != HD_OK)
         return status;
-    status = hd_refinement_render(refinement, &wish->camera, &worker->frame, error);
+    status = hd_refinement_render(refinement, &wish->camera, NULL, &worker->frame, error);
     hd_refinement_free(refinement);
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&worker->frame);

@@ -69,11 +69,13 @@ static HdStatus reserve(HdGpuFlight *flight, const HdGpu *gpu, HdError *error) {
 }
 
 HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFrameTables *tables,
-                             bool encodes, HdGpuFlight **out, HdError *error) {
+                             int items, bool encodes, HdGpuFlight **out, HdError *error) {
     HdGpuFlight *flight =
         &flights->flights[(flights->oldest + flights->count) % HD_FRAMES_IN_FLIGHT];
     flight->encodes = encodes;
     flight->of = tables;
+    flight->items = items;
+    flight->told = 0;
     flight->submitted = hd_monotonic_seconds();
     flight->launches = 0;
     flight->untimed = NULL;
@@ -119,6 +121,11 @@ HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, c
     return HD_OK;
 }
 
+void hd_gpu_flight_tell(HdGpuFlight *flight, int end) {
+    hd_watched_add(&flight->of->watched, flight->told, end, flight->items);
+    flight->told = end;
+}
+
 HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
                             HdError *error) {
     char *to = flight->copy.data;
@@ -151,6 +158,7 @@ static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gp
         status = hd_gpu_flight_time_launch(flights, flight, gpu, waited, error);
     if (status != HD_OK)
         return status;
+    hd_gpu_flight_tell(flight, flight->items);
     flights->longest_launch = flight->longest_launch;
     frame->trace_seconds = seconds < 0.0 ? host_seconds(flights, flight) : seconds;
     frame->is_encoded = flight->encodes;

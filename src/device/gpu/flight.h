@@ -16,6 +16,7 @@ typedef struct HdGpuFlight {
     HdGpuMemory copy;         /* of the host: the sums, then the pixels or the image */
     bool encodes;
     const HdFrameTables *of; /* the frame */
+    int items, told;         /* of the frame, and how many of them are told to be done */
     double submitted;        /* by hd_monotonic_seconds */
     int launches;            /* of the tracing kernel */
     HdGpuMark first, later;  /* of its launches: the first one, and the last of others */
@@ -37,9 +38,10 @@ typedef struct HdGpuFlights {
 
 void hd_gpu_flights_close(HdGpuFlights *flights, const HdGpu *gpu); /* none is under way */
 
-/* The next flight, with room for the frame, for kernels to be queued with its marks. */
+/* The next flight, with room for the frame of so many items, for kernels to be queued with its
+   marks. */
 HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFrameTables *tables,
-                             bool encodes, HdGpuFlight **flight, HdError *error);
+                             int items, bool encodes, HdGpuFlight **flight, HdError *error);
 
 /* A launch of the tracing kernel, with so much work. */
 HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
@@ -50,6 +52,9 @@ HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpu
    `waited` is when the host, by hd_monotonic_seconds, began to wait for it. */
 HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
                                    double waited, HdError *error);
+
+/* The items before number `end` are done. */
+void hd_gpu_flight_tell(HdGpuFlight *flight, int end);
 
 /* Queues the copies, all kernels being queued: the flight is under way. */
 HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,

@@ -240,17 +240,21 @@ static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch
     return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
 }
 
-/* Launches are queued one by one, so that a signal ends the frame between two of them, and so that
-   each tells how large the next one may be. */
-static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, HdError *error) {
+/* Launches are queued one by one, so that a signal ends the frame between two of them, so that
+   each tells how large the next one may be, and so that it is known what is done: the items before
+   number `done`. CPUs drive no display, but the rest holds for them too. */
+static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, int done, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     double waited = hd_monotonic_seconds();
     HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
     if (status == HD_OK)
         status = hd_gpu_flight_time_launch(&renderer->flights, flight, gpu, waited, error);
-    if (status == HD_OK && hd_interrupt_signal() != 0)
-        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
-    return status;
+    if (status != HD_OK)
+        return status;
+    hd_gpu_flight_tell(flight, done);
+    return hd_interrupt_signal() != 0
+               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
+               : HD_OK;
 }
 
 /* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
@@ -263,26 +267,27 @@ static int sample_parts(int samples, int group_size) {
     return parts;
 }
 
-/* CPUs drive no display: there a frame is one launch. */
-static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
-    int left = items, samples = flight->of->samples, group_size = renderer->program.group_size;
+static int samples_per_item(const Renderer *renderer, const HdGpuFlight *flight) {
+    return renderer->program.cache.shape.pixels_per_item * flight->of->samples;
+}
+
+static HdStatus launch_mega(Renderer *renderer, HdGpuFlight *flight, HdError *error) {
+    int samples = flight->of->samples, group_size = renderer->program.group_size;
     int parts = renderer->has_groups ? sample_parts(samples, group_size) : 1;
-    int per_group = group_size / parts;
+    int per_group = group_size / parts, work = samples_per_item(renderer, flight);
     Render own = {.parts = parts, .pixels = &flight->pixels, .counts = &renderer->counts};
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_render(&launch, &own);
     HdStatus status = HD_OK;
-    for (; status == HD_OK && left > 0; left -= own.item_count) {
-        status = left < items ? wait_between(renderer, flight, error) : HD_OK;
-        own.first_item = items - left;
-        own.item_count = left;
-        if (renderer->has_groups)
-            own.item_count =
-                hd_launch_size_items(&renderer->flights.size, left, samples, per_group);
+    for (int done = 0; status == HD_OK && done < flight->items; done += own.item_count) {
+        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+        own.first_item = done;
+        own.item_count =
+            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, per_group);
         launch.groups = group_count(renderer, own.item_count, per_group);
         if (status == HD_OK)
             status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch,
-                                          (double)own.item_count * samples, error);
+                                          (double)own.item_count * work, error);
     }
     return status;
 }
@@ -306,15 +311,26 @@ static Queue queue_of(const Renderer *renderer) {
 }
 
 /* The wavefront of CPUs. */
-static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, int items, HdError *error) {
+static HdStatus launch_workers(Renderer *renderer, HdGpuFlight *flight, HdError *error) {
     const Queue queue = queue_of(renderer);
-    const RenderByWaves own = {
-        .item_count = items, .pixels = &flight->pixels, .counts = &renderer->counts};
+    const int work = samples_per_item(renderer, flight);
+    RenderByWaves own = {.pixels = &flight->pixels, .counts = &renderer->counts};
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_TRACE);
     add_queue(&launch, &queue);
     add_render_by_waves(&launch, &own);
-    launch.groups = worker_count(renderer, items);
-    return hd_gpu_flight_launch(flight, &renderer->gpu, &launch, 0.0, error);
+    HdStatus status = HD_OK;
+    for (int done = 0; status == HD_OK && done < flight->items; done = own.end_item) {
+        status = done > 0 ? wait_between(renderer, flight, done, error) : HD_OK;
+        const int count =
+            hd_launch_size_items(&renderer->flights.size, flight->items - done, work, 1);
+        own.first_item = done;
+        own.end_item = done + count;
+        launch.groups = worker_count(renderer, count);
+        if (status == HD_OK)
+            status =
+                hd_gpu_flight_launch(flight, &renderer->gpu, &launch, (double)count * work, error);
+    }
+    return status;
 }
 
 static HdStatus trace_step(Renderer *renderer, HdGpuFlight *flight, const HdWaveStep *step,
@@ -365,12 +381,21 @@ static HdStatus store_batch(const Renderer *renderer, const HdGpuFlight *flight,
     return queue_launch(renderer, &launch, NULL, error);
 }
 
+/* Samples of a batch are taken from its end on, each time once all rays of those before are
+   traced. */
+static void tell_step(HdGpuFlight *flight, const HdWaveStep *step) {
+    const int samples = flight->of->samples;
+    const int last = step->action == HD_WAVE_TRACES ? (step->first + step->count) / samples : 0;
+    if (step->action == HD_WAVE_STORES || step->level == 0)
+        hd_gpu_flight_tell(flight, step->first_item + step->item_count - last);
+}
+
 /* The wavefront of devices with groups of threads. */
-static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items, int most_groups,
+static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int most_groups,
                              HdError *error) {
     HdWaveRun run = {
         .plan = &renderer->queue.plan,
-        .items = items,
+        .items = flight->items,
         .samples_per_item = flight->of->samples,
         .depth = renderer->depth,
         .grain = renderer->program.group_size,
@@ -382,6 +407,7 @@ static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int items,
         status = hd_wave_next(&run, taken, &renderer->flights.size, error);
         if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
             return status;
+        tell_step(flight, step);
         status = step->action == HD_WAVE_STORES
                      ? store_batch(renderer, flight, step, error)
                      : trace_step(renderer, flight, step, most_groups, &taken, error);
@@ -401,16 +427,15 @@ static HdStatus launch_sum(Renderer *renderer, HdGpuFlight *flight, int count_sl
     return queue_launch(renderer, &launch, &flight->summed, error);
 }
 
-static HdStatus trace(Renderer *renderer, HdGpuFlight *flight, int items, int count_slots,
-                      HdError *error) {
+static HdStatus trace(Renderer *renderer, HdGpuFlight *flight, int count_slots, HdError *error) {
     HdStatus status;
     hd_launch_size_begin_frame(&renderer->flights.size);
     if (!renderer->program.cache.shape.wavefront)
-        status = launch_mega(renderer, flight, items, error);
+        status = launch_mega(renderer, flight, error);
     else if (renderer->has_groups)
-        status = launch_waves(renderer, flight, items, count_slots, error);
+        status = launch_waves(renderer, flight, count_slots, error);
     else
-        status = launch_workers(renderer, flight, items, error);
+        status = launch_workers(renderer, flight, error);
     return status == HD_OK ? launch_sum(renderer, flight, count_slots, error) : status;
 }
 
@@ -448,9 +473,9 @@ static HdStatus encode(Renderer *renderer, HdGpuFlight *flight, HdCurve curve, H
 
 /* ---- frames ---- */
 
-static HdStatus reserve_queue(Renderer *renderer, int items, int samples, HdError *error) {
+static HdStatus reserve_queue(Renderer *renderer, const HdGpuFlight *flight, HdError *error) {
     const HdKernelShape *shape = &renderer->program.cache.shape;
-    int per_item = shape->pixels_per_item * samples;
+    int items = flight->items, per_item = samples_per_item(renderer, flight);
     bool has_groups = renderer->has_groups;
     HdWaveNeeds needs = {
         .bytes = renderer->queue.bytes,
@@ -491,12 +516,10 @@ static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFra
 static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,
                              HdCurve curve, HdError *error) {
     const HdGpuProgram *program = &renderer->program;
-    int items =
-        hd_kernel_item_count(tables->width, tables->height, program->cache.shape.pixels_per_item);
-    int count_slots = items;
+    int count_slots = flight->items;
     HdStatus status = HD_OK;
     if (program->cache.shape.wavefront)
-        status = reserve_queue(renderer, items, tables->samples, error);
+        status = reserve_queue(renderer, flight, error);
     if (program->cache.shape.wavefront && renderer->has_groups)
         count_slots =
             hd_wave_groups(&renderer->queue.plan, program->group_size, renderer->options.grid);
@@ -507,7 +530,7 @@ static HdStatus launch_frame(Renderer *renderer, HdGpuFlight *flight, const HdFr
                                 sizeof(HdRayCounts) * (size_t)count_slots,
                                 "counts of the work items", error);
     if (status == HD_OK)
-        status = trace(renderer, flight, items, count_slots, error);
+        status = trace(renderer, flight, count_slots, error);
     if (status == HD_OK && flight->encodes)
         status = encode(renderer, flight, curve, error);
     return status;
@@ -520,10 +543,12 @@ static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFra
     const HdGpu *gpu = &renderer->gpu;
     HdGpuFlight *flight;
     bool encodes = renderer->has_groups && !wish->radiance;
+    int items = hd_kernel_item_count(tables->width, tables->height,
+                                     renderer->program.cache.shape.pixels_per_item);
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = hd_gpu_flight_begin(&renderer->flights, gpu, tables, encodes, &flight, error);
+    status = hd_gpu_flight_begin(&renderer->flights, gpu, tables, items, encodes, &flight, error);
     if (status == HD_OK)
         status = launch_frame(renderer, flight, tables, wish->curve, error);
     if (status == HD_OK)

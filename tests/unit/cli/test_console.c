@@ -24,10 +24,14 @@ static void times_have_minutes_and_hours(void **state) {
     check_time(1e300, "99999:00:00");
 }
 
-static void check_line(int done, int total, double seconds, const char *expected) {
+static void check_progress(HdProgress progress, const char *expected) {
     char text[128];
-    hd_progress_line(done, total, seconds, text);
+    hd_progress_line(&progress, text);
     assert_string_equal(text, expected);
+}
+
+static void check_line(int done, int total, double seconds, const char *expected) {
+    check_progress((HdProgress){done, total, 0.0, seconds, 0.0}, expected);
 }
 
 static void lines_tell_rate_and_time_left(void **state) {
@@ -45,9 +49,21 @@ static void the_last_line_tells_the_whole_time(void **state) {
     check_line(1, 1, 0.0, "1/1 frames, 0.00 frames/s, 0:00 in all");
 }
 
+static void parts_of_frames_tell_time_left(void **state) {
+    (void)state;
+    check_progress((HdProgress){0, 1, 0.25, 12.0, 2.0}, "0/1 frames, 25 % of the next, 0:30 left");
+    check_progress((HdProgress){0, 1, 0.999, 12.0, 2.0}, "0/1 frames, 99 % of the next, 0:00 left");
+    check_progress((HdProgress){0, 3, 0.001, 2.0, 2.0}, "0/3 frames, 0 % of the next, 0:00 left");
+    check_progress((HdProgress){3, 40, 0.5, 35.0, 0.0},
+                   "3/40 frames, 50 % of the next, 0.09 frames/s, 6:05 left");
+    check_progress((HdProgress){3, 40, 2.46, 30.0, 0.0},
+                   "3/40 frames, 2.5 of the next, 0.10 frames/s, 3:10 left");
+}
+
 static void check_bar(int columns, const char *expected) {
     char text[160];
-    hd_progress_bar(1, 2, "1/2 frames", columns, text);
+    const HdProgress half = {.done = 1, .total = 2};
+    hd_progress_bar(&half, "1/2 frames", columns, text);
     assert_string_equal(text, expected);
 }
 
@@ -60,14 +76,19 @@ static void the_bar_is_no_wider_than_the_terminal(void **state) {
     check_bar(4, "1/2 ");
     check_bar(0, "");
     char text[160];
-    hd_progress_bar(0, 0, "0/0 frames", 79, text); /* all were finished before */
+    const HdProgress none = {.total = 0}; /* all were finished before */
+    hd_progress_bar(&none, "0/0 frames", 79, text);
     assert_string_equal(text, "[########################] 0/0 frames");
+    const HdProgress part = {.done = 1, .total = 3, .part = 0.5};
+    hd_progress_bar(&part, "1/3 frames", 79, text);
+    assert_string_equal(text, "[############............] 1/3 frames");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(times_have_minutes_and_hours),
         cmocka_unit_test(lines_tell_rate_and_time_left),
+        cmocka_unit_test(parts_of_frames_tell_time_left),
         cmocka_unit_test(the_bar_is_no_wider_than_the_terminal),
         cmocka_unit_test(the_last_line_tells_the_whole_time),
     };

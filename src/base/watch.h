@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* Work that is watched: whoever does it counts it, on any thread, and whoever wants to know looks.
+ */
+#ifndef HD_BASE_WATCH_H
+#define HD_BASE_WATCH_H
+
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What a whole frame counts. */
+#define HD_WATCH_FRAME ((uint64_t)1 << 32)
+
+/* All zero at first. */
+typedef struct HdWatch {
+    _Atomic uint64_t done; /* it never falls; what is done and lost again stays counted */
+} HdWatch;
+
+/* A piece of work, as its watch sees it. */
+typedef struct HdWatched {
+    HdWatch *watch; /* NULL: nobody looks */
+    uint64_t worth; /* at most HD_WATCH_FRAME */
+} HdWatched;
+
+/* What the items first .. end - 1 of `count` are worth; all items together are worth what the work
+   is. */
+static inline uint64_t hd_watched_worth(const HdWatched *watched, int first, int end, int count) {
+    return watched->worth * (uint64_t)end / (uint64_t)count -
+           watched->worth * (uint64_t)first / (uint64_t)count;
+}
+
+/* These items are done. Each is told once, in any order. */
+static inline void hd_watched_add(const HdWatched *watched, int first, int end, int count) {
+    if (watched->watch != NULL)
+        atomic_fetch_add_explicit(&watched->watch->done,
+                                  hd_watched_worth(watched, first, end, count),
+                                  memory_order_relaxed);
+}
+
+/* In frames. */
+static inline double hd_watch_frames(const HdWatch *watch) {
+    return (double)atomic_load_explicit(&watch->done, memory_order_relaxed) /
+           (double)HD_WATCH_FRAME;
+}
+
+#endif
