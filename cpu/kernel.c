@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN the one that renders is for
-   plain scenes alone, in the pipeline of whole trees, and the only one: what other scenes need takes
-   registers, even where it never runs. */
+/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN there is one, for plain scenes
+   alone in the pipeline of whole trees: what other scenes need takes registers, even where it never
+   runs. */
 #include "cpu/kernel.h"
 
 #include "cpu/kernel_tables.h"

@@ -200,8 +200,9 @@ static void fill_chunk(exr_encode_pipeline_t *pipeline, const HdFrame *frame, in
     const size_t width = (size_t)frame->width;
     for (int i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        channel->user_pixel_stride = channel->bytes_per_element;
-        channel->user_line_stride = channel->width * channel->bytes_per_element;
+        const int bytes = channel->data_type == EXR_PIXEL_HALF ? 2 : 4;
+        channel->user_pixel_stride = bytes;
+        channel->user_line_stride = channel->width * bytes;
         channel->encode_from_ptr = plane;
         plane = fill_plane(frame, channel, width * (size_t)y, width * (size_t)lines, plane);
     }
@@ -248,11 +249,11 @@ static exr_result_t write_part(File *file, const HdFrame *frame, bool is_half,
         result = exr_get_scanlines_per_chunk(file->context, part, &lines);
     if (result != EXR_ERR_SUCCESS)
         return result;
-    unsigned char *planes =
-        malloc((size_t)frame->width * (size_t)lines * ALL_CHANNELS * sizeof(float));
+    const size_t pixels = (size_t)frame->width * (size_t)lines;
+    float *planes = malloc(pixels * ALL_CHANNELS * sizeof *planes); /* or halves */
     if (planes == NULL)
         return EXR_ERR_OUT_OF_MEMORY;
-    result = write_chunks(file->context, part, lines, frame, planes);
+    result = write_chunks(file->context, part, lines, frame, (unsigned char *)planes);
     free(planes);
     return result;
 }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Other programs beside hedron: the time to the same error, of a scene that all of them can be told of."""
 from harness.accuracy import front
-from harness.chart.lines import Axis, Line, lines
+from harness.chart.axes import Axis
+from harness.chart.lines import Line, lines
 from harness.measure.numbers import number, spread, spread_text
 from harness.measure.scenes import read_scene
 from harness.page.section import Part, few

@@ -2,7 +2,7 @@
 """Searches of triangles beside Embree's, in its plain and in its robust mode: rates, and rays aimed at edges and corners."""
 from statistics import median
 
-from harness.chart.bars import Row, rows
+from harness.chart.rows import Row, rows
 from harness.measure.numbers import count_words, number, spread
 from harness.page.section import Part
 from harness.run import machine
