@@ -199,8 +199,9 @@ static void render_one_item(void *context, int thread, int item) {
     hd_watched_add(&work->tables->watched, item, item + 1, work->items);
 }
 
-static bool is_interrupted(void) {
-    return hd_interrupt_signal() != 0;
+static bool must_stop(const void *context) {
+    const FrameWork *work = context;
+    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&work->tables->watched);
 }
 
 static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *frame,
@@ -214,7 +215,7 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
         return status;
     FrameWork work = {c, tables, items, frame->rgb};
     double start = hd_monotonic_seconds();
-    if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, is_interrupted))
+    if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, must_stop))
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
     frame->is_encoded = false;
     frame->trace_seconds = hd_monotonic_seconds() - start;

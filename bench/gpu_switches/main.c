@@ -146,7 +146,8 @@ static void open_one(void *context, int thread, int item) {
     contender->build_seconds = hd_monotonic_seconds() - start;
 }
 
-static bool is_interrupted(void) {
+static bool is_interrupted(const void *context) {
+    (void)context;
     return hd_interrupt_signal() != 0;
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Work that is watched: whoever does it counts it, on any thread, and whoever wants to know looks.
- */
+/* Work that is watched: whoever does it counts it, on any thread; whoever watches looks, and may
+   want it no more. */
 #ifndef HD_BASE_WATCH_H
 #define HD_BASE_WATCH_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -13,7 +14,8 @@
 
 /* All zero at first. */
 typedef struct HdWatch {
-    _Atomic uint64_t done; /* it never falls; what is done and lost again stays counted */
+    _Atomic uint64_t done;   /* it never falls; what is done and lost again stays counted */
+    atomic_bool is_unwanted; /* frames under way end as after a signal (system/interrupt.h) */
 } HdWatch;
 
 /* A piece of work, as its watch sees it. */
@@ -35,6 +37,10 @@ static inline void hd_watched_add(const HdWatched *watched, int first, int end, 
         atomic_fetch_add_explicit(&watched->watch->done,
                                   hd_watched_worth(watched, first, end, count),
                                   memory_order_relaxed);
+}
+
+static inline bool hd_watched_is_unwanted(const HdWatched *watched) {
+    return watched->watch != NULL && atomic_load(&watched->watch->is_unwanted);
 }
 
 /* In frames. */

@@ -29,7 +29,7 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
 
 /* Waits for the oldest frame under way; whatever comes of it, it is so no longer. `frame` must have
    its size, and `rgba` unless radiance was wished for. HD_INTERRUPTED where a signal came first
-   (interrupt.h). */
+   (interrupt.h), or whoever watches wants it no more (watch.h). */
 HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *error);
 
 /* Fills the frame's `first`, which it must have (hd_frame_add_layers), with what is met first in

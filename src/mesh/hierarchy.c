@@ -83,7 +83,8 @@ typedef struct Build {
     HdBuildNode *result;
 } Build;
 
-static bool is_interrupted(void) {
+static bool is_interrupted(const void *context) {
+    (void)context;
     return hd_interrupt_signal() != 0;
 }
 

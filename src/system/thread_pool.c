@@ -30,7 +30,7 @@ struct HdThreadPool {
     int count;
     HdThreadWork *work;
     void *context;
-    bool (*must_stop)(void);
+    bool (*must_stop)(const void *context);
     atomic_bool stopped; /* before all items were done */
 };
 
@@ -39,7 +39,7 @@ static void work_off(HdThreadPool *pool, int thread) {
         int item = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (item >= pool->count)
             return;
-        if (pool->must_stop()) {
+        if (pool->must_stop(pool->context)) {
             atomic_store(&pool->stopped, true);
             return;
         }
@@ -163,7 +163,7 @@ int hd_thread_pool_size(const HdThreadPool *pool) {
 }
 
 bool hd_thread_pool_run(HdThreadPool *pool, int count, HdThreadWork *work, void *context,
-                        bool (*must_stop)(void)) {
+                        bool (*must_stop)(const void *context)) {
     pthread_mutex_lock(&pool->mutex);
     pool->count = count;
     pool->work = work;

@@ -32,6 +32,7 @@ struct HdViewWorker {
     bool has_survey;   /* the kernels' tables are those of a surveyed scene */
     HdFrame frame;     /* of the scene's own size */
     HdFrame part;
+    HdWatch watch;         /* of passes: unwanted once the wish is an earlier one */
     pthread_mutex_t mutex; /* of what follows */
     pthread_cond_t changed;
     HdViewWish wish;
@@ -266,7 +267,7 @@ static HdStatus render_rows(HdViewWorker *worker, const HdScene *whole, const Hd
     return status;
 }
 
-/* Adaptive samples hang on their neighbours: such a picture is made in one piece. */
+/* Adaptive samples hang on their neighbours: such a picture is made in one piece, or given up. */
 static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, HdViewImage *facts,
                                 HdError *error) {
     const HdScene *scene = &wish->file->scene;
@@ -279,7 +280,7 @@ static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, Hd
                                       wish->file->output.style.picture.curve, error);
     if (status != HD_OK)
         return status;
-    status = hd_refinement_render(refinement, &wish->camera, NULL, &worker->frame, error);
+    status = hd_refinement_render(refinement, &wish->camera, &worker->watch, &worker->frame, error);
     hd_refinement_free(refinement);
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&worker->frame);
@@ -329,6 +330,8 @@ static void fulfil(HdViewWorker *worker, const HdViewWish *wish, int serial) {
     pthread_mutex_lock(&worker->mutex);
     worker->is_done = worker->is_done || worker->serial == serial;
     worker->is_busy = false;
+    if (status == HD_INTERRUPTED && worker->serial != serial)
+        status = HD_OK; /* it was given up */
     snprintf(worker->problem, sizeof worker->problem, "%.4000s",
              status == HD_OK ? "" : error.message);
     pthread_cond_broadcast(&worker->changed);
@@ -343,6 +346,7 @@ static bool take_wish(HdViewWorker *worker, HdViewWish *wish, int *serial) {
     const bool has_work = !worker->must_end;
     worker->is_busy = has_work;
     worker->is_saveable = worker->is_saveable && !has_work;
+    atomic_store(&worker->watch.is_unwanted, false);
     *wish = worker->wish;
     *serial = worker->serial;
     pthread_mutex_unlock(&worker->mutex);
@@ -378,10 +382,16 @@ HdStatus hd_view_worker_start(HdViewWorker **worker, void (*wake)(void *context)
     return HD_OK;
 }
 
+/* What is under way is for an earlier wish. */
+static void give_up(HdViewWorker *worker) {
+    worker->serial++;
+    atomic_store(&worker->watch.is_unwanted, true);
+}
+
 void hd_view_worker_show(HdViewWorker *worker, const HdViewWish *wish) {
     pthread_mutex_lock(&worker->mutex);
     worker->wish = *wish;
-    worker->serial++;
+    give_up(worker);
     worker->has_wish = true;
     worker->is_done = false;
     worker->is_saveable = false;
@@ -392,7 +402,7 @@ void hd_view_worker_show(HdViewWorker *worker, const HdViewWish *wish) {
 void hd_view_worker_rest(HdViewWorker *worker) {
     pthread_mutex_lock(&worker->mutex);
     worker->has_wish = false;
-    worker->serial++;
+    give_up(worker);
     while (worker->is_busy)
         pthread_cond_wait(&worker->changed, &worker->mutex);
     pthread_mutex_unlock(&worker->mutex);
@@ -443,6 +453,7 @@ void hd_view_worker_end(HdViewWorker *worker) {
         return;
     pthread_mutex_lock(&worker->mutex);
     worker->must_end = true;
+    give_up(worker);
     pthread_cond_broadcast(&worker->changed);
     pthread_mutex_unlock(&worker->mutex);
     pthread_join(worker->thread, NULL);

@@ -57,6 +57,11 @@ expect_view hedron-002.png "${deeper[@]}"
 cp printed "$logs/stdout"
 expect_view hedron-003.png "${deeper[@]}" --aa adaptive
 
+# ---- a picture that takes minutes, of passes that hang together, is given up for a key
+waits='wait:refining: 1 x 1 samples, 100 %'
+see blocks "$waits" "keys:$right" wait:moving: "$waits" "keys:$right" wait:moving: "$waits" keys:q \
+    -- --backend c --size 960x540 --samples 64 --aa adaptive --max-error 0.05
+
 # ---- the flight: a frame that was stopped at is that of the film
 see blocks wait:finished keys:.... 'wait:frame 4 of 240' 'keys: ' wait:playing 'keys: ' keys:p wait:saved keys:q \
     -- --backend c "${small[@]}"

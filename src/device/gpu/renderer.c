@@ -240,6 +240,12 @@ static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch
     return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
 }
 
+static HdStatus check_wanted(const HdGpuFlight *flight, HdError *error) {
+    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&flight->of->watched)
+               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
+               : HD_OK;
+}
+
 /* Launches are queued one by one, so that a signal ends the frame between two of them, so that
    each tells how large the next one may be, and so that it is known what is done: the items before
    number `done`. CPUs drive no display, but the rest holds for them too. */
@@ -252,9 +258,7 @@ static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, int done, 
     if (status != HD_OK)
         return status;
     hd_gpu_flight_tell(flight, done);
-    return hd_interrupt_signal() != 0
-               ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
-               : HD_OK;
+    return check_wanted(flight, error);
 }
 
 /* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
@@ -404,7 +408,9 @@ static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int most_g
     unsigned taken = 0;
     HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
     while (status == HD_OK) {
-        status = hd_wave_next(&run, taken, &renderer->flights.size, error);
+        status = check_wanted(flight, error);
+        if (status == HD_OK)
+            status = hd_wave_next(&run, taken, &renderer->flights.size, error);
         if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
             return status;
         tell_step(flight, step);

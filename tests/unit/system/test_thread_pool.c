@@ -10,11 +10,13 @@ enum { THREADS = 3, ITEMS = 1000 };
 static HdError error;
 static atomic_int done[ITEMS], not_nearest, not_of_the_pool;
 
-static bool never(void) {
+static bool never(const void *context) {
+    (void)context;
     return false;
 }
 
-static bool at_once(void) {
+static bool at_once(const void *context) {
+    (void)context;
     return true;
 }
 

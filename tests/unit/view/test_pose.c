@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L /* fmemopen */
+#include "view/pose.h"
+
+#include <stdio.h>
+
+#include "base/trigonometry.h"
+#include "base/vector.h"
+#include "expect.h"
+
+static const HdPose start = {{3.0, -4.0, 2.0}, {1.0, 0.0, 0.5}};
+
+static double distance(const HdPose *pose) {
+    return hd_length(hd_sub(pose->eye, pose->target));
+}
+
+static void expect_point(HdVec3 actual, HdVec3 expected) {
+    expect_near(actual.x, expected.x, 1e-12);
+    expect_near(actual.y, expected.y, 1e-12);
+    expect_near(actual.z, expected.z, 1e-12);
+}
+
+static void orbits_keep_target_and_distance(void **state) {
+    (void)state;
+    HdPose pose = start;
+    hd_pose_orbit(&pose, 0.7, 0.3);
+    expect_point(pose.target, start.target);
+    expect_near(distance(&pose), distance(&start), 1e-12);
+    hd_pose_orbit(&pose, -0.7, -0.3);
+    expect_point(pose.eye, start.eye);
+    hd_pose_orbit(&pose, HD_PI / 2.0, 0.0);
+    expect_point(pose.eye, hd_vec3(5.0, 2.0, 2.0)); /* a quarter turn of (2, -4) is (4, 2) */
+}
+
+static void orbits_go_over_no_pole(void **state) {
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        HdPose pose = start;
+        for (int i = 0; i < 50; i++)
+            hd_pose_orbit(&pose, 0.0, sign * 0.4);
+        const HdVec3 away = hd_sub(pose.eye, pose.target);
+        assert_true(away.z * sign > 0.999 * distance(&start));
+        assert_true(away.x > 0.0 && away.y < 0.0); /* still on its own side */
+        hd_pose_orbit(&pose, 0.0, -sign * 0.4);
+        assert_true((pose.eye.z - pose.target.z) * sign < 0.95 * distance(&start));
+    }
+}
+
+static void pans_move_eye_and_target_alike(void **state) {
+    (void)state;
+    HdPose pose = {{0.0, -2.0, 0.0}, {0.0, 0.0, 0.0}};
+    hd_pose_pan(&pose, 0.5, 0.25); /* of a distance of 2 */
+    expect_point(pose.eye, hd_vec3(1.0, -2.0, 0.5));
+    expect_point(pose.target, hd_vec3(1.0, 0.0, 0.5));
+    HdPose down = {{0.0, 0.0, 2.0}, {0.0, 0.0, 0.0}}; /* sideways has no direction of its own */
+    hd_pose_pan(&down, 0.5, 0.0);
+    expect_near(hd_length(down.target), 1.0, 1e-12);
+    expect_near(distance(&down), 2.0, 1e-12);
+}
+
+static void dollies_end_far_and_near(void **state) {
+    (void)state;
+    HdPose pose = start;
+    hd_pose_dolly(&pose, 0.5);
+    expect_point(pose.eye, hd_vec3(2.0, -2.0, 1.25));
+    hd_pose_dolly(&pose, 2.0);
+    expect_point(pose.eye, start.eye);
+    hd_pose_dolly(&pose, 1e-30);
+    expect_near(distance(&pose), 1e-3, 1e-12);
+    hd_pose_dolly(&pose, 1e30);
+    expect_near(distance(&pose), 1e6, 1e-3);
+    expect_point(pose.target, start.target);
+}
+
+static void an_applied_pose_is_the_only_view(void **state) {
+    (void)state;
+    HdScene scene = {.frame_count = 240};
+    hd_pose_apply(&start, &scene);
+    assert_int_equal(scene.frame_count, 1);
+    const HdPose back = hd_pose_of_flight(&scene, 0);
+    assert_memory_equal(&back, &start, sizeof back);
+}
+
+static void printed_cameras_read_back(void **state) {
+    (void)state;
+    const HdPose pose = {{0.1, -1.0 / 3.0, 1e-9}, {2.0, 0.0, -0.25}};
+    char text[512] = "";
+    HdPose back;
+    double angle;
+    FILE *file = fmemopen(text, sizeof text, "w");
+    assert_non_null(file);
+    hd_pose_print(file, &pose, 62.5);
+    fclose(file);
+    assert_int_equal(sscanf(text,
+                            "\"camera\": {\"field_of_view\": %lf, \"frames\": 1, "
+                            "\"eye\": [%lf, %lf, %lf], \"target\": [%lf, %lf, %lf]}",
+                            &angle, &back.eye.x, &back.eye.y, &back.eye.z, &back.target.x,
+                            &back.target.y, &back.target.z),
+                     7);
+    assert_true(angle == 62.5);
+    assert_memory_equal(&back, &pose, sizeof back);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(orbits_keep_target_and_distance),
+        cmocka_unit_test(orbits_go_over_no_pole),
+        cmocka_unit_test(pans_move_eye_and_target_alike),
+        cmocka_unit_test(dollies_end_far_and_near),
+        cmocka_unit_test(an_applied_pose_is_the_only_view),
+        cmocka_unit_test(printed_cameras_read_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
