@@ -192,6 +192,7 @@ static void names_are_numbers_and_parts_of_names(void **state) {
     expect_failure(HD_BAD_INPUT, "--device is 'near:1', but --backend is 'far'", .device = "near:1",
                    .backend = "far");
     expect_failure(HD_UNAVAILABLE, "near: no device", .device = "near:x");
+    expect_failure(HD_UNAVAILABLE, "near: no device", .device = "1\xc3\xa9");
 }
 
 static void a_small_job_asks_no_driver(void **state) {

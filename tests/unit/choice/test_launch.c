@@ -397,7 +397,7 @@ static void expect_alike(bool is_alike) {
 }
 
 /* Remembered under the number `from`, recalled under others: the powers of two that they are
-   rounded up to decide, and 0 is as good as 1. */
+   rounded up to decide. */
 static void expect_rounded(int *number) {
     const int kept = *number;
     static const struct {
@@ -426,7 +426,8 @@ static void jobs_alike_serve_each_other(void **state) {
     expect_rounded(&scene.instance_count);
     scene.instance_count = 0;
     const HdSolidKind kinds[] = {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON};
-    for (int i = 0; i < 4; i++) { /* 4, 6, 8, 12 planes */
+    scene.solids[0].lights.per_edge = 0; /* which would tell them apart */
+    for (int i = 0; i < 4; i++) {        /* 4, 6, 8, 12 planes */
         scene.solids[0].kind = kinds[i];
         assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
         for (int k = 0; k < 4; k++) {
@@ -496,6 +497,12 @@ static void the_least_of_several_counts(void **state) {
     fake.fails = true;
     assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
                      HD_FAILED);
+    hd_renderer_close(renderer);
+    fake.fails = false;
+    scene.eye = scene.target; /* which is no view */
+    assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
+    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 1, &time, &error),
+                     HD_BAD_INPUT);
     hd_renderer_close(renderer);
 }
 
