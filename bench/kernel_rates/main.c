@@ -19,14 +19,20 @@
 
 #ifdef HD_CPU_X86
 extern const HdLoops hd_loops_avx512_16, hd_loops_avx2_8, hd_loops_avx2_1;
+#else
+extern const HdLoops hd_loops_generic_4;
 #endif
-extern const HdLoops hd_loops_generic_4, hd_loops_generic_1;
+extern const HdLoops hd_loops_generic_1;
 
 static const HdLoops *const builds[] = {
 #ifdef HD_CPU_X86
-    &hd_loops_avx512_16, &hd_loops_avx2_8,    &hd_loops_avx2_1,
+    &hd_loops_avx512_16,
+    &hd_loops_avx2_8,
+    &hd_loops_avx2_1,
+#else
+    &hd_loops_generic_4,
 #endif
-    &hd_loops_generic_4, &hd_loops_generic_1,
+    &hd_loops_generic_1,
 };
 
 /* Bundles of rays and of points: enough to be like the view, few enough for the second-level cache.
@@ -51,7 +57,7 @@ static const HdLoops *find_build(bool one_lane) {
     size_t i = 0;
     if (one_lane && strcmp(best, "avx512") == 0)
         best = "avx2";
-    while (strcmp(builds[i]->instruction_set, best) != 0 || (builds[i]->lanes == 1) != one_lane)
+    while (strcmp(builds[i]->instruction_set, best) != 0 || (one_lane && builds[i]->lanes != 1))
         i++;
     return builds[i];
 }

@@ -26,16 +26,19 @@
 #include "walks.h"
 
 #ifdef HD_CPU_X86
-extern const HdWalks hd_walks_avx512_16, hd_walks_avx2_8;
-#endif
+extern const HdWalks hd_walks_avx512_16, hd_walks_avx2_8, hd_walks_generic_1;
+#else
 extern const HdWalks hd_walks_generic_4;
+#endif
 
 static const HdWalks *const builds[] = {
 #ifdef HD_CPU_X86
     &hd_walks_avx512_16,
     &hd_walks_avx2_8,
-#endif
+    &hd_walks_generic_1,
+#else
     &hd_walks_generic_4,
+#endif
 };
 
 enum { MOST_COUNTS = 16, MOST_THREADS = 64, RIVALS = 2 };

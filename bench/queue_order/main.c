@@ -20,16 +20,19 @@
 #include "order.h"
 
 #ifdef HD_CPU_X86
-extern const HdOrderBuild hd_order_avx512_16, hd_order_avx2_8;
-#endif
+extern const HdOrderBuild hd_order_avx512_16, hd_order_avx2_8, hd_order_generic_1;
+#else
 extern const HdOrderBuild hd_order_generic_4;
+#endif
 
 static const HdOrderBuild *const builds[] = {
 #ifdef HD_CPU_X86
     &hd_order_avx512_16,
     &hd_order_avx2_8,
-#endif
+    &hd_order_generic_1,
+#else
     &hd_order_generic_4,
+#endif
 };
 
 static const char *const order_names[HD_ORDER_COUNT] = {
