@@ -43,6 +43,11 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     set(no_slow_passes -fno-tree-fre -fno-tree-dse -fno-dse -fno-dce -fno-forward-propagate -fno-if-conversion
         -fno-if-conversion2 -fno-move-loop-invariants -fno-guess-branch-probability)
 endif()
+# What is undefined ends the program at once, without a sentence: a quarter less to compile. The stack, which
+# AddressSanitizer prints with handle_sigill=1, has the line.
+if(HEDRON_SANITIZE MATCHES undefined AND CMAKE_C_COMPILER_ID MATCHES "Clang")
+    set(without_words -fsanitize-trap=undefined)
+endif()
 set(HEDRON_KERNEL_WARNINGS ${HEDRON_WARNINGS} -Wno-unused-parameter -Wno-psabi ${no_false_alarms})
 
 set(flags_generic "")
@@ -75,7 +80,7 @@ foreach(kernel IN LISTS HEDRON_KERNELS)
     string(REPLACE ":" ";" parts ${kernel})
     list(POP_FRONT parts set lanes precision kind)
     # Sanitizers look at memory and not at rounding, and at one build of each kind of bundle.
-    set(sanitizers "")
+    set(sanitizers ${without_words})
     if(NOT kind STREQUAL full OR (HEDRON_SANITIZE MATCHES thread AND precision STREQUAL double))
         set(sanitizers -fno-sanitize=all) # threads share the same with either precision
     endif()
