@@ -24,8 +24,8 @@ enum { LANE_COUNTS = 4, PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES, 
 enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 /* Few rays go into small pictures, so that there are still some for every scene and renderer. */
-enum { SMALL_SIDE = 65, LARGE_SIDE = 257 };
-static const double many_rays = 2e7;
+enum { TINY_SIDE = 33, SMALL_SIDE = 65, LARGE_SIDE = 257 };
+static const double few_rays = 1e5, many_rays = 2e7;
 
 static const char usage[] =
     "usage: hedron_leak_hunt RAYS [--backend cuda|opencl|c]\n"
@@ -159,7 +159,9 @@ static void hunt_device(const HdDevice *device, HdPrecision precision, const Opt
     gather(&party, device, options);
     if (party.count == 0)
         return;
-    party.side = options->rays < many_rays ? SMALL_SIDE : LARGE_SIDE;
+    party.side = options->rays < few_rays    ? TINY_SIDE
+                 : options->rays < many_rays ? SMALL_SIDE
+                                             : LARGE_SIDE;
     party.share = options->rays / (party.count * PLACEMENT_COUNT * (int)HUNT_KINDS);
     for (int i = 0; i < PLACEMENT_COUNT; i++) {
         Catch caught = {0};
