@@ -188,14 +188,14 @@ typedef struct FrameWork {
     CRenderer *c;
     const HdFrameTables *tables;
     int items;
-    float *pixels;
+    HdFrame *frame;
 } FrameWork;
 
 static void render_one_item(void *context, int thread, int item) {
     FrameWork *work = context;
     CRenderer *c = work->c;
     c->kernel(c->scene.table, work->tables->table, item,
-              c->queues != NULL ? &c->queues[thread] : NULL, work->pixels, c->counts);
+              c->queues != NULL ? &c->queues[thread] : NULL, work->frame->rgb, c->counts);
     hd_watched_add(&work->tables->watched, item, item + 1, work->items);
 }
 
@@ -213,7 +213,7 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
         status = prepare_queues(c, tables->samples, error);
     if (status != HD_OK)
         return status;
-    FrameWork work = {c, tables, items, frame->rgb};
+    FrameWork work = {c, tables, items, frame};
     double start = hd_monotonic_seconds();
     if (!hd_thread_pool_run(c->pool, items, render_one_item, &work, must_stop))
         return hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
@@ -223,14 +223,8 @@ static HdStatus c_collect(void *renderer, const HdFrameTables *tables, HdFrame *
     return HD_OK;
 }
 
-typedef struct FirstHitsWork {
-    const CRenderer *c;
-    const HdFrameTables *tables;
-    const HdFrame *frame;
-} FirstHitsWork;
-
 static void find_in_one_item(void *context, int thread, int item) {
-    const FirstHitsWork *work = context;
+    const FrameWork *work = context;
     const CRenderer *c = work->c;
     (void)thread;
     c->build->first_hits(c->scene.table, work->tables->table, item, work->frame->first_floats,
@@ -239,10 +233,10 @@ static void find_in_one_item(void *context, int thread, int item) {
 
 static HdStatus c_first_hits(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                              HdError *error) {
-    const CRenderer *c = renderer;
-    FirstHitsWork work = {c, tables, frame};
-    const int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
-    return hd_thread_pool_run(c->pool, items, find_in_one_item, &work, is_interrupted)
+    CRenderer *c = renderer;
+    int items = hd_kernel_item_count(tables->width, tables->height, HD_BLOCK_PIXELS);
+    FrameWork work = {c, tables, items, frame};
+    return hd_thread_pool_run(c->pool, items, find_in_one_item, &work, must_stop)
                ? HD_OK
                : hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
 }
