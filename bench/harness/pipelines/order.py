@@ -10,7 +10,7 @@ ORDERS = {"product": "product: item by item", "uncompacted": "with dead rays", "
           "segments": "passing, then mirrored", "touched": "sorted by object touched",
           "touched_face": "sorted by face touched", "met": "sorted by face to be met"}
 PARTS = ("first", "trace", "key", "sort")
-WORDS = dict(zip(PARTS, ("level 0", "levels below", "finding keys", "sorting")))
+WORDS = dict(zip((*PARTS, "all"), ("level 0", "levels below", "finding keys", "sorting", "all of it")))
 
 
 def run(program, *words):
@@ -74,8 +74,8 @@ def chart(result):
     drawn = []
     for each in shown:
         name = f"{each['batch']} samples, {ORDERS[each['order']]}"
-        parts = {WORDS[part]: each["ns_a_ray"][part] for part in PARTS if each["ns_a_ray"][part]}
-        parts["all of it"] = each["ns_a_ray"]["all"]
-        drawn += [Row(name, one_value(ns), f"{number(ns, 3)} ns" if variant == "all of it" else "", place, variant=variant)
-                  for place, (variant, ns) in enumerate(parts.items())]
+        for place, (key, variant) in enumerate(WORDS.items()):
+            ns = each["ns_a_ray"][key]
+            if ns:
+                drawn.append(Row(name, one_value(ns), f"{number(ns, 3)} ns" if key == "all" else "", place, variant=variant))
     return rows(result, "A wavefront's queue in several orders", caption, "nanoseconds for each ray", drawn)
