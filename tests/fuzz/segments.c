@@ -17,15 +17,18 @@
 
 enum { MOST_NAMES = 8, MOST_LENGTH = 200 };
 
-static const char segment[] = "^film[.]mkv[.]part-[0-9]+-[0-9a-f]{1,16}$";
-static const char unfinished[] = "^film[.]mkv[.]part-.*[.]tmp-[0-9]+-[0-9]+$";
+typedef enum Kind { SEGMENT, UNFINISHED, KIND_COUNT } Kind;
 
-static bool matches(const char *pattern, const char *name) {
-    regex_t compiled;
-    fuzz_expect(regcomp(&compiled, pattern, REG_EXTENDED | REG_NOSUB) == 0, "no pattern");
-    const bool found = regexec(&compiled, name, 0, NULL, 0) == 0;
-    regfree(&compiled);
-    return found;
+static bool matches(Kind kind, const char *name) {
+    static const char *const patterns[KIND_COUNT] = {"^film[.]mkv[.]part-[0-9]+-[0-9a-f]{1,16}$",
+                                                     "^film[.]mkv[.]part-.*[.]tmp-[0-9]+-[0-9]+$"};
+    static regex_t compiled[KIND_COUNT];
+    static bool are_compiled;
+    for (int i = 0; i < KIND_COUNT && !are_compiled; i++)
+        fuzz_expect(regcomp(&compiled[i], patterns[i], REG_EXTENDED | REG_NOSUB) == 0,
+                    "no pattern");
+    are_compiled = true;
+    return regexec(&compiled[kind], name, 0, NULL, 0) == 0;
 }
 
 static void path_of(char path[HD_MAX_PATH], const char *film, const char *name) {
@@ -52,15 +55,14 @@ static int make_files(char *text, const char *film, const char *names[MOST_NAMES
 }
 
 /* Those that match are gone, the others are there; these are removed if it is the end. */
-static void check_files(const char *film, const char *names[], int count, const char *gone,
-                        bool is_end) {
+static void check_files(const char *film, const char *names[], int count, Kind gone, bool is_end) {
     char path[HD_MAX_PATH];
     for (int i = 0; i < count; i++) {
         path_of(path, film, names[i]);
         const bool is_there = access(path, F_OK) == 0;
         if (matches(gone, names[i]))
             fuzz_expect(!is_there, "a file of an earlier run that stays");
-        else if (!matches(segment, names[i]) && !matches(unfinished, names[i]))
+        else if (!matches(SEGMENT, names[i]) && !matches(UNFINISHED, names[i]))
             fuzz_expect(is_there, "somebody else's file that is removed");
         if (is_end)
             unlink(path);
@@ -79,9 +81,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const int count = make_files(text, film, names);
     const HdStatus status = hd_segments_find(&segments, &plan, &output, &frames, &error);
     fuzz_expect(status == HD_OK, error.message);
-    check_files(film, names, count, unfinished, false);
+    check_files(film, names, count, UNFINISHED, false);
     hd_segments_remove(&segments);
-    check_files(film, names, count, segment, true);
+    check_files(film, names, count, SEGMENT, true);
     hd_segments_free(&segments);
     free(text);
     return 0;

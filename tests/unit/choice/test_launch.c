@@ -425,6 +425,11 @@ static void jobs_alike_serve_each_other(void **state) {
     expect_rounded(&scene.depth);
     expect_rounded(&scene.instance_count);
     scene.instance_count = 0;
+    assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
+    scene.instance_count = 1; /* as good as none */
+    expect_alike(true);
+    scene.instance_count = 0;
+    remove_folder("cache");
     const HdSolidKind kinds[] = {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON};
     scene.solids[0].lights.per_edge = 0; /* which would tell them apart */
     for (int i = 0; i < 4; i++) {        /* 4, 6, 8, 12 planes */
