@@ -2,7 +2,7 @@
 # The builds of the plain C kernels, the one list of them: instruction set, lanes, precision, kind. The first
 # that a processor can run is the one that its renderers take where nobody asks for lanes. Kinds:
 #   full     lanes that fill a register, and single lanes
-#   compare  fewer lanes than that, there to compare bytes: at -O2, half of gcc's time for as fast a kernel
+#   compare  fewer lanes than that, there to compare bytes: at -O2, up to half of gcc's time less
 #   wide     more lanes than that, to compare as well: at -O1 and without passes that vectors of many
 #            registers make slow, which bounds gcc's compile time
 # Those of HEDRON_PLAIN_KERNELS are built once more for plain scenes: without meshes, refraction and light from
