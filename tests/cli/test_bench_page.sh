@@ -79,7 +79,7 @@ print(wrong, f"take {' '.join(best['options'])}:" in told, len(said) >= 15, page
       "\u201cH200 and 16 cores\u201d \u2020" in told, "EPYC \u2020" in page)
 PYTHON
 expect_python '[] True True True True False' 'import runpy, sys' \
-    "sys.argv = ['', '$page', 'out/study.json', '$project/bench/results/nvidia-h200.json', '$project/bench/results/nvidia-h200-accuracy-quick.json']" \
+    "sys.argv = ['', '$page', 'out/study.json', '$project/bench/results/nvidia-h200.json', '$project/bench/results/nvidia-h200-accuracy.json']" \
     'runpy.run_path("figures.py")'
 
 # ---- as it is shown: one start of the browser, in which frames are its screens
