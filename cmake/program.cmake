@@ -63,12 +63,16 @@ install(FILES completions/hedron.bash RENAME hedron
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
 # The zsh of Debian looks elsewhere for what comes by packages.
 install(CODE "
+    set(data \"${CMAKE_INSTALL_DATAROOTDIR}\")
+    if(NOT IS_ABSOLUTE \"\${data}\")
+        set(data \"\${CMAKE_INSTALL_PREFIX}/\${data}\")
+    endif()
     set(folder site-functions)
     if(CMAKE_INSTALL_PREFIX MATCHES \"/usr/?$\" AND EXISTS /etc/debian_version)
         set(folder vendor-completions)
     endif()
     file(INSTALL \"${PROJECT_SOURCE_DIR}/completions/hedron.zsh\" RENAME _hedron
-         DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATAROOTDIR}/zsh/\${folder}\")")
+         DESTINATION \"\${data}/zsh/\${folder}\")")
 install(FILES completions/hedron.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d)
 
 # The man page is what the program prints, written whenever it is built, so that it can be installed where

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "cli/commands.h"
 #include "image/difference.h"
 #include "image/format_exr.h"
@@ -141,8 +142,8 @@ static void print_further(const Comparison *comparison) {
     for (int i = 0; i < comparison->further_count; i++) {
         const Further *further = &comparison->further[i];
         const HdChannelDifference *difference = &further->difference;
-        char name[64];
-        snprintf(name, sizeof name, "  %.40s", further->name);
+        char name[64] = "  ";
+        hd_escape(further->name, name + 2, sizeof name - 2);
         if (difference->largest > 0.0)
             printf("%-20s%*.6g at %d, %d%s\n", name, FIGURE_WIDTH, difference->largest,
                    difference->x, difference->y, further == most ? ", the largest" : "");
@@ -150,10 +151,12 @@ static void print_further(const Comparison *comparison) {
             printf("%-20s%*s\n", name, FIGURE_WIDTH, "none");
     }
     for (int p = 0; p < PICTURES; p++)
-        for (int i = 0; i < comparison->facts[p].further; i++)
+        for (int i = 0; i < comparison->facts[p].further; i++) {
+            char name[62];
+            hd_escape(comparison->facts[p].names[i], name, sizeof name);
             if (place_of_channel(&comparison->facts[1 - p], comparison->facts[p].names[i]) < 0)
-                printf("%-20.40s only in the %s\n", comparison->facts[p].names[i],
-                       p == 0 ? "first" : "second");
+                printf("%-20s only in the %s\n", name, p == 0 ? "first" : "second");
+        }
 }
 
 static void print_text(const Comparison *comparison) {

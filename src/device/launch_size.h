@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How much work one launch of a GPU's kernel gets, learned from how long earlier ones took. A
-   launch keeps a display that the device drives from being drawn, and after some seconds its driver
-   ends it. */
+/* How much work one launch of a kernel gets, on GPUs and on OpenCL's CPUs, learned from how long
+   earlier ones took. On a GPU a launch keeps a display that the device drives from being drawn, and
+   after some seconds its driver ends it. */
 #ifndef HD_DEVICE_LAUNCH_SIZE_H
 #define HD_DEVICE_LAUNCH_SIZE_H
 

@@ -44,8 +44,8 @@ typedef struct HdRenderOptions {
     int grid;      /* work groups of one launch on a GPU, at most this; 0: what suits the device */
     int registers; /* of a thread on an NVIDIA device, at most this, HD_MIN_REGISTERS to
                       HD_MAX_REGISTERS; 0: what suits the device. No option of the command line */
-    double launch_ms; /* milliseconds that a GPU's launches should stay below, HD_MIN_LAUNCH_MS to
-                         HD_MAX_LAUNCH_MS; 0: what suits the device */
+    double launch_ms; /* milliseconds that OpenCL's and CUDA's launches should stay below,
+                         HD_MIN_LAUNCH_MS to HD_MAX_LAUNCH_MS; 0: what suits the device */
     HdPrecision precision;
     HdMath math;
     HdPipeline pipeline;
@@ -57,7 +57,7 @@ typedef struct HdRenderOptions {
         bool groups;        /* an OpenCL CPU is used as a GPU is: one lane, groups of threads */
         size_t queue_bytes; /* of a wavefront's queue, on CPUs of each thread's; 0: what suits the
                                device */
-        int launch_work;    /* of each launch on a GPU, in samples or rays; 0: by measurement */
+        int launch_work;    /* of each launch, in samples or rays; 0: by measurement */
         int ptx_arch; /* as in HdKernelShape: 61 compiles for a Pascal card on any newer one */
         const char *defines; /* as in HdKernelShape: switches of the kernels that bench/gpu_switches
                                 measures; NULL: none. They must live as long as the renderer */

@@ -450,6 +450,7 @@ static HdStatus find_first_hits(const HdRefinement *r, const HdCamera *camera, H
     HdFrameTables tables;
     HdStatus status =
         hd_compile_frame(&tables, surveyor->scene, camera, surveyor->precision, error);
+    tables.watched = (HdWatched){.watch = r->left.watch}; /* worth nothing more to it */
     if (status == HD_OK)
         status = hd_renderer_first_hits(surveyor->renderer, &tables, frame, error);
     hd_frame_tables_free(&tables);

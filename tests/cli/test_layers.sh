@@ -173,6 +173,9 @@ expect_output_json 'j["most_different"] == "Z" and not j["identical"]'
 expect_output_json '[c["largest"] for c in j["channels"] if c["name"] in ("Z", "samples")] == [None, 0]'
 expect_exit 0 "$hedron" compare all.exr some.exr
 expect_stdout_contains 'normal.X             only in the first'
+python3 -c 'import sys; sys.stdout.buffer.write(open("all.exr", "rb").read().replace(b"object\0", b"obje\x1bt\0"))' >odd.exr
+expect_exit 0 "$hedron" compare all.exr odd.exr
+expect_stdout_contains 'obje\u001bt'
 expect_exit 0 "$hedron" compare all.exr all.exr
 expect_stdout_contains 'The pictures are identical.'
 

@@ -240,8 +240,8 @@ static HdStatus queue_launch(const Renderer *renderer, const HdGpuLaunch *launch
     return renderer->gpu.driver->launch(renderer->gpu.handle, launch, mark, error);
 }
 
-static HdStatus check_wanted(const HdGpuFlight *flight, HdError *error) {
-    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&flight->of->watched)
+static HdStatus check_wanted(const HdFrameTables *tables, HdError *error) {
+    return hd_interrupt_signal() != 0 || hd_watched_is_unwanted(&tables->watched)
                ? hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame")
                : HD_OK;
 }
@@ -258,7 +258,7 @@ static HdStatus wait_between(Renderer *renderer, HdGpuFlight *flight, int done, 
     if (status != HD_OK)
         return status;
     hd_gpu_flight_tell(flight, done);
-    return check_wanted(flight, error);
+    return check_wanted(flight->of, error);
 }
 
 /* Among how many threads of a group the samples of a pixel are shared: the greatest divisor of
@@ -408,7 +408,7 @@ static HdStatus launch_waves(Renderer *renderer, HdGpuFlight *flight, int most_g
     unsigned taken = 0;
     HdStatus status = hd_gpu_wave_queue_empty(&renderer->queue, &renderer->gpu, error);
     while (status == HD_OK) {
-        status = check_wanted(flight, error);
+        status = check_wanted(flight->of, error);
         if (status == HD_OK)
             status = hd_wave_next(&run, taken, &renderer->flights.size, error);
         if (status != HD_OK || step->action == HD_WAVE_IS_DONE)
@@ -576,12 +576,11 @@ static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *f
 
 /* ---- what is met first ---- */
 
-static HdStatus wait_for_first_hits(const Renderer *renderer, HdError *error) {
+static HdStatus wait_for_first_hits(const Renderer *renderer, const HdFrameTables *tables,
+                                    HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
     HdStatus status = gpu->driver->wait_for_launch(gpu->handle, &renderer->first_hits_found, error);
-    if (status == HD_OK && hd_interrupt_signal() != 0)
-        status = hd_fail(error, HD_INTERRUPTED, "interrupted in the midst of a frame");
-    return status;
+    return status == HD_OK ? check_wanted(tables, error) : status;
 }
 
 /* A sample costs less here than where light is traced, by which the size of launches is learned:
@@ -591,17 +590,16 @@ static HdStatus launch_first_hits(Renderer *renderer, const HdFrameTables *table
     enum { MOST_THREADS = 64 }; /* of a group, which has nothing to do together */
     HdGpuLaunch launch = tracing_of(renderer, HD_KERNEL_FIRST_HITS);
     FirstHits own = {.floats = floats, .hits = &renderer->first_hits};
+    int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
     HdStatus status = HD_OK;
     add_first_hits(&launch, &own);
     if (launch.group_size > MOST_THREADS)
         launch.group_size = MOST_THREADS;
     for (int left = items; status == HD_OK && left > 0; left -= own.item_count) {
-        status = left < items ? wait_for_first_hits(renderer, error) : HD_OK;
+        status = left < items ? wait_for_first_hits(renderer, tables, error) : HD_OK;
         own.first_item = items - left;
-        own.item_count = left;
-        if (renderer->has_groups)
-            own.item_count = hd_launch_size_items(&renderer->flights.size, left,
-                                                  tables->samples + 1, launch.group_size);
+        own.item_count =
+            hd_launch_size_items(&renderer->flights.size, left, work, launch.group_size);
         launch.groups = group_count(renderer, own.item_count, launch.group_size);
         if (status == HD_OK)
             status = queue_launch(renderer, &launch, &renderer->first_hits_found, error);
