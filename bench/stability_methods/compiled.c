@@ -51,6 +51,18 @@ bool hd_compiled_begin(HdCompiled *compiled, const HdSolid *solids, int count, i
     return true;
 }
 
+void hd_compiled_put_floor(HdCompiled *compiled, HdVec3 centre, double scale, double height,
+                           double half_side) {
+    static const double corner[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
+    HdScene *scene = &compiled->scene;
+    scene->floor.present = true;
+    for (int i = 0; i < 4; i++) {
+        HdVec3 point = {half_side * corner[i][0], half_side * corner[i][1], height};
+        scene->floor.corners[i] = hd_add(centre, hd_scale(point, scale));
+    }
+    scene->floor.material = scene->solids[0].face;
+}
+
 bool hd_compiled_finish(HdCompiled *compiled, HdPrecision precision, HdGeometry geometry) {
     HdError error = {.message = ""};
     HdScene *scene = &compiled->scene;

@@ -22,6 +22,11 @@ HdSolid hd_plain_solid(HdSolidKind kind, HdVec3 centre, double radius, HdVec3 de
    are to be set). False where memory runs out, which it prints. */
 bool hd_compiled_begin(HdCompiled *compiled, const HdSolid *solids, int count, int lights);
 
+/* Adds a square floor of the first solid's material; height and half its side in sizes of `scale`
+   about the centre. */
+void hd_compiled_put_floor(HdCompiled *compiled, HdVec3 centre, double scale, double height,
+                           double half_side);
+
 /* Compiles the scene as it is then. What is wrong is printed. */
 bool hd_compiled_finish(HdCompiled *compiled, HdPrecision precision, HdGeometry geometry);
 

@@ -71,15 +71,6 @@ static HdVec3 place_of(const Stage *stage, HdVec3 point) {
 
 /* ---- the lamp over a floor ---- */
 
-static void put_floor(HdScene *scene, const Stage *stage) {
-    static const double corner[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
-    scene->floor.present = true;
-    for (int i = 0; i < 4; i++)
-        scene->floor.corners[i] = place_of(
-            stage, hd_vec3(floor_side * corner[i][0], floor_side * corner[i][1], floor_height));
-    scene->floor.material = scene->solids[0].face;
-}
-
 static bool compile(Stage *stage, HdSolidKind kind, HdVec3 degrees, Where where, bool is_double) {
     HdCompiled *compiled = &stage->compiled[is_double];
     HdSolid solid = hd_plain_solid(kind, stage->centre, stage->scale, degrees, HD_FACE_OPAQUE);
@@ -94,7 +85,7 @@ static bool compile(Stage *stage, HdSolidKind kind, HdVec3 degrees, Where where,
     HdScene *scene = &compiled->scene;
     for (int i = 0; i < scene->light_count; i++)
         scene->lights[i].position = place_of(stage, stage->light[i]);
-    put_floor(scene, stage);
+    hd_compiled_put_floor(compiled, stage->centre, stage->scale, floor_height, floor_side);
     return hd_compiled_finish(compiled, is_double ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
                               HD_GEOMETRY_SOLIDS);
 }

@@ -138,16 +138,6 @@ static void set_material(HdMaterial *material, HdGrey grey) {
     material->transmission = (double)grey.transmission;
 }
 
-static void put_floor(const Stage *stage, HdScene *scene) {
-    static const double corner[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
-    scene->floor.present = true;
-    for (int i = 0; i < 4; i++)
-        scene->floor.corners[i] = place_of(
-            stage, hd_vec3(floor_side * corner[i][0], floor_side * corner[i][1], floor_height));
-    scene->floor.material = scene->solids[0].face;
-    set_material(&scene->floor.material, stone);
-}
-
 static bool compile(Stage *stage, int method) {
     HdCompiled *compiled = &stage->compiled[method - OURS_SOLIDS];
     HdSolid solids[MOST_CUBES];
@@ -164,7 +154,8 @@ static bool compile(Stage *stage, int method) {
     HdScene *scene = &compiled->scene;
     scene->depth = DEPTH;
     scene->lights[0].position = place_of(stage, stage->light);
-    put_floor(stage, scene);
+    hd_compiled_put_floor(compiled, stage->centre, stage->scale, floor_height, floor_side);
+    set_material(&scene->floor.material, stone);
     hd_scene_part_contacts(scene);
     bool is_double = method == OURS_DOUBLE || method == TRUTH;
     return hd_compiled_finish(compiled, is_double ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
