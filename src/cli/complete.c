@@ -119,28 +119,24 @@ static void offer_devices(const Line *line) {
     }
 }
 
-/* What follows the last comma, after the words before it. */
-static void offer_further(const Line *line) {
-    const char *const *choices = line->option->choices;
-    const char *comma = strrchr(line->typed, ',');
-    Line further = *line;
+/* Of a set, what follows the last comma, after the words before it. */
+static void offer_choices(const Line *line) {
+    const char *comma = line->option->type == HD_OPTION_SET ? strrchr(line->typed, ',') : NULL;
+    Line last = *line;
     if (comma != NULL) {
-        further.typed = comma + 1;
-        further.kept_length = (int)(further.typed - line->kept);
+        last.typed = comma + 1;
+        last.kept_length = (int)(last.typed - line->kept);
     }
-    for (const char *const *choice = choices; *choice != NULL; choice++)
-        offer(&further, *choice, "");
+    for (const char *const *choice = line->option->choices; *choice != NULL; choice++)
+        offer(&last, *choice, "");
 }
 
 static void offer_value(const Line *line) {
     const HdOptionSpec *spec = line->option;
     if (spec->type == HD_OPTION_CHANGES)
         hd_offer_scene_paths(line->operand, line->typed, offer, line);
-    else if (spec->type == HD_OPTION_SET)
-        offer_further(line);
     else if (spec->choices != NULL)
-        for (const char *const *choice = spec->choices; *choice != NULL; choice++)
-            offer(line, *choice, "");
+        offer_choices(line);
     else if (spec->takes_file)
         puts(":");
     else if (strcmp(spec->name, "--device") == 0)

@@ -181,16 +181,17 @@ static int choice_of_length(const char *const *choices, const char *word, size_t
 static HdStatus apply_set(const Given *given, HdError *error) {
     const HdOptionSpec *spec = given->spec;
     unsigned *set = given->member;
-    char list[256];
     *set = 0;
     for (const char *word = given->text;;) {
         const size_t length = strcspn(word, ",");
         const int number = choice_of_length(spec->choices, word, length);
-        hd_option_list_choices(spec->choices, list, sizeof list);
-        if (number < 0)
+        if (number < 0) {
+            char list[256];
+            hd_option_list_choices(spec->choices, list, sizeof list);
             return hd_fail(error, HD_BAD_INPUT,
                            "%s has '%.*s', expected some of %s, separated by commas", spec->name,
                            (int)length, word, list);
+        }
         if ((*set >> number & 1) != 0)
             return hd_fail(error, HD_BAD_INPUT, "%s has %s twice", spec->name,
                            spec->choices[number]);

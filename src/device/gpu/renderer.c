@@ -595,11 +595,11 @@ static HdStatus launch_first_hits(Renderer *renderer, const HdFrameTables *table
     add_first_hits(&launch, &own);
     if (launch.group_size > MOST_THREADS)
         launch.group_size = MOST_THREADS;
-    for (int left = items; status == HD_OK && left > 0; left -= own.item_count) {
-        status = left < items ? wait_for_first_hits(renderer, tables, error) : HD_OK;
-        own.first_item = items - left;
+    for (int done = 0; status == HD_OK && done < items; done += own.item_count) {
+        status = done > 0 ? wait_for_first_hits(renderer, tables, error) : HD_OK;
+        own.first_item = done;
         own.item_count =
-            hd_launch_size_items(&renderer->flights.size, left, work, launch.group_size);
+            hd_launch_size_items(&renderer->flights.size, items - done, work, launch.group_size);
         launch.groups = group_count(renderer, own.item_count, launch.group_size);
         if (status == HD_OK)
             status = queue_launch(renderer, &launch, &renderer->first_hits_found, error);
