@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What is decided for a whole bundle of points and many lights near each other: that none of these
-   can reach any of the points, or that nothing of a solid lies between. All of it is conservative
-   (docs/numerics.md, Groups of lights): lights are left out, and solids not looked at, only where
-   each pair by itself would come to the same. */
+/* What is decided for a bundle of points and many lights near each other: that none of these can
+   reach any of the points, or, for bundles of several lanes, that nothing of a solid lies between.
+   All of it is conservative (docs/numerics.md, Groups of lights): lights are left out, and solids
+   not looked at, only where each pair by itself would come to the same. */
 #ifndef HD_LIGHT_GROUPS_H
 #define HD_LIGHT_GROUPS_H
 
@@ -21,7 +21,27 @@ typedef struct {
 enum { JUDGED_SOLIDS = 30 };
 #define GROUP_IS_DARK ((int)1 << JUDGED_SOLIDS)
 
-#if HD_LANES > 1
+#if HD_LANES == 1
+
+/* A length is at most that. */
+FN vreal sum_of_sides(Vec3 v) {
+    return absolute(v.x) + absolute(v.y) + absolute(v.z);
+}
+
+/* Whether all lights of the run that begins with number `light` are too far away from a point on an
+   object, or behind it. */
+FN int run_is_dark(SCENE_PARAMETERS Vec3 point, Vec3 normal, int object, int light) {
+    GLOBAL const LightRun *run = light_runs + object * header->light_count + light;
+    Vec3 way = vec3_sub(vec3_of(run->place), point);
+    vreal radius = splat(run->radius);
+    vreal slack = (sum_of_sides(way) + radius + sum_of_sides(point)) * R(1e-4);
+    vreal size = radius + slack, most = splat(run->reach) + size;
+    return any_lane(lt(most * most, vec3_dot(way, way)) |
+                    lt(vec3_dot(normal, way) + size, splat(R(0.0))));
+}
+
+#else
+
 /* A ball about the active points, and their normals: first lane's and how far others are off. */
 typedef struct {
     Vec3 middle, normal;
@@ -93,7 +113,7 @@ FN vmask groups_beside(vreal solid_radius, const PointBall *ball, Vec3 middle,
 }
 
 /* What is known of each group, for points that lie on one object; `open_to` are the points from
-   which segments may cross a solid. With one lane a bundle has nothing to share. */
+   which segments may cross a solid. */
 FN_APART void judge_groups(SCENE_PARAMETERS const Vec3 *points, const Vec3 *normals,
                            const LitPoints *lit_points, const vmask *open_to, int *known) {
     const int count = HD_LIGHT_GROUPS(header->light_count);

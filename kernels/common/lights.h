@@ -204,8 +204,8 @@ FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
     Vec3 intensity = vec3_of(light->intensity);
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
     vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
-    if (light->falloff_ends) {
-        vreal rest = greater(multiply_add(-squared, scale, one), splat(R(0.0)));
+    if (light->inverse_falloff_squared < R(0.0)) {
+        vreal rest = greater(multiply_add(squared, scale, one), splat(R(0.0)));
         intensity = vec3_scale(intensity, rest * rest);
     } else if (light->inverse_falloff_squared > R(0.0)) {
         intensity =
@@ -216,9 +216,7 @@ FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
 
 /* Lanes at a squared distance at which nothing is left of the light. */
 FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
-    if (!light->falloff_ends)
-        return mask_none();
-    return le(splat(R(1.0)), squared * splat(light->inverse_falloff_squared));
+    return le(squared * splat(light->inverse_falloff_squared), splat(R(-1.0)));
 }
 
 /* What the segments to one light let through in the lanes of `lit`. */
@@ -320,11 +318,17 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     }
 #endif
     for (int i = 0; i < header->light_count; i++) {
-        int known = 0;
 #if HD_LANES > 1
-        known = group_known[lights[i].group];
+        int known = group_known[lights[i].group];
         if (known & GROUP_IS_DARK)
             continue;
+#else
+        int known = 0, run = LIGHT_RUNS(header) ? lights[i].run : 0;
+        if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
+                                   object_of(SCENE_ARGUMENTS points->object), i)) {
+            i += run - 1;
+            continue;
+        }
 #endif
         Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);

@@ -82,10 +82,11 @@ typedef struct ALIGNED_16 {
 
 typedef struct ALIGNED_16 {
     real intensity[3];
-    real inverse_falloff_squared; /* 1 over the square of the falloff's length; 0: no falloff */
-    int own_face[2];              /* the faces that hold an edge light; -1: none */
-    int falloff_ends;             /* the length is the distance at which nothing is left */
-    int group;                    /* of lights near each other (light_groups) */
+    /* 1 over the square of the falloff's length; negative: at which nothing is left; 0: none */
+    real inverse_falloff_squared;
+    int own_face[2]; /* the faces that hold an edge light; -1: none */
+    int group;       /* of lights near each other (light_groups) */
+    int run; /* so many lights from this one on are of its group; 0: the one before is too */
 } Light;
 
 /* How many groups lights make: none where there are too few to be worth it, otherwise a multiple of
@@ -99,6 +100,12 @@ enum { HD_MOST_LIGHT_GROUPS = 256 };
 /* Of spheres about the lights of each group: place relative to an object, radius; and the distance
    beyond which nothing is left of any of its lights. */
 enum { HD_GROUP_X, HD_GROUP_Y, HD_GROUP_Z, HD_GROUP_RADIUS, HD_GROUP_REACH, HD_GROUP_ROWS };
+
+/* Where bundles have one lane: a sphere about the lights of a run, and their reach. */
+typedef struct ALIGNED_16 {
+    real place[3], radius; /* relative to an object */
+    real reach, unused[3];
+} LightRun;
 
 /* On which side of an object's faces a light is, a bit for each face from the object's first one
    on. It is strictly inside of those that are in neither word. */
@@ -234,6 +241,7 @@ HD_ASSERT_SIZE(Object, 16, 8);
 HD_ASSERT_SIZE(Edge, 12, 0);
 HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
+HD_ASSERT_SIZE(LightRun, 8, 0);
 HD_ASSERT_SIZE(LightSides, 0, 4);
 HD_ASSERT_SIZE(FloorMap, 32, 4);
 HD_ASSERT_SIZE(Instance, 24, 8);
@@ -261,6 +269,9 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(LightSides, light_sides)                                                                     \
     /* [(object * HD_GROUP_ROWS + row) * groups + group] */                                        \
     X(real, light_groups)                                                                          \
+    /* [object * light_count + light], of the first light of each run; none where bundles have     \
+       several lanes */                                                                            \
+    X(LightRun, light_runs)                                                                        \
     /* [from * object_count + to]: centre of `from` minus that of `to` */                          \
     X(Vector, object_offsets)                                                                      \
     X(FloorMap, floor_map)                                                                         \

@@ -20,7 +20,8 @@ typedef struct HdKernelNeeds {
     int node_stack_bound;         /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
-    bool surveyed; /* pixels come with their survey */
+    bool light_runs; /* one lane judges lights of an edge together */
+    bool surveyed;   /* pixels come with their survey */
 } HdKernelNeeds;
 
 /* What the text is specialised by. */
@@ -45,8 +46,9 @@ typedef struct HdKernelShape {
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
    that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
-   are in flight. On an H200 the limit 128 is the best for floats and 64 for doubles, spills and
-   all. A block's threads share 65536 registers, so that large blocks get fewer. */
+   are in flight. On an H100 and an H200 128 is the best for floats, 96 where there are many lights,
+   and 64 for doubles, spills and all. A block's threads share 65536 registers, so that large blocks
+   get fewer. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };

@@ -39,6 +39,7 @@ typedef struct HdMeshPlace {
 /* A light in the order of groups: those of a group follow each other. */
 typedef struct HdGroupedLight {
     HdVec3 position; /* in world space */
+    HdVec3 about;    /* the middle of its edge, if it has one */
     int light, group;
 } HdGroupedLight;
 

@@ -51,8 +51,8 @@ static void fill_floor_distances(const HdBuilder *builder, int light, const HdFl
 
 static void fill_falloff(Light *light, const HdFalloff *falloff) {
     double length = falloff->end > 0.0 ? falloff->end : falloff->distance;
-    light->inverse_falloff_squared = length > 0.0 ? (real)(1.0 / (length * length)) : R(0.0);
-    light->falloff_ends = falloff->end > 0.0;
+    real inverse = length > 0.0 ? (real)(1.0 / (length * length)) : R(0.0);
+    light->inverse_falloff_squared = falloff->end > 0.0 ? -inverse : inverse;
 }
 
 /* The kernels' number of a solid's face: 2 * plane + side, planes counted from `first_plane`. */
@@ -74,39 +74,91 @@ static void set_own_faces(const HdBuilder *builder, const HdLightSource *source,
         light->own_face[i] = source->owner < 0 ? -1 : own_face(builder, source, source->face[i]);
 }
 
-/* A sphere about a group's lights, which begin at `first`, as places relative to `object` are
-   rounded to either precision. */
-static void fill_group(const HdBuilder *builder, int object, const HdGroupedLight *first, int count,
-                       real *out, int groups) {
-    HdVec3 centre = {0.0, 0.0, 0.0};
+/* A sphere about lights near each other. */
+typedef struct {
+    HdVec3 centre; /* world space */
+    double radius, reach;
+} Ball;
+
+static Ball ball_about(const HdBuilder *builder, const HdGroupedLight *first, int count) {
+    Ball ball = {{0.0, 0.0, 0.0}, 0.0, 0.0};
     for (int i = 0; i < count; i++)
-        centre = hd_add(centre, hd_scale(first[i].position, 1.0 / count));
-    double radius = 0.0, reach = 0.0;
+        ball.centre = hd_add(ball.centre, hd_scale(first[i].position, 1.0 / count));
     for (int i = 0; i < count; i++) {
         double end = builder->sources[first[i].light].falloff.end;
-        reach = fmax(reach, end > 0.0 ? end : (double)REAL_LARGE);
-        radius = fmax(radius, hd_length(hd_sub(first[i].position, centre)));
+        ball.reach = fmax(ball.reach, end > 0.0 ? end : (double)REAL_LARGE);
+        ball.radius = fmax(ball.radius, hd_length(hd_sub(first[i].position, ball.centre)));
     }
-    HdVec3 place = hd_sub(centre, builder->centres[object]);
-    out[HD_GROUP_X * groups] = (real)place.x;
-    out[HD_GROUP_Y * groups] = (real)place.y;
-    out[HD_GROUP_Z * groups] = (real)place.z;
-    out[HD_GROUP_RADIUS * groups] = (real)(radius * 1.0001 + hd_length(place) * 1e-5);
-    out[HD_GROUP_REACH * groups] = (real)reach;
+    return ball;
+}
+
+/* As places relative to an object are rounded to either precision. */
+static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
+    HdVec3 place = hd_sub(ball->centre, object);
+    return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
+                      .radius = (real)(ball->radius * 1.0001 + hd_length(place) * 1e-5),
+                      .reach = (real)ball->reach};
+}
+
+static void fill_group(const HdBuilder *builder, int group, const HdGroupedLight *first,
+                       int count) {
+    size_t groups = (size_t)HD_LIGHT_GROUPS(builder->light_count);
+    Ball ball = ball_about(builder, first, count);
+    for (int object = 0; object < builder->object_count; object++) {
+        LightRun rounded = rounded_ball(&ball, builder->centres[object]);
+        real *out = (real *)builder->table[HD_TABLE_light_groups] +
+                    (size_t)object * HD_GROUP_ROWS * groups + group;
+        out[HD_GROUP_X * groups] = rounded.place[0];
+        out[HD_GROUP_Y * groups] = rounded.place[1];
+        out[HD_GROUP_Z * groups] = rounded.place[2];
+        out[HD_GROUP_RADIUS * groups] = rounded.radius;
+        out[HD_GROUP_REACH * groups] = rounded.reach;
+    }
+}
+
+/* Whether so many lights end before the middles of solids that it pays to judge runs of them. */
+static bool runs_pay(const HdBuilder *builder) {
+    enum { LEAST_SHARE = 4 };
+    int64_t beyond = 0, pairs = (int64_t)builder->light_count * builder->solid_count;
+    for (int i = 0; i < builder->light_count; i++)
+        for (int s = 0; s < builder->solid_count; s++) {
+            const HdLightSource *source = &builder->sources[i];
+            double end = source->falloff.end;
+            beyond += end > 0.0 && hd_length(hd_light_offset(builder, source, s)) > end;
+        }
+    return beyond > 0 && beyond * LEAST_SHARE >= pairs;
+}
+
+/* Fewer are looked at sooner than judged. */
+enum { LEAST_RUN = 3 };
+
+/* Within a group lights are in their order, but maybe not all that are between them. */
+static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLight *first,
+                      int count) {
+    LightRun *runs = builder->table[HD_TABLE_light_runs];
+    for (int i = 0, next; i < count; i = next) {
+        int light = first[i].light;
+        for (next = i + 1; next < count && first[next].light == light + next - i; next++)
+            continue;
+        Ball ball = ball_about(builder, first + i, next - i);
+        lights[light].run = next - i >= LEAST_RUN ? next - i : 0;
+        for (int object = 0; object < builder->object_count; object++)
+            runs[object * builder->light_count + light] =
+                rounded_ball(&ball, builder->centres[object]);
+    }
 }
 
 static void fill_groups(const HdBuilder *builder, Light *lights) {
-    int groups = HD_LIGHT_GROUPS(builder->light_count);
     const HdGroupedLight *grouped = builder->grouped;
-    for (int i = 0, next; i < builder->light_count && groups > 0; i = next) {
-        for (next = i; next < builder->light_count && grouped[next].group == grouped[i].group;
-             next++)
-            lights[grouped[next].light].group = grouped[i].group;
-        for (int object = 0; object < builder->object_count; object++) {
-            real *table = (real *)builder->table[HD_TABLE_light_groups] +
-                          (size_t)object * HD_GROUP_ROWS * (size_t)groups;
-            fill_group(builder, object, grouped + i, next - i, table + grouped[i].group, groups);
-        }
+    int count = HD_LIGHT_GROUPS(builder->light_count) > 0 ? builder->light_count : 0;
+    bool has_runs = builder->lanes == 1 && runs_pay(builder);
+    for (int i = 0, next; i < count; i = next) {
+        int group = grouped[i].group;
+        for (next = i; next < count && grouped[next].group == group; next++)
+            lights[grouped[next].light].group = group;
+        fill_group(builder, group, grouped + i, next - i);
+        if (has_runs)
+            fill_runs(builder, lights, grouped + i, next - i);
     }
 }
 

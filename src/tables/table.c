@@ -18,6 +18,7 @@ const char *hd_scene_table_content(int table) {
         [HD_TABLE_light_coordinates] = "distances of lights from planes",
         [HD_TABLE_light_sides] = "sides of lights",
         [HD_TABLE_light_groups] = "groups of lights",
+        [HD_TABLE_light_runs] = "runs of lights",
         [HD_TABLE_object_offsets] = "places of objects",
         [HD_TABLE_floor_map] = "maps of the floor",
         [HD_TABLE_texels] = "texels",
@@ -52,6 +53,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->node_stack = greater(tables->node_stack, like->node_stack);
     tables->refracts = tables->refracts || like->refracts;
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
+    tables->light_runs = tables->light_runs || like->light_runs;
     tables->surveyed = tables->surveyed || like->surveyed;
 }
 

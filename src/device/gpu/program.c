@@ -7,6 +7,12 @@
 
 enum { OPTIONS_LENGTH = 1024, VERSION_LENGTH = HD_KERNEL_KEY_LENGTH, MAKER_LENGTH = 48 };
 
+/* By what the shape needs. */
+static void limit_registers(const HdGpuProgram *program, HdKernelShape *shape) {
+    if (program->nvidia_arch > 0)
+        shape->register_limit = hd_register_limit(shape, program->nvidia_arch, program->registers);
+}
+
 /* A kernel that needs many registers may allow smaller groups only. */
 static HdStatus limit_group_size(HdGpuProgram *program, const HdGpu *gpu, HdError *error) {
     size_t most = 0;
@@ -67,6 +73,7 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
     shape->is_probe = false;
     gpu->driver->unload(gpu->handle);
     hd_kernel_shape_set_needs(shape, needs);
+    limit_registers(program, shape);
     gpu->driver->write_options(gpu->handle, shape, options, sizeof options);
     HdStatus status =
         load_cached(program, gpu, options, error) ? HD_OK : compile(program, gpu, options, error);
@@ -83,6 +90,7 @@ static HdKernelShape probe_shape(const HdGpuProgram *program) {
     HdKernelShape shape = program->cache.shape;
     shape.needs = (HdKernelNeeds){0};
     shape.is_probe = true;
+    limit_registers(program, &shape);
     return shape;
 }
 

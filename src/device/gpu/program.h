@@ -11,6 +11,8 @@ typedef struct HdGpuProgram {
     bool is_built;      /* for the cache's shape */
     bool probes_by_fma; /* so is the probe's kernel, if there is one */
     int block;          /* threads of a group, as asked for; 0: as many as the kernels allow */
+    int registers;      /* of a thread, as asked for; 0: what suits */
+    int nvidia_arch;    /* as HdDevice has it */
     int group_size;     /* of a launch: 1 where threads do not work in groups */
 } HdGpuProgram;
 

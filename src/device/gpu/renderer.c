@@ -68,10 +68,9 @@ static void choose_shape(Renderer *renderer) {
         .ptx_arch = options->test.ptx_arch,
         .defines = options->test.defines,
     };
-    if (renderer->device.nvidia_arch > 0)
-        shape->register_limit =
-            hd_register_limit(shape, renderer->device.nvidia_arch, options->registers);
     renderer->program.block = options->block;
+    renderer->program.registers = options->registers;
+    renderer->program.nvidia_arch = renderer->device.nvidia_arch;
     renderer->program.group_size = has_groups ? group_size : 1;
 }
 

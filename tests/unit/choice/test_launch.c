@@ -520,6 +520,10 @@ static void limits_of_registers_suit_the_device(void **state) {
     assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
     assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
     assert_int_equal(hd_register_limit(&shape, 90, 96), 96);
+    shape.needs.light_runs = true;
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 96);
+    shape.needs.light_runs = false;
     shape.precision = HD_PRECISION_DOUBLE;
     assert_int_equal(hd_register_limit(&shape, 90, 0), 64);
     /* All threads of a block must find room. */
