@@ -54,8 +54,6 @@ typedef int real_bits;
 typedef vint vbits;
 typedef HD_WIDE(long) vfix;
 
-#include "../common/wide_masks.h"
-
 FN vreal splat(real a) {
     return (vreal)(a);
 }
@@ -65,6 +63,12 @@ FN vbits splat_bits(real_bits a) {
 FN vint splat_int(int a) {
     return (vint)(a);
 }
+
+#if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
+#include "masks_avx512.h"
+#else
+#include "../common/wide_masks.h"
+
 FN vreal pick(vmask m, vreal a, vreal b) {
     return select(b, a, m);
 }
@@ -95,6 +99,7 @@ FN int any_lane(vmask m) {
 FN int any_lane(vmask m) {
     return as_int(convert_char4(m)) != 0;
 }
+#endif
 #endif
 FN real lane_real(const vreal *a, int lane) {
     return ((const real *)a)[lane];
