@@ -17,6 +17,7 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
                        vreal *coordinates, vint *outer, uint *some_outer, vmask *open_to) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
     vreal zero = splat(R(0.0));
+    vint first_side = splat_int(1), second_side = splat_int(2);
     for (int object = 0; object < header->solid_count; object++) {
         GLOBAL const Object *solid = objects + object;
         vmask own = eq_int(points->object, splat_int(object));
@@ -30,19 +31,19 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
             continue; /* no segment crosses the solid that it leaves */
         Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
         int has_inside = any_lane(own_inside);
-        for (int i = 0; i < solid->plane_count; i++) {
+        for (int i = solid->plane_count - 1; i >= 0; i--) {
             GLOBAL const Plane *plane = planes + solid->first_plane + i;
             vreal width = splat(plane->distance), coordinate = along_normal(plane, point);
-            vreal least = solid->paired ? -width : splat(-REAL_LARGE);
-            if (has_inside)
+            if (has_inside) {
+                vreal least = solid->paired ? -width : splat(-REAL_LARGE);
                 coordinate =
                     pick(own_inside, lesser(greater(coordinate, least), width), coordinate);
+            }
             coordinates[solid->first_plane + i] = coordinate;
             vmask outside = le(zero, nearness(solid, plane, coordinate)) & ~own_inside;
-            vint side =
-                pick_int(lt(coordinate, zero), splat_int(2 << 2 * i), splat_int(1 << 2 * i));
-            not_inside = not_inside | pick_int(outside, side, splat_int(0));
-            some |= any_lane(outside) ? (uint)1 << i : 0u;
+            vint side = pick_int(lt(coordinate, zero), second_side, first_side);
+            not_inside = not_inside * 4 | pick_int(outside, side, splat_int(0));
+            some = some * 2 | (any_lane(outside) ? 1u : 0u);
         }
         outer[object] = not_inside;
         some_outer[object] = some;
