@@ -28,8 +28,9 @@ typedef struct {
 /* Where the rays' origins are relative to: the eye (every lane) or the object touched last. */
 typedef struct {
     int is_eye;
-    int same;   /* every lane has the same object */
-    vint row;   /* first entry of the lane's object in object_offsets */
+    int same;      /* every lane has the same object */
+    vint row;      /* first entry of the lane's object in object_offsets */
+    int first_row; /* the first lane's */
     Vec3 start; /* where the lane's mesh instance is, relative to its object, the meshes' centre */
 } Reference;
 
@@ -60,7 +61,8 @@ FN Reference reference_of(SCENE_PARAMETERS vint object, int is_eye) {
     object = object_of(SCENE_ARGUMENTS object);
     reference.is_eye = is_eye;
     reference.same = is_eye || all_same(object);
-    reference.row = is_eye ? splat_int(0) : object * header->object_count;
+    reference.first_row = is_eye ? 0 : lane_int(&object, 0) * header->object_count;
+    reference.row = object * header->object_count;
     return reference;
 }
 
@@ -69,7 +71,9 @@ FN Vec3 move_to_object(SCENE_PARAMETERS Reference reference, Vec3 point, int to)
     GLOBAL const Vector *table = reference.is_eye ? eye_offsets : object_offsets;
     if (MESHES(header))
         point = vec3_add(point, reference.start);
-    return vec3_add(point, fetch_vector(table, reference.row + to, reference.same));
+    if (reference.same)
+        return vec3_add(point, vec3_of(&table[reference.first_row + to].x));
+    return vec3_add(point, fetch_vector(table, reference.row + to));
 }
 
 FN void keep_closer(Hit *hit, vmask candidate, vreal t, int object, vint face, vmask entering) {

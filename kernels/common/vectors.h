@@ -80,13 +80,10 @@ FN vint spread_first(vint numbers, vmask m) {
     return pick_int(m, numbers, splat_int(filler));
 }
 
-/* table[index] for each lane; `same` is all_same(index), which callers compute once for many reads.
-   Few numbers differ within a bundle. */
-FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index, int same) {
+/* table[index] for each lane; few numbers differ within a bundle. */
+FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
     GLOBAL const Vector *v = table + lane_int(&index, 0);
     Vec3 result = vec3_splat(v->x, v->y, v->z);
-    if (same)
-        return result;
     vmask left = ~eq_int(index, splat_int(lane_int(&index, 0)));
     while (any_lane(left)) {
         int number = lane_int(&index, first_lane(left));

@@ -156,7 +156,7 @@ static void fetching_by_lane(void **state) {
     for (int i = 0; i < 40; i++)
         table[i] = (Vector){(real)i, (real)(2 * i), (real)(-i), R(0.0)};
     vint index = int_ramp(3, 2);
-    Vec3 v = fetch_vector(table, index, all_same(index));
+    Vec3 v = fetch_vector(table, index);
     for (int lane = 0; lane < HD_LANES; lane++) {
         assert_true(lane_real(&v.x, lane) == (real)(3 + 2 * lane));
         assert_true(lane_real(&v.y, lane) == (real)(6 + 4 * lane));
