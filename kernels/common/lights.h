@@ -163,10 +163,12 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
    squared in vain: from powers of at least 2^-60 no denormal number comes, which some processors
    are slow with. */
 FN vreal power(vreal x, vint n, int common) {
-    vreal one = splat(R(1.0));
     if (common) {
-        vreal result = common & 1 ? x : one;
-        for (int rest = common >> 1; rest; rest >>= 1) {
+        int rest = common;
+        for (; !(rest & 1); rest >>= 1)
+            x = x * x;
+        vreal result = x;
+        for (rest >>= 1; rest; rest >>= 1) {
             x = x * x;
             if (rest & 1)
                 result = result * x;
@@ -174,7 +176,7 @@ FN vreal power(vreal x, vint n, int common) {
         return result;
     }
     vint zero = splat_int(0);
-    vreal result = pick(eq_int(n & 1, zero), one, x);
+    vreal result = pick(eq_int(n & 1, zero), splat(R(1.0)), x);
     for (vint rest = n >> 1; any_lane(lt_int(zero, rest)); rest = rest >> 1) {
         x = pick(lt_int(zero, rest), x * x, x);
         result = pick(eq_int(rest & 1, zero), result, result * x);
