@@ -65,6 +65,12 @@ FN vint splat_int(int a) {
 }
 
 #if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
+/* Builtins are Clang's own affair, and may go. */
+#if __has_builtin(__builtin_ia32_cmpps512_mask) && __has_builtin(__builtin_ia32_selectps_512)
+#define HD_MASKS_OF_BITS
+#endif
+#endif
+#ifdef HD_MASKS_OF_BITS
 #include "masks_avx512.h"
 #else
 #include "../common/wide_masks.h"
