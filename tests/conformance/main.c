@@ -9,7 +9,8 @@
    --few each renders only what the least of the variants do, and no truths are checked. With
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
-   cut, which are left out in double. With --ptx 61 CUDA compiles to PTX for compute_61, of which
+   cut, which are left out in double; with more lanes than that no scene has kernels of its own.
+   With --ptx 61 CUDA compiles to PTX for compute_61, of which
    the driver makes machine code for the device: so the text for a Pascal card runs on any newer
    one.
 
@@ -165,12 +166,24 @@ static void compare_frame(const Target *target, int number, const Options *optio
         compare_hash(target, first, hashes.first_hits, expected->first_hits, tally);
 }
 
+static bool is_surveyed(int frame) {
+    HdScene scene;
+    HdCamera camera;
+    hd_golden_frames[frame].build(&scene, &camera);
+    bool surveyed = hd_scene_is_surveyed(&scene);
+    hd_scene_free(&scene);
+    return surveyed;
+}
+
+/* The frames that are surveyed come last, for kernels are built anew for them. */
 static void compare_frames(const Target *target, bool only_few, const Options *options,
                            Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
-    for (int i = 0; i < hd_golden_frame_count; i++)
-        if (!only_few || is_variant_frame(hd_golden_frames[i].name))
-            compare_frame(target, i, options, golden, tally);
+    for (int surveyed = 0; surveyed < 2; surveyed++)
+        for (int i = 0; i < hd_golden_frame_count; i++)
+            if ((!only_few || is_variant_frame(hd_golden_frames[i].name)) &&
+                is_surveyed(i) == surveyed)
+                compare_frame(target, i, options, golden, tally);
     printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
            tally->frames - compared, target->label);
     fflush(stdout);
@@ -180,19 +193,19 @@ static bool is_left_out(const Options *options, const HdRenderOptions *wanted) {
     return options->threads != ALL && wanted->threads != options->threads + 1;
 }
 
-/* Renders all frames and checks the truths, or only some of the frames. */
+/* Renders all frames and checks the truths, or only some of the frames. What is met first is looked
+   for where the renderer is wanted for it. */
 static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, bool only_few,
                            bool one_build, const Options *options, Golden *golden, Tally *tally) {
     HdError error;
     HdRenderOptions chosen = *wanted;
-    Target target = {.precision = wanted->precision, .one_build = one_build};
-    target.first_hits = one_build || device->backend->functions->kernels == NULL;
+    Target target = {
+        .precision = wanted->precision, .one_build = one_build, .first_hits = wanted->first_hits};
     char text[256], ptx[32] = "";
     const char *precision = precision_names[wanted->precision];
     if (is_left_out(options, wanted))
         return;
     chosen.test.ptx_arch = options->ptx_arch;
-    chosen.first_hits = target.first_hits;
     if (options->ptx_arch > 0)
         snprintf(ptx, sizeof ptx, ", PTX for compute_%d", options->ptx_arch);
     HdStatus status = hd_renderer_open(&target.renderer, device, &chosen, &error);
@@ -206,10 +219,10 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     hd_renderer_describe(target.renderer, text, (int)sizeof text);
     snprintf(target.label, sizeof target.label, "%-6s %-6s %s (%s)%s%s", device->backend->name,
              precision, device->name, text, ptx, one_build ? ", one build" : "");
-    compare_frames(&target, only_few, options, golden, tally);
     if (!only_few)
         check_truths(&target, &tally->truths, &tally->untrue);
     check_flights(&target, &tally->frames, &tally->different);
+    compare_frames(&target, only_few, options, golden, tally);
     tally->renderers++;
     hd_renderer_close(target.renderer);
 }
@@ -230,6 +243,11 @@ static int most_lanes_for_all(const HdDevice *device, HdPrecision precision,
     return lanes;
 }
 
+/* There one kernel more costs nothing. */
+static bool needs_no_build(const HdDevice *device) {
+    return device->backend->functions->kernels == NULL;
+}
+
 static void check_lanes(const HdDevice *device, HdPrecision precision, const Options *options,
                         Golden *golden, Tally *tally) {
     int most_for_all = most_lanes_for_all(device, precision, options);
@@ -243,11 +261,14 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .math = (HdMath)options->math,
             .pipeline = HD_PIPELINE_MEGA,
         };
-        bool compiles = device->is_cpu && !device->backend->needs_no_driver;
-        bool own_builds = !options->one_build && (!compiles || lane_counts[i] == OWN_BUILDS);
+        bool compiles = device->is_cpu && !needs_no_build(device);
+        bool own_builds = !options->one_build && lane_counts[i] <= most_for_all &&
+                          (!compiles || lane_counts[i] == OWN_BUILDS);
         bool only_few = options->few || lane_counts[i] > most_for_all;
+        wanted.first_hits = true;
         if (options->brief || !own_builds)
             check_renderer(device, &wanted, only_few, true, options, golden, tally);
+        wanted.first_hits = needs_no_build(device);
         if (own_builds)
             check_renderer(device, &wanted, only_few || options->brief, false, options, golden,
                            tally);
@@ -265,6 +286,7 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
         HdRenderOptions wanted = variant->options;
         wanted.precision = precision;
         wanted.math = (HdMath)options->math;
+        wanted.first_hits = needs_no_build(device) || (variant->frames & FIRST_HITS) != 0;
         bool only_few = options->few || only_cut || !(variant->frames & EVERY_FRAME);
         check_renderer(device, &wanted, only_few, true, options, golden, tally);
     }

@@ -4,40 +4,41 @@
 #include <string.h>
 
 /* The least memory that works: a bundle or a group of threads at a time. */
-enum { LEAST = 1, LITTLE = 100000 };
+enum { LEAST = 1, LITTLE = 100000, SOME = 1000000 };
 
 #define WAVEFRONT   .pipeline = HD_PIPELINE_WAVEFRONT
 #define UNCOMPACTED .pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED
 #define MEGA        .pipeline = HD_PIPELINE_MEGA
 
 const Variant variants[] = {
-    {FOR_CPUS, EVERY_FRAME, {WAVEFRONT, .threads = 2}},
-    {FOR_CPUS, FEW_FRAMES, {UNCOMPACTED, .threads = 2, .test.queue_bytes = LEAST}},
+    /* Both have the same kernels. */
+    {FOR_CPUS, EVERY_FRAME | FIRST_HITS, {WAVEFRONT, .threads = 2}},
+    {FOR_CPUS, FIRST_HITS, {UNCOMPACTED, .threads = 2, .test.queue_bytes = LEAST}},
 
     {FOR_PLAIN_C, FEW_FRAMES, {WAVEFRONT, .lanes = 1, .threads = 1}},
     {FOR_PLAIN_C, FEW_FRAMES, {WAVEFRONT, .lanes = 4, .threads = 2, .test.queue_bytes = LITTLE}},
     {FOR_PLAIN_C, FEW_FRAMES, {WAVEFRONT, .threads = 1, .test.queue_bytes = LEAST}},
 
-    {FOR_GPUS, EVERY_FRAME, {WAVEFRONT}},
+    {FOR_GPUS, EVERY_FRAME | FIRST_HITS, {WAVEFRONT}},
     {FOR_GPUS,
      EVERY_FRAME | ONLY_CUT,
      {WAVEFRONT, .block = 96, .test = {.queue_bytes = LITTLE, .launch_work = 500}}},
-    {FOR_GPUS, FEW_FRAMES, {UNCOMPACTED, .block = 256, .test.queue_bytes = LITTLE}},
-    {FOR_GPUS, ONLY_CUT, {MEGA, .block = 96, .grid = 1, .test.launch_work = 999}},
+    {FOR_GPUS, FEW_FRAMES, {UNCOMPACTED, .block = 256, .test.queue_bytes = SOME}},
+    {FOR_GPUS, ONLY_CUT | FIRST_HITS, {MEGA, .block = 96, .grid = 1, .test.launch_work = 999}},
     {FOR_CUDA, ONLY_CUT, {MEGA, .block = 1024, .grid = 2}},
     {FOR_GPUS,
      EVERY_FRAME | ONLY_CUT,
      {WAVEFRONT, .block = 32, .grid = 24, .test.queue_bytes = LEAST}},
 
+    /* The last two have the same kernels. */
+    {FOR_CPUS_AS_GPUS, FIRST_HITS, {MEGA, .grid = 3, .test = {.groups = true, .launch_work = 999}}},
     {FOR_CPUS_AS_GPUS,
      FEW_FRAMES,
-     {MEGA, .block = 96, .grid = 3, .test = {.groups = true, .launch_work = 999}}},
+     {WAVEFRONT, .block = 96, .grid = 3, .test = {.groups = true, .queue_bytes = LITTLE}}},
     {FOR_CPUS_AS_GPUS,
      FEW_FRAMES,
-     {WAVEFRONT, .block = 96, .grid = 3, .test = {.groups = true, .queue_bytes = LEAST}}},
-    {FOR_CPUS_AS_GPUS,
-     FEW_FRAMES,
-     {UNCOMPACTED, .test = {.groups = true, .queue_bytes = LITTLE, .launch_work = 200}}},
+     {UNCOMPACTED, .block = 96,
+      .test = {.groups = true, .queue_bytes = LITTLE, .launch_work = 200}}},
 };
 const int variant_count = sizeof variants / sizeof *variants;
 

@@ -7,8 +7,10 @@
 #include "device/renderer.h"
 
 /* Which frames: a few are those of is_variant_frame. ONLY_CUT differs from another variant, or from
-   what lanes render, only in how the work is cut. */
-enum { FEW_FRAMES = 0, EVERY_FRAME = 1, ONLY_CUT = 2 };
+   what lanes render, only in how the work is cut. FIRST_HITS looks for these too: their kernel is
+   the same in each variant, so that one with each pipeline does, and one with each way to cut the
+   work that is theirs as well. */
+enum { FEW_FRAMES = 0, EVERY_FRAME = 1, ONLY_CUT = 2, FIRST_HITS = 4 };
 
 typedef struct Variant {
     enum { FOR_CPUS, FOR_PLAIN_C, FOR_GPUS, FOR_CUDA, FOR_CPUS_AS_GPUS } kind;
