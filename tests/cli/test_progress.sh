@@ -17,10 +17,15 @@ on_terminal() {
     env TERM=xterm "$cli_folder/in_terminal" 100x24 blocks screen -- bash -c 'exec "$@" 2>/dev/tty' bash "$@"
 }
 
-# show_long_frame COMMAND...: on a terminal, with so many samples that the frame takes several seconds here.
+# show_long_frame COMMAND...: on a terminal, with so many samples that the frame takes some three seconds here, which a
+# shorter one tells.
 show_long_frame() {
-    for samples in 4 8 16 32 64; do
+    local begin next most=64
+    for ((samples = 4; samples <= most; samples = next > most && samples < most ? most : next)); do
+        begin=${EPOCHREALTIME//[.,]/}
         expect_exit 0 on_terminal "$@" --samples "$samples"
+        next=$(awk -v n="$samples" -v took="$((${EPOCHREALTIME//[.,]/} - begin))" \
+            'BEGIN { more = int(n * sqrt(2.8e6 / took)); print (more > n ? more : n + 1) }')
         cp "$logs/stdout" told
         tr '\r' '\n' <screen | sed -e 's/\x1b\[K$//' >shown
         if (($(grep -c '% of the next' shown) >= 4)); then
