@@ -21,14 +21,18 @@ else()
     set(HEDRON_PLAIN_KERNELS generic:4:float)
 endif()
 
-# Sanitizers make a kernel several times as dear to compile, and what they build runs here: kernels that this
-# processor never takes are left out, and of the bundles they look at those taken where nobody asks for lanes.
-# Kernels for plain scenes have no code of their own.
-if(HEDRON_SANITIZE)
-    set(HEDRON_PLAIN_KERNELS "")
+# What is built to run here and nowhere else needs the kernels alone that this processor takes.
+if(NOT CMAKE_CROSSCOMPILING)
     include(CheckCSourceRuns)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx512bw\"); }" HEDRON_RUNS_AVX512)
     check_c_source_runs("int main(void) { return !__builtin_cpu_supports(\"avx2\"); }" HEDRON_RUNS_AVX2)
+endif()
+
+# Sanitizers make a kernel several times as dear to compile: kernels that this processor never takes are left
+# out, and of the bundles they look at those taken where nobody asks for lanes. Kernels for plain scenes have
+# no code of their own.
+if(HEDRON_SANITIZE)
+    set(HEDRON_PLAIN_KERNELS "")
     if(HEDRON_RUNS_AVX512)
         list(FILTER HEDRON_KERNELS EXCLUDE REGEX "^avx2:8:|^generic:")
         list(TRANSFORM HEDRON_KERNELS REPLACE "^avx2:4:double:full$" "avx2:4:double:compare")

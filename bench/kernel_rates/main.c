@@ -17,22 +17,14 @@
 #include "measures.h"
 #include "steps.h"
 
-#ifdef HD_CPU_X86
-extern const HdLoops hd_loops_avx512_16, hd_loops_avx2_8, hd_loops_avx2_1;
-#else
-extern const HdLoops hd_loops_generic_4;
-#endif
-extern const HdLoops hd_loops_generic_1;
+#define X(build) extern const HdLoops build;
+HD_BUILDS
+#undef X
 
 static const HdLoops *const builds[] = {
-#ifdef HD_CPU_X86
-    &hd_loops_avx512_16,
-    &hd_loops_avx2_8,
-    &hd_loops_avx2_1,
-#else
-    &hd_loops_generic_4,
-#endif
-    &hd_loops_generic_1,
+#define X(build) &build,
+    HD_BUILDS
+#undef X
 };
 
 /* Bundles of rays and of points: enough to be like the view, few enough for the second-level cache.
@@ -54,12 +46,13 @@ typedef struct Bench {
 /* The widest build that this processor runs, or the best of one lane. */
 static const HdLoops *find_build(bool one_lane) {
     const char *best = hd_cpu_best_instruction_set();
-    size_t i = 0;
     if (one_lane && strcmp(best, "avx512") == 0)
         best = "avx2";
-    while (strcmp(builds[i]->instruction_set, best) != 0 || (one_lane && builds[i]->lanes != 1))
-        i++;
-    return builds[i];
+    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
+        if (strcmp(builds[i]->instruction_set, best) == 0 && (!one_lane || builds[i]->lanes == 1))
+            return builds[i];
+    fprintf(stderr, "hedron_kernel_rates: built for another processor than one with %s\n", best);
+    exit(1);
 }
 
 static void add_measure(Bench *bench, HdMeasure measure, const char *group, const char *name) {

@@ -25,20 +25,14 @@
 #include "system/thread_pool.h"
 #include "walks.h"
 
-#ifdef HD_CPU_X86
-extern const HdWalks hd_walks_avx512_16, hd_walks_avx2_8, hd_walks_generic_1;
-#else
-extern const HdWalks hd_walks_generic_4;
-#endif
+#define X(build) extern const HdWalks build;
+HD_BUILDS
+#undef X
 
 static const HdWalks *const builds[] = {
-#ifdef HD_CPU_X86
-    &hd_walks_avx512_16,
-    &hd_walks_avx2_8,
-    &hd_walks_generic_1,
-#else
-    &hd_walks_generic_4,
-#endif
+#define X(build) &build,
+    HD_BUILDS
+#undef X
 };
 
 enum { MOST_COUNTS = 16, MOST_THREADS = 64, RIVALS = 2 };
@@ -49,12 +43,14 @@ typedef struct Options {
     int counts[MOST_COUNTS], count_count;
 } Options;
 
-/* The widest build that this processor runs. */
+/* The one for this processor. */
 static const HdWalks *find_build(void) {
-    size_t i = 0;
-    while (strcmp(builds[i]->instruction_set, hd_cpu_best_instruction_set()) != 0)
-        i++;
-    return builds[i];
+    const char *best = hd_cpu_best_instruction_set();
+    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
+        if (strcmp(builds[i]->instruction_set, best) == 0)
+            return builds[i];
+    fprintf(stderr, "hedron_mesh_rates: built for another processor than one with %s\n", best);
+    exit(1);
 }
 
 /* ---- rates ---- */

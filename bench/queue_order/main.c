@@ -19,20 +19,14 @@
 #include "cpu/instruction_set.h"
 #include "order.h"
 
-#ifdef HD_CPU_X86
-extern const HdOrderBuild hd_order_avx512_16, hd_order_avx2_8, hd_order_generic_1;
-#else
-extern const HdOrderBuild hd_order_generic_4;
-#endif
+#define X(build) extern const HdOrderBuild build;
+HD_BUILDS
+#undef X
 
 static const HdOrderBuild *const builds[] = {
-#ifdef HD_CPU_X86
-    &hd_order_avx512_16,
-    &hd_order_avx2_8,
-    &hd_order_generic_1,
-#else
-    &hd_order_generic_4,
-#endif
+#define X(build) &build,
+    HD_BUILDS
+#undef X
 };
 
 static const char *const order_names[HD_ORDER_COUNT] = {
@@ -55,10 +49,12 @@ typedef struct Study {
 } Study;
 
 static const HdOrderBuild *find_build(void) {
-    size_t i = 0;
-    while (strcmp(builds[i]->instruction_set, hd_cpu_best_instruction_set()) != 0)
-        i++;
-    return builds[i];
+    const char *best = hd_cpu_best_instruction_set();
+    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
+        if (strcmp(builds[i]->instruction_set, best) == 0)
+            return builds[i];
+    fprintf(stderr, "hedron_queue_order: built for another processor than one with %s\n", best);
+    exit(1);
 }
 
 static bool run_order(const HdOrderBuild *build, const HdLoopScene *scene, HdBatches batches,
