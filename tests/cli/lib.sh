@@ -281,6 +281,10 @@ has_other_gpu() {
     "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
 }
 
+is_sanitized() {
+    grep -q -a -E '__(asan|tsan)_init' "$hedron"
+}
+
 has_opencl() {
     "${no_nvidia[@]}" "$hedron" devices | sed -n '/^opencl$/,/^c$/p' | grep -q -E 'strict arithmetic: (yes|not measured)'
 }

@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 build=$(realpath "${2:?the build folder is the second argument}")
-if grep -q -a -E '__(asan|tsan)_init' "$hedron"; then
+if is_sanitized; then
     skip "nothing can be preloaded before a sanitizer"
 elif ! has_opencl; then
     skip "no OpenCL device compiles kernels here"

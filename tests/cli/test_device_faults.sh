@@ -63,7 +63,7 @@ if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
 fi
 
 # ---- OpenCL
-if grep -q -a -E '__(asan|tsan)_init' "$hedron"; then
+if is_sanitized; then
     echo "not tested: OpenCL that fails, for nothing can be preloaded before a sanitizer"
 elif ! has_opencl; then
     echo "not tested: OpenCL that fails, for no device compiles kernels here"

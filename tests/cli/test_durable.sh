@@ -37,7 +37,7 @@ expect_durable() {
     fi
 }
 
-if grep -q -a -E '__(asan|tsan)_init' "$hedron"; then
+if is_sanitized; then
     echo "not tested: the order of calls, for sanitizers do not see them in preloaded libraries"
 else
     # ---- each kind of output; folders that are new, and those above them; the statistics' own file

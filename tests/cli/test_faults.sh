@@ -15,10 +15,6 @@ bash_path=$(command -v bash)
 tools=$work/tools
 mkdir "$tools"
 
-is_sanitized() {
-    grep -q -a -E '__(asan|tsan)_init' "$hedron"
-}
-
 wait_for() {
     local what=$1
     shift

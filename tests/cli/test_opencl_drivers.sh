@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 build=$(realpath "${2:?the build folder is the second argument}")
 intel=$build/../opencl-intel
 rusticl=$build/../opencl-rusticl
-if grep -q -a -E '__(asan|tsan)_init' "$hedron"; then
+if is_sanitized; then
     skip "drivers are not built with sanitizers"
 elif [[ ! -e $intel/vendors/intel.icd && ! -e $rusticl/vendors/rusticl.icd ]]; then
     skip "neither Intel's OpenCL nor rusticl could be fetched to $(dirname "$build")"
