@@ -41,11 +41,11 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
-    int few = 64, many = shape->needs.light_runs ? 96 : 128;
-    bool takes_many = nvidia_arch >= 70 && shape->precision == HD_PRECISION_FLOAT;
+    bool has_middle = shape->needs.light_runs && shape->precision == HD_PRECISION_FLOAT;
+    int few = 64, many = has_middle ? 96 : 128;
     if (asked > 0)
         return asked;
-    int limit = takes_many ? many : few;
+    int limit = nvidia_arch >= 70 ? many : few;
     int share = BLOCK_REGISTERS / shape->group_size / GRANULARITY * GRANULARITY;
     return share < limit ? share : limit;
 }

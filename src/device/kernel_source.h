@@ -46,9 +46,8 @@ typedef struct HdKernelShape {
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
    that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
-   are in flight. On an H100 and an H200 128 is the best for floats, 96 where there are many lights,
-   and 64 for doubles, spills and all. A block's threads share 65536 registers, so that large blocks
-   get fewer. */
+   are in flight. On an H100 128 is the best, or 96 for floats where there are many lights, spills
+   and all. A block's threads share 65536 registers, so that large blocks get fewer. */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };
