@@ -219,6 +219,8 @@ FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
 
 /* Lanes at a squared distance at which nothing is left of the light. */
 FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
+    if (!(light->inverse_falloff_squared < R(0.0)))
+        return mask_none();
     return le(squared * splat(light->inverse_falloff_squared), splat(R(-1.0)));
 }
 
