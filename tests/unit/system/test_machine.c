@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE /* processors */
 #include "system/machine.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <time.h>
+
+#include <sys/resource.h>
 
 #include "test_folder.h"
 
@@ -37,12 +43,80 @@ static void one_that_is_plugged_in_is_seen(void **state) {
     assert_false(hd_display_may_be_there("/no/such/folder"));
 }
 
+static void processors_are_those_it_may_run_on(void **state) {
+    (void)state;
+    cpu_set_t all, first;
+    assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
+    assert_int_equal(hd_processor_count(), CPU_COUNT(&all));
+    CPU_ZERO(&first);
+    for (size_t i = 0; CPU_COUNT(&first) == 0; i++)
+        if (CPU_ISSET(i, &all))
+            CPU_SET(i, &first);
+    assert_int_equal(sched_setaffinity(0, sizeof first, &first), 0);
+    assert_int_equal(hd_processor_count(), 1);
+    assert_int_equal(sched_setaffinity(0, sizeof all, &all), 0);
+}
+
+static void memory_and_time_are_the_systems(void **state) {
+    (void)state;
+    double kib = 0.0;
+    char line[100];
+    struct timespec now;
+    FILE *file = fopen("/proc/meminfo", "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    fclose(file);
+    assert_int_equal(sscanf(line, "MemTotal: %lf", &kib), 1);
+    expect_near(hd_physical_memory(), 1024.0 * kib, 0.1 * 1024.0 * kib);
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const double told = hd_monotonic_seconds();
+    const double before = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    assert_true(before <= told);
+    assert_true(told <= (double)now.tv_sec + 1e-9 * (double)now.tv_nsec);
+}
+
+static void free_descriptors_are_counted(void **state) {
+    (void)state;
+    struct rlimit before, limit;
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    limit = before;
+    const int lowest = open("/dev/null", O_RDONLY);
+    limit.rlim_cur = (rlim_t)lowest + 3;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    assert_int_equal(hd_free_descriptors(), 2);
+    assert_int_equal(hd_free_descriptors(), 2);
+    limit.rlim_cur = (rlim_t)lowest + 1;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    assert_int_equal(hd_free_descriptors(), 0);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    close(lowest);
+}
+
+static void memory_is_aligned(void **state) {
+    (void)state;
+    static const size_t sizes[] = {0, 1, 64, 65, (2 << 20) - 1, 2 << 20, (2 << 20) + 1};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        unsigned char *memory = hd_large_allocate(sizes[i]);
+        assert_non_null(memory);
+        assert_int_equal((uintptr_t)memory % (sizes[i] < 2 << 20 ? 64 : 2 << 20), 0);
+        memset(memory, 1, sizes[i]);
+        free(memory);
+    }
+    assert_null(hd_large_allocate(SIZE_MAX));
+    assert_null(hd_large_allocate(SIZE_MAX - (2 << 20)));
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(a_desktop_has_one),
         TEST(one_that_is_plugged_in_is_seen),
+        TEST(processors_are_those_it_may_run_on),
+        TEST(memory_and_time_are_the_systems),
+        TEST(free_descriptors_are_counted),
+        TEST(memory_is_aligned),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,9 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* RTLD_NEXT */
+
+#include <dlfcn.h>
+#include <errno.h>
 #include <fenv.h>
 #include <stdatomic.h>
+#include <unistd.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include "expect.h"
 #include "system/thread_pool.h"
+#include "system/warnings.h"
 
 enum { THREADS = 3, ITEMS = 1000 };
 
@@ -48,9 +57,81 @@ static void each_item_is_done_once_and_rounds_as_usual(void **state) {
     hd_thread_pool_destroy(pool);
 }
 
+/* ---- what the system refuses ---- */
+
+static int threads_left = -1; /* until it refuses some; -1: it does not */
+
+/* In place of the C library's. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*begin)(void *),
+                   void *argument) {
+    int (*original)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+    void *found = dlsym(RTLD_NEXT, "pthread_create");
+    memcpy(&original, &found, sizeof found);
+    if (threads_left == 0)
+        return EAGAIN;
+    if (threads_left > 0)
+        threads_left--;
+    return original(thread, attributes, begin, argument);
+}
+
+static HdStatus create_with(HdThreadPool **pool, int threads) {
+    threads_left = threads;
+    const HdStatus status = hd_thread_pool_create(pool, THREADS, &error);
+    threads_left = -1;
+    return status;
+}
+
+static void those_that_start_do_the_work(void **state) {
+    (void)state;
+    HdThreadPool *pool;
+    char note[HD_FALLBACK_LENGTH];
+    assert_int_equal(create_with(&pool, 2), HD_OK);
+    assert_int_equal(hd_thread_pool_size(pool), 2);
+    assert_true(hd_fallback_take(note));
+    expect_contains(note, "the system refused threads for tracing (");
+    expect_contains(note, "): 2 of 3 do it");
+    const int before = done[5];
+    assert_true(hd_thread_pool_run(pool, ITEMS, work, NULL, never));
+    assert_int_equal(done[5], before + 1);
+    hd_thread_pool_destroy(pool);
+    assert_int_equal(create_with(&pool, 0), HD_FAILED);
+    expect_contains(error.message, "cannot start one of 3 threads: ");
+    assert_false(hd_fallback_take(note));
+    hd_thread_pool_destroy(NULL);
+}
+
+/* In a process of its own, which may not raise the hard limit; `expected_kib` 0: it is told. */
+static void check_stack(rlim_t soft_kib, rlim_t hard_kib, rlim_t expected_kib) {
+    const pid_t child = fork();
+    int code;
+    assert_true(child >= 0);
+    if (child == 0) {
+        struct rlimit limit = {soft_kib * 1024, hard_kib * 1024};
+        if (setrlimit(RLIMIT_STACK, &limit) != 0 || (geteuid() == 0 && setuid(65534) != 0))
+            _exit(3);
+        if (hd_check_stack(&error) != HD_OK)
+            _exit(expected_kib != 0 || strstr(error.message, "may have 256 KiB") == NULL);
+        getrlimit(RLIMIT_STACK, &limit);
+        _exit(limit.rlim_cur == expected_kib * 1024 ? 0 : 2);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(code, 0);
+}
+
+static void a_small_stack_is_made_larger(void **state) {
+    (void)state;
+    check_stack(256, 8192, 1024);
+    check_stack(256, 1024, 1024);
+    check_stack(1024, 8192, 1024);
+    check_stack(1025, 8192, 1025);
+    check_stack(256, 1023, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_item_is_done_once_and_rounds_as_usual),
+        cmocka_unit_test(those_that_start_do_the_work),
+        cmocka_unit_test(a_small_stack_is_made_larger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "system/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "test_folder.h"
+
+static HdError error;
+static HdChild child;
+static char how[64];
+
+static int begin(void **state) {
+    (void)state;
+    unsetenv("HEDRON_FFMPEG_PATIENCE");
+    error = (HdError){0};
+    return 0;
+}
+
+static HdStatus start(const char *script, const char *file, int lock) {
+    const char *const arguments[] = {"/bin/sh", "-c", script, NULL};
+    return hd_child_start(&child, arguments, true, file, lock, &error);
+}
+
+static void run(const char *script) {
+    assert_int_equal(start(script, NULL, -1), HD_OK);
+    assert_true(child.pid > 0 && child.input >= 0 && child.output >= 0);
+}
+
+static void expect_end(bool is_good, const char *words) {
+    assert_true(hd_child_end(&child, 60000, how) == is_good);
+    assert_string_equal(how, words);
+    assert_int_equal(child.pid, 0);
+    assert_int_equal(child.input, -1);
+    assert_int_equal(child.output, -1);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+    assert_int_equal(errno, ECHILD);
+}
+
+static void it_tells_how_it_ended(void **state) {
+    (void)state;
+    run("exit 0");
+    expect_end(true, "exit code 0");
+    run("exit 3");
+    expect_end(false, "exit code 3");
+    run("kill -9 $$");
+    expect_end(false, "signal 9");
+    run("exec >&- 2>&-; sleep 0.1; exit 4"); /* closes its output before it ends */
+    expect_end(false, "exit code 4");
+}
+
+static void what_is_sent_comes_back(void **state) {
+    enum { SIZE = 3 << 20 };
+    (void)state;
+    uint8_t *bytes = malloc(SIZE);
+    assert_non_null(bytes);
+    for (size_t i = 0; i < SIZE; i++)
+        bytes[i] = (uint8_t)('a' + i % 26);
+    run("tee copy; echo ' end' >&2; echo; echo ' '"); /* it says as much as it hears */
+    assert_true(hd_child_send(&child, bytes, SIZE));
+    expect_end(true, "exit code 0");
+    assert_int_equal(child.said_length, HD_CHILD_MAX_SAID);
+    assert_int_equal(strlen(hd_child_said(&child)), HD_CHILD_MAX_SAID - 4);
+    expect_contains(hd_child_said(&child) + HD_CHILD_MAX_SAID - 8, " end");
+    struct stat found;
+    assert_int_equal(stat("copy", &found), 0);
+    assert_int_equal(found.st_size, SIZE);
+    free(bytes);
+}
+
+static void words_end_without_line_breaks(void **state) {
+    (void)state;
+    run("printf ' a\\nb \\r\\n\\n'");
+    expect_end(true, "exit code 0");
+    assert_string_equal(hd_child_said(&child), " a\nb");
+    run("printf '\\n \\n'");
+    expect_end(true, "exit code 0");
+    assert_string_equal(hd_child_said(&child), "(nothing)");
+}
+
+static void one_that_does_not_read_is_noticed(void **state) {
+    (void)state;
+    static const uint8_t bytes[1 << 20];
+    run("exec <&-; echo gone");
+    assert_false(hd_child_send(&child, bytes, sizeof bytes));
+    expect_end(true, "exit code 0");
+    assert_string_equal(hd_child_said(&child), "gone");
+}
+
+/* Silence, or that it stands still, in seconds. */
+static void one_that_hangs_is_killed(void **state) {
+    (void)state;
+    static const uint8_t bytes[1 << 20];
+    setenv("HEDRON_FFMPEG_PATIENCE", "1", 1);
+    run("sleep 1000");
+    assert_int_equal(child.patience_s, 1);
+    assert_false(hd_child_end(&child, 300, how));
+    assert_string_equal(how, "signal 9");
+    assert_false(child.is_stuck);
+    run("sleep 1000");
+    assert_false(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
+    assert_string_equal(how, "signal 9");
+    assert_true(child.is_stuck);
+    run("sleep 1000");
+    assert_false(hd_child_send(&child, bytes, sizeof bytes));
+    assert_true(child.is_stuck);
+    hd_child_stop(&child);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+}
+
+/* Each for longer than the patience, but with shorter rests. */
+static void one_that_works_is_waited_for(void **state) {
+    (void)state;
+    setenv("HEDRON_FFMPEG_PATIENCE", "2", 1);
+    run("for i in 1 2 3 4 5; do for k in 1 2 3 4 5; do sleep 0.1; echo; done; done; echo end");
+    assert_true(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
+    expect_contains(hd_child_said(&child), "end");
+    write_bytes("film", "", 0);
+    assert_int_equal(start("for i in 1 2 3 4 5; do for k in 1 2 3 4 5; do sleep 0.1; echo >>film; "
+                           "done; done",
+                           "film", -1),
+                     HD_OK);
+    assert_true(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
+    assert_false(child.is_stuck);
+}
+
+static void a_lock_and_three_streams_are_all_it_has(void **state) {
+    (void)state;
+    const int lock = open("lock", O_RDWR | O_CREAT, 0600), other = dup(lock);
+    assert_true(lock > 2 && other > 2);
+    assert_int_equal(fcntl(lock, F_SETFD, FD_CLOEXEC), 0);
+    assert_int_equal(fcntl(other, F_SETFD, FD_CLOEXEC), 0);
+    assert_int_equal(start("readlink /proc/$$/fd/* | grep -c lock; readlink /proc/$$/fd/[012] | "
+                           "grep -c socket",
+                           NULL, lock),
+                     HD_OK);
+    expect_end(true, "exit code 0");
+    assert_string_equal(hd_child_said(&child), "1\n3");
+    const char *const arguments[] = {"/bin/sh", "-c", "readlink /proc/$$/fd/0", NULL};
+    assert_int_equal(hd_child_start(&child, arguments, false, NULL, -1, &error), HD_OK);
+    assert_int_equal(child.input, -1);
+    expect_end(true, "exit code 0");
+    assert_string_equal(hd_child_said(&child), "/dev/null");
+    close(lock);
+    close(other);
+}
+
+/* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
+static void signals_are_as_usual(void **state) {
+    (void)state;
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGHUP, SIG_IGN);
+    run("kill -HUP $$; echo here; kill -PIPE $$; echo there");
+    expect_end(false, "signal 13");
+    assert_string_equal(hd_child_said(&child), "here");
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
+}
+
+static void the_whole_group_is_stopped(void **state) {
+    (void)state;
+    int ends[2];
+    char byte;
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(start("sleep 1000 & sleep 1000", NULL, ends[1]), HD_OK);
+    close(ends[1]);
+    hd_child_stop(&child);
+    assert_int_equal(read(ends[0], &byte, 1), 0); /* nobody has the other end */
+    close(ends[0]);
+    hd_child_stop(&child);
+}
+
+static void expect_no_start(const char *path, HdStatus status, const char *reason) {
+    const char *const arguments[] = {path, NULL};
+    assert_int_equal(hd_child_start(&child, arguments, true, NULL, -1, &error), status);
+    expect_contains(error.message, path);
+    expect_contains(error.message, reason);
+    assert_int_equal(child.pid, 0);
+    assert_int_equal(child.input, -1);
+    assert_int_equal(child.output, -1);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+}
+
+static void one_that_cannot_start_is_told(void **state) {
+    (void)state;
+    write_bytes("text", "no program", 10);
+    expect_no_start("./none", HD_UNAVAILABLE, "cannot start ./none: No such file");
+    expect_no_start("./text", HD_UNAVAILABLE, "Permission denied");
+    assert_int_equal(chmod("text", 0700), 0);
+    expect_no_start("./text", HD_UNAVAILABLE, "Exec format error");
+    assert_int_equal(symlink("loop", "loop"), 0);
+    expect_no_start("./loop", HD_FAILED, "Too many levels");
+}
+
+static void the_patience_is_whole_seconds(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"0", "-1", "86401", "1.5", "1s", "x"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
+        assert_int_equal(start("exit 0", NULL, -1), HD_BAD_INPUT);
+        expect_contains(error.message, wrong[i]);
+    }
+    static const struct {
+        const char *text;
+        int seconds;
+    } good[] = {{"", HD_CHILD_PATIENCE_S}, {"1", 1}, {"86400", 86400}};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        setenv("HEDRON_FFMPEG_PATIENCE", good[i].text, 1);
+        run("exit 0");
+        assert_int_equal(child.patience_s, good[i].seconds);
+        expect_end(true, "exit code 0");
+    }
+}
+
+static void programs_are_found_in_order(void **state) {
+    (void)state;
+    char path[HD_MAX_PATH], old[HD_MAX_PATH];
+    snprintf(old, sizeof old, "%s", getenv("PATH"));
+    assert_true(mkdir("x", 0700) == 0 && mkdir("y", 0700) == 0 && mkdir("z", 0700) == 0);
+    assert_true(mkdir("x/tool", 0700) == 0);
+    write_bytes("y/tool", "", 0);
+    write_bytes("z/tool", "", 0);
+    write_bytes("tool", "", 0);
+    assert_int_equal(chmod("y/tool", 0600), 0);
+    assert_true(chmod("z/tool", 0700) == 0 && chmod("tool", 0700) == 0);
+    setenv("PATH", "x:y:z:", 1);
+    assert_int_equal(hd_child_find("tool", path, &error), HD_OK);
+    assert_string_equal(path, "z/tool");
+    setenv("PATH", "x::z", 1);
+    assert_int_equal(hd_child_find("tool", path, &error), HD_OK);
+    assert_string_equal(path, "./tool");
+    setenv("PATH", "x:y", 1);
+    assert_int_equal(hd_child_find("tool", path, &error), HD_UNAVAILABLE);
+    expect_contains(error.message, "found no program \"tool\" in PATH");
+    unsetenv("PATH");
+    assert_int_equal(hd_child_find("sh", path, &error), HD_OK);
+    assert_int_equal(access(path, X_OK), 0);
+    setenv("PATH", old, 1);
+}
+
+#define TEST(function) cmocka_unit_test_setup(function, begin)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(it_tells_how_it_ended),
+        TEST(what_is_sent_comes_back),
+        TEST(words_end_without_line_breaks),
+        TEST(one_that_does_not_read_is_noticed),
+        TEST(one_that_hangs_is_killed),
+        TEST(one_that_works_is_waited_for),
+        TEST(a_lock_and_three_streams_are_all_it_has),
+        TEST(signals_are_as_usual),
+        TEST(the_whole_group_is_stopped),
+        TEST(one_that_cannot_start_is_told),
+        TEST(the_patience_is_whole_seconds),
+        TEST(programs_are_found_in_order),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* What is synced, and what becomes of a disk that says no. */
+#define _GNU_SOURCE
+
+#include "system/durable.h"
+
+#include <errno.h>
+#include <fcntl.h>
+
+#include "test_folder.h"
+
+static HdError error;
+static int answers[4]; /* to the next syncs, as errno has them; 0: done */
+static int calls;
+static char synced_names[1000]; /* of the folders below the test's, each with a space behind it */
+
+static void tell_name(int descriptor) {
+    char link[64], name[500];
+    snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
+    const ssize_t length = readlink(link, name, sizeof name - 1);
+    assert_true(length > 0);
+    name[length] = '\0';
+    const size_t top = strlen(test_folder);
+    const char *rest = strncmp(name, test_folder, top) == 0 ? name + top : name;
+    strcat(strcat(synced_names, *rest == '\0' ? "." : rest), " ");
+}
+
+/* In place of the C library's. */
+int fsync(int descriptor) {
+    tell_name(descriptor);
+    errno = calls < 4 ? answers[calls] : 0;
+    calls++;
+    return errno == 0 ? 0 : -1;
+}
+
+static int begin(void **state) {
+    (void)state;
+    memset(answers, 0, sizeof answers);
+    synced_names[0] = '\0';
+    calls = 0;
+    error = (HdError){0};
+    return mkdir("a", 0777) != 0 || mkdir("a/b", 0777) != 0 || mkdir("a/c", 0777) != 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    return remove_folder("a");
+}
+
+static void expect_synced(HdFolderSet *synced, const char *path, const char *names) {
+    synced_names[0] = '\0';
+    assert_int_equal(hd_sync_folder(synced, path, &error), HD_OK);
+    assert_string_equal(synced_names, names);
+}
+
+static void folders_are_synced_up_to_one_that_was(void **state) {
+    (void)state;
+    HdFolderSet synced = {0};
+    expect_synced(&synced, "a/b/1.png", "/a/b /a . ");
+    expect_synced(&synced, "a/b/2.png", "/a/b ");
+    expect_synced(&synced, "a/c/1.png", "/a/c /a ");
+    expect_synced(&synced, "1.png", ". ");
+    expect_synced(&(HdFolderSet){0}, "a//b//1.png", "/a/b /a . ");
+    expect_synced(&(HdFolderSet){0}, "/1.png", "/ ");
+    expect_synced(&(HdFolderSet){0}, "//tmp/1.png", "/tmp / ");
+}
+
+static void a_sync_that_a_signal_ends_is_begun_again(void **state) {
+    (void)state;
+    answers[0] = answers[1] = EINTR;
+    assert_int_equal(hd_sync_file(STDIN_FILENO, "x", &error), HD_OK);
+    assert_int_equal(calls, 3);
+}
+
+static void what_has_no_disk_needs_no_sync(void **state) {
+    (void)state;
+    static const int reasons[] = {EINVAL, ENOTSUP, ENOSYS, EROFS};
+    for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++) {
+        calls = 0;
+        answers[0] = reasons[i];
+        assert_int_equal(hd_sync_file(STDIN_FILENO, "x", &error), HD_OK);
+    }
+}
+
+static void a_disk_that_fails_is_told(void **state) {
+    (void)state;
+    HdFolderSet synced = {0};
+    answers[0] = EDQUOT;
+    answers[2] = EIO;
+    assert_int_equal(hd_sync_file(STDIN_FILENO, "a/1.png", &error), HD_FAILED);
+    assert_string_equal(error.message, "cannot write a/1.png to the disk: Disk quota exceeded");
+    assert_int_equal(hd_sync_folder(&synced, "a/b/1.png", &error), HD_FAILED);
+    assert_string_equal(error.message, "cannot write a to the disk: Input/output error");
+    expect_synced(&synced, "a/b/2.png", "/a/b "); /* which was */
+    assert_false(hd_folder_set_has(&synced, "a/1.png"));
+    assert_int_equal(hd_sync_folder(&synced, "a/none/1.png", &error), HD_FAILED);
+    assert_string_equal(error.message,
+                        "cannot write a/none to the disk: No such file or directory");
+}
+
+static void a_folder_that_may_not_be_read_is_left_out(void **state) {
+    (void)state;
+    const uid_t user = geteuid();
+    assert_int_equal(chmod("a/b", 0300), 0);
+    if (user == 0)
+        assert_int_equal(seteuid(65534), 0);
+    const HdStatus status = hd_sync_folder(&(HdFolderSet){0}, "a/b/1.png", &error);
+    assert_int_equal(seteuid(user), 0);
+    assert_int_equal(status, HD_OK);
+    assert_null(strstr(synced_names, "/b"));
+    assert_int_equal(chmod("a/b", 0700), 0);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(folders_are_synced_up_to_one_that_was),
+        TEST(a_sync_that_a_signal_ends_is_begun_again),
+        TEST(what_has_no_disk_needs_no_sync),
+        TEST(a_disk_that_fails_is_told),
+        TEST(a_folder_that_may_not_be_read_is_left_out),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

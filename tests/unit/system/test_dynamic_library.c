@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/* With the library of the test itself, which is there. */
+#define _POSIX_C_SOURCE 200809L
+#include "system/dynamic_library.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include "expect.h"
+#include "system/path.h"
+
+static const char symbol[] = "_assert_true";
+
+typedef struct Functions {
+    void *unused;
+    void (*fail)(const char *, int);
+    void (*skip)(const char *, int);
+} Functions;
+
+static const HdLibrarySymbol symbols[] = {{"_fail", offsetof(Functions, fail)},
+                                          {"_skip", offsetof(Functions, skip)},
+                                          {"_no_such", offsetof(Functions, unused)},
+                                          {"_nor_this", offsetof(Functions, unused)}};
+
+static char path[HD_MAX_PATH];
+static void *library;
+
+static int find_library(void **state) {
+    (void)state;
+    void *program = dlopen(NULL, RTLD_NOW);
+    assert_non_null(program);
+    assert_true(hd_library_path(program, symbol, path, sizeof path));
+    assert_int_equal(dlclose(program), 0);
+    assert_int_equal(access(path, R_OK), 0);
+    library = hd_library_open(path);
+    return library == NULL;
+}
+
+static int leave_library(void **state) {
+    (void)state;
+    hd_library_close(library);
+    hd_library_close(NULL);
+    return 0;
+}
+
+static void functions_are_found_or_named(void **state) {
+    (void)state;
+    Functions functions = {0};
+    assert_null(hd_library_load(library, symbols, 2, &functions));
+    assert_true(functions.fail == _fail && functions.skip == _skip);
+    functions.skip = NULL;
+    assert_null(hd_library_load(library, symbols, 1, &functions));
+    assert_null(functions.skip);
+    assert_string_equal(hd_library_load(library, symbols, 4, &functions), "_no_such");
+    assert_null(functions.unused);
+}
+
+static void its_file_is_told_where_there_is_room(void **state) {
+    (void)state;
+    char found[HD_MAX_PATH];
+    const size_t length = strlen(path);
+    assert_true(hd_library_path(library, symbol, found, length + 1));
+    assert_string_equal(found, path);
+    assert_false(hd_library_path(library, symbol, found, length));
+    assert_false(hd_library_path(library, "_no_such", found, sizeof found));
+}
+
+static void what_lies_beside_it_is_opened(void **state) {
+    (void)state;
+    const char *name = strrchr(path, '/');
+    assert_non_null(name);
+    void *again = hd_library_open_beside(library, symbol, name + 1);
+    assert_ptr_equal(again, library);
+    hd_library_close(again);
+    assert_null(hd_library_open_beside(library, symbol, "no_such.so"));
+    assert_null(hd_library_open_beside(library, "_no_such", name + 1));
+    assert_null(hd_library_open("no_such.so"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(functions_are_found_or_named),
+        cmocka_unit_test(its_file_is_told_where_there_is_room),
+        cmocka_unit_test(what_lies_beside_it_is_opened),
+    };
+    return cmocka_run_group_tests(tests, find_library, leave_library);
+}

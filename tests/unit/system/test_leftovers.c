@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "system/leftovers.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "base/limits.h"
+#include "system/path.h"
+#include "test_folder.h"
+
+/* As many as all outputs of a run have under way, but for one that was removed: its place stays
+ * taken. */
+enum { FILES = 32 * HD_MAX_OUTPUTS - 1, GROUPS = 2 * HD_MAX_OUTPUTS };
+
+static void add(int i) {
+    char path[32];
+    snprintf(path, sizeof path, "%d.tmp", i);
+    write_bytes(path, "x", 1);
+    hd_leftovers_add_file(path);
+}
+
+static void all_others_are_removed_once(void **state) {
+    (void)state;
+    for (int i = 0; i < FILES; i++)
+        add(i);
+    assert_int_equal(count_entries("."), FILES);
+    for (int i = 1; i < FILES; i += 2) {
+        char path[32];
+        snprintf(path, sizeof path, "%d.tmp", i);
+        hd_leftovers_forget_file(path);
+        hd_leftovers_forget_file("none");
+    }
+    for (int i = FILES; i < FILES + FILES / 2; i++) /* which take the free places */
+        add(i);
+    hd_leftovers_remove();
+    assert_int_equal(count_entries("."), FILES / 2);
+    assert_int_equal(access("1.tmp", F_OK), 0);
+    write_bytes("0.tmp", "another's", 9);
+    hd_leftovers_remove();
+    assert_int_equal(access("0.tmp", F_OK), 0);
+}
+
+static void names_without_room_are_not_remembered(void **state) {
+    (void)state;
+    char path[HD_MAX_PATH + 1];
+    memset(path, '/', sizeof path);
+    memcpy(path, ".", 1);
+    memcpy(path + HD_MAX_PATH - 4, "long", 5);
+    write_bytes("long", "x", 1);
+    hd_leftovers_add_file(path);
+    hd_leftovers_remove();
+    assert_int_equal(access("long", F_OK), 0);
+    memcpy(path + HD_MAX_PATH - 5, "long", 5);
+    hd_leftovers_add_file(path);
+    hd_leftovers_remove();
+    assert_int_not_equal(access("long", F_OK), 0);
+}
+
+static pid_t start_group(void) {
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        for (;;)
+            pause();
+    }
+    assert_int_equal(setpgid(child, child), 0);
+    return child;
+}
+
+static void expect_killed(pid_t child) {
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(WTERMSIG(status), SIGKILL);
+}
+
+static void groups_are_killed_unless_they_are_forgotten(void **state) {
+    (void)state;
+    pid_t groups[GROUPS];
+    alarm(60); /* where nothing is killed */
+    for (int i = 0; i < GROUPS; i++) {
+        groups[i] = start_group();
+        hd_leftovers_add_group(groups[i]);
+    }
+    hd_leftovers_forget_group(groups[GROUPS - 1]);
+    hd_leftovers_forget_group(groups[0]);
+    hd_leftovers_remove();
+    for (int i = 1; i < GROUPS - 1; i++)
+        expect_killed(groups[i]);
+    for (int i = 0; i < GROUPS; i += GROUPS - 1) {
+        assert_int_equal(waitpid(groups[i], NULL, WNOHANG), 0);
+        assert_int_equal(kill(groups[i], SIGKILL), 0);
+        expect_killed(groups[i]);
+    }
+    alarm(0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(groups_are_killed_unless_they_are_forgotten),
+        cmocka_unit_test(names_without_room_are_not_remembered),
+        cmocka_unit_test(all_others_are_removed_once),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}

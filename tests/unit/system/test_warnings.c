@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+#include "system/warnings.h"
+
+#include "expect.h"
+
+static void sentences_come_once_and_in_their_order(void **state) {
+    (void)state;
+    char text[HD_FALLBACK_LENGTH];
+    assert_false(hd_fallback_take(text));
+    hd_fallback_note("%d of %d", 1, 2);
+    hd_fallback_note("other");
+    hd_fallback_note("1 of 2");
+    hd_fallback_note("last");
+    assert_true(hd_fallback_take(text));
+    assert_string_equal(text, "1 of 2");
+    assert_true(hd_fallback_take(text));
+    assert_string_equal(text, "other");
+    hd_fallback_note("1 of 2");
+    assert_true(hd_fallback_take(text));
+    assert_string_equal(text, "last");
+    assert_true(hd_fallback_take(text));
+    assert_string_equal(text, "1 of 2");
+    assert_false(hd_fallback_take(text));
+}
+
+static void what_finds_no_room_is_dropped(void **state) {
+    (void)state;
+    char text[HD_FALLBACK_LENGTH];
+    for (int i = 0; i < 10; i++)
+        hd_fallback_note("%-600d", i);
+    for (int i = 0; i < 8; i++) {
+        assert_true(hd_fallback_take(text));
+        assert_int_equal(strlen(text), HD_FALLBACK_LENGTH - 1);
+        assert_int_equal(text[0], '0' + i);
+    }
+    assert_false(hd_fallback_take(text));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sentences_come_once_and_in_their_order),
+        cmocka_unit_test(what_finds_no_room_is_dropped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
