@@ -37,7 +37,7 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
     if (!address || !dladdr(address, &info) || !info.dli_fname)
         return false;
     int length = snprintf(path, capacity, "%s", info.dli_fname);
-    return length > 0 && (size_t)length < capacity;
+    return (size_t)length < capacity;
 }
 
 void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
@@ -48,5 +48,5 @@ void *hd_library_open_beside(void *library, const char *symbol, const char *name
     if (!slash)
         return NULL;
     int length = snprintf(path, sizeof path, "%.*s/%s", (int)(slash - beside), beside, name);
-    return length > 0 && length < HD_MAX_PATH ? hd_library_open(path) : NULL;
+    return length < HD_MAX_PATH ? hd_library_open(path) : NULL;
 }

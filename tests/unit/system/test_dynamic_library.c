@@ -77,11 +77,29 @@ static void what_lies_beside_it_is_opened(void **state) {
     assert_null(hd_library_open("no_such.so"));
 }
 
+/* Cut, it would be that of the library. */
+static void a_name_that_is_too_long_opens_nothing(void **state) {
+    (void)state;
+    char name[HD_MAX_PATH + 2] = "";
+    const char *end = strrchr(path, '/');
+    assert_non_null(end);
+    const size_t cut = HD_MAX_PATH - 1 - (size_t)(end + 1 - path);
+    memset(name, '/', cut);
+    memcpy(name, "./", 2);
+    memcpy(name + cut - strlen(end), end, strlen(end));
+    void *again = hd_library_open_beside(library, symbol, name);
+    assert_ptr_equal(again, library);
+    hd_library_close(again);
+    memcpy(name + cut, "xx", 3);
+    assert_null(hd_library_open_beside(library, symbol, name));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(functions_are_found_or_named),
         cmocka_unit_test(its_file_is_told_where_there_is_room),
         cmocka_unit_test(what_lies_beside_it_is_opened),
+        cmocka_unit_test(a_name_that_is_too_long_opens_nothing),
     };
     return cmocka_run_group_tests(tests, find_library, leave_library);
 }
