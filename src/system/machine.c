@@ -41,12 +41,12 @@ double hd_physical_memory(void) {
 }
 
 int hd_free_descriptors(void) {
-    const long most = sysconf(_SC_OPEN_MAX);
+    const unsigned long most = (unsigned long)sysconf(_SC_OPEN_MAX); /* -1: without an end */
     const int lowest = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (lowest < 0)
         return 0;
     close(lowest);
-    return most < 0 || most > INT_MAX ? INT_MAX : (int)most - lowest;
+    return most > INT_MAX ? INT_MAX : (int)most - lowest;
 }
 
 void *hd_large_allocate(size_t bytes) {
