@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A sequence on a real Slurm of two nodes. Renderers are held at their first frame, so that what kills
+# A sequence on a real Slurm of two nodes. Renderers are held after their first frame, so that what kills
 # them always meets them at work.
 set -euo pipefail
 # shellcheck source=lib.sh
@@ -19,7 +19,7 @@ gate=$work/gate
 mkdir "$gate"
 cat >"$work/the renderer" <<SCRIPT
 #!/usr/bin/env bash
-# hold-A-B: the frames A-B are held once, after the first of them, by statistics that nobody reads.
+# hold-A-B: the frames A-B are held once, when the first of them is there, by a pipe for statistics that has no reader.
 # exit-A-B: ends with the code in that file. move-A-B: has no device on the node that comes first.
 set -euo pipefail
 gate=$gate
@@ -34,8 +34,7 @@ fi
 if [[ -e \$gate/hold-\$frames ]]; then
     rm "\$gate/hold-\$frames"
     mkfifo "\$gate/pipe-\$frames"
-    exec 5<>"\$gate/pipe-\$frames"
-    dd if=/dev/zero of="\$gate/pipe-\$frames" bs=4096 oflag=nonblock status=none 2>/dev/null || true
+    "$hedron" "\${@/#\$frames/\${frames%-*}}"
     echo \$\$ >"\$gate/pid-\$frames"
     exec "$hedron" "\$@" --stats "\$gate/pipe-\$frames"
 fi
