@@ -36,8 +36,11 @@ bool hd_library_path(void *library, const char *symbol, char *path, size_t capac
     void *address = dlsym(library, symbol);
     if (!address || !dladdr(address, &info) || !info.dli_fname)
         return false;
-    int length = snprintf(path, capacity, "%s", info.dli_fname);
-    return (size_t)length < capacity;
+    const size_t length = strlen(info.dli_fname);
+    if (length >= capacity)
+        return false;
+    memcpy(path, info.dli_fname, length + 1);
+    return true;
 }
 
 void *hd_library_open_beside(void *library, const char *symbol, const char *name) {
