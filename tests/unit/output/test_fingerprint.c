@@ -231,7 +231,7 @@ static double uvs[1][2];
 static int32_t corners[1][3], corner_normals[1][3], corner_uvs[1][3], material_of[1];
 static uint8_t group_of[1];
 static uint16_t floor_texels[6], texels[3];
-static HdMeshMaterial materials[1];
+static HdMeshMaterial materials[3]; /* the second is the mesh's */
 static HdMesh mesh;
 static HdPicture picture;
 static HdInstance instance;
@@ -250,7 +250,7 @@ static void fill_content(HdScene *scene) {
                     .corner_uvs = corner_uvs,
                     .material_of = material_of,
                     .group_of = group_of,
-                    .materials = materials};
+                    .materials = &materials[1]};
     picture = (HdPicture){.texture = {.width = 1, .height = 1, .texels = texels}};
     instance.has_material = true;
     scene->floor.texture = (HdTexture){.width = 2, .height = 1, .texels = floor_texels};
@@ -290,16 +290,16 @@ static void what_files_hold_changes_it(void **state) {
         BITS(corner_uvs),
         BITS(material_of),
         BITS(group_of),
-        BITS(materials[0].emission),
-        BITS(materials[0].picture),
-        BITS(materials[0].passes_as),
-        BITS(materials[0].material.diffuse),
+        BITS(materials[1].emission),
+        BITS(materials[1].picture),
+        BITS(materials[1].passes_as),
+        BITS(materials[1].material.diffuse),
         BITS(instance.position),
         BITS(instance.rotation_degrees),
         BITS(instance.scale),
         BITS(instance.mesh),
         BITS(picture.is_clamped),
-        BITS(materials[0].is_opaque_to_shadows),
+        BITS(materials[1].is_opaque_to_shadows),
         BITS(instance.has_material),
         BITS(instance.material.reflection),
         BITS(scene->crop),
@@ -336,9 +336,17 @@ static void arrays_that_are_missing_change_it(void **state) {
 static void names_in_files_do_not(void **state) {
     (void)state;
     char name[] = "name";
-    materials[0].name = materials[0].texture = name;
+    materials[1].name = materials[1].texture = name;
     expect_unseen("the name of a material or of its texture");
-    materials[0].name = materials[0].texture = NULL;
+    materials[1].name = materials[1].texture = NULL;
+}
+
+static void what_lies_beside_an_array_does_not(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i += 2) {
+        materials[i].emission.x = materials[i].material.diffuse = 1.0;
+        expect_unseen("what lies beside a mesh's materials");
+    }
 }
 
 static void how_it_is_rendered_and_stored_changes_it(void **state) {
@@ -391,6 +399,7 @@ int main(void) {
         cmocka_unit_test(what_files_hold_changes_it),
         cmocka_unit_test(arrays_that_are_missing_change_it),
         cmocka_unit_test(names_in_files_do_not),
+        cmocka_unit_test(what_lies_beside_an_array_does_not),
         cmocka_unit_test(how_it_is_rendered_and_stored_changes_it),
         cmocka_unit_test(every_sampling_has_its_own),
     };
