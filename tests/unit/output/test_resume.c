@@ -158,6 +158,22 @@ static void a_frame_is_read_back_as_it_was_encoded(void **state) {
     hd_frame_free(&read);
 }
 
+static void films_before_the_pictures_are_passed_over(void **state) {
+    (void)state;
+    const char *const names[] = {"g/a.mkv", "g/b.mkv", "g/%d.png"};
+    const HdOutputPlan pictures = plan_of("g/%d.png", NULL);
+    HdOutputPlan plan;
+    HdFrame read = make_frame(0);
+    for (int i = 0; i < FRAMES; i++)
+        write_frame(&pictures, 0, numbers[i]);
+    assert_int_equal(hd_outputs_settle(&plan, names, 3, &pictures.style, FRAMES, &error), HD_OK);
+    hd_outputs_mark(&plan, pictures.fingerprint, true);
+    expect_finished(&plan, FRAMES);
+    assert_int_equal(hd_frame_add_rgba(&read, &error), HD_OK);
+    assert_int_equal(hd_resume_load(&plan, numbers[0], &read, &error), HD_OK);
+    hd_frame_free(&read);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_with_the_right_mark_are_finished),
@@ -165,6 +181,7 @@ int main(void) {
         cmocka_unit_test(what_must_be_rendered_anyway_is_not),
         cmocka_unit_test(all_pictures_of_a_frame_must_be_there),
         cmocka_unit_test(a_frame_is_read_back_as_it_was_encoded),
+        cmocka_unit_test(films_before_the_pictures_are_passed_over),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

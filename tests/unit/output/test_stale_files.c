@@ -141,6 +141,13 @@ static void folders_of_such_names_stay(void **state) {
     assert_int_equal(count_entries("d"), 2);
 }
 
+static void a_folder_that_is_missing_has_none(void **state) {
+    (void)state;
+    remove_stale("none/%d.png", "none/film.mkv");
+    remove_stale("none/%d/x.png", "none/film.mkv");
+    expect_there("none", false);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(those_of_the_run_go),
@@ -150,6 +157,7 @@ int main(void) {
         cmocka_unit_test(a_name_that_is_taken_is_left_alone),
         cmocka_unit_test(a_name_that_cannot_be_given_leaves_nothing),
         cmocka_unit_test(folders_of_such_names_stay),
+        cmocka_unit_test(a_folder_that_is_missing_has_none),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
