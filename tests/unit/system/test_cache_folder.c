@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
+#define _XOPEN_SOURCE   700
+#define _DEFAULT_SOURCE /* syscall */
 #include "system/cache_folder.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 
@@ -172,6 +175,8 @@ static void each_fault_has_its_reason(void **state) {
     bytes[size - 1] ^= 1;
     rewrite(bytes, size + 1);
     expect_untrusted("cut short or too long");
+    rewrite(bytes, 10);
+    expect_untrusted("its size is wrong");
     put("a");
     assert_int_equal(get("a"), HD_OK);
 }
@@ -448,6 +453,44 @@ static void the_longest_unused_go_first(void **state) {
     hd_cache_limit("nowhere", 0);
 }
 
+/* In whatever order they are seen, and however long their names are. */
+static void names_of_any_length_can_be_the_oldest(void **state) {
+    (void)state;
+    char name[16];
+    assert_int_equal(mkdir("cache", 0700), 0);
+    for (int length = 8; length > 0; length--) {
+        snprintf(name, sizeof name, "%.*s.entry", length, "abcdefgh");
+        make_file(name, 100, 1000 - 100 * length);
+    }
+    hd_cache_limit("cache", 700);
+    assert_false(exists("a.entry"));
+    assert_int_equal(count_entries("cache"), 7);
+}
+
+static const char *stuck; /* cannot be removed */
+
+/* In place of the C library's. */
+int unlinkat(int folder, const char *name, int flags) {
+    if (stuck != NULL && strcmp(name, stuck) == 0) {
+        errno = EACCES;
+        return -1;
+    }
+    return (int)syscall(SYS_unlinkat, folder, name, flags);
+}
+
+static void one_that_cannot_be_removed_is_passed_over(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("cache", 0700), 0);
+    make_file("stuck.entry", 100, 300);
+    make_file("old.entry", 100, 200);
+    make_file("new.entry", 100, 100);
+    stuck = "stuck.entry";
+    hd_cache_limit("cache", 200);
+    stuck = NULL;
+    assert_true(exists("stuck.entry") && exists("new.entry"));
+    assert_false(exists("old.entry"));
+}
+
 static void use_keeps_an_entry_young(void **state) {
     (void)state;
     struct stat found;
@@ -501,6 +544,8 @@ int main(void) {
         TEST(too_large_an_entry_is_refused),
         TEST(several_writers_do_not_mix),
         TEST(the_longest_unused_go_first),
+        TEST(names_of_any_length_can_be_the_oldest),
+        TEST(one_that_cannot_be_removed_is_passed_over),
         TEST(use_keeps_an_entry_young),
         TEST(a_put_keeps_to_the_limit),
     };
