@@ -26,7 +26,7 @@
                     .node_stack_bound = HD_CUDA_PTX_NODE_STACK,                                    \
                     .refracts = true,                                                              \
                     .lit_from_behind = true,                                                       \
-                    .light_runs = true,                                                            \
+                    .many_lights = true,                                                           \
                     .surveyed = (has_survey)                                                       \
                 }                                                                                  \
     }

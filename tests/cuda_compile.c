@@ -44,7 +44,7 @@ static bool parse(Options *options, int argc, char **argv) {
         else if (strcmp(argv[i], "--lit-from-behind") == 0)
             options->shape.needs.lit_from_behind = true;
         else if (strcmp(argv[i], "--many-lights") == 0)
-            options->shape.needs.light_runs = true;
+            options->shape.needs.many_lights = true;
         else if (strcmp(argv[i], "--meshes") == 0)
             options->shape.needs.node_stack_bound = 32;
         else if (strcmp(argv[i], "--log") == 0)

@@ -328,7 +328,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (known & GROUP_IS_DARK)
             continue;
 #else
-        int known = 0, run = LIGHT_RUNS(header) ? lights[i].run : 0;
+        int known = 0, run = MANY_LIGHTS(header) ? lights[i].run : 0;
         if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
                                    object_of(SCENE_ARGUMENTS points->object), i)) {
             i += run - 1;

@@ -36,7 +36,7 @@
 #define DEPTH_BOUND(view)       HD_DEPTH_BOUND
 #define REFRACTS(header)        HD_REFRACTS
 #define LIT_FROM_BEHIND(header) HD_LIT_FROM_BEHIND
-#define LIGHT_RUNS(header)      HD_LIGHT_RUNS
+#define MANY_LIGHTS(header)     HD_MANY_LIGHTS
 #define SURVEYED(header)        HD_SURVEYED
 #define PIXEL_SUMS              (HD_SURVEYED ? HD_SURVEY_SUMS : HD_RADIANCE_SUMS)
 #define MESHES(header)          (HD_NODE_STACK > 0 && (header)->instance_count > 0)
@@ -51,7 +51,7 @@
 #define DEPTH_BOUND(view)       ((view)->depth + 1)
 #define REFRACTS(header)        (!HD_PLAIN && (header)->refracts)
 #define LIT_FROM_BEHIND(header) (!HD_PLAIN && (header)->lit_from_behind)
-#define LIGHT_RUNS(header)      1
+#define MANY_LIGHTS(header)     1
 #define SURVEYED(header)        ((header)->surveyed)
 #define PIXEL_SUMS              HD_SURVEY_SUMS
 #define MESHES(header)          (!HD_PLAIN && (header)->instance_count > 0)

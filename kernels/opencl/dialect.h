@@ -66,7 +66,13 @@ FN vint splat_int(int a) {
 
 #if defined(__clang__) && defined(__AVX512DQ__) && HD_LANES * (HD_DOUBLE + 1) == 16
 /* Builtins are Clang's own affair, and may go. */
-#if __has_builtin(__builtin_ia32_cmpps512_mask) && __has_builtin(__builtin_ia32_selectps_512)
+#if HD_DOUBLE
+#if __has_builtin(__builtin_ia32_cmppd512_mask) && __has_builtin(__builtin_ia32_selectpd_512) &&   \
+    __has_builtin(__builtin_ia32_cmpq512_mask) && __has_builtin(__builtin_ia32_selectq_512)
+#define HD_MASKS_OF_BITS
+#endif
+#elif __has_builtin(__builtin_ia32_cmpps512_mask) && __has_builtin(__builtin_ia32_selectps_512) && \
+    __has_builtin(__builtin_ia32_cmpd512_mask) && __has_builtin(__builtin_ia32_selectd_512)
 #define HD_MASKS_OF_BITS
 #endif
 #endif

@@ -4,8 +4,12 @@
 #include "render/adaptive.h"
 #include "tables/tables.h"
 
-const HdSceneTables hd_golden_needs = {
-    .plane_count = 32, .depth = 32, .node_stack = 32, .refracts = true, .lit_from_behind = true};
+const HdSceneTables hd_golden_needs = {.plane_count = 32,
+                                       .depth = 32,
+                                       .node_stack = 32,
+                                       .refracts = true,
+                                       .lit_from_behind = true,
+                                       .many_lights = true};
 
 HdStatus hd_upload_scene(HdRenderer *renderer, const HdScene *scene, HdPrecision precision,
                          const HdSceneTables *like, HdError *error) {

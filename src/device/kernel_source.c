@@ -25,7 +25,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_WIDE_STACK", shape->needs.node_stack_bound * shape->lanes},
         {"HD_REFRACTS", shape->needs.refracts},
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
-        {"HD_LIGHT_RUNS", shape->needs.light_runs},
+        {"HD_MANY_LIGHTS", shape->needs.many_lights},
         {"HD_SURVEYED", shape->needs.surveyed},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
         {"HD_ROUNDED_BY_FMA", shape->rounds_by_fma},
@@ -41,7 +41,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
-    bool has_middle = shape->needs.light_runs && shape->precision == HD_PRECISION_FLOAT;
+    bool has_middle = shape->needs.many_lights && shape->precision == HD_PRECISION_FLOAT;
     int few = 64, many = has_middle ? 96 : 128;
     if (asked > 0)
         return asked;
@@ -90,7 +90,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
-        .light_runs = tables->light_runs,
+        .many_lights = tables->many_lights,
         .surveyed = tables->surveyed,
     };
 }
@@ -98,7 +98,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
            a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
-           a->lit_from_behind == b->lit_from_behind && a->light_runs == b->light_runs &&
+           a->lit_from_behind == b->lit_from_behind && a->many_lights == b->many_lights &&
            a->surveyed == b->surveyed;
 }
 
@@ -122,7 +122,7 @@ void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capaci
              needs->plane_bound, needs->depth_bound, needs->refracts ? "with" : "without",
              needs->lit_from_behind ? "faces lit from behind" : "no faces lit from behind",
              needs->node_stack_bound > 0 ? "meshes" : "no meshes",
-             needs->light_runs ? ", many lights" : "", needs->surveyed ? ", with surveys" : "");
+             needs->many_lights ? ", many lights" : "", needs->surveyed ? ", with surveys" : "");
 }
 
 int hd_kernel_item_count(int width, int height, int pixels_per_item) {

@@ -20,8 +20,8 @@ typedef struct HdKernelNeeds {
     int node_stack_bound;         /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
-    bool light_runs; /* one lane judges lights of an edge together */
-    bool surveyed;   /* pixels come with their survey */
+    bool many_lights; /* so many that one lane may judge those that follow each other together */
+    bool surveyed;    /* pixels come with their survey */
 } HdKernelNeeds;
 
 /* What the text is specialised by. */

@@ -59,7 +59,7 @@ static HdStatus compile(HdSceneTables *tables, HdFrameTables *view, const HdScen
     if (status != HD_OK)
         return status;
     hd_scene_tables_raise(tables, like);
-    tables->light_runs = like->light_runs; /* kernels without them look at each light */
+    tables->many_lights = like->many_lights; /* kernels without them look at each light */
     status = hd_compile_frame(view, scene, &camera, like->precision, error);
     view->floats = like->surveyed ? HD_SURVEY_FLOATS : HD_RADIANCE_FLOATS;
     if (status != HD_OK)

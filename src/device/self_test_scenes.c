@@ -33,11 +33,17 @@ static void *copy_of(const void *from, size_t bytes, bool *has_room) {
     return copy;
 }
 
-/* Lights of which one fades and one ends; the second lies within the cube. */
+/* Lights of which one fades and one ends; the second lies within the cube. A row of others is out
+   of reach, which kernels that judge lights together find out for many at once. */
 static void add_lights(HdScene *scene, bool *has_room) {
-    const HdLight lights[] = {
+    enum { FAR = 40 };
+    HdLight lights[2 + FAR] = {
         {.position = {1.5, -2.5, 3.0}, .intensity = {1.0, 0.9, 0.7}, .falloff = {.distance = 4.0}},
         {.position = {0.125, -0.25, 0.25}, .intensity = {0.3, 0.5, 0.9}, .falloff = {.end = 6.0}}};
+    for (int i = 0; i < FAR; i++)
+        lights[2 + i] = (HdLight){.position = {0.0, 0.0, 100.0 + i},
+                                  .intensity = {1.0, 1.0, 1.0},
+                                  .falloff = {.end = 50.0}};
     scene->lights = copy_of(lights, sizeof lights, has_room);
     scene->light_count = sizeof lights / sizeof *lights;
 }

@@ -34,7 +34,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_light_coordinates] = lights * planes,
         [HD_TABLE_light_sides] = lights * objects,
         [HD_TABLE_light_groups] = objects * HD_GROUP_ROWS * HD_LIGHT_GROUPS(lights),
-        [HD_TABLE_light_runs] = lanes > 1 ? 0 : objects * lights,
+        [HD_TABLE_light_runs] = tables->many_lights ? objects * lights : 0,
         [HD_TABLE_object_offsets] = objects * objects,
         [HD_TABLE_floor_map] = 1,
         [HD_TABLE_texels] = 2 * builder->texels + 4, /* kernels read four words at a time */
@@ -95,7 +95,7 @@ static void describe_shape(const HdBuilder *builder, HdSceneTables *tables) {
     tables->plane_count = builder->plane_count;
     tables->light_count = builder->light_count;
     tables->depth = scene->depth;
-    tables->light_runs = builder->lanes == 1 && HD_LIGHT_GROUPS(builder->light_count) > 0;
+    tables->many_lights = builder->lanes == 1 && HD_LIGHT_GROUPS(builder->light_count) > 0;
     tables->surveyed = hd_scene_is_surveyed(scene);
     tables->node_stack = builder->node_stack;
     if (builder->has_floor)

@@ -92,12 +92,15 @@ static Ball ball_about(const HdBuilder *builder, const HdGroupedLight *first, in
     return ball;
 }
 
+/* Lengths are less, and its square is within a float's range. */
+#define MOST_REACH 1e18
+
 /* As places relative to an object are rounded to either precision. */
 static LightRun rounded_ball(const Ball *ball, HdVec3 object) {
     HdVec3 place = hd_sub(ball->centre, object);
     return (LightRun){.place = {(real)place.x, (real)place.y, (real)place.z},
                       .radius = (real)(ball->radius * 1.0001 + hd_length(place) * 1e-5),
-                      .reach = (real)ball->reach};
+                      .reach = (real)fmin(ball->reach, MOST_REACH)};
 }
 
 static void fill_group(const HdBuilder *builder, int group, const HdGroupedLight *first,
@@ -140,8 +143,10 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLi
         int light = first[i].light;
         for (next = i + 1; next < count && first[next].light == light + next - i; next++)
             continue;
+        if (next - i < LEAST_RUN)
+            continue;
         Ball ball = ball_about(builder, first + i, next - i);
-        lights[light].run = next - i >= LEAST_RUN ? next - i : 0;
+        lights[light].run = next - i;
         for (int object = 0; object < builder->object_count; object++)
             runs[object * builder->light_count + light] =
                 rounded_ball(&ball, builder->centres[object]);

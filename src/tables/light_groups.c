@@ -54,8 +54,9 @@ static int place_between(const HdGroupedLight *lights, int count, int place) {
     return place;
 }
 
+/* There are no more groups than lights. */
 static void split(HdGroupedLight *lights, int count, int first_group, int groups) {
-    if (groups == 1 || count < 2) {
+    if (groups == 1) {
         qsort(lights, (size_t)count, sizeof *lights, compare_number);
         for (int i = 0; i < count; i++)
             lights[i].group = first_group;

@@ -53,7 +53,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->node_stack = greater(tables->node_stack, like->node_stack);
     tables->refracts = tables->refracts || like->refracts;
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
-    tables->light_runs = tables->light_runs || like->light_runs;
+    tables->many_lights = tables->many_lights || like->many_lights;
     tables->surveyed = tables->surveyed || like->surveyed;
 }
 

@@ -520,13 +520,13 @@ static void limits_of_registers_suit_the_device(void **state) {
     assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
     assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
     assert_int_equal(hd_register_limit(&shape, 90, 96), 96);
-    shape.needs.light_runs = true;
+    shape.needs.many_lights = true;
     assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
     assert_int_equal(hd_register_limit(&shape, 90, 0), 96);
     shape.precision = HD_PRECISION_DOUBLE;
     assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
     assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
-    shape.needs.light_runs = false;
+    shape.needs.many_lights = false;
     /* All threads of a block must find room. */
     shape.precision = HD_PRECISION_FLOAT;
     for (shape.group_size = HD_BLOCK_STEP; shape.group_size <= HD_MAX_BLOCK;

@@ -12,7 +12,7 @@ static void registers_suit_the_card_and_the_block(void **state) {
         HdPrecision precision;
         int group_size, arch, asked, expected;
     } cases[] = {{HD_PRECISION_FLOAT, 128, 90, 0, 128},   {HD_PRECISION_FLOAT, 128, 70, 0, 128},
-                 {HD_PRECISION_FLOAT, 128, 69, 0, 64},    {HD_PRECISION_DOUBLE, 128, 90, 0, 64},
+                 {HD_PRECISION_FLOAT, 128, 69, 0, 64},    {HD_PRECISION_DOUBLE, 128, 90, 0, 128},
                  {HD_PRECISION_FLOAT, 512, 90, 0, 128},   {HD_PRECISION_FLOAT, 544, 90, 0, 120},
                  {HD_PRECISION_FLOAT, 1024, 90, 0, 64},   {HD_PRECISION_DOUBLE, 1024, 61, 0, 64},
                  {HD_PRECISION_FLOAT, 128, 61, 200, 200}, {HD_PRECISION_FLOAT, 1024, 90, 255, 255}};
@@ -90,11 +90,11 @@ static void needs_are_told_in_words(void **state) {
     hd_kernel_needs_describe(&needs, text, sizeof text);
     assert_string_equal(text, "built for up to 8 planes and depth 16, without refraction, no faces "
                               "lit from behind, no meshes");
-    needs.refracts = needs.lit_from_behind = needs.surveyed = true;
+    needs.refracts = needs.lit_from_behind = needs.many_lights = needs.surveyed = true;
     needs.node_stack_bound = 32;
     hd_kernel_needs_describe(&needs, text, sizeof text);
     assert_string_equal(text, "built for up to 8 planes and depth 16, with refraction, faces lit "
-                              "from behind, meshes, with surveys");
+                              "from behind, meshes, many lights, with surveys");
 }
 
 static void whatever_a_shape_has_is_defined(void **state) {
@@ -107,23 +107,27 @@ static void whatever_a_shape_has_is_defined(void **state) {
                            .precision = HD_PRECISION_DOUBLE,
                            .math = HD_MATH_FAST};
     hd_kernel_defines(&shape, text);
-    assert_string_equal(text, " -DHD_LANES=4 -DHD_DOUBLE=1 -DHD_PIXELS_PER_ITEM=2"
-                              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=0 -DHD_FIRST_HITS=0"
-                              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
-                              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=0 -DHD_LIT_FROM_BEHIND=0"
-                              " -DHD_SURVEYED=0 -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=0 -DHD_PROBE=0");
+    assert_string_equal(
+        text,
+        " -DHD_LANES=4 -DHD_DOUBLE=1 -DHD_PIXELS_PER_ITEM=2"
+        " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=0 -DHD_FIRST_HITS=0"
+        " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
+        " -DHD_WIDE_STACK=128 -DHD_REFRACTS=0 -DHD_LIT_FROM_BEHIND=0"
+        " -DHD_MANY_LIGHTS=0 -DHD_SURVEYED=0 -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=0 -DHD_PROBE=0");
     shape.wavefront = shape.first_hits = shape.rounds_by_fma = shape.is_probe = true;
-    shape.needs.refracts = shape.needs.lit_from_behind = shape.needs.surveyed = true;
+    shape.needs.refracts = shape.needs.lit_from_behind = true;
+    shape.needs.many_lights = shape.needs.surveyed = true;
     shape.precision = HD_PRECISION_FLOAT;
     shape.math = HD_MATH_STRICT;
     shape.defines = " -DHD_MORE=1";
     hd_kernel_defines(&shape, text);
-    assert_string_equal(text, " -DHD_LANES=4 -DHD_DOUBLE=0 -DHD_PIXELS_PER_ITEM=2"
-                              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=1"
-                              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
-                              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=1"
-                              " -DHD_SURVEYED=1 -DHD_STRICT=1 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=1"
-                              " -DHD_MORE=1");
+    assert_string_equal(
+        text, " -DHD_LANES=4 -DHD_DOUBLE=0 -DHD_PIXELS_PER_ITEM=2"
+              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=1"
+              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
+              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=1"
+              " -DHD_MANY_LIGHTS=1 -DHD_SURVEYED=1 -DHD_STRICT=1 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=1"
+              " -DHD_MORE=1");
 }
 
 static void blocks_cover_the_picture(void **state) {
