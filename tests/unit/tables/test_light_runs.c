@@ -33,9 +33,9 @@ static void expect_within(int light, int run) {
     for (int object = 0; object < objects; object++) {
         const LightRun *ball = &runs[object * tables.light_count + run];
         const Vector *offset = &offsets[object * tables.light_count + light];
-        double x = offset->x - ball->place[0], y = offset->y - ball->place[1],
-               z = offset->z - ball->place[2];
-        assert_true(x * x + y * y + z * z <= (double)ball->radius * (double)ball->radius);
+        float x = offset->x - ball->place[0], y = offset->y - ball->place[1],
+              z = offset->z - ball->place[2];
+        assert_true(x * x + y * y + z * z <= ball->radius * ball->radius);
         assert_true(ball->reach >= 50.0F);
     }
 }
