@@ -120,7 +120,7 @@ with_ptx=$build/tests/fake_cuda/hedron_with_fake_ptx
 if [[ -e $with_ptx ]]; then
     "$hedron" render "${strict[@]}" --backend c --quiet -o expected.data >"$logs/stdout"
     "$hedron" render "${strict[@]}" --backend c --quiet -o expected.exr >"$logs/stdout" 2>&1 || true
-    for card in '61 64' '90 128'; do
+    for card in '61 64' '90 96'; do
         expect_exit 0 env FAKE_CUDA_CAPABILITY="${card% *}" "$with_ptx" render "${strict[@]}" --backend cuda --verbose -o picture.data
         expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test ('
         expect_stderr_contains ", ${card#* } registers and "
