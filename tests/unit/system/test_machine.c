@@ -104,7 +104,7 @@ static void memory_is_aligned(void **state) {
         free(memory);
     }
     assert_null(hd_large_allocate(SIZE_MAX));
-    assert_null(hd_large_allocate(SIZE_MAX - (2 << 20)));
+    assert_null(hd_large_allocate(SIZE_MAX - (2 << 20) + 1));
 }
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
