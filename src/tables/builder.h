@@ -101,7 +101,7 @@ HdVec3 hd_edge_colour(const HdEdgeLights *lights, int edge);
 HdVec3 hd_light_offset(const HdBuilder *builder, const HdLightSource *source, int object);
 HdFloorFrame hd_floor_frame(const HdFloor *floor);
 /* Halves the lights across their longest side, and the halves, until there are as many groups as
-   HD_LIGHT_GROUPS says (light_groups.c). */
+   HD_LIGHT_GROUPS says; an edge's lights stay together where they can (light_groups.c). */
 void hd_builder_group_lights(HdBuilder *builder);
 
 /* No ray sees more radiance, contributions being clamped. */

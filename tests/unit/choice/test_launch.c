@@ -511,32 +511,6 @@ static void the_least_of_several_counts(void **state) {
     hd_renderer_close(renderer);
 }
 
-/* ---- limits of registers ---- */
-
-static void limits_of_registers_suit_the_device(void **state) {
-    (void)state;
-    HdKernelShape shape = {.group_size = 128};
-    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
-    assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
-    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
-    assert_int_equal(hd_register_limit(&shape, 90, 96), 96);
-    shape.needs.many_lights = true;
-    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
-    assert_int_equal(hd_register_limit(&shape, 90, 0), 96);
-    shape.precision = HD_PRECISION_DOUBLE;
-    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
-    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
-    shape.needs.many_lights = false;
-    /* All threads of a block must find room. */
-    shape.precision = HD_PRECISION_FLOAT;
-    for (shape.group_size = HD_BLOCK_STEP; shape.group_size <= HD_MAX_BLOCK;
-         shape.group_size += HD_BLOCK_STEP) {
-        int limit = hd_register_limit(&shape, 90, 0);
-        assert_true(limit >= 64 && limit <= 128 && limit % 8 == 0);
-        assert_true(limit * shape.group_size <= 65536);
-    }
-}
-
 #define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
 int main(void) {
@@ -562,7 +536,6 @@ int main(void) {
         TEST(samples_are_squares),
         TEST(devices_and_kinds_are_told_apart),
         TEST(the_least_of_several_counts),
-        TEST(limits_of_registers_suit_the_device),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

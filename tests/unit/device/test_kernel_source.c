@@ -24,6 +24,30 @@ static void registers_suit_the_card_and_the_block(void **state) {
     }
 }
 
+static void registers_suit_many_lights_and_every_block(void **state) {
+    (void)state;
+    HdKernelShape shape = {.group_size = 128};
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
+    assert_int_equal(hd_register_limit(&shape, 90, 96), 96);
+    shape.needs.many_lights = true;
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 96);
+    shape.precision = HD_PRECISION_DOUBLE;
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
+    shape.needs.many_lights = false;
+    /* All threads of a block must find room. */
+    shape.precision = HD_PRECISION_FLOAT;
+    for (shape.group_size = HD_BLOCK_STEP; shape.group_size <= HD_MAX_BLOCK;
+         shape.group_size += HD_BLOCK_STEP) {
+        int limit = hd_register_limit(&shape, 90, 0);
+        assert_true(limit >= 64 && limit <= 128 && limit % 8 == 0);
+        assert_true(limit * shape.group_size <= 65536);
+    }
+}
+
 static void expect_names(const HdKernelShape *shape, const char *const names[HD_KERNEL_COUNT]) {
     for (int i = 0; i < HD_KERNEL_COUNT; i++) {
         const char *name = hd_kernel_name(shape, (HdKernel)i);
@@ -143,6 +167,7 @@ static void blocks_cover_the_picture(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(registers_suit_the_card_and_the_block),
+        cmocka_unit_test(registers_suit_many_lights_and_every_block),
         cmocka_unit_test(each_shape_has_its_kernels),
         cmocka_unit_test(bounds_are_powers_of_two),
         cmocka_unit_test(scenes_of_similar_size_need_the_same),
