@@ -13,19 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cpu/instruction_set.h"
 #include "measures.h"
 #include "steps.h"
 
-#define X(build) extern const HdLoops build;
-HD_BUILDS
-#undef X
-
-static const HdLoops *const builds[] = {
-#define X(build) &build,
-    HD_BUILDS
-#undef X
-};
+#define HD_BUILD_TYPE HdLoops
+#include "builds.h"
 
 /* Bundles of rays and of points: enough to be like the view, few enough for the second-level cache.
  */
@@ -42,18 +34,6 @@ typedef struct Bench {
     HdLoopScene scenes[MOST_SCENES]; /* the first has no floor, and rays search it */
     HdMeasure measures[MOST_MEASURES];
 } Bench;
-
-/* The widest build that this processor runs, or the best of one lane. */
-static const HdLoops *find_build(bool one_lane) {
-    const char *best = hd_cpu_best_instruction_set();
-    if (one_lane && strcmp(best, "avx512") == 0)
-        best = "avx2";
-    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
-        if (strcmp(builds[i]->instruction_set, best) == 0 && (!one_lane || builds[i]->lanes == 1))
-            return builds[i];
-    fprintf(stderr, "hedron_kernel_rates: built for another processor than one with %s\n", best);
-    exit(1);
-}
 
 static void add_measure(Bench *bench, HdMeasure measure, const char *group, const char *name) {
     snprintf(measure.name, sizeof measure.name, "%s%s:%s", group,

@@ -20,20 +20,12 @@
 #include <string.h>
 
 #include "../kernel_rates/processor_time.h"
-#include "cpu/instruction_set.h"
 #include "rival.h"
 #include "system/thread_pool.h"
 #include "walks.h"
 
-#define X(build) extern const HdWalks build;
-HD_BUILDS
-#undef X
-
-static const HdWalks *const builds[] = {
-#define X(build) &build,
-    HD_BUILDS
-#undef X
-};
+#define HD_BUILD_TYPE HdWalks
+#include "../kernel_rates/builds.h"
 
 enum { MOST_COUNTS = 16, MOST_THREADS = 64, RIVALS = 2 };
 
@@ -42,16 +34,6 @@ typedef struct Options {
     int rounds, side, threads;
     int counts[MOST_COUNTS], count_count;
 } Options;
-
-/* The one for this processor. */
-static const HdWalks *find_build(void) {
-    const char *best = hd_cpu_best_instruction_set();
-    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
-        if (strcmp(builds[i]->instruction_set, best) == 0)
-            return builds[i];
-    fprintf(stderr, "hedron_mesh_rates: built for another processor than one with %s\n", best);
-    exit(1);
-}
 
 /* ---- rates ---- */
 
@@ -285,7 +267,7 @@ int main(int count, char **words) {
                         "[--side POWER_OF_TWO] TRIANGLES...\n");
         return 2;
     }
-    const HdWalks *walks = find_build();
+    const HdWalks *walks = find_build(false);
     printf("build %s %d\n", walks->instruction_set, walks->lanes);
     for (int i = 0; i < options.count_count; i++)
         if (!measure_object(&options, walks, options.counts[i]))

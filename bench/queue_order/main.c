@@ -16,18 +16,10 @@
 #include <string.h>
 
 #include "../kernel_rates/measures.h"
-#include "cpu/instruction_set.h"
 #include "order.h"
 
-#define X(build) extern const HdOrderBuild build;
-HD_BUILDS
-#undef X
-
-static const HdOrderBuild *const builds[] = {
-#define X(build) &build,
-    HD_BUILDS
-#undef X
-};
+#define HD_BUILD_TYPE HdOrderBuild
+#include "../kernel_rates/builds.h"
 
 static const char *const order_names[HD_ORDER_COUNT] = {
     "product", "uncompacted", "appended", "segments", "touched", "touched_face", "met",
@@ -47,15 +39,6 @@ typedef struct Study {
     int scene_count;
     HdLoopScene scenes[MOST_SCENES];
 } Study;
-
-static const HdOrderBuild *find_build(void) {
-    const char *best = hd_cpu_best_instruction_set();
-    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
-        if (strcmp(builds[i]->instruction_set, best) == 0)
-            return builds[i];
-    fprintf(stderr, "hedron_queue_order: built for another processor than one with %s\n", best);
-    exit(1);
-}
 
 static bool run_order(const HdOrderBuild *build, const HdLoopScene *scene, HdBatches batches,
                       HdQueueOrder order, bool counts, HdOrderResult *result) {
@@ -152,7 +135,7 @@ static int read_arguments(Study *study, int count, char **words) {
 int main(int count, char **words) {
     static Study study = {.rounds = 3, .most_samples = 1 << 19};
     int code = read_arguments(&study, count, words);
-    const HdOrderBuild *build = find_build();
+    const HdOrderBuild *build = find_build(false);
     if (code == 2)
         fprintf(stderr, "usage: hedron_queue_order [--rounds N] [--samples N] SCENE.json...\n"
                         "       hedron_queue_order --record FILE SCENE.json\n");
