@@ -45,12 +45,22 @@ look_at() {
     ticks=$((stat[11] + stat[12]))
 }
 
-# It has only the one thread then, and nothing but its input or a pipe to wait for.
-waits() {
+sleeps_for_signals() {
     local mask
     look_at || return 1
     mask=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$pid/status") || return 1
+    switches=$(sed -n 's/^voluntary_ctxt_switches:[[:space:]]*//p' "/proc/$pid/status") || return 1
     [[ -n $mask && $state == S ]] && (((16#$mask >> ($(kill -l INT) - 1)) & 1))
+}
+
+# It has nothing but its input or a pipe to wait for then. On its way there it may sleep for a moment: it waits
+# where it still sleeps the same sleep at a second look.
+waits() {
+    local switches before
+    sleeps_for_signals || return 1
+    before=$switches
+    sleep 0.05
+    sleeps_for_signals && [[ $switches == "$before" ]]
 }
 
 has_computed() {
