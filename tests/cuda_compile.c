@@ -29,7 +29,7 @@ static bool parse(Options *options, int argc, char **argv) {
         .shape = {.lanes = 1,
                   .pixels_per_item = 1,
                   .group_size = 128,
-                  .needs = {.plane_bound = 32, .depth_bound = 16}},
+                  .needs = {.plane_bound = 32, .depth_bound = 16, .small_tables = true}},
     };
     for (int i = 1; i < argc; i++) {
         const char *value = i + 1 < argc ? argv[i + 1] : NULL;
@@ -63,8 +63,6 @@ static bool parse(Options *options, int argc, char **argv) {
             options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
         else if (strcmp(argv[i], "--depth") == 0)
             options->shape.needs.depth_bound = hd_kernel_bound(atoi(argv[++i]));
-        else if (strcmp(argv[i], "--defines") == 0)
-            options->shape.defines = argv[++i];
         else if (strcmp(argv[i], "--cubin") == 0)
             options->cubin = argv[++i];
         else

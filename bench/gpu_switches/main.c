@@ -49,7 +49,6 @@ typedef struct Bench {
 /* A switch at work. */
 typedef struct Contender {
     const Switch *is;
-    char defines[256];
     HdRenderer *renderer;
     HdRefinement *refinement; /* NULL: the scene is not surveyed */
     HdStatus status;
@@ -88,19 +87,6 @@ static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *
 
 /* ---- contenders ---- */
 
-static void write_defines(Contender *contender, const Bench *bench) {
-    const HdScene *scene = &bench->file.scene;
-    const Switch *is = contender->is;
-    int length = snprintf(contender->defines, sizeof contender->defines, "%s",
-                          is->defines != NULL ? is->defines : "");
-    if (is->is_exact)
-        snprintf(contender->defines + length, sizeof contender->defines - (size_t)length,
-                 " -DHD_EXACT=1 -DHD_EXACT_SOLIDS=%d -DHD_EXACT_OBJECTS=%d -DHD_EXACT_PLANES=%d "
-                 "-DHD_EXACT_LIGHTS=%d",
-                 scene->solid_count, scene->solid_count + scene->floor.present,
-                 bench->tables.plane_count, bench->tables.light_count);
-}
-
 static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError *error) {
     const Switch *is = contender->is;
     const HdRenderOptions options = {
@@ -108,9 +94,7 @@ static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError 
         .registers = is->registers,
         .precision = bench->precision,
         .pipeline = is->pipeline,
-        .test = {.queue_bytes = is->queue_bytes,
-                 .defines = contender->defines,
-                 .is_for_one_scene = is->is_exact},
+        .test = {.queue_bytes = is->queue_bytes},
     };
     HdStatus status = hd_renderer_open(&contender->renderer, &bench->device, &options, error);
     return status == HD_OK ? hd_renderer_upload(contender->renderer, &bench->tables, error)
@@ -119,7 +103,6 @@ static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError 
 
 static HdStatus open_contender(Contender *contender, const Bench *bench, HdError *error) {
     const HdScene *scene = &bench->file.scene;
-    write_defines(contender, bench);
     HdStatus status = open_renderer(contender, bench, error);
     if (status == HD_OK && hd_scene_is_surveyed(scene))
         status = hd_refinement_create(&contender->refinement, scene, contender->renderer,
@@ -269,9 +252,7 @@ static bool is_named(const char *names, const char *name) {
 static bool is_wanted(const Bench *bench, const Switch *is) {
     bool is_cuda = strcmp(bench->backend->name, "cuda") == 0;
     bool is_surveyed = hd_scene_is_surveyed(&bench->file.scene);
-    bool has_meshes = bench->tables.node_stack > 0;
-    if ((is->is_cuda && !is_cuda) || (is->is_surveyed && !is_surveyed) ||
-        (is->is_exact && has_meshes))
+    if ((is->is_cuda && !is_cuda) || (is->is_surveyed && !is_surveyed))
         return false;
     return (bench->only == NULL || is_named(bench->only, is->name)) &&
            (bench->without == NULL || !is_named(bench->without, is->name));

@@ -12,8 +12,6 @@ typedef struct Switch {
     const char *name;
     HdPipeline pipeline;
     int registers, block; /* 0: what suits */
-    const char *defines;  /* of the kernels; NULL: none */
-    bool is_exact;        /* the numbers of objects and lights are compiled in, CUDA only */
     size_t queue_bytes;   /* of the wavefront; 0: what suits */
     bool is_surveyed;     /* for surveyed scenes only */
     bool is_cuda;         /* for CUDA only */

@@ -222,36 +222,6 @@ FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayC
     *counts = gathered.counts;
 }
 
-#ifdef HD_SUM_BY_TREE
-/* Numbers that each thread of a group needs to pass its share on: its sums and its counts. */
-enum { ITEM_SUMS = HD_PIXELS_PER_ITEM * PIXEL_SUMS, GROUP_ROOM = ITEM_SUMS + 4 };
-
-/* Adds to `whole`, of the first of `parts` neighbouring threads, what the others gathered: in
-   steps, in each of which every other thread that is left adds its neighbour's. All threads of the
-   group must call this. */
-FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
-    for (int i = 0; i < ITEM_SUMS; i++)
-        own[i] = whole->sums[i];
-    own[ITEM_SUMS] = (fixed64)whole->counts.mirrored;
-    own[ITEM_SUMS + 1] = (fixed64)whole->counts.transmitted;
-    own[ITEM_SUMS + 2] = (fixed64)whole->counts.shadow_tests;
-    own[ITEM_SUMS + 3] = (fixed64)whole->counts.clamps;
-    for (int step = 1; step < parts; step *= 2) {
-        BARRIER();
-        if (part >= 0 && part % (2 * step) == 0 && part + step < parts)
-            for (int i = 0; i < GROUP_ROOM; i++)
-                own[i] += own[step * GROUP_ROOM + i];
-    }
-    BARRIER();
-    for (int i = 0; i < ITEM_SUMS; i++)
-        whole->sums[i] = own[i];
-    whole->counts.mirrored = (uint64)own[ITEM_SUMS];
-    whole->counts.transmitted = (uint64)own[ITEM_SUMS + 1];
-    whole->counts.shadow_tests = (uint64)own[ITEM_SUMS + 2];
-    whole->counts.clamps = (uint64)own[ITEM_SUMS + 3];
-    BARRIER();
-}
-#else
 /* Numbers that each thread of a group needs to pass its share on: its sums, then its counts. */
 enum { GROUP_ROOM = HD_PIXELS_PER_ITEM * PIXEL_SUMS > 4 ? HD_PIXELS_PER_ITEM *PIXEL_SUMS : 4 };
 
@@ -279,7 +249,6 @@ FN void add_parts(Gathered *whole, int part, int parts, LOCAL fixed64 *own) {
     }
     BARRIER();
 }
-#endif
 
 /* Renders the items [first_item, first_item + item_count) by work groups: `parts` neighbouring
    threads share the samples of an item, and the first of them adds up what all of them gathered.

@@ -308,6 +308,19 @@ HD_ASSERT_SIZE(View, 16, 12);
     /* likewise */                                                                                 \
     X(int, sample_places)
 
+/* The tables of solids of which neighbouring threads mostly read the same row at a time, and how
+   many rows a device's constant memory holds, where it has some. */
+#define HD_SMALL_SCENE_TABLES(X)                                                                   \
+    X(Header, header, 1)                                                                           \
+    X(Object, objects, 16)                                                                         \
+    X(Plane, planes, 128)                                                                          \
+    X(Edge, edges, 128)                                                                            \
+    X(Vector, object_offsets, 256)                                                                 \
+    X(FloorMap, floor_map, 1)
+#define HD_SMALL_FRAME_TABLES(X)                                                                   \
+    X(View, view, 1)                                                                               \
+    X(Vector, eye_offsets, 16) /* as many as objects */
+
 #define HD_TABLE_INDEX(type, name) HD_TABLE_##name,
 enum { HD_SCENE_TABLES(HD_TABLE_INDEX) HD_SCENE_TABLE_COUNT };
 enum { HD_FRAME_TABLES(HD_TABLE_INDEX) HD_FRAME_TABLE_COUNT };

@@ -9,7 +9,8 @@ const HdSceneTables hd_golden_needs = {.plane_count = 32,
                                        .node_stack = 32,
                                        .refracts = true,
                                        .lit_from_behind = true,
-                                       .many_lights = true};
+                                       .many_lights = true,
+                                       .small_tables = true};
 
 HdStatus hd_upload_scene(HdRenderer *renderer, const HdScene *scene, HdPrecision precision,
                          const HdSceneTables *like, HdError *error) {

@@ -27,6 +27,7 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
         {"HD_LIT_FROM_BEHIND", shape->needs.lit_from_behind},
         {"HD_MANY_LIGHTS", shape->needs.many_lights},
         {"HD_SURVEYED", shape->needs.surveyed},
+        {"HD_SMALL_TABLES", shape->needs.small_tables},
         {"HD_STRICT", shape->math == HD_MATH_STRICT},
         {"HD_ROUNDED_BY_FMA", shape->rounds_by_fma},
         {"HD_PROBE", shape->is_probe},
@@ -35,13 +36,12 @@ void hd_kernel_defines(const HdKernelShape *shape, char text[HD_KERNEL_DEFINES_S
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         length += snprintf(text + length, HD_KERNEL_DEFINES_SIZE - (size_t)length, " -D%s=%d",
                            list[i].name, list[i].value);
-    if (shape->defines != NULL)
-        snprintf(text + length, HD_KERNEL_DEFINES_SIZE - (size_t)length, "%s", shape->defines);
 }
 
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked) {
     enum { BLOCK_REGISTERS = 65536, GRANULARITY = 8 };
-    bool has_middle = shape->needs.many_lights && shape->precision == HD_PRECISION_FLOAT;
+    bool has_middle = (shape->needs.many_lights || shape->needs.node_stack_bound > 0) &&
+                      shape->precision == HD_PRECISION_FLOAT;
     int few = 64, many = has_middle ? 96 : 128;
     if (asked > 0)
         return asked;
@@ -92,6 +92,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .lit_from_behind = tables->lit_from_behind,
         .many_lights = tables->many_lights,
         .surveyed = tables->surveyed,
+        .small_tables = tables->small_tables,
     };
 }
 
@@ -99,7 +100,7 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
     return a->plane_bound == b->plane_bound && a->depth_bound == b->depth_bound &&
            a->node_stack_bound == b->node_stack_bound && a->refracts == b->refracts &&
            a->lit_from_behind == b->lit_from_behind && a->many_lights == b->many_lights &&
-           a->surveyed == b->surveyed;
+           a->surveyed == b->surveyed && a->small_tables == b->small_tables;
 }
 
 bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {

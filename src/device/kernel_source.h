@@ -20,8 +20,9 @@ typedef struct HdKernelNeeds {
     int node_stack_bound;         /* likewise; 0: there are no meshes */
     bool refracts;
     bool lit_from_behind;
-    bool many_lights; /* so many that one lane may judge those that follow each other together */
-    bool surveyed;    /* pixels come with their survey */
+    bool many_lights;  /* so many that one lane may judge those that follow each other together */
+    bool surveyed;     /* pixels come with their survey */
+    bool small_tables; /* those of solids fit in constant memory, where a device has it */
 } HdKernelNeeds;
 
 /* What the text is specialised by. */
@@ -40,14 +41,14 @@ typedef struct HdKernelShape {
     bool is_probe;      /* the kernel of the probe (probe.h) and no others */
     bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
                            not correctly rounded */
-    const char *defines; /* switches for measurements, as " -DHD_SUM_BY_TREE=1"; NULL: none */
-    bool is_cautious;    /* to be optimised little: what was optimised fully computes wrongly */
+    bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
    that is 0, what suits. NVIDIA's compilers take so many registers, left alone, that few threads
-   are in flight. On an H100 128 is the best, or 96 for floats where there are many lights, spills
-   and all. A block's threads share 65536 registers, so that large blocks get fewer. */
+   are in flight. On an H100 128 is the best, or 96 for floats where there are many lights or
+   meshes, spills and all. A block's threads share 65536 registers, so that large blocks get fewer.
+ */
 int hd_register_limit(const HdKernelShape *shape, int nvidia_arch, int asked);
 
 enum { HD_KERNEL_DEFINES_SIZE = 512 };

@@ -59,9 +59,7 @@ typedef struct HdRenderOptions {
                                device */
         int launch_work;    /* of each launch, in samples or rays; 0: by measurement */
         int ptx_arch; /* as in HdKernelShape: 61 compiles for a Pascal card on any newer one */
-        const char *defines; /* as in HdKernelShape: switches of the kernels that bench/gpu_switches
-                                measures; NULL: none. They must live as long as the renderer */
-        bool is_for_one_scene; /* the defines suit this scene only: no self-test, no cache */
+        bool is_for_one_scene; /* no self-test, no cache */
     } test;                    /* no option of the command line sets these */
 } HdRenderOptions;
 

@@ -54,6 +54,9 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
     tables->table_count = HD_SCENE_TABLE_COUNT;
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++)
         tables->table[i].bytes = rows[i] * row_bytes[i];
+#define FITS(type, name, most) rows[HD_TABLE_##name] <= (most) &&
+    tables->small_tables = HD_SMALL_SCENE_TABLES(FITS) true;
+#undef FITS
 }
 
 /* Kernels count the two words of a texel in an int. */

@@ -55,6 +55,7 @@ void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
     tables->many_lights = tables->many_lights || like->many_lights;
     tables->surveyed = tables->surveyed || like->surveyed;
+    tables->small_tables = tables->small_tables && like->small_tables;
 }
 
 void hd_scene_tables_free(HdSceneTables *tables) {

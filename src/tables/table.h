@@ -27,8 +27,9 @@ typedef struct HdSceneTables {
     int node_stack;       /* of the hierarchies of meshes; 0: there are no meshes */
     bool refracts;        /* some solid has an index of refraction that is not 1 */
     bool lit_from_behind; /* some material is */
-    bool many_lights; /* so many that one lane may judge those that follow each other together */
-    bool surveyed;    /* pixels come with bounds of what was left out and with identities */
+    bool many_lights;  /* so many that one lane may judge those that follow each other together */
+    bool small_tables; /* HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES have no more rows */
+    bool surveyed;     /* pixels come with bounds of what was left out and with identities */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */

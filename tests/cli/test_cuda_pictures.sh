@@ -51,6 +51,15 @@ expect_as_c --size 48x36
 expect_as_c --size 48x36 --pipeline wavefront
 expect_as_c --size 48x36 --aa adaptive --set output.curve=linear
 
+# ---- more objects than the device's constant memory has room for
+jq '.solids = [range(17) | {kind: "tetrahedron", centre: [. % 6 - 2.5, . / 6 - 1, 0], circumradius: 0.6, material: "glass"}]' \
+    "$project/bench/scenes/few.json" >many.json
+for backend in c cuda; do
+    expect_exit 0 "$hedron" render many.json --size 48x36 --samples 1 --frames 0 --backend $backend --quiet -o $backend/%d.pfm
+done
+expect_same_files
+rm many.json
+
 # ---- classic mode
 for backend in c cuda; do
     expect_exit 0 "$hedron" --backend $backend "${small[@]}" --frames 0-3 <<<"$("$hedron" --default)"

@@ -291,6 +291,7 @@ static bool find_constant(void *state, const char *name, HdGpuMemory *memory) {
         HD_CU_SUCCESS)
         return false;
     memory->handle = (void *)(uintptr_t)pointer; /* NOLINT(performance-no-int-to-ptr) */
+    memory->is_constant = true;
     return true;
 }
 

@@ -18,6 +18,7 @@ typedef struct HdGpuMemory {
     void *handle; /* what kernels take as an argument; NULL: there is none */
     void *data;   /* of memory of the host */
     size_t bytes;
+    bool is_constant; /* a part of the kernels, which nobody releases */
 } HdGpuMemory;
 
 /* When something that was queued began and ended; all zero at first, then the driver's. */
@@ -105,8 +106,8 @@ typedef struct HdGpuDriver {
                      const unsigned char *binary, size_t size, const char *maker, HdError *error);
     unsigned char *(*binary)(const void *gpu, size_t *size); /* as HdKernelReader */
     void (*unload)(void *gpu);                               /* there may be no kernels */
-    /* Finds the room that the kernels have for a table in constant memory; false: none. NULL where
-       they never have. The driver keeps it. */
+    /* The room that the kernels have for a table in constant memory; false: none. NULL where a
+       driver has no constant memory for tables. */
     bool (*constant)(void *gpu, const char *table, HdGpuMemory *memory);
     /* The most threads of a group of the tracing kernel. */
     HdStatus (*most_threads)(void *gpu, size_t *threads, HdError *error);

@@ -63,7 +63,7 @@ HdStatus hd_gpu_write_table(const HdGpu *gpu, HdGpuMemory *memory, const void *d
 }
 
 void hd_gpu_release(const HdGpu *gpu, HdGpuMemory *memory) {
-    if (memory->handle != NULL)
+    if (memory->handle != NULL && !memory->is_constant)
         gpu->driver->release(gpu->handle, memory);
     *memory = (HdGpuMemory){0};
 }

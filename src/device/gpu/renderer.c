@@ -66,7 +66,6 @@ static void choose_shape(Renderer *renderer) {
         .precision = options->precision,
         .math = options->math,
         .ptx_arch = options->test.ptx_arch,
-        .defines = options->test.defines,
     };
     renderer->program.block = options->block;
     renderer->program.registers = options->registers;
@@ -130,26 +129,26 @@ static void gpu_close(void *state) {
 
 /* ---- upload ---- */
 
-/* Writes a table to constant memory too, if kernels with switches want it there. */
-static HdStatus write_constant(const Renderer *renderer, const char *name, const void *data,
-                               size_t bytes, HdError *error) {
+/* Lets a table be where the kernels that were built read it: in constant memory or not. */
+static void place_table(Renderer *renderer, HdGpuMemory *memory, const char *name) {
     const HdGpu *gpu = &renderer->gpu;
-    HdGpuMemory memory;
-    HdGpuRefusal refusal;
-    if (renderer->program.cache.shape.defines == NULL || gpu->driver->constant == NULL ||
-        !gpu->driver->constant(gpu->handle, name, &memory))
-        return HD_OK;
-    if (bytes > memory.bytes)
-        return hd_fail(error, HD_UNAVAILABLE,
-                       "the table %s has %zu bytes, and constant memory room for %zu", name, bytes,
-                       memory.bytes);
-    return bytes > 0 ? gpu->driver->write(gpu->handle, &memory, data, bytes, &refusal, error)
-                     : HD_OK;
+    HdGpuMemory constant = {0};
+    bool has_room = renderer->program.cache.shape.needs.small_tables &&
+                    gpu->driver->constant(gpu->handle, name, &constant);
+    if (has_room || memory->is_constant) {
+        hd_gpu_release(gpu, memory);
+        *memory = constant;
+    }
 }
 
-#define TABLE_NAME(type, name) #name,
-static const char *const scene_tables[] = {HD_SCENE_TABLES(TABLE_NAME)};
-static const char *const frame_tables[] = {HD_FRAME_TABLES(TABLE_NAME)};
+static void place_tables(Renderer *renderer) {
+#define PLACE_OF_SCENE(type, name, rows)                                                           \
+    place_table(renderer, &renderer->scene[HD_TABLE_##name], #name);
+#define PLACE_OF_FRAME(type, name, rows)                                                           \
+    place_table(renderer, &renderer->frame[HD_TABLE_##name], #name);
+    HD_SMALL_SCENE_TABLES(PLACE_OF_SCENE)
+    HD_SMALL_FRAME_TABLES(PLACE_OF_FRAME)
+}
 
 static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdStatus status = HD_OK;
@@ -159,23 +158,24 @@ static HdStatus write_scene(Renderer *renderer, const HdSceneTables *tables, HdE
         snprintf(what, sizeof what, "scene's %s", hd_scene_table_content(i));
         status = hd_gpu_write_table(&renderer->gpu, &renderer->scene[i], table->data, table->bytes,
                                     what, error);
-        if (status == HD_OK)
-            status = write_constant(renderer, scene_tables[i], table->data, table->bytes, error);
     }
     return status;
 }
 
 static HdStatus upload(Renderer *renderer, const HdSceneTables *tables, HdError *error) {
     const HdGpu *gpu = &renderer->gpu;
-    const HdKernelNeeds needs = hd_kernel_needs(tables);
+    HdKernelNeeds needs = hd_kernel_needs(tables);
     const HdRoom room = {.name = gpu->name,
                          .advice = hd_room_advice,
                          .memory = (double)gpu->facts.memory,
                          .at_once = (double)gpu->facts.at_once};
     HdError later;
+    needs.small_tables = needs.small_tables && gpu->driver->constant != NULL;
     HdStatus status = hd_check_room(tables, &room, error);
     if (status == HD_OK)
         status = hd_gpu_build(&renderer->program, gpu, &needs, error);
+    if (status == HD_OK)
+        place_tables(renderer);
     if (status == HD_OK)
         status = write_scene(renderer, tables, error);
     /* After a failure too: copies that are under way read the tables, which are the caller's. */
@@ -497,10 +497,8 @@ static HdStatus reserve_queue(Renderer *renderer, const HdGpuFlight *flight, HdE
 /* `from` must live until the device has it. */
 static HdStatus write_frame_table(Renderer *renderer, int table, const void *from, size_t bytes,
                                   HdError *error) {
-    HdStatus status = hd_gpu_write_table(&renderer->gpu, &renderer->frame[table], from, bytes,
-                                         "tables of the frame", error);
-    return status == HD_OK ? write_constant(renderer, frame_tables[table], from, bytes, error)
-                           : status;
+    return hd_gpu_write_table(&renderer->gpu, &renderer->frame[table], from, bytes,
+                              "tables of the frame", error);
 }
 
 static HdStatus write_frame(Renderer *renderer, HdGpuFlight *flight, const HdFrameTables *tables,

@@ -24,7 +24,7 @@ static void registers_suit_the_card_and_the_block(void **state) {
     }
 }
 
-static void registers_suit_many_lights_and_every_block(void **state) {
+static void registers_suit_many_lights_meshes_and_every_block(void **state) {
     (void)state;
     HdKernelShape shape = {.group_size = 128};
     assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
@@ -38,6 +38,12 @@ static void registers_suit_many_lights_and_every_block(void **state) {
     assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
     assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
     shape.needs.many_lights = false;
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 128);
+    shape.precision = HD_PRECISION_FLOAT;
+    shape.needs.node_stack_bound = 32;
+    assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
+    assert_int_equal(hd_register_limit(&shape, 90, 0), 96);
+    shape.needs.node_stack_bound = 0;
     /* All threads of a block must find room. */
     shape.precision = HD_PRECISION_FLOAT;
     for (shape.group_size = HD_BLOCK_STEP; shape.group_size <= HD_MAX_BLOCK;
@@ -95,7 +101,7 @@ static void scenes_of_similar_size_need_the_same(void **state) {
     assert_int_equal(hd_kernel_needs(&tables).node_stack_bound, 64);
     tables.refracts = tables.lit_from_behind = true;
     assert_true(hd_kernel_needs(&tables).refracts && hd_kernel_needs(&tables).lit_from_behind);
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 8; i++) {
         HdKernelNeeds other = expected;
         other.plane_bound += i == 0;
         other.depth_bound += i == 1;
@@ -103,6 +109,8 @@ static void scenes_of_similar_size_need_the_same(void **state) {
         other.refracts ^= i == 3;
         other.lit_from_behind ^= i == 4;
         other.surveyed ^= i == 5;
+        other.many_lights ^= i == 6;
+        other.small_tables ^= i == 7;
         assert_false(hd_kernel_needs_equal(&expected, &other));
     }
 }
@@ -131,27 +139,24 @@ static void whatever_a_shape_has_is_defined(void **state) {
                            .precision = HD_PRECISION_DOUBLE,
                            .math = HD_MATH_FAST};
     hd_kernel_defines(&shape, text);
-    assert_string_equal(
-        text,
-        " -DHD_LANES=4 -DHD_DOUBLE=1 -DHD_PIXELS_PER_ITEM=2"
-        " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=0 -DHD_FIRST_HITS=0"
-        " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
-        " -DHD_WIDE_STACK=128 -DHD_REFRACTS=0 -DHD_LIT_FROM_BEHIND=0"
-        " -DHD_MANY_LIGHTS=0 -DHD_SURVEYED=0 -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=0 -DHD_PROBE=0");
+    assert_string_equal(text, " -DHD_LANES=4 -DHD_DOUBLE=1 -DHD_PIXELS_PER_ITEM=2"
+                              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=0 -DHD_FIRST_HITS=0"
+                              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
+                              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=0 -DHD_LIT_FROM_BEHIND=0"
+                              " -DHD_MANY_LIGHTS=0 -DHD_SURVEYED=0 -DHD_SMALL_TABLES=0"
+                              " -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=0 -DHD_PROBE=0");
     shape.wavefront = shape.first_hits = shape.rounds_by_fma = shape.is_probe = true;
     shape.needs.refracts = shape.needs.lit_from_behind = true;
-    shape.needs.many_lights = shape.needs.surveyed = true;
+    shape.needs.many_lights = shape.needs.surveyed = shape.needs.small_tables = true;
     shape.precision = HD_PRECISION_FLOAT;
     shape.math = HD_MATH_STRICT;
-    shape.defines = " -DHD_MORE=1";
     hd_kernel_defines(&shape, text);
-    assert_string_equal(
-        text, " -DHD_LANES=4 -DHD_DOUBLE=0 -DHD_PIXELS_PER_ITEM=2"
-              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=1"
-              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
-              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=1"
-              " -DHD_MANY_LIGHTS=1 -DHD_SURVEYED=1 -DHD_STRICT=1 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=1"
-              " -DHD_MORE=1");
+    assert_string_equal(text, " -DHD_LANES=4 -DHD_DOUBLE=0 -DHD_PIXELS_PER_ITEM=2"
+                              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=1"
+                              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
+                              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=1"
+                              " -DHD_MANY_LIGHTS=1 -DHD_SURVEYED=1 -DHD_SMALL_TABLES=1"
+                              " -DHD_STRICT=1 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=1");
 }
 
 static void blocks_cover_the_picture(void **state) {
@@ -167,7 +172,7 @@ static void blocks_cover_the_picture(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(registers_suit_the_card_and_the_block),
-        cmocka_unit_test(registers_suit_many_lights_and_every_block),
+        cmocka_unit_test(registers_suit_many_lights_meshes_and_every_block),
         cmocka_unit_test(each_shape_has_its_kernels),
         cmocka_unit_test(bounds_are_powers_of_two),
         cmocka_unit_test(scenes_of_similar_size_need_the_same),
