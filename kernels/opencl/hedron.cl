@@ -16,9 +16,17 @@
 #endif
 #endif
 
+/* A kernel whose items are bundles already: Intel's compiler takes several times as long to find
+   out that it cannot do many items at a time. */
+#if HD_GROUP_SIZE
+#define KERNEL __kernel
+#else
+#define KERNEL __kernel __attribute__((vec_type_hint(vreal)))
+#endif
+
 #if HD_PROBE
 
-__kernel void hedron_probe(HD_PROBE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+KERNEL void hedron_probe(HD_PROBE_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
     probe_tuples(first, second, third, bits, count, numbers, integers, sums, counters,
                  (int)get_global_id(0), (int)get_global_size(0));
 }
@@ -41,7 +49,7 @@ __kernel void hedron_store_batch(HD_STORE_BATCH_ARGUMENTS(HD_PARAMETER, HD_LAST_
 
 #elif HD_WAVEFRONT
 
-__kernel void hedron_render_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS HD_RENDER_BY_WAVES_ARGUMENTS(
+KERNEL void hedron_render_by_waves(SCENE_PARAMETERS QUEUE_PARAMETERS HD_RENDER_BY_WAVES_ARGUMENTS(
     HD_PARAMETER, HD_LAST_PARAMETER)) {
     render_items_by_waves(SCENE_ARGUMENTS QUEUE_ARGUMENTS first_item, end_item,
                           (int)get_global_id(0), (int)get_global_size(0), pixels, counts);
@@ -62,7 +70,7 @@ FN int spread_item(int number, int count) {
 }
 #endif
 
-__kernel void hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
+KERNEL void hedron_render(SCENE_PARAMETERS HD_RENDER_ARGUMENTS(HD_PARAMETER, HD_LAST_PARAMETER)) {
 #if HD_GROUP_SIZE
     __local fixed64 room[GROUP_ROOM * HD_GROUP_SIZE];
     render_by_group(SCENE_ARGUMENTS first_item, item_count, parts, (int)get_group_id(0),
@@ -90,8 +98,8 @@ __kernel void hedron_sum_counts(HD_SUM_COUNTS_ARGUMENTS(HD_PARAMETER, HD_LAST_PA
 
 #if HD_FIRST_HITS && !HD_PROBE
 
-__kernel void hedron_first_hits(SCENE_PARAMETERS HD_FIRST_HITS_ARGUMENTS(HD_PARAMETER,
-                                                                         HD_LAST_PARAMETER)) {
+KERNEL void hedron_first_hits(SCENE_PARAMETERS HD_FIRST_HITS_ARGUMENTS(HD_PARAMETER,
+                                                                       HD_LAST_PARAMETER)) {
     int step = (int)get_global_size(0);
     for (int item = (int)get_global_id(0); item < item_count; item += step)
         find_first_hits(SCENE_ARGUMENTS first_item + item, floats, hits);
