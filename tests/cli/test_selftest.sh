@@ -106,9 +106,10 @@ expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
 if grep -q 'computes wrongly' "$logs/stdout"; then
     fail "a device that computes rightly is still told to compute wrongly"
 fi
-# Frames that are wrong though the arithmetic is right.
+# Frames that are wrong though the arithmetic is right. To optimise kernels of so many lanes little, which is tried
+# then, takes minutes: test_arithmetic does so with one.
 take '1.5259021896696422e-5' '1.6e-5'
-expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
+expect_exit 1 env HEDRON_CACHE=off FAILING_OPENCL_WITHOUT=' -cl-opt-disable' "${driver[@]:1}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in float, 8192 tuples of operands ('
 expect_stdout_contains 'wrong    frames in float by mega, with refraction, lit from behind ('
 expect_stdout_contains "render the test frame 'floor' with the hash "
