@@ -9,7 +9,8 @@
    --few each renders only what the least of the variants do, and no truths are checked. With
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
-   cut, which are left out in double; with more lanes than that no scene has kernels of its own.
+   cut, which are left out in double; with more lanes than that no scene has kernels of its own, and
+   with fewer, where kernels are compiled, no frame is surveyed.
    With --ptx 61 CUDA compiles to PTX for compute_61, of which
    the driver makes machine code for the device: so the text for a Pascal card runs on any newer
    one.
@@ -49,6 +50,9 @@ static const char *const math_names[2] = {"strict", "fast"};
 static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
 static const char *const thread_names[] = {"1", "2"};
 static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
+
+/* Which frames are rendered; those that are surveyed have kernels of their own. */
+typedef enum Frames { FEW, NOT_SURVEYED, EVERY } Frames;
 
 typedef struct Golden {
     HdGoldenHashes hashes[MAX_FRAMES][2];
@@ -176,12 +180,12 @@ static bool is_surveyed(int frame) {
 }
 
 /* The frames that are surveyed come last, for kernels are built anew for them. */
-static void compare_frames(const Target *target, bool only_few, const Options *options,
+static void compare_frames(const Target *target, Frames frames, const Options *options,
                            Golden *golden, Tally *tally) {
     int different = tally->different, compared = tally->frames;
-    for (int surveyed = 0; surveyed < 2; surveyed++)
+    for (int surveyed = 0; surveyed <= (frames != NOT_SURVEYED); surveyed++)
         for (int i = 0; i < hd_golden_frame_count; i++)
-            if ((!only_few || is_variant_frame(hd_golden_frames[i].name)) &&
+            if ((frames != FEW || is_variant_frame(hd_golden_frames[i].name)) &&
                 is_surveyed(i) == surveyed)
                 compare_frame(target, i, options, golden, tally);
     printf("%-4s %2d frames  %s\n", different == tally->different ? "same" : "DIFF",
@@ -195,7 +199,7 @@ static bool is_left_out(const Options *options, const HdRenderOptions *wanted) {
 
 /* Renders all frames and checks the truths, or only some of the frames. What is met first is looked
    for where the renderer is wanted for it. */
-static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, bool only_few,
+static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted, Frames frames,
                            bool one_build, const Options *options, Golden *golden, Tally *tally) {
     HdError error;
     HdRenderOptions chosen = *wanted;
@@ -219,10 +223,10 @@ static void check_renderer(const HdDevice *device, const HdRenderOptions *wanted
     hd_renderer_describe(target.renderer, text, (int)sizeof text);
     snprintf(target.label, sizeof target.label, "%-6s %-6s %s (%s)%s%s", device->backend->name,
              precision, device->name, text, ptx, one_build ? ", one build" : "");
-    if (!only_few)
+    if (frames != FEW)
         check_truths(&target, &tally->truths, &tally->untrue);
     check_flights(&target, &tally->frames, &tally->different);
-    compare_frames(&target, only_few, options, golden, tally);
+    compare_frames(&target, frames, options, golden, tally);
     tally->renderers++;
     hd_renderer_close(target.renderer);
 }
@@ -264,13 +268,15 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
         bool compiles = device->is_cpu && !needs_no_build(device);
         bool own_builds = !options->one_build && lane_counts[i] <= most_for_all &&
                           (!compiles || lane_counts[i] == OWN_BUILDS);
-        bool only_few = options->few || lane_counts[i] > most_for_all;
+        Frames frames = options->few || lane_counts[i] > most_for_all ? FEW : EVERY;
+        if (frames == EVERY && options->brief && compiles && lane_counts[i] < most_for_all)
+            frames = NOT_SURVEYED;
         wanted.first_hits = true;
         if (options->brief || !own_builds)
-            check_renderer(device, &wanted, only_few, true, options, golden, tally);
+            check_renderer(device, &wanted, frames, true, options, golden, tally);
         wanted.first_hits = needs_no_build(device);
         if (own_builds)
-            check_renderer(device, &wanted, only_few || options->brief, false, options, golden,
+            check_renderer(device, &wanted, options->brief ? FEW : frames, false, options, golden,
                            tally);
     }
 }
@@ -288,7 +294,7 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
         wanted.math = (HdMath)options->math;
         wanted.first_hits = needs_no_build(device) || (variant->frames & FIRST_HITS) != 0;
         bool only_few = options->few || only_cut || !(variant->frames & EVERY_FRAME);
-        check_renderer(device, &wanted, only_few, true, options, golden, tally);
+        check_renderer(device, &wanted, only_few ? FEW : EVERY, true, options, golden, tally);
     }
 }
 
