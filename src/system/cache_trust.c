@@ -57,7 +57,7 @@ static HdStatus read_key(const char *path, unsigned char key[HD_HASH_KEY_BYTES],
 
 static HdStatus take_random_bytes(unsigned char *bytes, size_t size, HdError *error) {
     int source = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
-    const bool taken = source >= 0 && hd_read_fully(source, bytes, size) == (ssize_t)size;
+    const bool taken = hd_read_fully(source, bytes, size) == (ssize_t)size;
     if (source >= 0)
         close(source);
     return taken ? HD_OK : hd_fail(error, HD_FAILED, "there are no random bytes for a key");

@@ -292,6 +292,23 @@ static void keys_that_others_know_are_made_anew(void **state) {
     }
 }
 
+/* As where too many files are open. */
+static void without_random_bytes_there_is_no_key(void **state) {
+    (void)state;
+    struct rlimit before, limit;
+    const int next = dup(STDIN_FILENO);
+    assert_true(next >= 0 && close(next) == 0);
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    limit = before;
+    limit.rlim_cur = (rlim_t)next;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    const HdStatus status = hd_cache_put("test", "a", payload, sizeof payload, &error);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    assert_int_equal(status, HD_FAILED);
+    expect_contains(error.message, "no random bytes");
+    assert_int_equal(count_entries("cache"), 0);
+}
+
 /* ---- folders ---- */
 
 static void expect_folder(const char *expected) {
@@ -537,6 +554,7 @@ int main(void) {
         TEST(folders_that_others_may_write_are_not_used),
         TEST(entries_of_another_users_key_are_noticed),
         TEST(keys_that_others_know_are_made_anew),
+        TEST(without_random_bytes_there_is_no_key),
         TEST(files_are_private_from_the_first_instant),
         TEST(the_folder_is_found_in_order),
         TEST(a_folder_that_cannot_be_made_is_told),
