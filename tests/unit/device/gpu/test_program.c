@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+#include "device/gpu/program.h"
+
+#include "fake_gpu.h"
+#include "test_folder.h"
+
+static HdError error;
+static HdGpuProgram program;
+
+static int begin(void **state) {
+    (void)state;
+    memset(&gpu_state, 0, sizeof gpu_state);
+    gpu_state.most = 1024;
+    setenv("HEDRON_CACHE", "off", 1);
+    program =
+        (HdGpuProgram){.cache = {.backend = "fake", .shape = {.lanes = 1, .group_size = 128}}};
+    return 0;
+}
+
+static HdStatus build(int planes) {
+    const HdKernelNeeds needs = {.plane_bound = planes};
+    return hd_gpu_build(&program, &fake_gpu, &needs, &error);
+}
+
+static void kernels_are_built_for_other_needs_only(void **state) {
+    (void)state;
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(gpu_state.compiled, 1);
+    assert_int_equal(build(16), HD_OK);
+    assert_int_equal(gpu_state.compiled, 2);
+    assert_int_equal(program.cache.shape.needs.plane_bound, 16);
+}
+
+static void the_probe_takes_the_place_of_the_kernels(void **state) {
+    (void)state;
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
+    assert_int_equal(gpu_state.compiled, 2);
+    assert_true(program.cache.shape.is_probe);
+    program.cache.shape.rounds_by_fma = true;
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
+    assert_int_equal(gpu_state.compiled, 3);
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(gpu_state.compiled, 4);
+    assert_false(program.cache.shape.is_probe);
+}
+
+static void groups_are_as_large_as_the_kernels_allow(void **state) {
+    (void)state;
+    static const struct {
+        size_t most;
+        int group_size;
+    } cases[] = {{1024, 128}, {128, 128}, {127, 64}, {64, 64}, {1, 1}};
+    for (int i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
+        gpu_state.most = cases[i].most;
+        assert_int_equal(build(8 << i), HD_OK);
+        assert_int_equal(program.group_size, cases[i].group_size);
+    }
+    gpu_state.most = 64;
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
+    assert_int_equal(program.group_size, 64);
+}
+
+static void threads_that_do_not_share_items_have_no_groups(void **state) {
+    (void)state;
+    program.cache.shape.group_size = 0;
+    program.group_size = program.block = 1;
+    gpu_state.most = 0;
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(program.group_size, 1);
+}
+
+static void groups_that_were_asked_for_are_not_made_smaller(void **state) {
+    (void)state;
+    program.block = 128;
+    gpu_state.most = 128;
+    assert_int_equal(build(8), HD_OK);
+    gpu_state.most = 127;
+    assert_int_equal(build(16), HD_UNAVAILABLE);
+    assert_string_equal(error.message,
+                        "a GPU runs the kernel in blocks of at most 127 threads, not 128");
+    assert_false(program.is_built || gpu_state.has_kernels);
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
+    assert_false(program.is_built || gpu_state.has_kernels);
+}
+
+static void what_fails_is_tried_again(void **state) {
+    (void)state;
+    gpu_state.breaks = true;
+    assert_int_equal(build(8), HD_UNAVAILABLE);
+    assert_int_equal(build(8), HD_UNAVAILABLE);
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
+    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
+    assert_int_equal(gpu_state.compiled, 4);
+    gpu_state.breaks = false;
+    assert_int_equal(build(8), HD_OK);
+}
+
+static void kernels_come_from_the_cache(void **state) {
+    (void)state;
+    setenv("HEDRON_CACHE", "cache", 1);
+    assert_int_equal(build(8), HD_OK);
+    expect_contains(program.cache.note, "by somebody");
+    hd_kernel_cache_accept(&program.cache);
+    assert_int_equal(build(16), HD_OK); /* not accepted */
+    program.is_built = false;
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(gpu_state.compiled, 2);
+    assert_int_equal(gpu_state.loaded, 1);
+    program.is_built = false;
+    gpu_state.refuses = true;
+    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(gpu_state.compiled, 3);
+    expect_contains(program.cache.note, "it is too old");
+}
+
+static void the_probes_key_tells_what_it_is_compiled_from(void **state) {
+    (void)state;
+    char key[HD_KERNEL_KEY_LENGTH];
+    program.cache.shape.needs.plane_bound = 8;
+    hd_gpu_probe_key(&program, &fake_gpu, key, sizeof key);
+    expect_contains(key, "options planes 0 probe 1\n");
+    expect_contains(key, "driver 1\n");
+    assert_false(program.cache.shape.is_probe);
+}
+
+#define TEST(function) cmocka_unit_test_setup(function, begin)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(kernels_are_built_for_other_needs_only),
+        TEST(the_probe_takes_the_place_of_the_kernels),
+        TEST(groups_are_as_large_as_the_kernels_allow),
+        TEST(threads_that_do_not_share_items_have_no_groups),
+        TEST(groups_that_were_asked_for_are_not_made_smaller),
+        TEST(what_fails_is_tried_again),
+        TEST(kernels_come_from_the_cache),
+        TEST(the_probes_key_tells_what_it_is_compiled_from),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
+}
