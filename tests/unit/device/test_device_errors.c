@@ -50,6 +50,8 @@ static void cuda_tells_a_lost_device(void **state) {
         hd_cuda_fail(&driver, "cuEventSynchronize", fatal[i], &error);
         assert_true(is_lost(&error));
     }
+    hd_cuda_fail(&driver, "cuCtxSynchronize", fatal[0], &error);
+    assert_true(is_lost(&error));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         hd_cuda_fail(&driver, "cuEventSynchronize", others[i], &error);
         assert_false(is_lost(&error));

@@ -14,6 +14,7 @@ typedef enum Fault {
     OTHER_NAN,
     DIVISION,
     DIVISION_FOR_GOOD,
+    DIVISION_AND_FAILS_BY_FMA,
     FLUSHED_RESULTS,
     FLUSHED_OPERANDS,
     CONTRACTED,
@@ -46,8 +47,9 @@ static void spoil_tuple(const HdProbeBatch *batch, HdProbeResults *results, int 
     float *apart = number_of(results, batch, HD_PROBE_NUMBER_apart, i);
     float *plus_zero = number_of(results, batch, HD_PROBE_NUMBER_plus_zero, i);
     float *product = number_of(results, batch, HD_PROBE_NUMBER_product, i);
-    bool divides =
-        fault == DIVISION_FOR_GOOD || (fault == DIVISION && !kernels.shape.rounds_by_fma);
+    bool divides = fault == DIVISION_FOR_GOOD ||
+                   (fault == DIVISION && !kernels.shape.rounds_by_fma) ||
+                   fault == DIVISION_AND_FAILS_BY_FMA;
     if (divides && isnormal(*quotient))
         *quotient = nextafterf(*quotient, INFINITY);
     if (fault == CONTRACTED)
@@ -63,8 +65,10 @@ static void spoil_tuple(const HdProbeBatch *batch, HdProbeResults *results, int 
 }
 
 static HdStatus fake_probe(void *renderer, const HdProbeBatch *batch, HdProbeResults *results,
-                           HdError *ignored) {
-    (void)renderer, (void)ignored;
+                           HdError *failure) {
+    (void)renderer;
+    if (fault == DIVISION_AND_FAILS_BY_FMA && kernels.shape.rounds_by_fma)
+        return hd_fail(failure, HD_FAILED, "it does not compile");
     if (batch->precision == HD_PRECISION_DOUBLE)
         hd_probe_expect_double(batch, results);
     else
@@ -116,6 +120,9 @@ static void wrong_division_is_made_of_fma(void **state) {
     HdProbeReport report = probe(DIVISION, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
     assert_string_equal(report.difference, "");
     assert_true(report.rounds_by_fma);
+    report = probe(DIVISION_AND_FAILS_BY_FMA, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+    expect_contains(report.difference, "a / b of a = ");
+    assert_false(report.rounds_by_fma || kernels.shape.rounds_by_fma);
     report = probe(DIVISION_FOR_GOOD, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
     expect_contains(report.difference, "a / b of a = ");
     expect_contains(report.difference, " in float is ");
@@ -143,6 +150,20 @@ static void other_faults_are_told(void **state) {
         expect_contains(report.difference, list[i].cause);
         assert_false(report.rounds_by_fma);
     }
+}
+
+static void operands_are_told(void **state) {
+    (void)state;
+    float numbers[3][8];
+    int64_t bits[8];
+    HdProbeBatch batch = {
+        .count = 8, .operands = {numbers[0], numbers[1], numbers[2]}, .bits = bits};
+    char expected[80];
+    hd_probe_operands_float(&batch, 0);
+    snprintf(expected, sizeof expected, "of a = %a, b = %a, x = 0x", (double)numbers[0][5],
+             (double)numbers[1][5]);
+    HdProbeReport report = probe(ROUNDED_TO_INT, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
+    expect_contains(report.difference, expected);
 }
 
 /* Of the tuples a good many are as hard as they are meant to be: quotients and roots whose digits
@@ -180,6 +201,7 @@ int main(void) {
         cmocka_unit_test(nan_is_nan),
         cmocka_unit_test(wrong_division_is_made_of_fma),
         cmocka_unit_test(other_faults_are_told),
+        cmocka_unit_test(operands_are_told),
         cmocka_unit_test(operands_are_hard),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* What becomes of what OpenCL's drivers say of their devices. */
+#define _POSIX_C_SOURCE 200809L
+#include "device/opencl/devices.h"
+
+#include <stdlib.h>
+
+#include "expect.h"
+
+enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001, TIMEOUT = 0x4005 };
+
+typedef struct Said {
+    const char *name, *version, *extensions;
+    cl_device_type type;
+    bool is_available, has_compiler, is_little_endian, is_nvidias, has_timeout;
+} Said;
+
+#define USABLE .is_available = true, .has_compiler = true, .is_little_endian = true
+
+static const Said said[] = {
+    {"  a GPU ", "OpenCL 3.0 CUDA", "cl_nv_compiler_options cl_khr_int64_base_atomics",
+     CL_DEVICE_TYPE_GPU, USABLE, .is_nvidias = true},
+    {"a CPU", "OpenCL 1.2", "cl_khr_fp64", CL_DEVICE_TYPE_CPU, USABLE},
+    {"an old one", "OpenCL 1.1", "", CL_DEVICE_TYPE_GPU, USABLE},
+    {"a new one", "OpenCL 2.0", "", CL_DEVICE_TYPE_GPU, USABLE},
+    {"nothing", "unknown", "", CL_DEVICE_TYPE_GPU, .is_available = false},
+};
+enum { COUNT = sizeof said / sizeof *said };
+
+/* In place of the library's. */
+
+cl_int clGetPlatformIDs(cl_uint capacity, cl_platform_id *platforms, cl_uint *count) {
+    assert_true(capacity >= 2);
+    platforms[0] = platforms[1] = (cl_platform_id)said;
+    *count = 2;
+    return CL_SUCCESS;
+}
+
+cl_int clGetPlatformInfo(cl_platform_id platform, cl_platform_info what, size_t size, void *value,
+                         size_t *needed) {
+    (void)platform;
+    assert_int_equal(what, CL_PLATFORM_NAME);
+    if (needed != NULL)
+        *needed = sizeof "a platform";
+    if (value != NULL)
+        memcpy(value, "a platform", size);
+    return CL_SUCCESS;
+}
+
+/* The second platform has none. */
+cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type types, cl_uint capacity,
+                      cl_device_id *devices, cl_uint *count) {
+    static int calls;
+    (void)platform, (void)types;
+    if (calls++ % 2 == 1)
+        return CL_DEVICE_NOT_FOUND;
+    assert_true(capacity >= COUNT);
+    for (int i = 0; i < COUNT; i++)
+        devices[i] = (cl_device_id)&said[i];
+    *count = COUNT;
+    return CL_SUCCESS;
+}
+
+static cl_int answer(const void *from, size_t bytes, size_t size, void *value, size_t *needed) {
+    if (needed != NULL)
+        *needed = bytes;
+    if (value != NULL && size < bytes)
+        return CL_INVALID_VALUE;
+    if (value != NULL)
+        memcpy(value, from, bytes);
+    return CL_SUCCESS;
+}
+
+cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value,
+                       size_t *needed) {
+    const Said *is = (const Said *)device;
+    const char *text = NULL;
+    cl_uint number = 0;
+    cl_ulong wide = 5000000000;
+    switch (what) {
+    case CL_DEVICE_NAME:
+        text = is->name;
+        break;
+    case CL_DEVICE_VERSION:
+        text = is->version;
+        break;
+    case CL_DEVICE_EXTENSIONS:
+        text = is->extensions;
+        break;
+    case CL_DRIVER_VERSION:
+        text = "5.6";
+        break;
+    case CL_DEVICE_TYPE:
+    case CL_DEVICE_GLOBAL_MEM_SIZE:
+        wide = what == CL_DEVICE_TYPE ? is->type : wide;
+        return answer(&wide, sizeof wide, size, value, needed);
+    case CL_DEVICE_AVAILABLE:
+        number = is->is_available;
+        break;
+    case CL_DEVICE_COMPILER_AVAILABLE:
+        number = is->has_compiler;
+        break;
+    case CL_DEVICE_ENDIAN_LITTLE:
+        number = is->is_little_endian;
+        break;
+    case CL_DEVICE_MAX_COMPUTE_UNITS:
+        number = 12;
+        break;
+    case CAPABILITY_MAJOR:
+        number = 7;
+        break;
+    case CAPABILITY_MINOR:
+        number = 5;
+        break;
+    case TIMEOUT:
+        if (!is->is_nvidias)
+            return CL_INVALID_VALUE;
+        number = is->has_timeout;
+        break;
+    default:
+        return CL_INVALID_VALUE;
+    }
+    return text != NULL ? answer(text, strlen(text) + 1, size, value, needed)
+                        : answer(&number, sizeof number, size, value, needed);
+}
+
+static void devices_are_described(void **state) {
+    (void)state;
+    HdDevice devices[HD_MAX_DEVICES];
+    HdError error;
+    int count;
+    assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
+    assert_int_equal(count, COUNT);
+    assert_string_equal(devices[0].name, "a GPU");
+    assert_string_equal(devices[0].driver, "a platform, OpenCL 3.0 CUDA, driver 5.6");
+    assert_int_equal(devices[0].nvidia_arch, 75);
+    assert_int_equal(devices[0].compute_units, 12);
+    assert_true(devices[0].has_wide_atomics && !devices[0].is_cpu && !devices[0].has_double);
+    assert_int_equal(devices[1].nvidia_arch, 0);
+    assert_true(devices[1].is_cpu && !devices[1].has_wide_atomics && !devices[1].has_timeout);
+    assert_true(devices[2].has_timeout); /* nobody tells */
+    assert_int_equal(hd_opencl_enumerate(devices, 2, &count, &error), HD_OK);
+    assert_int_equal(count, 2);
+}
+
+static void obstacles_are_told(void **state) {
+    (void)state;
+    HdDevice devices[HD_MAX_DEVICES];
+    HdError error;
+    int count;
+    assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
+    assert_string_equal(devices[0].unusable, "");
+    assert_string_equal(devices[1].unusable, "");
+    assert_string_equal(devices[2].unusable, "it is older than OpenCL 1.2");
+    assert_string_equal(devices[3].unusable, "");
+    assert_string_equal(devices[4].unusable,
+                        "it is not available, its driver has no compiler, it is older than OpenCL "
+                        "1.2, it is not little-endian");
+}
+
+static void devices_are_found_by_number(void **state) {
+    (void)state;
+    cl_device_id device;
+    HdGpuFacts facts;
+    HdError error;
+    assert_int_equal(hd_opencl_find(&device, 1, &facts, &error), HD_OK);
+    assert_ptr_equal(device, &said[1]);
+    assert_int_equal(facts.memory, 5000000000);
+    assert_int_equal(facts.at_once, 0); /* unknown */
+    assert_int_equal(hd_opencl_find(&device, COUNT, &facts, &error), HD_UNAVAILABLE);
+    assert_string_equal(error.message, "there is no device 5, only 0 to 4");
+    assert_int_equal(hd_opencl_find(&device, -1, &facts, &error), HD_UNAVAILABLE);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(devices_are_described),
+        cmocka_unit_test(obstacles_are_told),
+        cmocka_unit_test(devices_are_found_by_number),
+    };
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
