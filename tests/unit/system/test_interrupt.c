@@ -222,6 +222,22 @@ static void nothing_ends_it_without_a_signal(void **state) {
     assert_int_equal(outcome_of(do_not_end), 0);
 }
 
+static void be_woken(void) {
+    raise(SIGTERM);
+    raise(SIGALRM); /* as from the watching thread */
+    _exit(hd_interrupt_signal());
+}
+
+static void it_may_last_as_long_as_patience(void **state) {
+    (void)state;
+    static const char *const patience[] = {"10", "86400"};
+    for (int i = 0; i < 2; i++) {
+        setenv("HEDRON_STOP_PATIENCE", patience[i], 1);
+        assert_int_equal(outcome_of(be_woken), SIGTERM);
+        assert_string_equal(said, "");
+    }
+}
+
 static void the_patience_is_a_time(void **state) {
     (void)state;
     static const char *const good[] = {"", "0.1", "86400", "2"};
@@ -299,6 +315,7 @@ int main(void) {
         TEST(a_second_one_later_ends_it_at_once),
         TEST(who_does_not_end_in_time_is_ended),
         TEST(nothing_ends_it_without_a_signal),
+        TEST(it_may_last_as_long_as_patience),
         TEST(the_patience_is_a_time),
         TEST(a_writer_waits_for_room_or_an_interrupt),
     };
