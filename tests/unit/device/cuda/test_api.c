@@ -17,9 +17,15 @@ static char program[4096], said[4096];
 
 /* The program again: loads the driver, tells what came of it, and ends with the status. */
 static int load(void) {
+    HdDevice device;
+    int count;
     HdStatus status = hd_cuda_load_driver(&driver, &error);
-    printf("%s", status == HD_OK ? hd_cuda_error_name(&driver, HD_CU_ERROR_OUT_OF_MEMORY)
-                                 : error.message);
+    if (status == HD_OK)
+        status = hd_backend_enumerate(&hd_backend_cuda, &device, 1, &count, &error);
+    if (status == HD_OK)
+        printf("%s, %s", hd_cuda_error_name(&driver, HD_CU_ERROR_OUT_OF_MEMORY), device.driver);
+    else
+        printf("%s", error.message);
     return (int)status;
 }
 
@@ -37,7 +43,8 @@ static void expect_loading(const char *folder, HdStatus expected, const char *me
 
 static void a_driver_is_loaded_or_told_to_be_missing_or_old(void **state) {
     (void)state;
-    expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY");
+    setenv("FAKE_CUDA_DRIVER", "13010", 1);
+    expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY, sm_61, driver for CUDA 13.1");
     assert_int_equal(symlink(STUB_NVRTC, "libcuda.so.1"), 0);
     expect_loading(test_folder, HD_UNAVAILABLE,
                    "the NVIDIA driver is too old: libcuda.so.1 has no function cuInit");
