@@ -176,6 +176,25 @@ static void levels_of_deep_trees_are_taken_whole(void **state) {
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
 }
 
+static void the_least_queue_takes_a_bundle_at_a_time(void **state) {
+    (void)state;
+    for (int levels = 1; levels <= 40; levels++)
+        assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
+}
+
+/* The places of a level that is done serve the next one. */
+static void rays_go_below_those_that_made_them(void **state) {
+    (void)state;
+    WaveSegment stack[] = {{.level = 0},
+                           {.level = 1, .first = 0, .waiting = 8},
+                           {.level = 2, .first = 100, .waiting = 8}};
+    int top = 2;
+    const WaveTake take = wave_take(stack, &top, 3, 1000, 4, WAVE_NO_LIMIT);
+    assert_int_equal(take.count, 8);
+    assert_int_equal(take.to, 8);
+    assert_int_equal(top, 1);
+}
+
 static void plans_keep_to_their_budget(void **state) {
     (void)state;
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
@@ -270,6 +289,8 @@ int main(void) {
         cmocka_unit_test(launches_have_at_most_their_size),
         cmocka_unit_test(enough_memory_takes_a_step_a_level),
         cmocka_unit_test(levels_of_deep_trees_are_taken_whole),
+        cmocka_unit_test(the_least_queue_takes_a_bundle_at_a_time),
+        cmocka_unit_test(rays_go_below_those_that_made_them),
         cmocka_unit_test(plans_keep_to_their_budget),
         cmocka_unit_test(a_refused_queue_is_halved),
         cmocka_unit_test(a_cut_queue_is_told),
