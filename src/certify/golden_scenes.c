@@ -276,6 +276,20 @@ static void ending_lights(HdScene *scene, HdCamera *camera) {
         scene->lights[i].falloff = (HdFalloff){.end = 1.0 + 1.2 * i};
 }
 
+/* Many lights on each edge, which threads with one ray judge together: of some points all are too
+   far away, of others some. */
+static void runs_of_lights(HdScene *scene, HdCamera *camera) {
+    three_solids(scene, camera, 2.4);
+    scene->samples_per_side = 1;
+    scene->depth = 4;
+    for (int s = 0; s < 3; s++) {
+        colour_edges(&scene->solids[s]);
+        scene->solids[s].lights.per_edge = 6;
+        scene->solids[s].lights.intensity = 0.1;
+        scene->solids[s].lights.falloff = (HdFalloff){.end = 0.7 + 0.3 * s};
+    }
+}
+
 /* Lanterns: paper faces over the solid's own lights, and a lamp below a thin floor. */
 static void lanterns(HdScene *scene, HdCamera *camera) {
     one_solid(scene, camera, HD_ICOSAHEDRON);
@@ -368,6 +382,7 @@ const HdGoldenFrame hd_golden_frames[] = {
     {"inner-sides", inner_sides},
     {"coloured-edges", coloured_edges},
     {"ending-lights", ending_lights},
+    {"runs-of-lights", runs_of_lights},
     {"glass-cube", glass_cube},
     {"eye-inside-glass", eye_inside_glass},
     {"bubble", bubble},
