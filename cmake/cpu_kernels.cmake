@@ -3,21 +3,18 @@
 # that a processor can run is the one that its renderers take where nobody asks for lanes. Kinds:
 #   full     lanes that fill a register, and single lanes
 #   compare  fewer lanes than that, there to compare bytes: at -O2, up to half of gcc's time less
-#   wide     more lanes than that, to compare as well: at -O1 and without passes that vectors of many
-#            registers make slow, which bounds gcc's compile time
 # Those of HEDRON_PLAIN_KERNELS are built once more for plain scenes: without meshes, refraction and light from
 # behind, which take registers from code that all scenes need.
 # Processors without fused multiply-add spend their time in its emulation: one lane is the fastest there.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" processor)
 if(processor MATCHES "^(x86_64|amd64)$")
-    set(HEDRON_KERNELS avx512:16:float:full avx512:8:double:full avx512:8:float:compare avx512:16:double:wide
-        avx2:8:float:full avx2:4:double:full avx2:4:float:compare avx2:8:double:wide
+    set(HEDRON_KERNELS avx512:16:float:full avx512:8:double:full avx512:8:float:compare
+        avx2:8:float:full avx2:4:double:full avx2:4:float:compare
         avx2:1:float:full avx2:1:double:full generic:1:float:full generic:1:double:full)
     set(HEDRON_PLAIN_KERNELS avx512:16:float avx2:8:float)
     target_compile_definitions(hedron_core PRIVATE HD_CPU_X86)
 else()
-    set(HEDRON_KERNELS generic:4:float:full generic:4:double:full generic:8:float:wide generic:8:double:wide
-        generic:16:float:wide generic:16:double:wide generic:1:float:full generic:1:double:full)
+    set(HEDRON_KERNELS generic:4:float:full generic:4:double:full generic:1:float:full generic:1:double:full)
     set(HEDRON_PLAIN_KERNELS generic:4:float)
 endif()
 
@@ -44,8 +41,6 @@ endif()
 # gcc takes vectors that are filled lane by lane for uninitialised.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     set(no_false_alarms -Wno-maybe-uninitialized)
-    set(no_slow_passes -fno-tree-fre -fno-tree-dse -fno-dse -fno-dce -fno-forward-propagate -fno-if-conversion
-        -fno-if-conversion2 -fno-move-loop-invariants -fno-guess-branch-probability)
 endif()
 # What is undefined ends the program at once, without a sentence: a quarter less to compile. The stack, which
 # AddressSanitizer prints with handle_sigill=1, has the line.
@@ -61,7 +56,6 @@ set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma
 set(flags_strict -ffp-contract=off)
 set(level_full -O3)
 set(level_compare -O2)
-set(level_wide -O1 ${no_slow_passes})
 if(HEDRON_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(level_full -O1)
     set(level_compare -O1)

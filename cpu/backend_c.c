@@ -46,7 +46,8 @@ static HdStatus c_enumerate(HdDevice *devices, int capacity, int *count, HdError
     snprintf(device->driver, sizeof device->driver, "plain C, %s, %d cores",
              hd_cpu_best_instruction_set(), hd_processor_count());
     device->is_cpu = true;
-    device->most_lanes = hd_cpu_most_lanes();
+    for (int p = HD_PRECISION_FLOAT; p <= HD_PRECISION_DOUBLE; p++)
+        device->most_lanes[p] = hd_cpu_most_lanes((HdPrecision)p);
     device->has_double = true;
     return HD_OK;
 }

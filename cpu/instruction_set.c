@@ -45,10 +45,11 @@ const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision) {
     return NULL;
 }
 
-int hd_cpu_most_lanes(void) {
+int hd_cpu_most_lanes(HdPrecision precision) {
     int most = 1;
     for (const HdCpuBuild *build = builds; build < builds + BUILD_COUNT; build++)
-        if (build->lanes > most && is_supported(build->instruction_set))
+        if (build->lanes > most && build->precision == precision &&
+            is_supported(build->instruction_set))
             most = build->lanes;
     return most;
 }

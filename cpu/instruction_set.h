@@ -15,11 +15,11 @@ typedef struct HdCpuBuild {
     HdCpuFirstHits *first_hits;
 } HdCpuBuild;
 
-/* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: it can run none
-   of those with more lanes than hd_cpu_most_lanes. */
+/* The best build with `lanes` lanes; 0: with as many as suit the processor. NULL: there is none,
+   as for more lanes than hd_cpu_most_lanes. */
 const HdCpuBuild *hd_cpu_find_build(int lanes, HdPrecision precision);
 
-int hd_cpu_most_lanes(void);
+int hd_cpu_most_lanes(HdPrecision precision);
 
 const char *hd_cpu_best_instruction_set(void);
 

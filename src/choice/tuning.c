@@ -164,7 +164,8 @@ static HdStatus try_pipelines(Tuner *tuner, HdError *error) {
 /* All bundles that the device takes but single rays. */
 static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     static const int lanes[] = {HD_LANE_COUNTS(LISTED)};
-    int count = (int)(sizeof lanes / sizeof *lanes), most = tuner->device->most_lanes;
+    int count = (int)(sizeof lanes / sizeof *lanes);
+    int most = tuner->device->most_lanes[tuner->options->precision];
     while (most > 0 && lanes[count - 1] > most)
         count--;
     HdLaunch launch = best_so_far(tuner);

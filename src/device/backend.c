@@ -53,8 +53,12 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
     bool has_groups = !device->is_cpu || options->test.groups;
     if (options->lanes > 1 && has_groups)
         return "several lanes need a CPU";
-    if (device->most_lanes > 0 && options->lanes > device->most_lanes)
-        return "the processor has no registers for so many lanes";
+    int most_lanes = device->most_lanes[options->precision];
+    if (most_lanes > 0 && options->lanes > most_lanes)
+        return most_lanes == 1 ? "the processor has registers for 1 lane in this precision"
+               : most_lanes == 4
+                   ? "the processor has registers for 1 or 4 lanes in this precision"
+                   : "the processor has registers for 1, 4 or 8 lanes in this precision";
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "

@@ -26,7 +26,8 @@ typedef struct HdDevice {
     char name[256];
     char driver[256];  /* platform, driver and versions, for people */
     bool is_cpu;       /* takes several lanes */
-    int most_lanes;    /* that it takes, where it is a CPU; 0: whatever is asked for */
+    int most_lanes[2]; /* that it takes in each precision, where it is a CPU; 0: as many as are
+                          asked for */
     int compute_units; /* with clock_mhz a rough measure of speed, to choose among devices */
     int clock_mhz;
     int nvidia_arch; /* where kernels can be built with a limit of registers, which is on NVIDIA

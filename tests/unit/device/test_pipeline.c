@@ -98,12 +98,21 @@ static void sizes_of_launches_are_checked(void **state) {
 
 static void more_lanes_than_registers_are_refused(void **state) {
     (void)state;
-    HdDevice cpu = {.is_cpu = true, .most_lanes = 8};
-    HdRenderOptions options = {.lanes = 8};
+    HdDevice cpu = {.is_cpu = true, .has_double = true, .most_lanes = {16, 8}};
+    HdRenderOptions options = {.lanes = 16};
     assert_null(hd_device_obstacle(&cpu, &options));
-    options.lanes = 16;
-    assert_non_null(hd_device_obstacle(&cpu, &options));
-    cpu.most_lanes = 0; /* none is known */
+    options.precision = HD_PRECISION_DOUBLE;
+    assert_string_equal(hd_device_obstacle(&cpu, &options),
+                        "the processor has registers for 1, 4 or 8 lanes in this precision");
+    options.lanes = 8;
+    assert_null(hd_device_obstacle(&cpu, &options));
+    cpu.most_lanes[HD_PRECISION_DOUBLE] = 4;
+    assert_string_equal(hd_device_obstacle(&cpu, &options),
+                        "the processor has registers for 1 or 4 lanes in this precision");
+    cpu.most_lanes[HD_PRECISION_DOUBLE] = 1;
+    assert_string_equal(hd_device_obstacle(&cpu, &options),
+                        "the processor has registers for 1 lane in this precision");
+    cpu.most_lanes[HD_PRECISION_DOUBLE] = 0; /* none is known */
     assert_null(hd_device_obstacle(&cpu, &options));
 }
 
