@@ -46,13 +46,15 @@ static const char *read_open_key(int descriptor, unsigned char key[HD_HASH_KEY_B
     return NULL;
 }
 
+/* HD_UNAVAILABLE: there is none. */
 static HdStatus read_key(const char *path, unsigned char key[HD_HASH_KEY_BYTES], HdError *error) {
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    const HdStatus failure = descriptor < 0 && errno == ENOENT ? HD_UNAVAILABLE : HD_FAILED;
     const char *fault = descriptor < 0 ? strerror(errno) : read_open_key(descriptor, key);
     if (descriptor >= 0)
         close(descriptor);
     return fault == NULL ? HD_OK
-                         : hd_fail(error, HD_FAILED, "the key %s cannot be used: %s", path, fault);
+                         : hd_fail(error, failure, "the key %s cannot be used: %s", path, fault);
 }
 
 static HdStatus take_random_bytes(unsigned char *bytes, size_t size, HdError *error) {
@@ -89,7 +91,8 @@ HdStatus hd_cache_key(const char *folder, bool may_make, unsigned char key[HD_HA
     HdStatus status = read_key(path, key, error);
     if (status == HD_OK || !may_make)
         return status;
-    unlink(path);
+    if (status == HD_FAILED) /* where there was none may be another process's by now */
+        unlink(path);
     status = make_key(path, error);
     return status == HD_OK ? read_key(path, key, error) : status;
 }

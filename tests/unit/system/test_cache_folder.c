@@ -391,10 +391,14 @@ static void too_large_an_entry_is_refused(void **state) {
 
 /* ---- several writers, and the limit ---- */
 
-static void write_and_read(unsigned char fill) {
+/* Begins when the pipe is closed. */
+static void write_and_read(unsigned char fill, const int start[2]) {
     unsigned char bytes[20000];
     memset(bytes, fill, sizeof bytes);
-    for (int i = 0; i < 200; i++) {
+    close(start[1]);
+    if (read(start[0], bytes, 1) != 0)
+        _exit(3);
+    for (int i = 0; i < 10; i++) {
         unsigned char *got;
         size_t size;
         if (hd_cache_put("test", "shared", bytes, sizeof bytes, &error) != HD_OK ||
@@ -408,22 +412,28 @@ static void write_and_read(unsigned char fill) {
     _exit(0);
 }
 
+/* Nor their keys: each round begins without one. */
 static void several_writers_do_not_mix(void **state) {
     (void)state;
-    enum { WRITERS = 4 };
-    pid_t children[WRITERS];
-    for (int i = 0; i < WRITERS; i++) {
-        children[i] = fork();
-        assert_true(children[i] >= 0);
-        if (children[i] == 0)
-            write_and_read((unsigned char)('a' + i));
+    enum { ROUNDS = 20, WRITERS = 4 };
+    for (int round = 0; round < ROUNDS; round++) {
+        pid_t children[WRITERS];
+        int start[2], codes[WRITERS];
+        remove_folder("cache");
+        assert_int_equal(pipe(start), 0);
+        for (int i = 0; i < WRITERS; i++) {
+            children[i] = fork();
+            assert_true(children[i] >= 0);
+            if (children[i] == 0)
+                write_and_read((unsigned char)('a' + i), start);
+        }
+        assert_int_equal(close(start[0]) + close(start[1]), 0);
+        for (int i = 0; i < WRITERS; i++)
+            assert_int_equal(waitpid(children[i], &codes[i], 0), children[i]);
+        for (int i = 0; i < WRITERS; i++)
+            assert_int_equal(codes[i], 0);
+        assert_int_equal(count_entries("cache"), 2);
     }
-    for (int i = 0; i < WRITERS; i++) {
-        int code;
-        assert_int_equal(waitpid(children[i], &code, 0), children[i]);
-        assert_int_equal(code, 0);
-    }
-    assert_int_equal(count_entries("cache"), 2);
 }
 
 static void make_older(const char *path, int seconds) {
