@@ -548,6 +548,34 @@ static void targets_in_the_way_are_errors(void **state) {
     assert_int_equal(count_entries("out/folder.mp4"), 0);
 }
 
+static void targets_that_come_in_the_way_are_errors(void **state) {
+    (void)state;
+    HdError error = {0};
+    HdVideo *video;
+    HdFrame frame = make_frame(16, 16, RED);
+    need_ffmpeg();
+    assert_int_equal(
+        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 16, 16, &STYLE, &error),
+        HD_OK);
+    assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
+    assert_int_equal(mkdir("out/film.mp4", 0777), 0);
+    assert_int_not_equal(hd_video_close(video, HD_DURABLE, &error), HD_OK);
+    assert_int_equal(count_entries("out"), 1);
+    hd_frame_free(&frame);
+}
+
+static void names_that_are_too_long_are_refused(void **state) {
+    (void)state;
+    static char path[HD_MAX_PATH + 1];
+    HdError error = {0};
+    need_ffmpeg();
+    memset(path, '/', HD_MAX_PATH);
+    memcpy(path, "out", 3);
+    memcpy(path + HD_MAX_PATH - 5, "a.mp4", 5);
+    assert_int_equal(make_film(path, 16, 16, 1, &error), HD_BAD_INPUT);
+    expect_contains(error.message, "is too long, expected fewer than 4096 bytes");
+}
+
 /* Were they waited for, the test would run into its time limit. */
 static void programs_that_hang_are_stopped(void **state) {
     (void)state;
@@ -638,6 +666,8 @@ int main(int argc, char **argv) {
         VIDEO_TEST(much_output_blocks_nothing),
         VIDEO_TEST(files_that_are_no_films_are_errors),
         VIDEO_TEST(targets_in_the_way_are_errors),
+        VIDEO_TEST(targets_that_come_in_the_way_are_errors),
+        VIDEO_TEST(names_that_are_too_long_are_refused),
         VIDEO_TEST(programs_that_hang_are_stopped),
         VIDEO_TEST(blocked_signals_do_not_reach_ffmpeg),
         VIDEO_TEST(closed_standard_streams_do_no_harm),
