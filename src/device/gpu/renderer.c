@@ -134,6 +134,7 @@ static void place_table(Renderer *renderer, HdGpuMemory *memory, const char *nam
     const HdGpu *gpu = &renderer->gpu;
     HdGpuMemory constant = {0};
     bool has_room = renderer->program.cache.shape.needs.small_tables &&
+                    gpu->driver->constant != NULL &&
                     gpu->driver->constant(gpu->handle, name, &constant);
     if (has_room || memory->is_constant) {
         hd_gpu_release(gpu, memory);
