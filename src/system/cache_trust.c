@@ -46,10 +46,12 @@ static const char *read_open_key(int descriptor, unsigned char key[HD_HASH_KEY_B
     return NULL;
 }
 
-/* HD_UNAVAILABLE: there is none. */
+/* HD_UNAVAILABLE: there is none, or nobody can tell. */
 static HdStatus read_key(const char *path, unsigned char key[HD_HASH_KEY_BYTES], HdError *error) {
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-    const HdStatus failure = descriptor < 0 && errno == ENOENT ? HD_UNAVAILABLE : HD_FAILED;
+    const bool tells_nothing =
+        descriptor < 0 && (errno == ENOENT || errno == EMFILE || errno == ENFILE);
+    const HdStatus failure = tells_nothing ? HD_UNAVAILABLE : HD_FAILED;
     const char *fault = descriptor < 0 ? strerror(errno) : read_open_key(descriptor, key);
     if (descriptor >= 0)
         close(descriptor);

@@ -292,9 +292,8 @@ static void keys_that_others_know_are_made_anew(void **state) {
     }
 }
 
-/* As where too many files are open. */
-static void without_random_bytes_there_is_no_key(void **state) {
-    (void)state;
+/* Where too many files are open. */
+static HdStatus put_without_descriptors(void) {
     struct rlimit before, limit;
     const int next = dup(STDIN_FILENO);
     assert_true(next >= 0 && close(next) == 0);
@@ -304,9 +303,24 @@ static void without_random_bytes_there_is_no_key(void **state) {
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
     const HdStatus status = hd_cache_put("test", "a", payload, sizeof payload, &error);
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
-    assert_int_equal(status, HD_FAILED);
+    return status;
+}
+
+static void without_random_bytes_there_is_no_key(void **state) {
+    (void)state;
+    assert_int_equal(put_without_descriptors(), HD_FAILED);
     expect_contains(error.message, "no random bytes");
     assert_int_equal(count_entries("cache"), 0);
+}
+
+static void a_key_that_cannot_be_opened_for_now_is_kept(void **state) {
+    (void)state;
+    unsigned char *bytes;
+    size_t size;
+    assert_int_equal(hd_cache_put("test", "a", payload, sizeof payload, &error), HD_OK);
+    assert_int_equal(put_without_descriptors(), HD_FAILED);
+    assert_int_equal(hd_cache_get("test", "a", &bytes, &size, &error), HD_OK);
+    free(bytes);
 }
 
 /* ---- folders ---- */
@@ -565,6 +579,7 @@ int main(void) {
         TEST(entries_of_another_users_key_are_noticed),
         TEST(keys_that_others_know_are_made_anew),
         TEST(without_random_bytes_there_is_no_key),
+        TEST(a_key_that_cannot_be_opened_for_now_is_kept),
         TEST(files_are_private_from_the_first_instant),
         TEST(the_folder_is_found_in_order),
         TEST(a_folder_that_cannot_be_made_is_told),
