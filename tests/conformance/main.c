@@ -9,11 +9,10 @@
    --few each renders only what the least of the variants do, and no truths are checked. With
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
-   cut, which are left out in double; with more lanes than that no scene has kernels of its own, and
-   with fewer, where kernels are compiled, no frame is surveyed.
-   With --ptx 61 CUDA compiles to PTX for compute_61, of which
-   the driver makes machine code for the device: so the text for a Pascal card runs on any newer
-   one.
+   cut, which are left out in double; with more lanes than that no scene has kernels of its own;
+   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. With
+   --ptx 61 CUDA compiles to PTX for compute_61, of which the driver makes machine code for the
+   device: so the text for a Pascal card runs on any newer one.
 
    Ends with 0 where all is well, 1 where something differs, 2 where it is called wrongly, and 77
    where nothing of the backend in --backend opens. */
@@ -266,8 +265,9 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .pipeline = HD_PIPELINE_MEGA,
         };
         bool compiles = device->is_cpu && !needs_no_build(device);
-        bool own_builds = !options->one_build && lane_counts[i] <= most_for_all &&
-                          (!compiles || lane_counts[i] == OWN_BUILDS);
+        bool has_own = compiles ? lane_counts[i] == OWN_BUILDS
+                                : !options->brief || lane_counts[i] == most_for_all;
+        bool own_builds = !options->one_build && lane_counts[i] <= most_for_all && has_own;
         Frames frames = options->few || lane_counts[i] > most_for_all ? FEW : EVERY;
         if (frames == EVERY && options->brief && compiles && lane_counts[i] < most_for_all)
             frames = NOT_SURVEYED;
