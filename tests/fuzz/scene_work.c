@@ -9,14 +9,15 @@
 /* More takes the campaign's time. */
 enum { MOST_SOLIDS = 8, MOST_LIGHTS = 2000, WIDTH = 8, HEIGHT = 6, MOST_DEPTH = 3 };
 
-/* The bundles that are taken where nobody asks for lanes: sanitizers see these (cpu_kernels.cmake).
- */
+/* What sanitizers see (cpu_kernels.cmake): bundles of floats that are taken where nobody asks for
+   lanes, single lanes of doubles. */
 static HdRenderer *open_renderer(HdPrecision precision) {
     static HdError error;
     HdDevice device;
     HdRenderer *renderer = NULL;
     int count;
-    const HdRenderOptions options = {.threads = 1, .precision = precision};
+    const HdRenderOptions options = {
+        .threads = 1, .precision = precision, .lanes = precision == HD_PRECISION_DOUBLE};
     HdStatus status = hd_backend_enumerate(&hd_backend_c, &device, 1, &count, &error);
     if (status == HD_OK)
         status = hd_renderer_open(&renderer, &device, &options, &error);
