@@ -50,11 +50,11 @@ finish() {
     exit 0
 }
 
-# lanes_there OPTION...: the numbers of lanes that plain C takes on this processor.
+# lanes_there PRECISION: the numbers of lanes that plain C takes on this processor.
 lanes_there() {
     local lanes
     for lanes in 1 4 8 16; do
-        if "$hedron" render --quiet --backend c --lanes "$lanes" "$@" --frames 0 --size 16x16 --samples 1 \
+        if "$hedron" render --quiet --backend c --lanes "$lanes" --precision "$1" --frames 0 --size 16x16 --samples 1 \
             -o "$work/lanes.data" >"$work/lanes.txt" 2>&1; then
             echo "$lanes"
         elif ! grep -q 'the processor has registers for ' "$work/lanes.txt"; then

@@ -20,7 +20,7 @@ picture() {
 # ---- the C backend
 for precision in float double; do
     picture "$precision" --backend c --lanes 1 --threads 1 --precision "$precision"
-    for lanes in $(lanes_there --precision "$precision"); do
+    for lanes in $(lanes_there "$precision"); do
         for threads in 1 2 3; do
             picture other --backend c --lanes "$lanes" --threads "$threads" --precision "$precision"
             expect_same other.data "$precision.data"

@@ -36,7 +36,7 @@ if ! grep -q -x -E 'the built-in scene on c 0, .*' "$work/heading" ||
     fail "the table has no heading"
     show_logs
 fi
-mapfile -t lanes < <(lanes_there)
+mapfile -t lanes < <(lanes_there float)
 some=${lanes[-1]}
 number='[0-9]+\.[0-9]{3}'
 if (($(grep -c -x -E "(mega|wavefront)(, (4|8|16) lanes)? +$number +$number" "$logs/stdout") != 1 + ${#lanes[@]})) ||
