@@ -43,6 +43,13 @@ HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFra
 
 /* ---- what suits a device ---- */
 
+static const char *lanes_there_are(int most) {
+    if (most == 1)
+        return "the processor has registers for 1 lane in this precision";
+    return most == 4 ? "the processor has registers for 1 or 4 lanes in this precision"
+                     : "the processor has registers for 1, 4 or 8 lanes in this precision";
+}
+
 const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *options) {
     if (device->unusable[0] != '\0')
         return device->unusable;
@@ -55,10 +62,7 @@ const char *hd_device_obstacle(const HdDevice *device, const HdRenderOptions *op
         return "several lanes need a CPU";
     int most_lanes = device->most_lanes[options->precision];
     if (most_lanes > 0 && options->lanes > most_lanes)
-        return most_lanes == 1 ? "the processor has registers for 1 lane in this precision"
-               : most_lanes == 4
-                   ? "the processor has registers for 1 or 4 lanes in this precision"
-                   : "the processor has registers for 1, 4 or 8 lanes in this precision";
+        return lanes_there_are(most_lanes);
     if (has_groups && !device->has_wide_atomics &&
         hd_pipeline_is_wavefront(hd_choose_pipeline(device, options, NULL)))
         return "the wavefront pipeline needs 64-bit integer atomics, which the device lacks; "

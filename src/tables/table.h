@@ -62,7 +62,8 @@ enum { HD_LISTED_WIDTH = 8 }; /* of the frame that entries form, row by row */
 const char *hd_scene_table_content(int table);
 
 /* Makes tables that were compiled claim to need of the kernels what `like` does, too: planes,
-   depth, stack of nodes, refraction, light from behind and surveys. */
+   depth, stack of nodes, refraction, light from behind, many lights and surveys; and to be small
+   only where `like` is. */
 void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like);
 
 void hd_scene_tables_free(HdSceneTables *tables);

@@ -92,6 +92,13 @@ static const HdOutputStyle LINEAR = {{HD_CURVE_LINEAR, 8}, 25};
 
 static const uint8_t RED[4] = {255, 0, 0, 255};
 
+static void open_film(HdVideo **video, int width, int height) {
+    HdError error = {0};
+    const char *path = "out/film.mp4";
+    assert_int_equal(hd_video_open(video, path, hd_format_of(path), width, height, &STYLE, &error),
+                     HD_OK);
+}
+
 /* Makes a film and ends it as a caller would, whatever happens. */
 static HdStatus make_film(const char *path, int width, int height, int frames, HdError *error) {
     HdVideo *video = NULL;
@@ -392,9 +399,7 @@ static void aborted_films_leave_nothing(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     need_ffmpeg();
     write_file("out/film.mp4", "older", 0666);
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 640, 480,
-                                   &STYLE, &error),
-                     HD_OK);
+    open_film(&video, 640, 480);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
     assert_int_equal(count_entries("out"), 2);
     hd_video_abort(video);
@@ -409,9 +414,7 @@ static void frames_of_another_size_are_refused(void **state) {
     HdVideo *video;
     HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
     need_ffmpeg();
-    assert_int_equal(
-        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 32, 16, &STYLE, &error),
-        HD_OK);
+    open_film(&video, 32, 16);
     assert_int_equal(hd_video_add(video, &wrong, &error), HD_BAD_INPUT);
     expect_contains(error.message, "16 x 32 pixels");
     assert_int_equal(hd_video_add(video, &right, &error), HD_OK);
@@ -488,9 +491,7 @@ static void failed_films_take_no_more_frames(void **state) {
     HdFrame frame = make_frame(640, 480, RED);
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "exit 1");
-    assert_int_equal(hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 640, 480,
-                                   &STYLE, &error),
-                     HD_OK);
+    open_film(&video, 640, 480);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_FAILED);
     expect_contains(error.message, "takes no more frames");
@@ -554,9 +555,7 @@ static void targets_that_come_in_the_way_are_errors(void **state) {
     HdVideo *video;
     HdFrame frame = make_frame(16, 16, RED);
     need_ffmpeg();
-    assert_int_equal(
-        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 16, 16, &STYLE, &error),
-        HD_OK);
+    open_film(&video, 16, 16);
     assert_int_equal(hd_video_add(video, &frame, &error), HD_OK);
     assert_int_equal(mkdir("out/film.mp4", 0777), 0);
     assert_int_not_equal(hd_video_close(video, HD_DURABLE, &error), HD_OK);
@@ -579,13 +578,10 @@ static void names_that_are_too_long_are_refused(void **state) {
 /* Were they waited for, the test would run into its time limit. */
 static void programs_that_hang_are_stopped(void **state) {
     (void)state;
-    HdError error = {0};
     HdVideo *video;
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "sleep 600; exit 0");
-    assert_int_equal(
-        hd_video_open(&video, "out/film.mp4", hd_format_of("out/film.mp4"), 64, 48, &STYLE, &error),
-        HD_OK);
+    open_film(&video, 64, 48);
     hd_video_abort(video);
     fake("ffmpeg", "exec <&-; sleep 600");
     check_failure(640, 480, 10, HD_FAILED, "(signal 9)");
