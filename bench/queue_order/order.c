@@ -134,9 +134,9 @@ FN void append(Waves *waves, const Ray *mirror, const Ray *through, vint numbers
     int compact = waves->order != HD_ORDER_UNCOMPACTED;
     *mirrored += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
                              to->first[waves->order == HD_ORDER_SEGMENTS] + *mirrored, mirror,
-                             has_faces(waves), 0, numbers);
+                             has_faces(waves), numbers);
     to->count[0] += append_rays(to->reals, to->ints, NULL, to->stride, 0, compact,
-                                to->first[0] + to->count[0], through, has_faces(waves), 0, numbers);
+                                to->first[0] + to->count[0], through, has_faces(waves), numbers);
 }
 
 static void trace_first(Waves *waves, int first_item, int items) {
@@ -161,7 +161,7 @@ static void trace_first(Waves *waves, int first_item, int items) {
 
 static Ray load(const Waves *waves, const Queue *queue, int place, int count, vint *numbers) {
     return load_rays(queue->reals, queue->ints, NULL, queue->stride, 0, 1, place, count,
-                     has_faces(waves), 0, numbers);
+                     has_faces(waves), numbers);
 }
 
 static void trace_run(Waves *waves, int level, int first, int count) {

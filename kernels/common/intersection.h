@@ -13,7 +13,6 @@ typedef struct {
     Vec3 weight;    /* what this ray's radiance is multiplied by on its way to the eye */
     vint touched;   /* number of the object touched last; only in rays that left an object */
     vint face;      /* and of its face; of account in scenes with meshes only */
-    vint path;      /* what the rays before it met, as a number (ray_tree.h); of surveyed scenes */
     vmask inside;   /* runs inside the solid touched last */
     vmask alive;
 } Ray;

@@ -6,37 +6,12 @@
 
 #include "lights.h"
 
-/* ---- identities: numbers that tell what a ray met on which way; samples of neighbouring pixels
-   with different ones see different things, be it in a mirror ---- */
-
-/* Rays of less weight have no identity: what they see is hardly seen. */
-#define LEAST_IDENTITY_WEIGHT R(0.03125)
-
-enum { PATH_OF_EYE = 1, PATH_MIRRORED = 0x9e3779, PATH_THROUGH = 0x5bd1e9 };
-
-/* Mixes two numbers into one of 24 bits; no product exceeds 31 bits. */
-FN vint mix(vint a, vint b) {
-    a = ((a ^ b) & HD_IDENTITY_MASK) * 121 & HD_IDENTITY_MASK;
-    a = (a ^ (a >> 11)) * 89 & HD_IDENTITY_MASK;
-    a = (a ^ (a >> 7)) * 109 & HD_IDENTITY_MASK;
-    return a ^ (a >> 13);
-}
-
-/* Of the surface that a ray met; a mesh is one thing, but for its skins. */
-FN vint identity_of(vint path, const Surface *surface, const Hit *hit) {
-    vint met = mix(hit->object + 1, surface->part);
-    return mix(path, met);
-}
-
-/* ---- what samples gather ---- */
-
 /* What a bundle of samples gathered. Sums are fixed point, so that their order does not matter. */
 typedef struct {
     vfix r, g, b;
     vint mirrored, transmitted; /* rays */
     vint shadow_tests, clamps;
-    vfix bound;    /* of surveyed scenes: of what was left out, times view->bound_to_fixed */
-    vint identity; /* likewise: those of what it met */
+    vfix bound; /* of surveyed scenes: of what was left out, times view->bound_to_fixed */
 } Sample;
 
 /* The one conversion to fixed point; truncates. NaN counts as 0. */
@@ -74,9 +49,8 @@ FN vreal bound_of(SCENE_PARAMETERS Vec3 weight, Vec3 radiance) {
 }
 
 /* The most that rays see which go on from surfaces: by the object that they leave, and the side. */
-FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray) {
+FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
     Vec3 most = vec3_zero();
-    vmask left = ray->alive;
     while (any_lane(left)) {
         int touched = lane_int(&ray->touched, first_lane(left));
         vmask m = left & eq_int(ray->touched, splat_int(touched));
@@ -98,8 +72,11 @@ FN void end_rays(SCENE_PARAMETERS int level, Ray *next, Sample *sample) {
         weak = ~le(splat(view->cutoff), greatest_component(next->weight));
     if (level == view->depth)
         weak = mask_all();
+    /* Without a cut-off by bounds only what ended anyway needs one. */
     if (SURVEYED(header)) {
-        vreal bound = bound_of(SCENE_ARGUMENTS next->weight, most_seen(SCENE_ARGUMENTS next));
+        vmask asked = next->alive & (view->bound_cutoff > R(0.0) ? mask_all() : weak);
+        vreal bound =
+            bound_of(SCENE_ARGUMENTS next->weight, most_seen(SCENE_ARGUMENTS next, asked));
         weak = weak | lt(bound, splat(view->bound_cutoff));
         add_to_bound(SCENE_ARGUMENTS sample, next->alive & weak, bound);
     }
@@ -131,7 +108,6 @@ FN Ray next_ray(const Ray *ray, const Surface *surface, const Hit *hit, Vec3 dir
     next.direction = direction;
     next.touched = spread_first(hit->object, alive);
     next.face = hit->face;
-    next.path = ray->path;
     next.inside = inside;
     return next;
 }
@@ -163,16 +139,6 @@ FN void turn_over(Surface *surface, LitPoints *points) {
     points->inside = ~points->inside;
 }
 
-/* Adds to the samples' identities what the rays met, and names the ways of those that go on. */
-FN void identify(const Ray *ray, const Surface *surface, const Hit *hit, vmask struck,
-                 Sample *sample, Ray *mirror, Ray *through) {
-    vint met = identity_of(ray->path, surface, hit);
-    vmask seen = struck & le(splat(LEAST_IDENTITY_WEIGHT), greatest_component(ray->weight));
-    sample->identity = (sample->identity + pick_int(seen, met, splat_int(0))) & HD_IDENTITY_MASK;
-    mirror->path = mix(met, splat_int(PATH_MIRRORED));
-    through->path = mix(met, splat_int(PATH_THROUGH));
-}
-
 /* Shades the lanes that hit something, whose radiance it returns, and prepares the two rays that
    may go on. */
 FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vmask struck,
@@ -187,7 +153,7 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     points.object = spread_first(hit->object, struck);
     points.face = hit->face;
     points.inside = ~hit->entering;
-    if (SURVEYED(header))
+    if (SURVEYED(header) && view->bound_cutoff > R(0.0))
         points.active =
             end_lights(SCENE_ARGUMENTS points.active, ray->weight, &surface.material, sample);
     Vec3 radiance =
@@ -215,8 +181,6 @@ FN Vec3 shade(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit *hit, vm
     *through =
         next_ray(ray, &surface, hit, passing, vec3_scale(surface.material.colour, transmission),
                  hit->entering, struck & ~total & lt(zero, transmission));
-    if (SURVEYED(header))
-        identify(ray, &surface, hit, struck, sample, mirror, through);
     return radiance;
 }
 
@@ -227,7 +191,6 @@ FN Ray eye_ray(Vec3 direction, vmask alive) {
     ray.weight = vec3_splat(R(1.0), R(1.0), R(1.0));
     ray.touched = splat_int(0);
     ray.face = splat_int(-1);
-    ray.path = splat_int(PATH_OF_EYE);
     ray.inside = mask_none();
     ray.alive = alive;
     return ray;

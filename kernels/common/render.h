@@ -116,7 +116,6 @@ FN Sample empty_sample(void) {
     sample.mirrored = sample.transmitted = splat_int(0);
     sample.shadow_tests = sample.clamps = splat_int(0);
     sample.r = sample.g = sample.b = sample.bound = truncate_to_fix(splat(R(0.0)));
-    sample.identity = splat_int(0);
     return sample;
 }
 
@@ -165,10 +164,8 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
         sums[0] += lane_fix(&sample->r, lane) >> view->pixel_shift;
         sums[1] += lane_fix(&sample->g, lane) >> view->pixel_shift;
         sums[2] += lane_fix(&sample->b, lane) >> view->pixel_shift;
-        if (SURVEYED(header)) {
+        if (SURVEYED(header))
             sums[HD_RADIANCE_SUMS] += shifted_bound(view, lane_fix(&sample->bound, lane));
-            sums[HD_RADIANCE_SUMS + 1] += lane_int(&sample->identity, lane);
-        }
         left--;
         if (left == 0) {
             left = per_pixel;
@@ -205,11 +202,9 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
         GLOBAL float *out = pixels + number * (uint64)floats;
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             out[channel] = (float)shared_quotient((real)sums[channel] * view->from_fixed, samples);
-        if (SURVEYED(header)) {
+        if (SURVEYED(header))
             out[HD_RADIANCE_SUMS] = (float)shared_quotient(
                 (real)sums[HD_RADIANCE_SUMS] * view->bound_from_fixed, samples);
-            out[HD_RADIANCE_SUMS + 1] = (float)(sums[HD_RADIANCE_SUMS + 1] & HD_IDENTITY_MASK);
-        }
     }
 }
 

@@ -337,9 +337,8 @@ typedef struct ALIGNED_16 {
 enum { HD_CONTRIBUTION_LIMIT = 1 << 16, HD_RADIANCE_LIMIT = HD_CONTRIBUTION_LIMIT * 1001 };
 
 /* What is summed up for each pixel, and comes of it as floats: red, green, blue; of surveyed scenes
-   also a bound of what was left out, after exposure, and a number that tells what the samples'
-   trees of rays met, where it weighs something: their identities, added up modulo 2^24. */
-enum { HD_RADIANCE_SUMS = 3, HD_SURVEY_SUMS = 5, HD_IDENTITY_MASK = 0xffffff };
+   also a bound of what was left out, after exposure. */
+enum { HD_RADIANCE_SUMS = 3, HD_SURVEY_SUMS = 4 };
 
 /* What the eye's rays meet first, of each pixel: the share of its samples that meet anything; and
    of the ray through its middle the distance, the normal, which is turned towards the eye, and the

@@ -22,11 +22,7 @@ typedef struct {
     Vec3 normal; /* unit, towards the viewer */
     Vec3 emission;
     LaneMaterial material;
-    vint part; /* which of the object's: face and pattern, or skin */
 } Surface;
-
-/* Of a face: the face itself, its rim, or the disc of the edge number part - FIRST_DISC. */
-enum { PART_FACE = 0, PART_RIM = 1, FIRST_DISC = 2, PARTS_OF_FACE = 1 << 10 };
 
 /* Reflects and transmits nothing. */
 FN LaneMaterial no_material(void) {
@@ -97,7 +93,7 @@ FN vmask on_disc(GLOBAL const Object *solid, GLOBAL const Edge *edge, Vec3 point
 }
 
 /* A disc shows its own radiance and nothing else. */
-FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m, const Hit *hit,
+FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m,
                    Surface *surface) {
     vmask shown = mask_none();
     vreal reach = splat(solid->disc_reach_squared);
@@ -109,7 +105,6 @@ FN void show_discs(GLOBAL const Object *solid, GLOBAL const Edge *edges, vmask m
         vmask disc = m & on_disc(solid, edge, surface->point);
         Vec3 radiance = vec3_of(edge->disc_radiance);
         surface->emission = vec3_pick(disc, radiance, surface->emission);
-        surface->part = pick_int(disc, hit->face * PARTS_OF_FACE + (FIRST_DISC + e), surface->part);
         shown = shown | disc;
     }
     set_material(surface, shown, no_material());
@@ -137,15 +132,12 @@ FN void describe_solid(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Sur
     vreal towards_viewer = pick(second ^ hit->entering, splat(R(1.0)), splat(R(-1.0)));
     surface->normal = vec3_pick(m, vec3_scale(normal, towards_viewer), surface->normal);
     set_material(surface, m, splat_material(materials + solid->face_material, hit->entering));
-    surface->part = pick_int(m, hit->face * PARTS_OF_FACE, surface->part);
     vmask rim = m & lt(splat(-solid->rim_depth), nearest);
-    if (any_lane(rim)) {
-        surface->part = pick_int(rim, surface->part + PART_RIM, surface->part);
+    if (any_lane(rim))
         set_material(surface, rim, splat_material(materials + solid->rim_material, hit->entering));
-    }
     vmask near_edge = m & lt(splat(-solid->disc_depth), nearest);
     if (any_lane(near_edge))
-        show_discs(solid, edges, near_edge, hit, surface);
+        show_discs(solid, edges, near_edge, surface);
 }
 
 FN void describe_floor(SCENE_PARAMETERS int object, vmask m, const Hit *hit, Surface *surface) {
@@ -241,7 +233,6 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
             vec3_mul(material.colour,
                      colour_of_picture(SCENE_ARGUMENTS instance, skin, triangle->number, crossing));
         set_material(surface, same, material);
-        surface->part = pick_int(same, splat_int(number), surface->part);
         surface->emission = vec3_pick(same, vec3_of(skin->emission), surface->emission);
     }
 }
@@ -383,7 +374,6 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
     Surface surface;
     surface.point = surface.normal = surface.emission = vec3_zero();
     surface.material = no_material();
-    surface.part = splat_int(0);
     vmask left = struck;
     while (any_lane(left)) {
         int object = lane_int(&hit->object, first_lane(left));

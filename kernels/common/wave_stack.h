@@ -14,7 +14,7 @@
 
 /* Arrays of the queue, of reals and of ints, and of a batch's sums; behind each buffer there is
    room for another bundle. */
-enum { WAVE_REALS = 9, WAVE_INTS = 4, WAVE_SUMS = 5, WAVE_SPARE = 16 };
+enum { WAVE_REALS = 9, WAVE_INTS = 3, WAVE_SUMS = 4, WAVE_SPARE = 16 };
 
 typedef struct {
     int level;

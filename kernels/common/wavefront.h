@@ -24,8 +24,7 @@ FN vint ray_state(const Ray *ray) {
 
 /* A bundle of at most `count` rays from the place `from` on, and the numbers of their samples. Only
    scenes with meshes need the faces that rays leave. */
-FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, int has_paths,
-                 vint *numbers) {
+FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, vint *numbers) {
     GLOBAL const real *reals = ray_reals + from;
     uint64 stride = (uint64)queue_stride;
     vint state = load_ints(ray_ints + from);
@@ -35,7 +34,6 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, int has_pa
     ray.touched = spread_first(state >> 1, ray.alive);
     *numbers = load_ints(ray_ints + stride + from);
     ray.face = has_faces ? load_ints(ray_ints + 2 * stride + from) : splat_int(-1);
-    ray.path = has_paths ? load_ints(ray_ints + 3 * stride + from) : splat_int(0);
     ray.origin =
         vec3(load_reals(reals), load_reals(reals + stride), load_reals(reals + 2 * stride));
     ray.direction = vec3(load_reals(reals + 3 * stride), load_reals(reals + 4 * stride),
@@ -47,8 +45,7 @@ FN Ray load_rays(QUEUE_PARAMETERS int from, int count, int has_faces, int has_pa
 
 /* Stores the lanes of `m` from the place `to` on; returns how many these are. Up to a bundle's
    places are overwritten. */
-FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, int has_paths,
-                  vint numbers) {
+FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_faces, vint numbers) {
     GLOBAL real *reals = ray_reals + to;
     uint64 stride = (uint64)queue_stride;
     vint state = ray_state(ray);
@@ -58,8 +55,6 @@ FN int store_rays(QUEUE_PARAMETERS int to, vmask m, const Ray *ray, int has_face
     store_lanes_int(ray_ints + stride + to, offset, &numbers);
     if (has_faces)
         store_lanes_int(ray_ints + 2 * stride + to, offset, &ray->face);
-    if (has_paths)
-        store_lanes_int(ray_ints + 3 * stride + to, offset, &ray->path);
     store_lanes(reals, m, offset, &ray->origin.x);
     store_lanes(reals + stride, m, offset, &ray->origin.y);
     store_lanes(reals + 2 * stride, m, offset, &ray->origin.z);
@@ -81,10 +76,8 @@ FN void set_sums(QUEUE_PARAMETERS int number, int has_survey, const Sample *samp
         sum[0] = lane_fix(&sample->r, lane);
         sum[(uint64)sum_stride] = lane_fix(&sample->g, lane);
         sum[2 * (uint64)sum_stride] = lane_fix(&sample->b, lane);
-        if (has_survey) {
+        if (has_survey)
             sum[3 * (uint64)sum_stride] = lane_fix(&sample->bound, lane);
-            sum[4 * (uint64)sum_stride] = lane_int(&sample->identity, lane);
-        }
         sum++;
     }
 }
@@ -98,10 +91,8 @@ FN void add_to_sums(QUEUE_PARAMETERS vmask m, vint numbers, int has_survey, cons
         add_shared(sum, lane_fix(&sample->r, lane));
         add_shared(sum + (uint64)sum_stride, lane_fix(&sample->g, lane));
         add_shared(sum + 2 * (uint64)sum_stride, lane_fix(&sample->b, lane));
-        if (has_survey) {
+        if (has_survey)
             add_shared(sum + 3 * (uint64)sum_stride, lane_fix(&sample->bound, lane));
-            add_shared(sum + 4 * (uint64)sum_stride, lane_int(&sample->identity, lane));
-        }
     }
 }
 
@@ -116,11 +107,9 @@ FN void gather_sums(GLOBAL const Header *header, GLOBAL const View *view,
         for (int channel = 0; channel < HD_RADIANCE_SUMS; channel++)
             pixel[channel] +=
                 sums[(uint64)channel * (uint64)sum_stride + (uint64)i] >> view->pixel_shift;
-        if (SURVEYED(header)) {
-            GLOBAL const fixed64 *survey = sums + HD_RADIANCE_SUMS * (uint64)sum_stride + (uint64)i;
-            pixel[HD_RADIANCE_SUMS] += shifted_bound(view, survey[0]);
-            pixel[HD_RADIANCE_SUMS + 1] += survey[sum_stride];
-        }
+        if (SURVEYED(header))
+            pixel[HD_RADIANCE_SUMS] +=
+                shifted_bound(view, sums[HD_RADIANCE_SUMS * (uint64)sum_stride + (uint64)i]);
         left--;
         if (left == 0) {
             left = per_pixel;
@@ -139,12 +128,11 @@ FN void add_vector_counts(const Sample *sample, Sample *sum) {
 }
 
 /* Where rays are not compacted, a bundle with a live one keeps its dead ones. */
-FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, int has_paths,
-                   vint numbers) {
+FN int append_rays(QUEUE_PARAMETERS int to, const Ray *ray, int has_faces, vint numbers) {
     if (!any_lane(ray->alive))
         return 0;
     return store_rays(QUEUE_ARGUMENTS to, compact ? ray->alive : mask_all(), ray, has_faces,
-                      has_paths, numbers);
+                      numbers);
 }
 
 /* The ray of each sample from number `number` of the item on, at most `count`. */
@@ -174,8 +162,7 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
             ray = first_rays(SAMPLE_ARGUMENTS item, first_sample + number, take.count - i);
             numbers = numbers_from(number);
         } else {
-            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES(header),
-                            SURVEYED(header), &numbers);
+            ray = load_rays(QUEUE_ARGUMENTS number, take.count - i, MESHES(header), &numbers);
         }
         if (!any_lane(ray.alive)) {
             if (take.level == 0)
@@ -188,10 +175,10 @@ FN void trace_take(SCENE_PARAMETERS QUEUE_PARAMETERS int item, int first_sample,
         else
             add_to_sums(QUEUE_ARGUMENTS ray.alive, numbers, SURVEYED(header), &sample);
         add_vector_counts(&sample, &sum);
-        *passing += append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES(header),
-                                SURVEYED(header), numbers);
+        *passing +=
+            append_rays(QUEUE_ARGUMENTS take.to + *passing, &through, MESHES(header), numbers);
         *mirrored += append_rays(QUEUE_ARGUMENTS take.to + take.room + *mirrored, &mirror,
-                                 MESHES(header), SURVEYED(header), numbers);
+                                 MESHES(header), numbers);
     }
     add_counts(counts, counts_of(&sum));
 }
@@ -277,9 +264,9 @@ FN uint64 scan_group(LOCAL uint64 *room, int thread, int thread_count, uint64 va
    this. The host knows that *taken was `taken_before` when the launch began. Returns what the group
    counted, packed. */
 FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray *mirror,
-                          const Ray *through, int has_faces, int has_paths, vint number,
-                          const Sample *sample, int thread, int thread_count, LOCAL uint64 *room,
-                          LOCAL uint *place, GLOBAL uint *taken) {
+                          const Ray *through, int has_faces, vint number, const Sample *sample,
+                          int thread, int thread_count, LOCAL uint64 *room, LOCAL uint *place,
+                          GLOBAL uint *taken) {
     uint64 total, own = pack_counts(sample);
     uint64 before = scan_group(room, thread, thread_count, own, &total) - own;
     int mirrors = (int)(total & COUNT_MASK), passes = (int)(total >> PASSING_SHIFT & COUNT_MASK);
@@ -298,10 +285,10 @@ FN uint64 append_by_group(QUEUE_PARAMETERS int to, uint taken_before, const Ray 
     BARRIER();
     if (any_lane(keeps_mirror))
         store_rays(QUEUE_ARGUMENTS to + (int)*place + mirror_place, keeps_mirror, mirror, has_faces,
-                   has_paths, number);
+                   number);
     if (any_lane(keeps_through))
         store_rays(QUEUE_ARGUMENTS to + (int)*place + mirrors + through_place, keeps_through,
-                   through, has_faces, has_paths, number);
+                   through, has_faces, number);
     return total;
 }
 
@@ -326,8 +313,7 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         if (i < count)
             ray = level == 0 ? first_rays(SAMPLE_ARGUMENTS first_item + (first + i) / per_item,
                                           (first + i) % per_item, 1)
-                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES(header),
-                                         SURVEYED(header), &number);
+                             : load_rays(QUEUE_ARGUMENTS first + i, 1, MESHES(header), &number);
         if (any_lane(ray.alive)) {
             follow(SCENE_ARGUMENTS & ray, level, &sample, &mirror, &through);
             if (level > 0)
@@ -335,9 +321,9 @@ FN void trace_take_by_group(SCENE_PARAMETERS QUEUE_PARAMETERS int first_item, in
         }
         if (level == 0 && i < count)
             set_sums(QUEUE_ARGUMENTS first + i, SURVEYED(header), &sample);
-        uint64 total = append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through,
-                                       MESHES(header), SURVEYED(header), number, &sample, thread,
-                                       thread_count, room, place, taken);
+        uint64 total =
+            append_by_group(QUEUE_ARGUMENTS to, taken_before, &mirror, &through, MESHES(header),
+                            number, &sample, thread, thread_count, room, place, taken);
         sum.mirrored += total & COUNT_MASK;
         sum.transmitted += total >> PASSING_SHIFT & COUNT_MASK;
         sum.clamps += total >> CLAMPS_SHIFT & ((1 << (SHADOW_TESTS_SHIFT - CLAMPS_SHIFT)) - 1);

@@ -33,7 +33,7 @@ typedef struct HdFrameWish {
 } HdFrameWish;
 
 /* Of a pixel; those of surveyed scenes. */
-enum { HD_RADIANCE_FLOATS = 3, HD_SURVEY_FLOATS = 5 };
+enum { HD_RADIANCE_FLOATS = 3, HD_SURVEY_FLOATS = 4 };
 
 /* Of HdFrame.first: alpha alone, or all that is known of the first hit, in this order. */
 enum {
@@ -54,8 +54,7 @@ typedef struct HdFrame {
     int width, height;
     int floats;      /* of a pixel: HD_RADIANCE_FLOATS or HD_SURVEY_FLOATS */
     float *rgb;      /* owned; width * height * floats, row by row from the top; radiance times
-                        exposure; of surveyed scenes also a bound of what was left out, and a number
-                        below 2^24 that tells what the pixel's samples see */
+                        exposure; of surveyed scenes also a bound of what was left out */
     uint8_t *rgba;   /* owned; width * height * 4: r, g, b and an alpha of 255, as hd_curve_encode8
                         makes them; NULL: radiance must be wished for */
     bool is_encoded; /* the device filled `rgba`, and `rgb` is worth nothing; otherwise it filled

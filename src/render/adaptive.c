@@ -11,11 +11,11 @@
 #include "system/machine.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
-   neighbours that have one sample; of the quarters of a pixel's samples; of neighbours that have
+   neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have
    more. Measured on the scenes that ship (docs/performance.md). */
-#define FIRST_CONTRAST     1.0
-#define QUARTER_CONTRAST   1.0
-#define NEIGHBOUR_CONTRAST 5.0
+#define FIRST_CONTRAST     0.5
+#define PART_CONTRAST      2.0
+#define NEIGHBOUR_CONTRAST 8.0
 
 /* The error that is aimed at where nobody said another. */
 #define USUAL_ERROR 2.0
@@ -25,8 +25,9 @@
 #define USUAL_SHARE  0.75
 #define USUAL_SPREAD 0.05
 
-/* How often unevenness spreads to neighbours. */
-enum { MOST_SPREADS = 4, MOST_THREADS = 16 };
+/* How often unevenness spreads to neighbours, and to which share of the picture at least: a pass of
+   fewer pixels keeps a GPU waiting as long as one of many. */
+enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000, MOST_THREADS = 16 };
 
 typedef struct Codes {
     uint8_t rgb[3];
@@ -35,12 +36,9 @@ typedef struct Codes {
 typedef struct Pixel {
     float mean[3];
     float bound;
-    float identity; /* of the first sample */
     int samples;
-    Codes codes;       /* of the mean */
-    Codes least, most; /* of the means of the samples' quarters */
-    bool is_uneven;    /* these differ much */
-    bool is_chosen;    /* for the pass to come */
+    Codes codes;    /* of the mean */
+    bool is_uneven; /* the means of its samples' parts differ much */
 } Pixel;
 
 struct HdRefinement {
@@ -51,8 +49,7 @@ struct HdRefinement {
     int width, height;
     int *order; /* of the pixels: blocks of neighbours together, as bundles like it */
     Pixel *pixels;
-    int *chosen;   /* pixels of the pass, */
-    int *next;     /* and of the one to come */
+    int *chosen;   /* pixels of the pass */
     double *steps; /* of 255, that a pixel may miss */
     HdSurveyRequest *requests;
     HdSurvey *surveys;
@@ -69,7 +66,6 @@ void hd_refinement_free(HdRefinement *r) {
     free(r->order);
     free(r->pixels);
     free(r->chosen);
-    free(r->next);
     free(r->steps);
     free(r->requests);
     free(r->surveys);
@@ -126,9 +122,8 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     r->order = calloc(pixels, sizeof *r->order);
     r->pixels = calloc(pixels, sizeof *r->pixels);
     r->chosen = calloc(pixels, sizeof *r->chosen);
-    r->next = calloc(pixels, sizeof *r->next);
     r->steps = calloc(pixels, sizeof *r->steps);
-    if (status == HD_OK && !(r->order && r->pixels && r->chosen && r->next && r->steps))
+    if (status == HD_OK && !(r->order && r->pixels && r->chosen && r->steps))
         status = hd_fail(error, HD_FAILED, "out of memory: no room for %zu pixels", pixels);
     if (status != HD_OK || r->order == NULL) {
         hd_refinement_free(r);
@@ -146,10 +141,10 @@ static double error_aimed_at(const HdRefinement *r) {
     return limit > 0.0 ? limit : USUAL_ERROR;
 }
 
-static int greatest_difference(const Codes *a, const Codes *b) {
+static int greatest_difference(Codes a, Codes b) {
     int greatest = 0;
     for (int channel = 0; channel < 3; channel++) {
-        int difference = abs(a->rgb[channel] - b->rgb[channel]);
+        int difference = abs(a.rgb[channel] - b.rgb[channel]);
         greatest = difference > greatest ? difference : greatest;
     }
     return greatest;
@@ -161,26 +156,30 @@ static Codes encode(const HdRefinement *r, const float rgb[3]) {
     return codes;
 }
 
-static void widen(Pixel *pixel, Codes codes) {
+static void widen(Codes *least, Codes *most, Codes codes) {
     for (int channel = 0; channel < 3; channel++) {
         uint8_t code = codes.rgb[channel];
-        if (code < pixel->least.rgb[channel])
-            pixel->least.rgb[channel] = code;
-        if (code > pixel->most.rgb[channel])
-            pixel->most.rgb[channel] = code;
+        least->rgb[channel] = code < least->rgb[channel] ? code : least->rgb[channel];
+        most->rgb[channel] = code > most->rgb[channel] ? code : most->rgb[channel];
     }
 }
 
-/* `count` surveys of `samples` samples each. The pixel's own samples until now are one quarter. */
+/* Whether surveys of `samples` samples each differ much. The pixel's own until now are a part as
+   well, unless they are fewer. */
+static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdSurvey *surveys,
+                       int count, int samples) {
+    Codes first = encode(r, surveys[0].rgb), least = first, most = first;
+    for (int i = 1; i < count; i++)
+        widen(&least, &most, encode(r, surveys[i].rgb));
+    if (pixel->samples >= samples)
+        widen(&least, &most, pixel->codes);
+    return greatest_difference(least, most) > PART_CONTRAST * error_aimed_at(r);
+}
+
 static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *surveys, int count,
                         int samples) {
     double total = pixel->samples + (double)count * samples;
-    if (pixel->samples == 0)
-        pixel->identity = surveys[0].identity;
-    pixel->least = pixel->most =
-        pixel->samples > 0 ? encode(r, pixel->mean) : encode(r, surveys[0].rgb);
-    for (int i = 0; i < count; i++)
-        widen(pixel, encode(r, surveys[i].rgb));
+    pixel->is_uneven = are_uneven(r, pixel, surveys, count, samples);
     for (int channel = 0; channel < 3; channel++) {
         double sum = (double)pixel->mean[channel] * pixel->samples;
         for (int i = 0; i < count; i++)
@@ -192,10 +191,7 @@ static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *sur
         bound += (double)surveys[i].bound * samples;
     pixel->bound = (float)(bound / total);
     pixel->samples = (int)total;
-    pixel->is_chosen = false;
     pixel->codes = encode(r, pixel->mean);
-    pixel->is_uneven =
-        greatest_difference(&pixel->least, &pixel->most) > QUARTER_CONTRAST * error_aimed_at(r);
 }
 
 /* ---- passes ---- */
@@ -282,15 +278,18 @@ static bool any_neighbour(const Choice *choice, int number) {
 }
 
 static bool differs(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
-    return greatest_difference(&pixel->codes, &neighbour->codes) > choice->likeness;
-}
-
-static bool sees_another(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
-    return pixel->identity != neighbour->identity || differs(choice, pixel, neighbour);
+    return greatest_difference(pixel->codes, neighbour->codes) > choice->likeness;
 }
 
 static bool is_uneven_or_differs(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
     return pixel->is_uneven || differs(choice, pixel, neighbour);
+}
+
+/* There are no others than those next to the last pass's: all neighbours of pixels that turned out
+   to be uneven before have been chosen. */
+static bool is_next_to_uneven(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
+    (void)pixel;
+    return neighbour->is_uneven && neighbour->samples > choice->samples;
 }
 
 static int choose_pixels(void *context, int first, int end, int *chosen) {
@@ -313,38 +312,14 @@ static int choose(HdRefinement *r, int samples, Judge *judge, double contrast) {
 }
 
 static int choose_first(HdRefinement *r, int samples) {
-    return samples == 1 ? choose(r, 1, sees_another, FIRST_CONTRAST)
+    return samples == 1 ? choose(r, 1, differs, FIRST_CONTRAST)
                         : choose(r, samples, is_uneven_or_differs, NEIGHBOUR_CONTRAST);
 }
 
-/* Adds the neighbours that have so many samples to the `count` pixels of the pass to come. */
-static int choose_around(HdRefinement *r, int number, int samples, int count) {
-    int x = number % r->width, y = number / r->width;
-    int left = x > 0 ? -1 : 0, right = x + 1 < r->width ? 1 : 0;
-    int above = y > 0 ? -1 : 0, below = y + 1 < r->height ? 1 : 0;
-    for (int dy = above; dy <= below; dy++)
-        for (int dx = left; dx <= right; dx++) {
-            int other = number + dy * r->width + dx;
-            Pixel *neighbour = &r->pixels[other];
-            if (neighbour->samples != samples || neighbour->is_chosen)
-                continue;
-            neighbour->is_chosen = true;
-            r->next[count++] = other;
-        }
-    return count;
-}
-
-/* Chooses the pixels of so many samples next to those of the last pass that turned out to be
-   uneven. There are no others: all neighbours of pixels that did so before have been chosen. */
-static int choose_next(HdRefinement *r, int samples, int count) {
-    int found = 0;
-    for (int i = 0; i < count; i++)
-        if (r->pixels[r->chosen[i]].is_uneven)
-            found = choose_around(r, r->chosen[i], samples, found);
-    int *chosen = r->next;
-    r->next = r->chosen;
-    r->chosen = chosen;
-    return found;
+/* Pixels of so many samples next to uneven ones that have more: none where they are too few. */
+static int choose_next(HdRefinement *r, int samples) {
+    int count = choose(r, samples, is_next_to_uneven, 0.0);
+    return (double)count * LEAST_SPREAD < (double)r->width * r->height ? 0 : count;
 }
 
 static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
@@ -364,8 +339,10 @@ static int part_count(int samples) {
     return parts < samples ? parts : samples;
 }
 
+/* Nine in ten pixels that need more than one sample need more than four. */
 static int next_level(const HdRefinement *r, int samples) {
-    return 4 * samples < r->samples.count ? 4 * samples : r->samples.count;
+    int level = samples == 1 ? 16 : 4 * samples;
+    return level < r->samples.count ? level : r->samples.count;
 }
 
 /* The chosen pixels get as many samples as `level` says, and after them the neighbours of those
@@ -378,7 +355,7 @@ static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count
     HdStatus status =
         sample_chosen(r, camera, count, samples, level, parts, later + spread_later, error);
     for (int spread = 0; status == HD_OK && count > 0 && spread < MOST_SPREADS; spread++) {
-        count = choose_next(r, samples, count);
+        count = choose_next(r, samples);
         status = sample_chosen(r, camera, count, samples, level, parts, later, error);
     }
     return status;

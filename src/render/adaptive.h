@@ -18,10 +18,10 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
    to it is a guess, since each hangs on what comes of those before. The same bytes come of it
    everywhere, whatever was rendered before.
 
-   Adaptive sampling (after Whitted 1980, section 6) begins with one sample a pixel. A pixel gets 4
-   where a neighbour's identity or its picture differs, or where a neighbour has turned out to be
-   uneven; then 16, 64, ... up to all of the grid's, as long as the means of the quarters of its
-   samples differ, or those of its neighbours do. */
+   Adaptive sampling (after Whitted 1980, section 6) begins with one sample a pixel. A pixel gets 16
+   where a neighbour's picture differs, or where a neighbour has turned out to be uneven; then 64,
+   256, ... up to all of the grid's, as long as the means of parts of its samples differ, or those
+   of its neighbours do. */
 HdStatus hd_refinement_render(HdRefinement *refinement, const HdCamera *camera, HdWatch *watch,
                               HdFrame *frame, HdError *error);
 

@@ -33,7 +33,6 @@ double hd_missing_steps(HdCurve curve, double missing, double radiance);
 typedef struct HdSurvey {
     float rgb[3]; /* radiance times exposure */
     float bound;  /* of what is missing from any channel */
-    float identity;
 } HdSurvey;
 
 typedef struct HdSurveyRequest {

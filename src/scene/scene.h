@@ -144,7 +144,7 @@ HdPlatonic hd_solid_shape(const HdSolid *solid);
 /* The lights on the edges of a solid whose values are valid. */
 int hd_edge_light_count(const HdSolid *solid);
 
-/* Pixels come with bounds of what was left out and with identities (HdFrame). */
+/* Pixels come with bounds of what was left out (HdFrame). */
 bool hd_scene_is_surveyed(const HdScene *scene);
 
 /* A sample's rays may go on for more than 64 levels, and are not ended long before by the cut-off.

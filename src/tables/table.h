@@ -29,7 +29,7 @@ typedef struct HdSceneTables {
     bool lit_from_behind; /* some material is */
     bool many_lights;  /* so many that one lane may judge those that follow each other together */
     bool small_tables; /* HD_SMALL_SCENE_TABLES and HD_SMALL_FRAME_TABLES have no more rows */
-    bool surveyed;     /* pixels come with bounds of what was left out and with identities */
+    bool surveyed;     /* pixels come with bounds of what was left out */
 } HdSceneTables;
 
 /* In the order of HD_FRAME_TABLES. */

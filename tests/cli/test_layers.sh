@@ -129,7 +129,7 @@ expect_exr part.exr 'all(c[name][1] == [row[30:50] for row in read("all.exr")[na
 adaptive=("${render[@]}" --aa adaptive --max-error 1.5 --samples 4 --layers "$all,bound")
 expect_exit 0 "${adaptive[@]}" --backend c -o adaptive.exr --stats lines.jsonl
 expect_exr adaptive.exr 'sum(what("samples")) == json.load(open("lines.jsonl"))["rays"]["primary"]'
-expect_exr adaptive.exr 'len(set(what("samples"))) > 2 and max(what("samples")) == 16'
+expect_exr adaptive.exr 'set(what("samples")) == {1, 16}'
 expect_exr adaptive.exr 'abs(max(what("bound")) - json.load(open("lines.jsonl"))["missing"]["largest"]) < 1e-6'
 expect_exr adaptive.exr '0 < max(what("bound")) <= 1.5'
 expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o grid.exr
