@@ -25,7 +25,7 @@
 #define USUAL_SHARE  0.75
 #define USUAL_SPREAD 0.05
 
-/* How often unevenness spreads to neighbours, and to which share of the picture at least: a pass of
+/* How often samples spread to neighbours, and to which share of the picture at least: a pass of
    fewer pixels keeps a GPU waiting as long as one of many. */
 enum { MOST_SPREADS = 4, LEAST_SPREAD = 1000, MOST_THREADS = 16 };
 
@@ -179,7 +179,7 @@ static bool are_uneven(const HdRefinement *r, const Pixel *pixel, const HdSurvey
 static void add_surveys(const HdRefinement *r, Pixel *pixel, const HdSurvey *surveys, int count,
                         int samples) {
     double total = pixel->samples + (double)count * samples;
-    pixel->is_uneven = are_uneven(r, pixel, surveys, count, samples);
+    pixel->is_uneven = count > 1 && are_uneven(r, pixel, surveys, count, samples);
     for (int channel = 0; channel < 3; channel++) {
         double sum = (double)pixel->mean[channel] * pixel->samples;
         for (int i = 0; i < count; i++)
@@ -221,9 +221,13 @@ static void request_samples(void *context, int first, int end) {
 static void add_samples(void *context, int first, int end) {
     const Pass *pass = context;
     const HdRefinement *r = pass->refinement;
-    for (int i = first; i < end; i++)
-        add_surveys(r, &r->pixels[r->chosen[i]], &r->surveys[(size_t)i * (size_t)pass->parts],
-                    pass->parts, pass->each);
+    for (int i = first; i < end; i++) {
+        Pixel *pixel = &r->pixels[r->chosen[i]];
+        if (pass->from == 0)
+            *pixel = (Pixel){0};
+        add_surveys(r, pixel, &r->surveys[(size_t)i * (size_t)pass->parts], pass->parts,
+                    pass->each);
+    }
 }
 
 /* The pass to come gets its share of what is left of the frame. */
@@ -285,11 +289,10 @@ static bool is_uneven_or_differs(const Choice *choice, const Pixel *pixel, const
     return pixel->is_uneven || differs(choice, pixel, neighbour);
 }
 
-/* There are no others than those next to the last pass's: all neighbours of pixels that turned out
-   to be uneven before have been chosen. */
+/* `neighbour` has just got more samples: it is uneven in itself, or not like `pixel`. */
 static bool is_next_to_uneven(const Choice *choice, const Pixel *pixel, const Pixel *neighbour) {
-    (void)pixel;
-    return neighbour->is_uneven && neighbour->samples > choice->samples;
+    return neighbour->samples > choice->samples &&
+           (neighbour->is_uneven || differs(choice, pixel, neighbour));
 }
 
 static int choose_pixels(void *context, int first, int end, int *chosen) {
@@ -318,14 +321,13 @@ static int choose_first(HdRefinement *r, int samples) {
 
 /* Pixels of so many samples next to uneven ones that have more: none where they are too few. */
 static int choose_next(HdRefinement *r, int samples) {
-    int count = choose(r, samples, is_next_to_uneven, 0.0);
+    int count = choose(r, samples, is_next_to_uneven, NEIGHBOUR_CONTRAST);
     return (double)count * LEAST_SPREAD < (double)r->width * r->height ? 0 : count;
 }
 
 static HdStatus sample_all(HdRefinement *r, const HdCamera *camera, int samples, HdError *error) {
     int pixels = r->width * r->height;
     double later = USUAL_SHARE * pixels * (r->samples.count - samples);
-    memset(r->pixels, 0, sizeof *r->pixels * (size_t)pixels);
     memcpy(r->chosen, r->order, sizeof *r->order * (size_t)pixels);
     return sample_chosen(r, camera, pixels, 0, samples, 1, later, error);
 }
@@ -346,10 +348,12 @@ static int next_level(const HdRefinement *r, int samples) {
 }
 
 /* The chosen pixels get as many samples as `level` says, and after them the neighbours of those
-   that turn out to be uneven, as far as that spreads. */
+   that turn out to be uneven, as far as that spreads. Parts take longer to be sent, and tell
+   nothing more where one sample becomes all of them. */
 static HdStatus refine_chosen(HdRefinement *r, const HdCamera *camera, int count, int samples,
                               int level, HdError *error) {
-    int parts = part_count(level - samples);
+    bool is_only_level = samples == 1 && level == r->samples.count;
+    int parts = is_only_level ? 1 : part_count(level - samples);
     double later = (double)count * (r->samples.count - level);
     double spread_later = USUAL_SPREAD * count * (level - samples);
     HdStatus status =

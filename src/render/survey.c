@@ -133,10 +133,14 @@ typedef struct Part {
     HdSurveyor *surveyor;
     const HdSurveyRequest *requests;
     HdSurvey *surveys;
-    const int *open; /* numbers of the requests, */
-    int count;       /* and how many these are */
+    const int *open; /* numbers of the requests, unless these are all that there are, */
+    int from, count; /* and follow each other; and how many these are */
     bool is_first;   /* of several passes */
 } Part;
+
+static int request_number(const Part *part, int i) {
+    return part->is_first ? part->from + i : part->open[i];
+}
 
 /* Where request number i of `count` is in the list: items render their 64 entries in Z order, so
    that requests next to each other share bundles only if they are listed so. The last ones, which
@@ -150,7 +154,7 @@ static int place_of(int i, int count) {
 static void list_entries(void *context, int first, int end) {
     const Part *part = context;
     for (int i = first; i < end; i++) {
-        const HdSurveyRequest *request = &part->requests[part->open[i]];
+        const HdSurveyRequest *request = &part->requests[request_number(part, i)];
         size_t place = (size_t)place_of(i, part->count);
         part->surveyor->entries[2 * place] = request->pixel;
         part->surveyor->entries[2 * place + 1] = request->first;
@@ -163,7 +167,7 @@ static int take_surveys(void *context, int first, int end, int *still_open) {
     const float *values = part->surveyor->frame.rgb;
     int left = 0;
     for (int i = first; i < end; i++) {
-        int number = part->open[i];
+        int number = request_number(part, i);
         HdSurvey *survey = &part->surveys[number];
         float before = survey->bound;
         size_t place = (size_t)place_of(i, part->count);
@@ -185,7 +189,8 @@ static HdWatched take_worth(HdSurveyor *surveyor) {
     return taken;
 }
 
-/* Of the requests that are open, in place: those that are not within the limit stay. */
+/* Of the requests that are open, in place: those that are not within the limit stay. First, all
+   are. */
 static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
                             const HdSurveyRequest *requests, int *open_count, int samples,
                             double cutoff, bool is_first, HdSurvey *surveys, HdError *error) {
@@ -194,7 +199,7 @@ static HdStatus survey_open(HdSurveyor *surveyor, const HdCamera *camera,
     for (int from = 0; from < *open_count; from += MOST_ENTRIES) {
         int count = *open_count - from < MOST_ENTRIES ? *open_count - from : MOST_ENTRIES;
         int *open = surveyor->open + from;
-        Part part = {surveyor, requests, surveys, open, count, is_first};
+        Part part = {surveyor, requests, surveys, open, from, count, is_first};
         double start = hd_monotonic_seconds();
         hd_chunks_run(surveyor->threads, count, list_entries, &part);
         const HdWatched own = {all.watch, hd_watched_worth(&all, from, from + count, *open_count)};
@@ -246,8 +251,6 @@ HdStatus hd_survey_pass(HdSurveyor *surveyor, const HdCamera *camera,
     HdStatus status = reserve(surveyor, count, error);
     if (status != HD_OK)
         return status;
-    for (int i = 0; i < count; i++)
-        surveyor->open[i] = i;
     status = close_requests(surveyor, camera, requests, count, samples, surveys, error);
     hd_watched_add(&surveyor->pass, 0, 1, 1);
     return status;
