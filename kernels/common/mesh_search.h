@@ -12,17 +12,6 @@
 #include "mesh_walk_one.h"
 #endif
 
-FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                         int root) {
-    vmask left = m;
-    while (any_lane(left)) {
-        Way way;
-        vmask same = same_way(&rays->slabs, rays->last, left, &way);
-        left = left & ~same;
-        walk_mesh(SCENE_ARGUMENTS found, rays, same, &way, root);
-    }
-}
-
 /* Searches one mesh with the rays of `m`, whichever way it is laid out. */
 FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
                     GLOBAL const Instance *instance) {

@@ -49,4 +49,15 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
     }
 }
 
+FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                         int root) {
+    vmask left = m;
+    while (any_lane(left)) {
+        Way way;
+        vmask same = same_way(&rays->slabs, rays->last, left, &way);
+        left = left & ~same;
+        walk_mesh(SCENE_ARGUMENTS found, rays, same, &way, root);
+    }
+}
+
 #endif

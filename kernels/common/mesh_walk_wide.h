@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The walk of bundles through a mesh. Nodes are wide: the lanes are a node's children, which all
-   rays of a walk are tested against at once; where few rays are left each walks by itself, and the
-   lanes are a leaf's triangles too. */
+   rays of a walk are tested against at once; where few rays are left each walks by itself
+   afterwards, and the lanes are a leaf's triangles too. */
 #ifndef HD_MESH_WALK_WIDE_H
 #define HD_MESH_WALK_WIDE_H
 
@@ -98,21 +98,21 @@ FN int add_leaf(vint *number, int count, int leaf) {
 }
 
 /* Tries `count` triangles side by side. What is found in the lanes is brought together, so that all
-   of them hold it. */
-FN void try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
-                    vint number, int count) {
+   of them hold it. Returns whether anything is met. */
+FN int try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
+                   vint number, int count) {
     vmask m = lanes_below(count);
     TriangleCrossing crossing;
     TriangleLanes triangle =
         triangles_at(triangles, number, count, way->axis, ray->first_face, ray->first_skin);
     vmask met = meet_triangles(ray, &triangle, found->limit, m, &crossing);
     if (!any_lane(met))
-        return;
+        return 0;
     if (ray->is_shadow) {
         keep_filter(skins, found, ray, &triangle, met, &crossing);
         if (any_lane(~found->alive))
             found->alive = mask_none();
-        return;
+        return 1;
     }
     vmask closer = met & is_closer(found, crossing.t, ray->object, triangle.number);
     uint entering = lane_bits(crossing.entering);
@@ -128,91 +128,56 @@ FN void try_at_once(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const
         found->triangle = triangle_number;
         found->entering = spread_mask(entering, lane);
     }
+    return 1;
 }
 
-/* The ray that all lanes of `ray` hold. */
-FN void walk_alone(SCENE_PARAMETERS Findings *found, const MeshRays *ray, const Way *way,
-                   int root) {
-    int stack[WIDE_STACK(header)];
-    real stack_near[WIDE_STACK(header)];
-    int lower[3], upper[3];
-    for (int axis = 0; axis < 3; axis++) {
-        lower[axis] = place_of_bounds(way->entry, way, axis);
-        upper[axis] = place_of_bounds(way->exit, way, axis);
+/* ---- rays that walk alone, in turns ---- */
+
+/* Nodes that a lane's ray may put off at most. */
+enum { MOST_PUT_OFF = 24 };
+
+/* What rays have left to walk through alone: `room` entries for each lane, the nearest one last. */
+typedef struct {
+    int waiting[HD_LANES];
+    Way way[HD_LANES];
+    int *stack;
+    real *stack_near;
+    int room;
+    uint lanes; /* that have any */
+} Alone;
+
+/* What is put off comes in the order in which the ray meets it. */
+FN void put_off(Alone *alone, const Way *way, int lane, int node, real near) {
+    int *stack = alone->stack + lane * alone->room;
+    real *stack_near = alone->stack_near + lane * alone->room;
+    int i = alone->waiting[lane]++;
+    alone->way[lane] = *way;
+    alone->lanes |= 1u << lane;
+    for (; i > 0; i--) {
+        stack[i] = stack[i - 1];
+        stack_near[i] = stack_near[i - 1];
     }
-    int waiting = 1;
-    stack[0] = root;
-    stack_near[0] = R(0.0);
-    while (waiting > 0) {
-        waiting--;
-        int current = stack[waiting];
-        if (lane_real(&found->limit, 0) < stack_near[waiting])
-            continue;
-        if (current < 0) { /* and what leaves wait next to it */
-            vint number = splat_int(0);
-            int count = add_leaf(&number, 0, current);
-            if (count > HD_LANES) {
-                int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
-                stack[waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
-                count = HD_LANES;
-            }
-            while (waiting > 0 && stack[waiting - 1] < 0 &&
-                   count + (~stack[waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
-                waiting--;
-                if (stack_near[waiting] <= lane_real(&found->limit, 0))
-                    count = add_leaf(&number, count, stack[waiting]);
-            }
-            try_at_once(SCENE_ARGUMENTS found, ray, way, number, count);
-            if (ray->is_shadow && !any_lane(found->alive))
-                return;
-            continue;
-        }
-        GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
-        const Slabs *slabs = &ray->slabs;
-        vreal near = multiply_add(load_reals(bounds + lower[0]), slabs->inverse.x, slabs->near.x);
-        vreal far = multiply_add(load_reals(bounds + upper[0]), slabs->inverse.x, slabs->far.x);
-        near = greater(
-            near, multiply_add(load_reals(bounds + lower[1]), slabs->inverse.y, slabs->near.y));
-        far = lesser(far,
-                     multiply_add(load_reals(bounds + upper[1]), slabs->inverse.y, slabs->far.y));
-        near = greater(
-            near, multiply_add(load_reals(bounds + lower[2]), slabs->inverse.z, slabs->near.z));
-        far = lesser(far,
-                     multiply_add(load_reals(bounds + upper[2]), slabs->inverse.z, slabs->far.z));
-        near = greater(near, splat(R(0.0)));
-        far = lesser(far, found->limit);
-        int bottom = waiting;
-        for (uint left = lane_bits(le(near, far)); left; left &= left - 1) {
-            int lane = lowest_bit(left);
-            real at = lane_real(&near, lane);
-            int place = waiting;
-            while (place > bottom && stack_near[place - 1] < at) {
-                stack[place] = stack[place - 1];
-                stack_near[place] = stack_near[place - 1];
-                place--;
-            }
-            int child = wide_children[(uint64)current * HD_LANES + (uint64)lane];
-            prefetch_place(SCENE_ARGUMENTS child);
-            stack[place] = child;
-            stack_near[place] = at;
-            waiting++;
-        }
-    }
+    stack[0] = node;
+    stack_near[0] = near;
 }
 
-FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, const Way *way,
-                     int lane, int root) {
-    MeshRays ray = spread_rays(rays, lane);
-    Findings one = spread_findings(found, lane);
-    walk_alone(SCENE_ARGUMENTS & one, &ray, way, root);
+FN int can_put_off(const Alone *alone, uint bits) {
+    for (; bits; bits &= bits - 1)
+        if (alone->waiting[lowest_bit(bits)] == MOST_PUT_OFF)
+            return 0;
+    return 1;
+}
+
+/* Takes over what was found by the ray of `lane` alone. */
+FN void take_over(Findings *found, const Findings *one, int is_shadow, int lane) {
     vmask m = eq_int(lane_numbers(), splat_int(lane));
-    if (rays->is_shadow) {
+    if (is_shadow) {
         for (int channel = 0; channel < 3; channel++) {
             int sum = 0, rest = 0;
             for (int i = 0; i < HD_LANES; i++) {
-                sum += lane_int(&one.octaves[channel], i);
+                sum += lane_int(&one->octaves[channel], i);
                 sum = sum < HD_OPAQUE_OCTAVES ? sum : HD_OPAQUE_OCTAVES;
-                rest += lane_int(&one.rest[channel], i);
+                rest += lane_int(&one->rest[channel], i);
             }
             rest += lane_int(&found->rest[channel], lane);
             sum += lane_int(&found->octaves[channel], lane) + (rest >> HD_OCTAVE_BITS);
@@ -221,18 +186,105 @@ FN void search_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, con
             found->octaves[channel] = pick_int(m, splat_int(sum), found->octaves[channel]);
             found->rest[channel] = pick_int(m, splat_int(rest), found->rest[channel]);
         }
-        found->alive = found->alive & (~m | one.alive);
+        found->alive = found->alive & (~m | one->alive);
         return;
     }
-    found->limit = pick(m, one.limit, found->limit);
-    found->object = pick_int(m, one.object, found->object);
-    found->triangle = pick_int(m, one.triangle, found->triangle);
-    found->entering = pick_mask(m, one.entering, found->entering);
+    found->limit = pick(m, one->limit, found->limit);
+    found->object = pick_int(m, one->object, found->object);
+    found->triangle = pick_int(m, one->triangle, found->triangle);
+    found->entering = pick_mask(m, one->entering, found->entering);
+}
+
+/* The next step of a lane's ray: leaves that wait next to each other, or a node. Returns how many
+   entries wait then. */
+FN int step_alone(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone, int lane) {
+    int *stack = alone->stack + lane * alone->room;
+    real *stack_near = alone->stack_near + lane * alone->room;
+    int waiting = alone->waiting[lane];
+    real limit = lane_real(&found->limit, lane);
+    const Way *way = &alone->way[lane];
+    do {
+        if (waiting == 0)
+            return 0;
+        waiting--;
+    } while (limit < stack_near[waiting]);
+    int current = stack[waiting];
+    if (current < 0) {
+        vint number = splat_int(0);
+        int count = add_leaf(&number, 0, current);
+        if (count > HD_LANES) {
+            int next = (~current >> HD_LEAF_ITEM_BITS) + HD_LANES;
+            stack[waiting++] = ~(next << HD_LEAF_ITEM_BITS | (count - HD_LANES));
+            count = HD_LANES;
+        }
+        while (waiting > 0 && stack[waiting - 1] < 0 &&
+               count + (~stack[waiting - 1] & HD_LEAF_ITEM_MASK) <= HD_LANES) {
+            waiting--;
+            if (stack_near[waiting] <= limit)
+                count = add_leaf(&number, count, stack[waiting]);
+        }
+        MeshRays ray = spread_rays(rays, lane);
+        Findings one = spread_findings(found, lane);
+        if (try_at_once(SCENE_ARGUMENTS & one, &ray, way, number, count)) {
+            take_over(found, &one, rays->is_shadow, lane);
+            if (ray.is_shadow && !any_lane(one.alive))
+                return 0;
+        }
+        alone->waiting[lane] = waiting;
+        return waiting;
+    }
+    GLOBAL const real *bounds = wide_bounds + (uint64)current * WIDE_STRIDE;
+    int lower[3], upper[3];
+    for (int axis = 0; axis < 3; axis++) {
+        lower[axis] = place_of_bounds(way->entry, way, axis);
+        upper[axis] = place_of_bounds(way->exit, way, axis);
+    }
+    const Slabs *slabs = &rays->slabs;
+    Vec3 inverse = spread_vector(slabs->inverse, lane);
+    Vec3 early = spread_vector(slabs->near, lane), late = spread_vector(slabs->far, lane);
+    vreal near = multiply_add(load_reals(bounds + lower[0]), inverse.x, early.x);
+    vreal far = multiply_add(load_reals(bounds + upper[0]), inverse.x, late.x);
+    near = greater(near, multiply_add(load_reals(bounds + lower[1]), inverse.y, early.y));
+    far = lesser(far, multiply_add(load_reals(bounds + upper[1]), inverse.y, late.y));
+    near = greater(near, multiply_add(load_reals(bounds + lower[2]), inverse.z, early.z));
+    far = lesser(far, multiply_add(load_reals(bounds + upper[2]), inverse.z, late.z));
+    near = greater(near, splat(R(0.0)));
+    far = lesser(far, splat(limit));
+    int bottom = waiting;
+    for (uint left = lane_bits(le(near, far)); left; left &= left - 1) {
+        int number = lowest_bit(left);
+        real at = lane_real(&near, number);
+        int place = waiting;
+        while (place > bottom && stack_near[place - 1] < at) {
+            stack[place] = stack[place - 1];
+            stack_near[place] = stack_near[place - 1];
+            place--;
+        }
+        int child = wide_children[(uint64)current * HD_LANES + (uint64)number];
+        prefetch_place(SCENE_ARGUMENTS child);
+        stack[place] = child;
+        stack_near[place] = at;
+        waiting++;
+    }
+    alone->waiting[lane] = waiting;
+    return waiting;
+}
+
+/* Each ray takes a step in its turn: what it has asked memory for comes while others work. */
+FN void walk_in_turns(SCENE_PARAMETERS Findings *found, const MeshRays *rays, Alone *alone) {
+    uint lanes = alone->lanes & lane_bits(found->alive);
+    while (lanes)
+        for (uint left = lanes; left; left &= left - 1) {
+            int lane = lowest_bit(left);
+            if (!step_alone(SCENE_ARGUMENTS found, rays, alone, lane))
+                lanes &= ~(1u << lane);
+        }
 }
 
 /* ---- rays that share a walk ---- */
 
-/* Fewer rays than these walk alone. */
+/* Fewer rays than these walk alone, and so do those that all put off something that is nearer: what
+   they find there may spare them the rest. */
 enum { FEW_RAYS = HD_LANES / 8 + 1 };
 
 /* What holds for all rays of a bundle, whose directions have the same signs: between which origins
@@ -293,9 +345,9 @@ FN vreal ray_exit(const Beam *beam, GLOBAL const real *bounds, const Slabs *slab
     return lesser(lesser(x, y), z);
 }
 
-/* The rays of `m`, which all run that way. */
+/* The rays of `m`, which all run that way; what they have to walk through alone is put off. */
 FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
-                  int root) {
+                  int root, Alone *alone) {
     int stack[WIDE_STACK(header)];
     vreal stack_near[WIDE_STACK(header)]; /* beyond every limit in lanes that miss */
     real stack_key[WIDE_STACK(header)];
@@ -312,9 +364,12 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
         uint bits = lane_bits(alive);
         if (!bits)
             continue;
-        if (current >= 0 && count_bits(bits) < FEW_RAYS) {
-            for (; bits; bits &= bits - 1)
-                search_alone(SCENE_ARGUMENTS found, rays, way, lowest_bit(bits), current);
+        if (FEW_RAYS > 1 && current >= 0 &&
+            (count_bits(bits) < FEW_RAYS || !(bits & ~alone->lanes)) && can_put_off(alone, bits)) {
+            for (; bits; bits &= bits - 1) {
+                int lane = lowest_bit(bits);
+                put_off(alone, way, lane, current, lane_real(&stack_near[waiting], lane));
+            }
             continue;
         }
         if (current < 0) {
@@ -350,6 +405,28 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
             waiting++;
         }
     }
+}
+
+FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                         int root) {
+    int stack[HD_LANES * (WIDE_STACK(header) + MOST_PUT_OFF)];
+    real stack_near[HD_LANES * (WIDE_STACK(header) + MOST_PUT_OFF)];
+    Alone alone;
+    alone.lanes = 0;
+    for (int lane = 0; lane < HD_LANES; lane++)
+        alone.waiting[lane] = 0;
+    alone.room = WIDE_STACK(header) + MOST_PUT_OFF;
+    alone.stack = stack;
+    alone.stack_near = stack_near;
+    vmask left = m;
+    while (any_lane(left)) {
+        Way way;
+        vmask same = same_way(&rays->slabs, rays->last, left, &way);
+        left = left & ~same;
+        walk_mesh(SCENE_ARGUMENTS found, rays, same, &way, root, &alone);
+    }
+    if (FEW_RAYS > 1)
+        walk_in_turns(SCENE_ARGUMENTS found, rays, &alone);
 }
 
 #endif
