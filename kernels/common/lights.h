@@ -325,8 +325,10 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     for (int i = 0; i < header->light_count; i++) {
 #if HD_LANES > 1
         int known = group_known[lights[i].group];
-        if (known & GROUP_IS_DARK)
+        if (known & GROUP_IS_DARK) {
+            i += lights[i].run - 1;
             continue;
+        }
 #else
         int known = 0, run = MANY_LIGHTS(header) ? lights[i].run : 0;
         if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,

@@ -86,7 +86,8 @@ typedef struct ALIGNED_16 {
     real inverse_falloff_squared;
     int own_face[2]; /* the faces that hold an edge light; -1: none */
     int group;       /* of lights near each other (light_groups) */
-    int run;         /* so many lights from this one on may be judged together; 0: it alone */
+    int run;         /* so many lights of its group follow each other from this one on, which is the
+                        first; 0: another one, or, where bundles have one lane, it is judged alone */
 } Light;
 
 /* How many groups lights make: none where there are too few to be worth it, otherwise a multiple of

@@ -135,7 +135,8 @@ static bool runs_pay(const HdBuilder *builder) {
 /* Fewer are looked at sooner than judged. */
 enum { LEAST_RUN = 3 };
 
-/* Within a group lights are in their order, but maybe not all that are between them. */
+/* Within a group lights are in their order, but maybe not all that are between them. Bundles of
+   several lanes judge the group and need only know how far to skip: they have all of its runs. */
 static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLight *first,
                       int count) {
     LightRun *runs = builder->table[HD_TABLE_light_runs];
@@ -143,10 +144,12 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLi
         int light = first[i].light;
         for (next = i + 1; next < count && first[next].light == light + next - i; next++)
             continue;
-        if (next - i < LEAST_RUN)
+        if (builder->lanes == 1 && next - i < LEAST_RUN)
+            continue;
+        lights[light].run = next - i;
+        if (builder->lanes > 1)
             continue;
         Ball ball = ball_about(builder, first + i, next - i);
-        lights[light].run = next - i;
         for (int object = 0; object < builder->object_count; object++)
             runs[object * builder->light_count + light] =
                 rounded_ball(&ball, builder->centres[object]);
@@ -156,7 +159,7 @@ static void fill_runs(const HdBuilder *builder, Light *lights, const HdGroupedLi
 static void fill_groups(const HdBuilder *builder, Light *lights) {
     const HdGroupedLight *grouped = builder->grouped;
     int count = HD_LIGHT_GROUPS(builder->light_count) > 0 ? builder->light_count : 0;
-    bool has_runs = builder->lanes == 1 && runs_pay(builder);
+    bool has_runs = builder->lanes > 1 || runs_pay(builder);
     for (int i = 0, next; i < count; i = next) {
         int group = grouped[i].group;
         for (next = i; next < count && grouped[next].group == group; next++)

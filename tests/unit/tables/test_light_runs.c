@@ -57,16 +57,25 @@ static void runs_are_of_one_group_and_within_their_sphere(void **state) {
     assert_true(longest >= 3);
 }
 
-static void bundles_of_several_lanes_have_none(void **state) {
+/* All lights are in runs, which are as long as they can be and are not judged by themselves. */
+static void bundles_of_several_lanes_skip_by_all_runs(void **state) {
     (void)state;
     const Light *lights = compile(8);
-    for (int i = 0; i < tables.light_count; i++)
-        assert_int_equal(lights[i].run, 0);
+    for (int i = 0, run; i < tables.light_count; i += run) {
+        run = lights[i].run;
+        assert_true(run >= 1 && i + run <= tables.light_count);
+        for (int k = i + 1; k < i + run; k++) {
+            assert_int_equal(lights[k].group, lights[i].group);
+            assert_int_equal(lights[k].run, 0);
+        }
+        if (i + run < tables.light_count)
+            assert_int_not_equal(lights[i + run].group, lights[i].group);
+    }
     assert_int_equal(tables.table[HD_TABLE_light_runs].bytes, 0);
     assert_false(tables.many_lights);
 }
 
-static void where_no_light_ends_there_are_none(void **state) {
+static void where_no_light_ends_one_lane_has_none(void **state) {
     (void)state;
     for (int i = 0; i < scene.light_count; i++)
         scene.lights[i].falloff = (HdFalloff){0};
@@ -81,8 +90,8 @@ static void where_no_light_ends_there_are_none(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(runs_are_of_one_group_and_within_their_sphere),
-        TEST(bundles_of_several_lanes_have_none),
-        TEST(where_no_light_ends_there_are_none),
+        TEST(bundles_of_several_lanes_skip_by_all_runs),
+        TEST(where_no_light_ends_one_lane_has_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
