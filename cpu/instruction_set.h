@@ -11,7 +11,7 @@ typedef struct HdCpuBuild {
     int lanes;
     HdPrecision precision;
     HdCpuKernel *kernel;
-    HdCpuKernel *plain_kernel; /* the same for plain scenes, without a queue; NULL: there is none */
+    HdCpuKernel *plain_kernel; /* the same for plain scenes; NULL: there is none */
     HdCpuFirstHits *first_hits;
 } HdCpuBuild;
 

@@ -1,27 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN there is one, for plain scenes
-   alone in the pipeline of whole trees: what other scenes need takes registers, even where it never
-   runs. */
+/* Entry points for plain C, named by HD_KERNEL_NAME. With HD_PLAIN they render plain scenes alone:
+   what other scenes need takes registers, even where it never runs. */
 #include "cpu/kernel.h"
 
 #include "cpu/kernel_tables.h"
+#include "kernels/common/wavefront.h"
 
 HdCpuKernel HD_KERNEL_NAME;
-
-#if HD_PLAIN
-
-#include "kernels/common/render.h"
-
-void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const HdCpuQueue *queue,
-                    float *pixels, void *counts) {
-    HD_DECLARE_TABLES(scene, frame)
-    (void)queue;
-    render_item(SCENE_ARGUMENTS item, pixels, (RayCounts *)counts + item);
-}
-
-#else
-
-#include "kernels/common/wavefront.h"
 
 /* Two functions: in one of both the compiler makes slower code for each. */
 FN_APART RayCounts render_by_trees(const HdTable *scene, const HdTable *frame, int item,
@@ -49,6 +34,7 @@ void HD_KERNEL_NAME(const HdTable *scene, const HdTable *frame, int item, const 
                                       : render_by_waves(scene, frame, item, queue, pixels);
 }
 
+#if !HD_PLAIN
 #define HD_JOINED(a, b)     a##b
 #define HD_FIRST_HITS_OF(a) HD_JOINED(a, _first_hits)
 HdCpuFirstHits HD_FIRST_HITS_OF(HD_KERNEL_NAME);
