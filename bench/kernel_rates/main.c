@@ -47,15 +47,15 @@ static void add_search(Bench *bench, const HdLoops *loops, int kind, const char 
     const HdLoopScene *scene = &bench->scenes[0];
     HdMeasure measure = {
         .unit = "searches", .loops = loops, .scene = scene, .what = HD_MEASURE_SEARCH};
-    measure.work = loops->make_rays(scene->tables.table, scene->frame.table, kind,
-                                    bench->counts ? COUNTED_RAYS : MOST_RAYS);
+    measure.work = loops->make_rays(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
+                                    kind, bench->counts ? COUNTED_RAYS : MOST_RAYS);
     add_measure(bench, measure, "search", name);
 }
 
 static void add_light(Bench *bench, const HdLoops *loops, const HdLoopScene *scene) {
     char name[64];
     HdMeasure measure = {.unit = "pairs", .loops = loops, .scene = scene, .what = HD_MEASURE_LIGHT};
-    measure.work = loops->make_points(scene->tables.table, scene->frame.table,
+    measure.work = loops->make_points(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
                                       bench->counts ? COUNTED_POINTS : MOST_POINTS);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(scene->name, "."), scene->name);
     add_measure(bench, measure, "light", name);
@@ -129,7 +129,7 @@ static void measure_all(Bench *bench) {
 
 static bool read_scene(Bench *bench, const char *path) {
     HdLoopScene *scene = &bench->scenes[bench->scene_count];
-    if (!hd_loop_scene_read(scene, path, bench->scene_count > 0)) {
+    if (!hd_loop_scene_read(scene, path, bench->scene_count > 0, find_build(false)->lanes)) {
         hd_loop_scene_free(scene);
         return false;
     }

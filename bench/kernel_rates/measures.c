@@ -13,7 +13,7 @@
 
 enum { PEAK_ROUNDS = 1 << 16 };
 
-static bool compile(HdLoopScene *scene, HdSceneFile *file, HdError *error) {
+static bool compile(HdLoopScene *scene, HdSceneFile *file, int lanes, HdError *error) {
     HdCamera camera;
     HdProblems problems = {0};
     return hd_scene_file_load_texture(file, error) == HD_OK &&
@@ -21,12 +21,15 @@ static bool compile(HdLoopScene *scene, HdSceneFile *file, HdError *error) {
            hd_problems_status(&problems, scene->name, error) == HD_OK &&
            hd_scene_validate(&file->scene, error) == HD_OK &&
            hd_camera_at(&camera, &file->scene, 0, error) == HD_OK &&
-           hd_compile_scene(&scene->tables, &file->scene, HD_PRECISION_FLOAT, 1, error) == HD_OK &&
+           hd_compile_scene(&scene->tables[0], &file->scene, HD_PRECISION_FLOAT, lanes, error) ==
+               HD_OK &&
+           hd_compile_scene(&scene->tables[1], &file->scene, HD_PRECISION_FLOAT, 1, error) ==
+               HD_OK &&
            hd_compile_frame(&scene->frame, &file->scene, &camera, HD_PRECISION_FLOAT, error) ==
                HD_OK;
 }
 
-bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor) {
+bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor, int lanes) {
     HdSceneSource source = {0};
     HdSceneFile file;
     HdError error;
@@ -39,7 +42,7 @@ bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor) {
         if (!file.scene.floor.present)
             file.texture_path[0] = '\0';
         scene->solid_count = file.scene.solid_count;
-        done = compile(scene, &file, &error);
+        done = compile(scene, &file, lanes, &error);
         hd_scene_file_free(&file);
     }
     if (!done)
@@ -49,7 +52,12 @@ bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor) {
 
 void hd_loop_scene_free(HdLoopScene *scene) {
     hd_frame_tables_free(&scene->frame);
-    hd_scene_tables_free(&scene->tables);
+    for (int i = 0; i < 2; i++)
+        hd_scene_tables_free(&scene->tables[i]);
+}
+
+const HdTable *hd_loop_scene_tables(const HdLoopScene *scene, int lanes) {
+    return scene->tables[lanes == 1].table;
 }
 
 void hd_work_free(HdWork *work) {
@@ -62,14 +70,15 @@ double hd_measure_run(const HdMeasure *measure) {
     static volatile double kept; /* so that no work is in vain */
     (void)kept;
     const HdLoops *loops = measure->loops;
+    const HdLoopScene *scene = measure->scene;
     double sum = 0, done = (double)PEAK_ROUNDS * HD_PEAK_CHAINS;
     switch (measure->what) {
     case HD_MEASURE_SEARCH:
-        kept = (double)loops->search(measure->scene->tables.table, measure->scene->frame.table,
+        kept = (double)loops->search(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
                                      &measure->work);
         return (double)loops->live_rays(&measure->work);
     case HD_MEASURE_LIGHT:
-        done = (double)loops->light(measure->scene->tables.table, measure->scene->frame.table,
+        done = (double)loops->light(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
                                     &measure->work, &sum);
         break;
     case HD_MEASURE_FMA:

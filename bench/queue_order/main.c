@@ -42,7 +42,8 @@ typedef struct Study {
 
 static bool run_order(const HdOrderBuild *build, const HdLoopScene *scene, HdBatches batches,
                       HdQueueOrder order, bool counts, HdOrderResult *result) {
-    if (build->run(scene->tables.table, scene->frame.table, order, batches, counts, result))
+    if (build->run(hd_loop_scene_tables(scene, build->lanes), scene->frame.table, order, batches,
+                   counts, result))
         return true;
     fprintf(stderr, "hedron_queue_order: there is no memory for batches of %d\n", batches.samples);
     return false;
@@ -95,7 +96,8 @@ static bool study_scene(const Study *study, const HdOrderBuild *build, const HdL
 
 static bool record(const HdOrderBuild *build, const HdLoopScene *scene, const char *path) {
     FILE *file = fopen(path, "wb");
-    bool done = file != NULL && build->record(scene->tables.table, scene->frame.table, file);
+    bool done = file != NULL &&
+                build->record(hd_loop_scene_tables(scene, build->lanes), scene->frame.table, file);
     if (file != NULL && fclose(file) != 0)
         done = false;
     if (!done)
@@ -105,7 +107,7 @@ static bool record(const HdOrderBuild *build, const HdLoopScene *scene, const ch
 
 static bool read_scene(Study *study, const char *path) {
     HdLoopScene *scene = &study->scenes[study->scene_count];
-    if (!hd_loop_scene_read(scene, path, true)) {
+    if (!hd_loop_scene_read(scene, path, true, find_build(false)->lanes)) {
         hd_loop_scene_free(scene);
         return false;
     }

@@ -202,7 +202,7 @@ HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, H
         status = check_in_flight(renderer, 0, "a scene was uploaded", error);
     if (status == HD_OK)
         status = check_precision(renderer, tables->precision, "scene", error);
-    if (status == HD_OK && tables->node_stack > 0 && tables->lanes != hd_renderer_lanes(renderer))
+    if (status == HD_OK && tables->lanes != hd_renderer_lanes(renderer))
         status = hd_fail(error, HD_BAD_INPUT, "a scene was compiled for %d lanes, not %d",
                          tables->lanes, hd_renderer_lanes(renderer));
     if (status == HD_OK &&

@@ -133,9 +133,9 @@ typedef struct Part {
     HdSurveyor *surveyor;
     const HdSurveyRequest *requests;
     HdSurvey *surveys;
-    const int *open; /* numbers of the requests, unless these are all that there are, */
-    int from, count; /* and follow each other; and how many these are */
-    bool is_first;   /* of several passes */
+    const int *open; /* numbers of the requests; in the first pass they are from, from + 1, ... */
+    int from, count;
+    bool is_first; /* of several passes */
 } Part;
 
 static int request_number(const Part *part, int i) {

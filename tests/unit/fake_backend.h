@@ -71,7 +71,9 @@ static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options
     opened->kernels.shape =
         (HdKernelShape){.lanes = 1, .precision = options->precision, .math = options->math};
     *renderer = opened;
-    return hd_backend_c.functions->open(device, options, &opened->c, error);
+    HdRenderOptions of_c = *options;
+    of_c.lanes = opened->kernels.shape.lanes;
+    return hd_backend_c.functions->open(device, &of_c, &opened->c, error);
 }
 
 static unsigned char *fake_read(const void *context, size_t *size) {
