@@ -71,7 +71,7 @@ expect_python 3.0 'from harness.speed import timeline' 'print(timeline.busy_seco
 
 # ---- scenes: lights in the same places every time, those that light nothing not counted
 lights='import json, pathlib; from harness.measure import scenes; p = pathlib.Path("lights-200.json")'
-expect_python "{'solids': 3, 'planes': 31, 'lights': 200}" "$lights" \
+expect_python "{'solids': 3, 'meshes': 0, 'planes': 31, 'lights': 200}" "$lights" \
     "file = scenes.write_lights(pathlib.Path('.'), 200)" \
     'print(scenes.facts(file))'
 expect_python '[7.7942, 0.0, 3.2]' "$lights" 'print(scenes.lights(1)[0]["position"])'

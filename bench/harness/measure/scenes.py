@@ -81,9 +81,9 @@ def lights_on_edges(solid):
 
 
 def facts(file):
-    """{"solids", "planes", "lights"}; lights that light nothing are left out."""
+    """{"solids", "meshes", "planes", "lights"}; lights that light nothing are left out."""
     scene = read_scene(file)
     solids = scene.get("solids", [])
-    return {"solids": len(solids),
+    return {"solids": len(solids), "meshes": len(scene.get("meshes", [])),
             "planes": sum(FACES[solid["kind"]] for solid in solids) + (FLOOR_PLANES if "floor" in scene else 0),
             "lights": len(scene.get("lights", [])) + sum(lights_on_edges(solid) for solid in solids)}

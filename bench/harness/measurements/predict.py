@@ -7,7 +7,8 @@ A frame is taken for the sum of a fixed time and of work in proportion to the de
 
 The coefficients, none of them negative, are fitted on every other scene by least squares of the relative
 error. The scenes in between tell the error. What the other GPU has less of per lane (caches) or more
-(integer lanes) is not in it."""
+(integer lanes) is not in it, nor are meshes, and pictures of so few samples that a GPU only waits for the deepest tree of
+rays: such scenes are left out."""
 import math
 from pathlib import Path
 from statistics import median
@@ -23,6 +24,7 @@ from harness.measurements.speed import MODEL_OPTIONS
 from harness.store.result import read
 
 TERMS = ("fixed", "rays x planes", "rays x lights", "shadow tests")
+LEAST_SAMPLES = 1 << 17  # of a frame
 BYTES_A_PIXEL = 12 + 4  # written as floats, and read once more as a picture
 GTX_1050 = {"name": "GTX 1050", "lane_rate": 5 * 128 * 1.455e9, "bytes_a_second": 112e9,
             "slowest": 1.354 / 1.455, "fastest": 1.5 / 1.455}
@@ -71,8 +73,8 @@ def points_of(result, device):
             points.append({"scene": job["scene"], **result["scenes"][job["scene"]], "rays": median(map(rays, frames)),
                            "seconds": median(frame["seconds"]["trace"] for frame in frames),
                            "shadow_tests": median(frame["shadow_tests"] for frame in frames),
-                           "pixels": frames[0]["width"] * frames[0]["height"]})
-    return [point for point in points if point["seconds"] > 0]
+                           "pixels": frames[0]["width"] * frames[0]["height"], "samples": frames[0]["rays"]["primary"]})
+    return [point for point in points if point["seconds"] > 0 and not point.get("meshes") and point["samples"] >= LEAST_SAMPLES]
 
 
 def choose_device(result, wish):
