@@ -422,7 +422,7 @@ fi
 # ---- the README's table of devices is that of the results
 expect_exit 0 "$project/bench/results/table"
 cp "$logs/stdout" table.md
-expect_python '6 True' 'table = open("table.md", encoding="utf-8").read()' \
+expect_python '5 True' 'table = open("table.md", encoding="utf-8").read()' \
     "readme = open('$project/README.md', encoding='utf-8').read()" 'print(table.count("\n") - 2, "\n\n" + table + "\n" in readme)'
 rm table.md
 
