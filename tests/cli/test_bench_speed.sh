@@ -86,6 +86,21 @@ same='import json; a, b = (json.load(open(f, encoding="utf-8")) for f in ("offic
 expect_python True "$same" '[s["floor"].pop("texture") for s in (a, b)]; [s.pop("output", 0) for s in (a, b)]' \
     '[s.pop("$schema", 0) for s in (a, b)]; print(a == b)'
 
+# ---- the model leaves out scenes with meshes and frames that do not fill a GPU
+cat >points.py <<'PYTHON'
+from harness.measurements import predict as gpu_model
+def job(scene, samples):
+    frame = {"warm_up": False, "seconds": {"trace": 0.001}, "shadow_tests": 1, "width": 640, "height": 360,
+             "rays": {"primary": samples, "mirrored": 0, "transmitted": 0}}
+    return {"scene": scene, "device": "cuda:0", "options": gpu_model.MODEL_OPTIONS, "output": "a.data", "scale": 1,
+            "runs": [{"noisy": False, "frames": [frame, frame]}]}
+facts = {"solids": 1, "planes": 4, "lights": 1}
+result = {"scenes": {"usual": {**facts, "meshes": 0}, "mesh": {**facts, "meshes": 1}, "small": {**facts, "meshes": 0}},
+          "measurements": [job("usual", 1 << 20), job("mesh", 1 << 20), job("small", 1 << 10)]}
+print([point["scene"] for point in gpu_model.points_of(result, "cuda:0")])
+PYTHON
+expect_python "['usual']" "$(cat points.py)"
+
 # ---- the model finds the coefficients that made the times, and scales all but the fixed part
 cat >model.py <<'PYTHON'
 from harness.measurements import predict as gpu_model
