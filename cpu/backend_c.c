@@ -113,8 +113,7 @@ static HdStatus copy_table(HdTable *to, const HdTable *from, const char *content
 
 static HdCpuKernel *kernel_for(const CRenderer *c, const HdSceneTables *tables) {
     bool is_plain = tables->node_stack == 0 && !tables->refracts && !tables->lit_from_behind;
-    bool has_plain = c->build->plain_kernel != NULL;
-    return is_plain && has_plain ? c->build->plain_kernel : c->build->kernel;
+    return is_plain && c->build->plain_kernel != NULL ? c->build->plain_kernel : c->build->kernel;
 }
 
 static HdStatus c_upload(void *renderer, const HdSceneTables *tables, HdError *error) {

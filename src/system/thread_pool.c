@@ -71,7 +71,7 @@ static void *thread_main(void *argument) {
 }
 
 /* Kernels keep their private arrays on the stack: at the limits of depth, planes and lanes
-   about 2.2 MB, which is more than some systems give a thread. */
+   more than 2 MB, which is more than some systems give a thread. */
 enum { STACK_BYTES = 8 << 20 };
 
 int hd_start_thread(pthread_t *thread, void *(*work)(void *), void *argument) {

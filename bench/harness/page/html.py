@@ -81,12 +81,18 @@ def noise_words(result):
     return words + (f" The load was {min(loads)} to {max(loads)}." if loads else "")
 
 
+def parts_without_figures(result):
+    """An interrupted part may have some."""
+    measured = {entry["part"] for entry in result["measurements"]}
+    return [part for part in result.get("missing") or () if part not in measured]
+
+
 def machines(results, pictures):
     """What the figures come from, folded away."""
     changed = [f"{result['machine']['name']}: every run had the options {' '.join(result['hedron']['options'])}."
                for result in results if result["hedron"]["options"]]
-    absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(result['missing'])}." for result in results
-              if result.get("missing")]
+    absent = [f"{result['machine']['name']}: nothing was measured of {', '.join(parts)}."
+              for result in results if (parts := parts_without_figures(result))]
     told = [*changed, *map(noise_words, results), *absent, *pictures]
     return ["<details id=\"machines\"><summary>Machines, programs and method</summary>", table(machine_rows(results)), "<ul>",
             *(f"<li>{text(each)}</li>" for each in told), f"<li>{METHOD}</li>", "</ul></details>"]
@@ -94,7 +100,7 @@ def machines(results, pictures):
 
 def warnings(results, failures):
     words = [f"<p class=\"wrong\">{text(each)}</p>" for each in failures]
-    if any(map(is_unfinished, results)):
+    if is_unfinished(results[0]):  # the one that a call would go on with
         words.append("<p class=\"wrong\">A study here is unfinished: bench/study goes on where it stopped.</p>")
     quick = [result["machine"]["name"] for result in results if result["quick"]]
     if quick:
