@@ -123,9 +123,9 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
     vint outer[SOLID_BOUND(header)];
     uint some_outer[SOLID_BOUND(header)];
     vmask open_to[SOLID_BOUND(header)];
-    measure_planes(SCENE_ARGUMENTS & surface, &points, coordinates, outer, some_outer, open_to);
-    LightRows rows = light_rows(SCENE_ARGUMENTS points.object);
-    Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, light), surface.point);
+    measure_planes(SCENE_ARGUMENTS & surface, &points, 0, coordinates, outer, some_outer, open_to);
+    LightRows rows = light_rows(points.object);
+    Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, light), surface.point);
     Vec3 passing = transmittance_to(SCENE_ARGUMENTS light, to_light, &surface, coordinates, outer,
                                     some_outer, open_to, &points, 0, mask_all());
     return (double)lane_real(&passing.x, 0);

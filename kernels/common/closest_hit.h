@@ -5,6 +5,14 @@
 
 #include "meshes.h"
 
+/* The solid that all rays run in, if nothing else reaches into it; otherwise -1. */
+FN int only_within(SCENE_PARAMETERS const Ray *ray, const Reference *reference) {
+    if (reference->is_eye || !reference->same || any_lane(ray->alive & ~ray->inside))
+        return -1;
+    int object = lane_int(&ray->touched, 0);
+    return object < header->floor_end && objects[object].apart ? object : -1;
+}
+
 /* For the floor, `entering` says that it is met from above its normal. Of a mesh the
    hit names the triangle, until surface_at makes a face of it. */
 FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
@@ -13,11 +21,17 @@ FN Hit closest_hit(SCENE_PARAMETERS const Ray *ray, Reference reference) {
     hit.object = splat_int(-1);
     hit.face = splat_int(0);
     hit.entering = mask_none();
-    for (int object = 0; object < header->solid_count; object++)
+    int first = 0, end = header->floor_end;
+    int within = only_within(SCENE_ARGUMENTS ray, &reference);
+    if (within >= 0) {
+        first = within;
+        end = within + 1;
+    }
+    for (int object = first; object < end && object < header->solid_count; object++)
         hit_solid(SCENE_ARGUMENTS ray, reference, object, &hit);
-    for (int object = header->solid_count; object < header->floor_end; object++)
+    for (int object = header->solid_count; object < end; object++)
         hit_floor(SCENE_ARGUMENTS ray, reference, object, &hit);
-    if (MESHES(header))
+    if (MESHES(header) && within < 0)
         closest_mesh_hit(SCENE_ARGUMENTS ray, &reference, &hit);
     return hit;
 }

@@ -16,10 +16,13 @@ typedef struct {
     vmask active;
 } LitPoints;
 
-/* Of a group of lights: a bit for each of the first solids, that it is not between; and one more,
-   that the group is dark. */
-enum { JUDGED_SOLIDS = 30 };
-#define GROUP_IS_DARK ((int)1 << JUDGED_SOLIDS)
+/* Of a light or a group of lights: a bit for each of the first objects, that it is not between; and
+   one more, that the group is dark. */
+#define GROUP_IS_DARK ((int)1 << HD_JUDGED_OBJECTS)
+
+FN int is_beside(int beside, int object) {
+    return object < HD_JUDGED_OBJECTS && beside >> object & 1;
+}
 
 #if HD_LANES == 1
 
@@ -119,7 +122,7 @@ FN_APART void judge_groups(SCENE_PARAMETERS const Vec3 *points, const Vec3 *norm
     const int count = HD_LIGHT_GROUPS(header->light_count);
     vint numbers = object_of(SCENE_ARGUMENTS lit_points->object);
     int object = lane_int(&numbers, 0);
-    int solids = header->solid_count < JUDGED_SOLIDS ? header->solid_count : JUDGED_SOLIDS;
+    int solids = header->solid_count < HD_JUDGED_OBJECTS ? header->solid_count : HD_JUDGED_OBJECTS;
     PointBall ball = ball_about(points, normals, lit_points->active);
     for (int first = 0; first < count; first += HD_LANES) {
         Groups groups = load_groups(light_groups, object, first, count);

@@ -13,7 +13,7 @@
      open_to[solid]       the points from which a segment may cross it
    A point seen from inside its own solid is inside, whatever rounding says, and has no bits there.
  */
-FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points,
+FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints *points, int beside,
                        vreal *coordinates, vint *outer, uint *some_outer, vmask *open_to) {
     Reference reference = reference_of(SCENE_ARGUMENTS points->object, 0);
     vreal zero = splat(R(0.0));
@@ -26,6 +26,9 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
         uint some = 0;
         outer[object] = not_inside;
         some_outer[object] = some;
+        open_to[object] = mask_none();
+        if (is_beside(beside, object))
+            continue;
         open_to[object] = points->active & (~own | own_inside);
         if (!any_lane(open_to[object]))
             continue; /* no segment crosses the solid that it leaves */
@@ -49,6 +52,8 @@ FN void measure_planes(SCENE_PARAMETERS const Surface *surface, const LitPoints 
         some_outer[object] = some;
     }
     for (int object = header->solid_count; object < header->floor_end; object++) {
+        if (is_beside(beside, object))
+            continue;
         Vec3 point = move_to_object(SCENE_ARGUMENTS reference, surface->point, object);
         int first = objects[object].first_plane;
         for (int k = first; k < first + objects[object].plane_count; k++)
@@ -231,11 +236,12 @@ FN Vec3 transmittance_to(SCENE_PARAMETERS int light, Vec3 to_light, const Surfac
     GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
     GLOBAL const LightSides *sides = light_sides + light * header->object_count;
     for (int object = header->solid_count; object < header->floor_end; object++)
-        lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
+        if (!is_beside(known, object))
+            lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
     vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
     Vec3 transmittance = vec3(open, open, open);
     for (int object = 0; object < header->solid_count; object++) {
-        if (object < JUDGED_SOLIDS && known >> object & 1)
+        if (is_beside(known, object))
             continue;
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
                     some_outer[object], open_to[object] & lit, &transmittance);
@@ -256,22 +262,21 @@ FN vmask holds_light(GLOBAL const Light *light, const LitPoints *points) {
            eq_int(points->face, splat_int(light->own_face[1]));
 }
 
-/* The objects that a bundle's points lie on, each once: the first of its lights in light_offsets,
-   and its points. */
+/* The objects that a bundle's points lie on, each once, and its points. */
 typedef struct {
     int count;
-    int first[HD_LANES];
+    int object[HD_LANES];
     vmask points[HD_LANES];
 } LightRows;
 
-FN LightRows light_rows(SCENE_PARAMETERS vint object) {
+FN LightRows light_rows(vint object) {
     LightRows rows;
     rows.count = 0;
     vmask left = mask_all();
     do {
         int number = lane_int(&object, first_lane(left));
         vmask same = eq_int(object, splat_int(number));
-        rows.first[rows.count] = number * header->light_count;
+        rows.object[rows.count] = number;
         rows.points[rows.count] = same;
         rows.count++;
         left = left & ~same;
@@ -280,14 +285,24 @@ FN LightRows light_rows(SCENE_PARAMETERS vint object) {
 }
 
 /* Where a light is, relative to the objects that the points lie on. */
-FN Vec3 light_position(GLOBAL const Vector *light_offsets, const LightRows *rows, int light) {
-    GLOBAL const Vector *v = light_offsets + rows->first[0] + light;
+FN Vec3 light_position(SCENE_PARAMETERS const LightRows *rows, int light) {
+    GLOBAL const Vector *v = light_offsets + rows->object[0] * header->light_count + light;
     Vec3 position = vec3_splat(v->x, v->y, v->z);
     for (int i = 1; i < rows->count; i++) {
-        v = light_offsets + rows->first[i] + light;
+        v = light_offsets + rows->object[i] * header->light_count + light;
         position = vec3_pick(rows->points[i], vec3_splat(v->x, v->y, v->z), position);
     }
     return position;
+}
+
+/* What is beside the ways to a bundle's points of light number `entry` - 1, or, of entry 0, of all
+   lights. */
+FN int beside_ways(SCENE_PARAMETERS const LightRows *rows, int entry) {
+    const int count = header->light_count + 1;
+    int beside = light_ways[rows->object[0] * count + entry];
+    for (int i = 1; i < rows->count; i++)
+        beside &= light_ways[rows->object[i] * count + entry];
+    return beside;
 }
 
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
@@ -300,9 +315,10 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vint outer[SOLID_BOUND(header)];
     uint some_outer[SOLID_BOUND(header)];
     vmask open_to[SOLID_BOUND(header)];
-    measure_planes(SCENE_ARGUMENTS surface, points, coordinates, outer, some_outer, open_to);
     vreal zero = splat(R(0.0));
-    LightRows rows = light_rows(SCENE_ARGUMENTS object_of(SCENE_ARGUMENTS points->object));
+    LightRows rows = light_rows(object_of(SCENE_ARGUMENTS points->object));
+    measure_planes(SCENE_ARGUMENTS surface, points, beside_ways(SCENE_ARGUMENTS & rows, 0),
+                   coordinates, outer, some_outer, open_to);
     Vec3 point = surface->point;
     if (MESHES(header))
         point = vec3_add(point, start_of_instance(SCENE_ARGUMENTS points->object));
@@ -337,7 +353,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
             continue;
         }
 #endif
-        Vec3 to_light = vec3_sub(light_position(light_offsets, &rows, i), point);
+        Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
         vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
@@ -345,6 +361,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         if (!any_lane(lit))
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
+        known |= beside_ways(SCENE_ARGUMENTS & rows, i + 1);
         Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, to_light, surface, coordinates,
                                               outer, some_outer, open_to, points, known, lit);
         /* Nothing arrives where the point is not lit. */

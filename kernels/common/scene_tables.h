@@ -62,6 +62,8 @@ typedef struct ALIGNED_16 {
     int face_material, rim_material;
     int lights_per_edge;
     int paired; /* its faces come in parallel pairs */
+    int apart;  /* nothing else reaches into the sphere about it */
+    int unused_int[3];
 } Object;
 
 typedef struct ALIGNED_16 {
@@ -107,6 +109,9 @@ typedef struct ALIGNED_16 {
     real place[3], radius; /* relative to an object */
     real reach, unused[3];
 } LightRun;
+
+/* Of so many objects, the first ones, is known whether they are beside the ways of light. */
+enum { HD_JUDGED_OBJECTS = 30 };
 
 /* On which side of an object's faces a light is, a bit for each face from the object's first one
    on. It is strictly inside of those that are in neither word. */
@@ -238,7 +243,7 @@ typedef struct ALIGNED_16 {
 HD_ASSERT_SIZE(Vector, 4, 0);
 HD_ASSERT_SIZE(Header, 12, 12);
 HD_ASSERT_SIZE(Plane, 4, 0);
-HD_ASSERT_SIZE(Object, 16, 8);
+HD_ASSERT_SIZE(Object, 16, 12);
 HD_ASSERT_SIZE(Edge, 12, 0);
 HD_ASSERT_SIZE(Material, 16, 4);
 HD_ASSERT_SIZE(Light, 4, 4);
@@ -268,6 +273,9 @@ HD_ASSERT_SIZE(View, 16, 12);
     X(real, light_coordinates)                                                                     \
     /* [light * object_count + object], of solids only */                                          \
     X(LightSides, light_sides)                                                                     \
+    /* [object * (light_count + 1)]: what is beside all ways from lights to points of the object,  \
+       a bit for each solid and the floor that no segment crosses; then the same of each light */  \
+    X(int, light_ways)                                                                             \
     /* [(object * HD_GROUP_ROWS + row) * groups + group] */                                        \
     X(real, light_groups)                                                                          \
     /* [object * light_count + light], of the first light of each run; none where bundles have     \

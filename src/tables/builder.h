@@ -144,6 +144,7 @@ void NAMED(hd_fill_object_offsets)(const HdBuilder *builder);
 void NAMED(hd_fill_meshes)(const HdBuilder *builder);
 /* After the others: from what they stored. */
 void NAMED(hd_fill_lights)(const HdBuilder *builder);
+void NAMED(hd_fill_beside)(const HdBuilder *builder);
 
 /* ---- the whole (compile_scene.c, compile_frame.c) ---- */
 

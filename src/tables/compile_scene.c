@@ -33,6 +33,7 @@ static void size_tables(const HdBuilder *builder, HdSceneTables *tables) {
         [HD_TABLE_light_offsets] = objects * lights,
         [HD_TABLE_light_coordinates] = lights * planes,
         [HD_TABLE_light_sides] = lights * objects,
+        [HD_TABLE_light_ways] = objects * (lights + 1),
         [HD_TABLE_light_groups] = objects * HD_GROUP_ROWS * HD_LIGHT_GROUPS(lights),
         [HD_TABLE_light_runs] = tables->many_lights ? objects * lights : 0,
         [HD_TABLE_object_offsets] = objects * objects,
@@ -136,6 +137,7 @@ HdStatus NAMED(hd_compile_scene)(HdSceneTables *tables, const HdScene *scene, Hd
         NAMED(hd_fill_object_offsets)(&builder);
         NAMED(hd_fill_meshes)(&builder);
         NAMED(hd_fill_lights)(&builder);
+        NAMED(hd_fill_beside)(&builder);
     }
     hd_builder_free_meshes(&builder);
     free(builder.shapes);

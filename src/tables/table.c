@@ -17,6 +17,7 @@ const char *hd_scene_table_content(int table) {
         [HD_TABLE_light_offsets] = "places of lights",
         [HD_TABLE_light_coordinates] = "distances of lights from planes",
         [HD_TABLE_light_sides] = "sides of lights",
+        [HD_TABLE_light_ways] = "what lies beside the ways of lights",
         [HD_TABLE_light_groups] = "groups of lights",
         [HD_TABLE_light_runs] = "runs of lights",
         [HD_TABLE_object_offsets] = "places of objects",
