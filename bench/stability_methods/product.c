@@ -126,8 +126,9 @@ static double transmittance(const HdTable *scene, const HdLitPoint *point, int l
     measure_planes(SCENE_ARGUMENTS & surface, &points, 0, coordinates, outer, some_outer, open_to);
     LightRows rows = light_rows(points.object);
     Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, light), surface.point);
-    Vec3 passing = transmittance_to(SCENE_ARGUMENTS light, to_light, &surface, coordinates, outer,
-                                    some_outer, open_to, &points, 0, mask_all());
+    Vec3 white = vec3_splat(R(1.0), R(1.0), R(1.0));
+    Vec3 passing = passing_light(SCENE_ARGUMENTS light, white, to_light, &surface, coordinates,
+                                 outer, some_outer, open_to, &points, 0, mask_all());
     return (double)lane_real(&passing.x, 0);
 }
 

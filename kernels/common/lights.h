@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Direct light by Phong's model, and the coloured transmittance on its way. */
+/* Direct light by Phong's model, and what passes coloured glass on its way. */
 #ifndef HD_LIGHTS_H
 #define HD_LIGHTS_H
 
@@ -83,30 +83,29 @@ FN vmask floor_blocks(SCENE_PARAMETERS int object, GLOBAL const real *light_row,
     return blocked;
 }
 
-/* Multiplies `transmittance` by what one face lets through where the segments cross it: its colour
-   times `transmission`, or nothing at the rim. */
+/* Multiplies `light` by what one face lets through where the segments cross it: its colour times
+   `transmission`, or nothing at the rim. */
 FN void cross_face(SCENE_PARAMETERS GLOBAL const Object *solid, GLOBAL const real *light_row,
                    const vreal *coordinates, vmask crossing, Crossing where, real transmission,
-                   Vec3 *transmittance) {
-    if (!any_lane(crossing))
-        return;
+                   Vec3 *light) {
     GLOBAL const Material *face = materials + solid->face_material;
     vreal passes = splat(transmission);
     if (solid->rim_depth > R(0.0) && transmission > R(0.0)) {
         /* A rim is near two planes, the face's own among them. */
-        vreal t = crossing_time(where), depth = splat(-solid->rim_depth);
+        vreal t = crossing_time(where);
         vint near_planes = splat_int(0);
         for (int k = solid->first_plane; k < solid->first_plane + solid->plane_count; k++) {
             vreal from = coordinates[k];
             vreal coordinate = multiply_add(t, splat(light_row[k]) - from, from);
-            near_planes =
-                count_lanes(near_planes, lt(depth, nearness(solid, planes + k, coordinate)));
+            vreal height = solid->paired ? absolute(coordinate) : coordinate;
+            vreal least = splat(planes[k].distance - solid->rim_depth);
+            near_planes = count_lanes(near_planes, lt(least, height));
         }
         passes = pick(lt_int(splat_int(1), near_planes), splat(R(0.0)), passes);
     }
-    Vec3 filtered = vec3_scale(*transmittance, passes);
+    Vec3 filtered = vec3_scale(*light, passes);
     filtered = vec3_mul(filtered, vec3_of(face->colour));
-    *transmittance = vec3_pick(crossing, filtered, *transmittance);
+    *light = vec3_pick(crossing, filtered, *light);
 }
 
 /* Where the segments enter a solid, as a quotient: only planes count that a point is outside of. */
@@ -124,19 +123,21 @@ FN Crossing segment_entry(SCENE_PARAMETERS GLOBAL const Object *solid, uint some
     return entry;
 }
 
-/* Where they leave it: only planes count that the light is outside of. */
+/* Where they leave it: only planes count that the light is outside of. Points are not, where
+   segments cross it, so these run outwards through all of them and no slope is negative. */
 FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light_outside,
                          GLOBAL const real *light_row, const vreal *coordinates) {
     Crossing exit = crossing(R(1.0), R(1.0), 0); /* at the light */
     for (uint left = light_outside; left; left &= left - 1) {
         int bit = lowest_bit(left);
         int k = solid->first_plane + (bit >> 1);
-        vreal width = splat(planes[k].distance);
+        vreal width = splat(planes[k].distance), from = coordinates[k], to = splat(light_row[k]);
         Crossing next;
-        next.distance = bit & 1 ? width + coordinates[k] : width - coordinates[k];
-        next.slope = splat(light_row[k]) - coordinates[k];
+        next.distance = bit & 1 ? width + from : width - from;
+        next.slope = bit & 1 ? from - to : to - from;
         next.plane = splat_int(k);
-        exit = pick_crossing(is_before(next, exit), next, exit);
+        vmask before = lt(next.distance * exit.slope, exit.distance * next.slope);
+        exit = pick_crossing(before, next, exit);
     }
     return exit;
 }
@@ -145,7 +146,7 @@ FN Crossing segment_exit(SCENE_PARAMETERS GLOBAL const Object *solid, uint light
    end is inside of one plane, which settles most of them before anything is computed. */
 FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
                     GLOBAL const real *light_row, const vreal *coordinates, vint outer,
-                    uint some_outer, vmask open, Vec3 *transmittance) {
+                    uint some_outer, vmask open, Vec3 *light) {
     GLOBAL const Object *solid = objects + object;
     vint ruled_out = outer & splat_int((int)(sides->outside | sides->on_plane));
     vmask crosses = open & eq_int(ruled_out, splat_int(0));
@@ -153,15 +154,19 @@ FN void cross_solid(SCENE_PARAMETERS int object, GLOBAL const LightSides *sides,
         return;
     Crossing entry = segment_entry(SCENE_ARGUMENTS solid, some_outer, light_row, coordinates);
     Crossing exit = segment_exit(SCENE_ARGUMENTS solid, sides->outside, light_row, coordinates);
-    crosses = crosses & ~is_before(exit, entry);
+    if (some_outer) {
+        crosses = crosses & ~is_before(exit, entry);
+        if (!any_lane(crosses))
+            return;
+    }
     /* Sides are named as for a ray that looks from the point to the light. */
     GLOBAL const Material *face = materials + solid->face_material;
-    cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
-               crosses & lt(splat(R(0.0)), entry.distance), entry, face->transmission,
-               transmittance);
+    if (some_outer)
+        cross_face(SCENE_ARGUMENTS solid, light_row, coordinates,
+                   crosses & lt(splat(R(0.0)), entry.distance), entry, face->transmission, light);
     if (sides->outside)
         cross_face(SCENE_ARGUMENTS solid, light_row, coordinates, crosses, exit,
-                   face->inner_transmission, transmittance);
+                   face->inner_transmission, light);
 }
 
 /* x to the power n, n >= 1, by squaring; `common` is n where all lanes share it, else 0. Nothing is
@@ -189,37 +194,35 @@ FN vreal power(vreal x, vint n, int common) {
     return result;
 }
 
-/* Phong's model for one light: the share of the arriving light that leaves towards the viewer, for
-   each channel. `cosine` is N.L times the light's distance, `squared` that distance squared;
+/* Phong's model for one light: what leaves towards the viewer, for each channel, where `share` of
+   the light arrives. `cosine` is N.L times the light's distance, `squared` that distance squared;
    without `shines` no lane has a highlight. */
 FN Vec3 phong(const LaneMaterial *material, int shines, vint shininess, int common_shininess,
-              vreal cosine, vreal mirror_cosine, vreal squared) {
+              vreal cosine, vreal mirror_cosine, vreal squared, vreal share) {
     vreal inverse = reciprocal_root(squared);
-    vreal diffuse = material->diffuse * (cosine * inverse);
-    vreal specular = splat(R(0.0));
-    if (shines) {
-        vreal x = mirror_cosine * inverse;
-        vmask too_small = lt(x, material->least_highlight);
-        x = pick(too_small, splat(R(0.0)), x);
-        if (any_lane(~too_small))
-            specular = material->specular * power(x, shininess, common_shininess);
-    }
-    return vec3_scale_add(material->colour, diffuse, vec3(specular, specular, specular));
+    Vec3 reflected = vec3_scale(material->colour, material->diffuse * (share * (cosine * inverse)));
+    if (!shines)
+        return reflected;
+    vreal x = mirror_cosine * inverse;
+    vmask too_small = lt(x, material->least_highlight);
+    if (!any_lane(~too_small))
+        return reflected;
+    x = pick(too_small, splat(R(0.0)), x);
+    vreal specular = material->specular * (share * power(x, shininess, common_shininess));
+    return vec3_add(reflected, vec3(specular, specular, specular));
 }
 
-/* The light's intensity at a squared distance. */
-FN Vec3 intensity_at(GLOBAL const Light *light, vreal squared) {
-    Vec3 intensity = vec3_of(light->intensity);
+/* What is left of a light at a squared distance, as a share of its intensity. */
+FN vreal falloff_at(GLOBAL const Light *light, vreal squared) {
     vreal one = splat(R(1.0)), scale = splat(light->inverse_falloff_squared);
     vreal most = splat(REAL_LARGE); /* beyond it nothing is left to be told apart */
     if (light->inverse_falloff_squared < R(0.0)) {
         vreal rest = greater(multiply_add(squared, scale, one), splat(R(0.0)));
-        intensity = vec3_scale(intensity, rest * rest);
-    } else if (light->inverse_falloff_squared > R(0.0)) {
-        intensity =
-            vec3_scale(intensity, reciprocal(lesser(multiply_add(squared, scale, one), most)));
+        return rest * rest;
     }
-    return intensity;
+    if (light->inverse_falloff_squared > R(0.0))
+        return reciprocal(lesser(multiply_add(squared, scale, one), most));
+    return one;
 }
 
 /* Lanes at a squared distance at which nothing is left of the light. */
@@ -229,29 +232,32 @@ FN vmask beyond_falloff(GLOBAL const Light *light, vreal squared) {
     return le(squared * splat(light->inverse_falloff_squared), splat(R(-1.0)));
 }
 
-/* What the segments to one light let through in the lanes of `lit`. */
-FN Vec3 transmittance_to(SCENE_PARAMETERS int light, Vec3 to_light, const Surface *surface,
-                         const vreal *coordinates, const vint *outer, const uint *some_outer,
-                         const vmask *open_to, const LitPoints *points, int known, vmask lit) {
-    GLOBAL const real *light_row = light_coordinates + light * header->plane_count;
-    GLOBAL const LightSides *sides = light_sides + light * header->object_count;
-    for (int object = header->solid_count; object < header->floor_end; object++)
-        if (!is_beside(known, object))
-            lit = lit & ~floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
-    vreal open = pick(lit, splat(R(1.0)), splat(R(0.0)));
-    Vec3 transmittance = vec3(open, open, open);
+/* What of `light`, of any colour, passes the solids, the floor and the meshes on its way to the
+   points of `lit`. */
+FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
+                      const Surface *surface, const vreal *coordinates, const vint *outer,
+                      const uint *some_outer, const vmask *open_to, const LitPoints *points,
+                      int known, vmask lit) {
+    GLOBAL const real *light_row = light_coordinates + number * header->plane_count;
+    GLOBAL const LightSides *sides = light_sides + number * header->object_count;
     for (int object = 0; object < header->solid_count; object++) {
         if (is_beside(known, object))
             continue;
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
-                    some_outer[object], open_to[object] & lit, &transmittance);
+                    some_outer[object], open_to[object] & lit, &light);
+    }
+    for (int object = header->solid_count; object < header->floor_end; object++) {
+        if (is_beside(known, object))
+            continue;
+        vmask blocked = floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
+        light = vec3_pick(blocked, vec3_zero(), light);
+        lit = lit & ~blocked;
     }
     if (MESHES(header) && any_lane(lit))
-        transmittance =
-            vec3_mul(transmittance, transmittance_of_meshes(SCENE_ARGUMENTS surface->point,
-                                                            to_light, points->object, points->face,
-                                                            points->inside, light, lit));
-    return transmittance;
+        light = vec3_mul(light, transmittance_of_meshes(SCENE_ARGUMENTS surface->point, to_light,
+                                                        points->object, points->face,
+                                                        points->inside, number, lit));
+    return light;
 }
 
 /* A face that holds the light gets nothing from it: N.L is 0, whatever rounding says. */
@@ -298,11 +304,7 @@ FN Vec3 light_position(SCENE_PARAMETERS const LightRows *rows, int light) {
 /* What is beside the ways to a bundle's points of light number `entry` - 1, or, of entry 0, of all
    lights. */
 FN int beside_ways(SCENE_PARAMETERS const LightRows *rows, int entry) {
-    const int count = header->light_count + 1;
-    int beside = light_ways[rows->object[0] * count + entry];
-    for (int i = 1; i < rows->count; i++)
-        beside &= light_ways[rows->object[i] * count + entry];
-    return beside;
+    return rows->count > 1 ? 0 : light_ways[rows->object[0] * (header->light_count + 1) + entry];
 }
 
 /* Radiance that the points send to the viewer by diffuse and specular reflection of all lights.
@@ -325,6 +327,9 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     vint shininess = spread_first(surface->material.shininess, points->active);
     int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
+    /* Of the solids and the floor. */
+    const int judged =
+        header->floor_end < HD_JUDGED_OBJECTS ? ((int)1 << header->floor_end) - 1 : -1;
 #if HD_LANES > 1
     int group_known[HD_MOST_LIGHT_GROUPS];
     group_known[0] = 0; /* of all lights, where there are no groups */
@@ -362,13 +367,14 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);
         known |= beside_ways(SCENE_ARGUMENTS & rows, i + 1);
-        Vec3 transmittance = transmittance_to(SCENE_ARGUMENTS i, to_light, surface, coordinates,
-                                              outer, some_outer, open_to, points, known, lit);
-        /* Nothing arrives where the point is not lit. */
-        Vec3 arriving = vec3_mul(transmittance, intensity_at(lights + i, squared));
+        Vec3 light = vec3_of(lights[i].intensity);
+        if (MESHES(header) || ~known & judged)
+            light = passing_light(SCENE_ARGUMENTS i, light, to_light, surface, coordinates, outer,
+                                  some_outer, open_to, points, known, lit);
+        vreal share = pick(lit, falloff_at(lights + i, squared), zero);
         Vec3 reflected = phong(&surface->material, shines, shininess, common_shininess, cosine,
-                               vec3_dot(mirrored, to_light), squared);
-        sum = vec3_mul_add(arriving, reflected, sum);
+                               vec3_dot(mirrored, to_light), squared, share);
+        sum = vec3_mul_add(light, reflected, sum);
     }
     return sum;
 }

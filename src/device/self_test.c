@@ -12,13 +12,13 @@ static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor", "
 /* By frame, precision, refraction and light from behind, which the floor has nothing of. They
    change with the kernels, on purpose only: the unit test of this file tells the new ones. */
 static const uint64_t hashes[HD_SELF_TEST_FRAMES][2][2][2] = {
-    [HD_SELF_TEST_SOLID] = {{{0x6976dab3c6898a8d, 0x2295cc689183a32e},
-                             {0x6fd7bd912e908f02, 0x76fa52a3ffabe176}},
+    [HD_SELF_TEST_SOLID] = {{{0xf8d67380d0ec445b, 0x0070d4d731526272},
+                             {0x9a87baee7e3393e4, 0xd1d25829f8434654}},
                             {{0xcb3e76d8233c38a1, 0x493807fe4e186eae},
                              {0xc7762e262fcbfb9e, 0xa870879512629fb4}}},
-    [HD_SELF_TEST_FLOOR] = {{{0x58d0366f784664e9}}, {{0x7fec99e0bbfce896}}},
-    [HD_SELF_TEST_MESH] = {{{0xb33677956f251625, 0x79574cb4504e4959},
-                            {0x657e9d9cf1195fae, 0x388253a461ccf48d}},
+    [HD_SELF_TEST_FLOOR] = {{{0x3aeda832e140caea}}, {{0x7fec99e0bbfce896}}},
+    [HD_SELF_TEST_MESH] = {{{0x725afa96238f8955, 0xdbba712b1919574f},
+                            {0x5618e362a7a1a362, 0xfae88fd411559ce9}},
                            {{0x5d1a4b1da7fa3fdc, 0x532de987a64c8261},
                             {0x107fbb5865e3fb9d, 0xe504dd55ccdb216d}}},
 };

@@ -53,12 +53,23 @@ static bool solid_is_beside(const HdBuilder *builder, int solid, const Site *sit
     return distance_to_ways(site, light, centre) > radius + slack;
 }
 
-/* The side of the floor's plane that a ball is on: 1, -1, or 0 for both. */
+/* How far a site reaches from its centre in a direction and against it. */
+static double reach_along(const HdBuilder *builder, const Site *site, HdVec3 direction) {
+    if (site->object >= builder->solid_count)
+        return site->radius;
+    const HdPlatonic *shape = &builder->shapes[site->object];
+    double most = 0.0;
+    for (int i = 0; i < shape->vertex_count; i++)
+        most = fmax(most, fabs(hd_dot(direction, shape->vertex[i])));
+    return most * site->radius;
+}
+
+/* The side of the floor's plane that a site is on: 1, -1, or 0 for both. */
 static int side_of_floor(const HdBuilder *builder, const Site *site) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
     HdVec3 centre = hd_sub(site->centre, builder->centres[builder->solid_count]);
     double height = hd_dot(normal, centre);
-    double least = site->radius + (hd_length(centre) + site->radius) * 1e-4;
+    double least = reach_along(builder, site, normal) + (hd_length(centre) + site->radius) * 1e-4;
     return (height > least) - (height < -least);
 }
 

@@ -363,23 +363,23 @@ static void faces_turn_over(void **state) {
 
 static void falloff_ends(void **state) {
     (void)state;
-    Light light = {.intensity = {R(2.0), R(4.0), R(8.0)}, .inverse_falloff_squared = R(-0.25)};
+    Light light = {.inverse_falloff_squared = R(-0.25)};
     static const real squared[] = {R(0.0), R(1.0), R(2.0), R(3.0), R(4.0), R(5.0), R(1e30)};
     static const real shares[] = {R(1.0), R(0.5625), R(0.25), R(0.0625), R(0.0), R(0.0), R(0.0)};
     for (int i = 0; i < 7; i++) {
-        Vec3 left = intensity_at(&light, splat(squared[i]));
+        vreal share = falloff_at(&light, splat(squared[i]));
         vmask beyond = beyond_falloff(&light, splat(squared[i]));
-        assert_true(lane_real(&left.x, 0) == R(2.0) * shares[i]);
-        assert_true(lane_real(&left.z, HD_LANES - 1) == R(8.0) * shares[i]);
+        assert_true(lane_real(&share, 0) == shares[i]);
+        assert_true(lane_real(&share, HD_LANES - 1) == shares[i]);
         assert_int_equal(lane_int(&beyond, HD_LANES - 1), squared[i] < R(4.0) ? 0 : -1);
     }
     light.inverse_falloff_squared = R(0.25);
-    Vec3 left = intensity_at(&light, splat(R(12.0)));
-    assert_true(lane_real(&left.y, 0) == R(1.0));
+    vreal share = falloff_at(&light, splat(R(12.0)));
+    assert_true(lane_real(&share, 0) == R(0.25));
     assert_false(any_lane(beyond_falloff(&light, splat(R(12.0)))));
     light.inverse_falloff_squared = R(0.0);
-    left = intensity_at(&light, splat(R(12.0)));
-    assert_true(lane_real(&left.y, 0) == R(4.0));
+    share = falloff_at(&light, splat(R(12.0)));
+    assert_true(lane_real(&share, 0) == R(1.0));
 }
 
 static void every_pixel_has_one_place(void **state) {

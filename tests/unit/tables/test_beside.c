@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+/* Segments drawn by lot from solids and the floor to lights: none of them crosses what is said to
+   be beside, and much is. */
+#include "kernels/host/shared.h"
+#include "scene_text.h"
+#include "tables/tables.h"
+
+/* To be filled in: more lights, by lot. */
+static const char pattern[] =
+    "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 5]}, \"materials\": {\"glass\": {}}, "
+    "\"solids\": ["
+    "{\"kind\": \"tetrahedron\", \"centre\": [2.5, 0, 0], \"circumradius\": 1.45, \"material\": "
+    "\"glass\"},"
+    "{\"kind\": \"octahedron\", \"centre\": [-1.25, 2.165, 0.1], \"circumradius\": 1.35,"
+    " \"material\": \"glass\", \"edge_lights\": {\"per_edge\": 2, \"intensity\": 1}},"
+    "{\"kind\": \"dodecahedron\", \"centre\": [-1.25, -2.165, 0.3], \"circumradius\": 1.35,"
+    " \"material\": \"glass\"},"
+    "{\"kind\": \"cube\", \"centre\": [-2.5, -2, 0.1], \"circumradius\": 0.9, \"material\": "
+    "\"glass\"},"
+    "{\"kind\": \"icosahedron\", \"centre\": [5, 3, -1.3], \"circumradius\": 1, \"material\": "
+    "\"glass\"}],"
+    "\"lights\": [{\"position\": [2.5, 0.1, 0.2]}%s],"
+    "\"floor\": {\"corners\": [[-12, 12, -1.4], [12, 12, -1.4], [12, -12, -1.4], [-12, -12, -1.4]],"
+    " \"material\": \"glass\"}}";
+
+enum { SOLIDS = 5, FLOOR = SOLIDS, OBJECTS, LIGHTS = 100, POINTS = 2000 };
+
+static HdSceneFile file;
+static HdSceneTables tables;
+static const Object *objects;
+static const Plane *planes;
+static const int *ways;
+
+static double between(double least, double most) {
+    static uint64_t state = 1;
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return least + (most - least) * (double)(state >> 11) * 0x1p-53;
+}
+
+static int begin(void **state) {
+    (void)state;
+    HdError error;
+    char text[16384], lights[LIGHTS * 64] = "";
+    for (int i = 0; i < LIGHTS; i++)
+        snprintf(lights + strlen(lights), 64, ", {\"position\": [%.3f, %.3f, %.3f]}",
+                 between(-6.0, 6.0), between(-6.0, 6.0), between(-1.3, 6.0));
+    snprintf(text, sizeof text, pattern, lights);
+    expect_scene(&file, text, NULL);
+    if (hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error) != HD_OK)
+        return 1;
+    objects = tables.table[HD_TABLE_objects].data;
+    planes = tables.table[HD_TABLE_planes].data;
+    ways = tables.table[HD_TABLE_light_ways].data;
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_scene_tables_free(&tables);
+    hd_scene_file_free(&file);
+    return 0;
+}
+
+static double along(const Plane *plane, HdVec3 v) {
+    return (double)plane->x * v.x + (double)plane->y * v.y + (double)plane->z * v.z;
+}
+
+/* On the surface, relative to the object. */
+static HdVec3 point_on(int object) {
+    HdVec3 v = {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
+    if (object == FLOOR)
+        return (HdVec3){12.0 * v.x, 12.0 * v.y, 0.0};
+    double farthest = 0.0;
+    for (int k = 0; k < objects[object].plane_count; k++) {
+        const Plane *plane = planes + objects[object].first_plane + k;
+        double h = along(plane, v) / (double)plane->distance;
+        farthest = fmax(farthest, objects[object].paired ? fabs(h) : h);
+    }
+    return (HdVec3){v.x / farthest, v.y / farthest, v.z / farthest};
+}
+
+static HdVec3 offset(int table, int row) {
+    const Vector *v = (const Vector *)tables.table[table].data + row;
+    return (HdVec3){(double)v->x, (double)v->y, (double)v->z};
+}
+
+/* What is left of the segment behind one half-space. */
+static void clip(double from, double to, double distance, double *first, double *last) {
+    double t = (distance - from) / (to - from);
+    if (to > from)
+        *last = fmin(*last, t);
+    else if (to < from)
+        *first = fmax(*first, t);
+    else if (from > distance)
+        *last = -1.0;
+}
+
+static bool crosses(int object, HdVec3 from, HdVec3 to) {
+    const Plane *own = planes + objects[object].first_plane;
+    if (object == FLOOR)
+        return along(own, from) * along(own, to) < 0.0;
+    double first = 0.0, last = 1.0;
+    for (int k = 0; k < objects[object].plane_count; k++) {
+        double a = along(own + k, from), b = along(own + k, to);
+        clip(a, b, (double)own[k].distance, &first, &last);
+        if (objects[object].paired)
+            clip(-a, -b, (double)own[k].distance, &first, &last);
+    }
+    return first < last;
+}
+
+static bool is_beside(int from, int light, int object) {
+    return ways[from * (tables.light_count + 1) + 1 + light] >> object & 1;
+}
+
+static void segments_miss_what_is_beside(void **state) {
+    (void)state;
+    int beside = 0, others = 0, crossed = 0;
+    for (int from = 0; from < OBJECTS; from++)
+        for (int light = 0; light < tables.light_count; light++)
+            for (int object = 0; object < OBJECTS; object++) {
+                if (object == from)
+                    continue;
+                bool missed = is_beside(from, light, object), is_crossed = false;
+                HdVec3 move = offset(HD_TABLE_object_offsets, from * OBJECTS + object);
+                HdVec3 to = offset(HD_TABLE_light_offsets, object * tables.light_count + light);
+                for (int i = 0; i < POINTS && !is_crossed; i++)
+                    is_crossed = crosses(object, hd_add(point_on(from), move), to);
+                assert_false(missed && is_crossed);
+                beside += missed;
+                others += !missed;
+                crossed += is_crossed;
+            }
+    /* Of what is not beside most is crossed: the hulls are not much too wide. */
+    assert_true(beside > others);
+    assert_true(2 * crossed > others);
+}
+
+static void a_solid_is_left_only_towards_lights_outside(void **state) {
+    (void)state;
+    int inside = 0;
+    for (int solid = 0; solid < SOLIDS; solid++)
+        for (int light = 0; light < tables.light_count; light++) {
+            double farthest = -1.0;
+            HdVec3 at = offset(HD_TABLE_light_offsets, solid * tables.light_count + light);
+            for (int k = 0; k < objects[solid].plane_count; k++) {
+                const Plane *plane = planes + objects[solid].first_plane + k;
+                double h = along(plane, at);
+                h = objects[solid].paired ? fabs(h) : h;
+                farthest = fmax(farthest, h - (double)plane->distance);
+            }
+            assert_int_equal(is_beside(solid, light, solid), farthest < 1e-5);
+            inside += farthest < 1e-5;
+        }
+    assert_int_equal(inside, 12 * 2 + 1); /* its edges' lights, and one in the tetrahedron */
+    for (int light = 0; light < tables.light_count; light++)
+        assert_true(is_beside(FLOOR, light, FLOOR));
+}
+
+static void the_first_number_is_of_all_lights(void **state) {
+    (void)state;
+    for (int from = 0; from < OBJECTS; from++)
+        for (int object = 0; object < OBJECTS; object++) {
+            bool all = true;
+            for (int light = 0; light < tables.light_count; light++)
+                all = all && is_beside(from, light, object);
+            assert_int_equal(ways[from * (tables.light_count + 1)] >> object & 1, all);
+        }
+}
+
+/* The dodecahedron and the cube overlap, the icosahedron is in the floor. */
+static void solids_that_others_reach_into_are_not_apart(void **state) {
+    (void)state;
+    static const int apart[OBJECTS] = {1, 1, 0, 0, 0, 0};
+    for (int i = 0; i < OBJECTS; i++)
+        assert_int_equal(objects[i].apart, apart[i]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(segments_miss_what_is_beside),
+        cmocka_unit_test(a_solid_is_left_only_towards_lights_outside),
+        cmocka_unit_test(the_first_number_is_of_all_lights),
+        cmocka_unit_test(solids_that_others_reach_into_are_not_apart),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
