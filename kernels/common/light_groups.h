@@ -24,6 +24,10 @@ FN int is_beside(int beside, int object) {
     return object < HD_JUDGED_OBJECTS && beside >> object & 1;
 }
 
+FN int floor_may_block(GLOBAL const Header *header, int beside) {
+    return header->solid_count < header->floor_end && !is_beside(beside, header->solid_count);
+}
+
 #if HD_LANES == 1
 
 /* A length is at most that. */

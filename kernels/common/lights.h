@@ -246,10 +246,9 @@ FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
         cross_solid(SCENE_ARGUMENTS object, sides + object, light_row, coordinates, outer[object],
                     some_outer[object], open_to[object] & lit, &light);
     }
-    for (int object = header->solid_count; object < header->floor_end; object++) {
-        if (is_beside(known, object))
-            continue;
-        vmask blocked = floor_blocks(SCENE_ARGUMENTS object, light_row, coordinates, points);
+    if (floor_may_block(header, known)) {
+        vmask blocked =
+            floor_blocks(SCENE_ARGUMENTS header->solid_count, light_row, coordinates, points);
         light = vec3_pick(blocked, vec3_zero(), light);
         lit = lit & ~blocked;
     }
