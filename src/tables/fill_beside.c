@@ -5,12 +5,9 @@
 
 #include <math.h>
 
-/* A ball that all points of a site are in; world space. */
-typedef struct {
-    HdVec3 centre;
-    double radius;
-    int object;
-} Site;
+static HdVec3 way_between(const HdBuilder *builder, int from, int to) {
+    return hd_sub(builder->centres[to], builder->centres[from]);
+}
 
 static double circumradius(const HdBuilder *builder, int object) {
     if (object < builder->solid_count)
@@ -25,87 +22,103 @@ static double circumradius(const HdBuilder *builder, int object) {
     return radius;
 }
 
-/* More than an object's own by far more than rounding can do. */
-static Site site_of_object(const HdBuilder *builder, int object) {
-    return (Site){builder->centres[object], 1.001 * circumradius(builder, object), object};
+/* No eye of the flight is further away from a point. */
+static double farthest_eye(const HdPath *path, HdVec3 point) {
+    const HdCylinderPath *cylinder = &path->cylinder;
+    if (path->is_fixed)
+        return hd_length(hd_sub(path->point, point));
+    return hd_length(point) + fabs(cylinder->r0) + fabs(cylinder->r_amplitude) +
+           fabs(cylinder->z0) + fabs(cylinder->z_amplitude);
 }
 
-/* Of the convex hull of a site's ball and a light, a cone with a round end. */
-static double distance_to_ways(const Site *site, HdVec3 light, HdVec3 point) {
-    HdVec3 way = hd_sub(light, site->centre), to_point = hd_sub(point, site->centre);
-    double length = hd_length(way), share = 0.0;
-    if (length > site->radius) {
-        double along = hd_dot(to_point, way) / length;
-        double across = sqrt(fmax(hd_dot(to_point, to_point) - along * along, 0.0));
-        double sine = site->radius / length; /* of half the cone's angle */
+/* Of a ball about the centre in which points are where rays meet the object: they are off by what
+   rounding makes of the way that the ray came. */
+static double radius_about(const HdBuilder *builder, int object) {
+    double way = farthest_eye(&builder->scene->eye, builder->centres[object]);
+    for (int i = 0; i < builder->object_count; i++)
+        way = fmax(way, hd_length(way_between(builder, object, i)) + circumradius(builder, i));
+    return 1.001 * circumradius(builder, object) + 1e-6 * way;
+}
+
+/* ---- ways of light ---- */
+
+/* Distance of a point from the convex hull of a ball about the origin and a light, a cone with a
+   round end. */
+static double distance_to_ways(double radius, HdVec3 light, HdVec3 point) {
+    double length = hd_length(light), share = 0.0;
+    if (length > radius) {
+        double along = hd_dot(point, light) / length;
+        double across = sqrt(fmax(hd_dot(point, point) - along * along, 0.0));
+        double sine = radius / length; /* of half the cone's angle */
         along -= across * sine / sqrt(1.0 - sine * sine);
         share = fmin(fmax(along / length, 0.0), 1.0);
     }
-    double radius = site->radius * (1.0 - share); /* of the ball there */
-    return hd_length(hd_sub(to_point, hd_scale(way, share))) - radius;
+    double left = radius * (1.0 - share); /* of the ball there */
+    return hd_length(hd_sub(point, hd_scale(light, share))) - left;
 }
 
-static bool solid_is_beside(const HdBuilder *builder, int solid, const Site *site, HdVec3 light) {
-    HdVec3 centre = builder->centres[solid];
-    double slack = (hd_length(hd_sub(site->centre, centre)) + site->radius) * 1e-4 +
-                   hd_length(hd_sub(light, centre)) * 1e-5;
-    double radius = builder->scene->solids[solid].circumradius * 1.001;
-    return distance_to_ways(site, light, centre) > radius + slack;
+static bool solid_is_beside(const HdBuilder *builder, const HdLightSource *source, int object,
+                            double radius, int solid) {
+    HdVec3 centre = way_between(builder, object, solid);
+    double slack = (hd_length(centre) + radius) * 1e-4 +
+                   hd_length(hd_light_offset(builder, source, solid)) * 1e-5;
+    double least = builder->scene->solids[solid].circumradius * 1.001 + slack;
+    return distance_to_ways(radius, hd_light_offset(builder, source, object), centre) > least;
 }
 
-/* How far a site reaches from its centre in a direction and against it. */
-static double reach_along(const HdBuilder *builder, const Site *site, HdVec3 direction) {
-    if (site->object >= builder->solid_count)
-        return site->radius;
-    const HdPlatonic *shape = &builder->shapes[site->object];
-    double most = 0.0;
-    for (int i = 0; i < shape->vertex_count; i++)
-        most = fmax(most, fabs(hd_dot(direction, shape->vertex[i])));
-    return most * site->radius;
-}
-
-/* The side of the floor's plane that a site is on: 1, -1, or 0 for both. */
-static int side_of_floor(const HdBuilder *builder, const Site *site) {
+/* The side of the floor's plane that all points of an object are on: 1, -1, or 0 for both. Corners
+   tell of a solid, its ball of meshes. */
+static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
-    HdVec3 centre = hd_sub(site->centre, builder->centres[builder->solid_count]);
-    double height = hd_dot(normal, centre);
-    double least = reach_along(builder, site, normal) + (hd_length(centre) + site->radius) * 1e-4;
+    HdVec3 centre = way_between(builder, builder->solid_count, object);
+    double reach = 0.0;
+    if (object < builder->solid_count) {
+        const HdPlatonic *shape = &builder->shapes[object];
+        for (int i = 0; i < shape->vertex_count; i++)
+            reach = fmax(reach, fabs(hd_dot(normal, shape->vertex[i])));
+        reach = reach * circumradius(builder, object) + radius - circumradius(builder, object);
+    } else {
+        reach = radius;
+    }
+    double least = reach + (hd_length(centre) + radius) * 1e-4, height = hd_dot(normal, centre);
     return (height > least) - (height < -least);
 }
 
-static bool floor_is_beside(const HdBuilder *builder, const Site *site, int light) {
-    if (site->object == builder->solid_count)
+static bool floor_is_beside(const HdBuilder *builder, int light, int object, double radius) {
+    if (object == builder->solid_count)
         return true; /* it is in nobody's light who is on it */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
                       (size_t)light * (size_t)builder->plane_count;
     real height = row[builder->plane_count - HD_FLOOR_PLANES];
-    int side = side_of_floor(builder, site);
+    int side = side_of_floor(builder, object, radius);
     return side > 0 ? height > R(0.0) : side < 0 && height < R(0.0);
 }
 
-static int beside_ways(const HdBuilder *builder, const Site *site, int light) {
+static int beside_ways(const HdBuilder *builder, int light, int object, double radius) {
+    const HdLightSource *source = &builder->sources[light];
     const LightSides *sides = (const LightSides *)builder->table[HD_TABLE_light_sides] +
                               (size_t)light * (size_t)builder->object_count;
-    HdVec3 position = hd_light_offset(builder, &builder->sources[light], site->object);
-    position = hd_add(position, builder->centres[site->object]);
     int beside = 0;
     for (int s = 0; s < builder->solid_count && s < HD_JUDGED_OBJECTS; s++) {
         /* Segments leave their own solid only to where the light is outside of it. */
-        bool is_beside =
-            s == site->object ? sides[s].outside == 0 : solid_is_beside(builder, s, site, position);
+        bool is_beside = s == object ? sides[s].outside == 0
+                                     : solid_is_beside(builder, source, object, radius, s);
         beside |= is_beside ? 1 << s : 0;
     }
     if (builder->has_floor && builder->solid_count < HD_JUDGED_OBJECTS)
-        beside |= floor_is_beside(builder, site, light) ? 1 << builder->solid_count : 0;
+        beside |= floor_is_beside(builder, light, object, radius) ? 1 << builder->solid_count : 0;
     return beside;
 }
 
-static void fill_site(const HdBuilder *builder, int number, const Site *site) {
+/* Kernels measure nothing for what is beside the ways of all lights: the first number has no bit
+   that the number of some light has not. */
+static void fill_ways(const HdBuilder *builder, int object) {
     int *beside = (int *)builder->table[HD_TABLE_light_ways] +
-                  (size_t)number * ((size_t)builder->light_count + 1);
+                  (size_t)object * ((size_t)builder->light_count + 1);
+    double radius = radius_about(builder, object);
     beside[0] = -1;
     for (int i = 0; i < builder->light_count; i++) {
-        beside[i + 1] = beside_ways(builder, site, i);
+        beside[i + 1] = beside_ways(builder, i, object, radius);
         beside[0] &= beside[i + 1];
     }
 }
@@ -113,15 +126,13 @@ static void fill_site(const HdBuilder *builder, int number, const Site *site) {
 /* ---- what reaches into a solid ---- */
 
 static bool is_apart(const HdBuilder *builder, int solid) {
-    Site site = site_of_object(builder, solid);
-    for (int other = 0; other < builder->object_count; other++) {
-        if (other == solid)
-            continue;
-        Site reach = site_of_object(builder, other);
-        double distance = hd_length(hd_sub(site.centre, reach.centre));
-        bool is_floor = builder->has_floor && other == builder->solid_count;
-        if (is_floor ? side_of_floor(builder, &site) == 0
-                     : !(distance > (site.radius + reach.radius) * 1.0001))
+    double radius = radius_about(builder, solid);
+    for (int i = 0; i < builder->object_count; i++) {
+        bool is_floor = builder->has_floor && i == builder->solid_count;
+        double least = (radius + radius_about(builder, i)) * 1.0001;
+        bool is_near = is_floor ? side_of_floor(builder, solid, radius) == 0
+                                : !(hd_length(way_between(builder, solid, i)) > least);
+        if (i != solid && is_near)
             return false;
     }
     return true;
@@ -130,8 +141,7 @@ static bool is_apart(const HdBuilder *builder, int solid) {
 void NAMED(hd_fill_beside)(const HdBuilder *builder) {
     Object *objects = builder->table[HD_TABLE_objects];
     for (int i = 0; i < builder->object_count; i++) {
-        Site site = site_of_object(builder, i);
-        fill_site(builder, i, &site);
+        fill_ways(builder, i);
         objects[i].apart = i < builder->solid_count && is_apart(builder, i);
     }
 }

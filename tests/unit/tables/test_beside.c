@@ -177,12 +177,33 @@ static void solids_that_others_reach_into_are_not_apart(void **state) {
         assert_int_equal(objects[i].apart, apart[i]);
 }
 
+/* Where rays come from far away rounding puts points off the solids, so that nothing is known: the
+   eye is 10^7 radii away, which a float tells by about one. */
+static void nothing_is_known_where_points_are_off(void **state) {
+    HdSceneTables near = tables;
+    file.scene.eye.point.x = 1e7;
+    memset(&tables, 0, sizeof tables);
+    (void)state;
+    HdError error;
+    assert_int_equal(hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error), HD_OK);
+    objects = tables.table[HD_TABLE_objects].data;
+    ways = tables.table[HD_TABLE_light_ways].data;
+    for (int from = 0; from < SOLIDS; from++) {
+        assert_false(objects[from].apart);
+        for (int light = 0; light < tables.light_count; light++)
+            for (int object = 0; object < OBJECTS; object++)
+                assert_true(object == from || !is_beside(from, light, object));
+    }
+    hd_scene_tables_free(&near);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(segments_miss_what_is_beside),
         cmocka_unit_test(a_solid_is_left_only_towards_lights_outside),
         cmocka_unit_test(the_first_number_is_of_all_lights),
         cmocka_unit_test(solids_that_others_reach_into_are_not_apart),
+        cmocka_unit_test(nothing_is_known_where_points_are_off),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
