@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "scene/overlap.h"
+
 static HdVec3 way_between(const HdBuilder *builder, int from, int to) {
     return hd_sub(builder->centres[to], builder->centres[from]);
 }
@@ -66,47 +68,52 @@ static bool solid_is_beside(const HdBuilder *builder, const HdLightSource *sourc
     return distance_to_ways(radius, hd_light_offset(builder, source, object), centre) > least;
 }
 
-/* The side of the floor's plane that all points of an object are on: 1, -1, or 0 for both. Corners
-   tell of a solid, its ball of meshes. */
+/* The points of an object, as lights see them. */
+typedef struct {
+    int object;
+    double radius; /* of a ball about all of them */
+    int side;      /* of the floor's plane: 1, -1, or 0 for both */
+} Lit;
+
+/* Corners tell of a solid, its ball of meshes. */
 static int side_of_floor(const HdBuilder *builder, int object, double radius) {
     HdVec3 normal = hd_floor_frame(&builder->scene->floor).normal;
     HdVec3 centre = way_between(builder, builder->solid_count, object);
-    double reach = 0.0;
+    double reach = radius;
     if (object < builder->solid_count) {
         const HdPlatonic *shape = &builder->shapes[object];
+        double most = 0.0;
         for (int i = 0; i < shape->vertex_count; i++)
-            reach = fmax(reach, fabs(hd_dot(normal, shape->vertex[i])));
-        reach = reach * circumradius(builder, object) + radius - circumradius(builder, object);
-    } else {
-        reach = radius;
+            most = fmax(most, fabs(hd_dot(normal, shape->vertex[i])));
+        reach -= (1.0 - most) * circumradius(builder, object);
     }
     double least = reach + (hd_length(centre) + radius) * 1e-4, height = hd_dot(normal, centre);
     return (height > least) - (height < -least);
 }
 
-static bool floor_is_beside(const HdBuilder *builder, int light, int object, double radius) {
-    if (object == builder->solid_count)
+static bool floor_is_beside(const HdBuilder *builder, int light, const Lit *lit) {
+    if (lit->object == builder->solid_count)
         return true; /* it is in nobody's light who is on it */
     const real *row = (const real *)builder->table[HD_TABLE_light_coordinates] +
                       (size_t)light * (size_t)builder->plane_count;
     real height = row[builder->plane_count - HD_FLOOR_PLANES];
-    int side = side_of_floor(builder, object, radius);
-    return side > 0 ? height > R(0.0) : side < 0 && height < R(0.0);
+    return lit->side > 0 ? height > R(0.0) : lit->side < 0 && height < R(0.0);
 }
 
-static int beside_ways(const HdBuilder *builder, int light, int object, double radius) {
+static int beside_ways(const HdBuilder *builder, int light, const Lit *lit) {
     const HdLightSource *source = &builder->sources[light];
     const LightSides *sides = (const LightSides *)builder->table[HD_TABLE_light_sides] +
                               (size_t)light * (size_t)builder->object_count;
     int beside = 0;
     for (int s = 0; s < builder->solid_count && s < HD_JUDGED_OBJECTS; s++) {
         /* Segments leave their own solid only to where the light is outside of it. */
-        bool is_beside = s == object ? sides[s].outside == 0
-                                     : solid_is_beside(builder, source, object, radius, s);
+        bool is_beside = s == lit->object
+                             ? sides[s].outside == 0
+                             : solid_is_beside(builder, source, lit->object, lit->radius, s);
         beside |= is_beside ? 1 << s : 0;
     }
     if (builder->has_floor && builder->solid_count < HD_JUDGED_OBJECTS)
-        beside |= floor_is_beside(builder, light, object, radius) ? 1 << builder->solid_count : 0;
+        beside |= floor_is_beside(builder, light, lit) ? 1 << builder->solid_count : 0;
     return beside;
 }
 
@@ -116,25 +123,37 @@ static void fill_ways(const HdBuilder *builder, int object) {
     int *beside = (int *)builder->table[HD_TABLE_light_ways] +
                   (size_t)object * ((size_t)builder->light_count + 1);
     double radius = radius_about(builder, object);
+    Lit lit = {object, radius, builder->has_floor ? side_of_floor(builder, object, radius) : 0};
     beside[0] = -1;
     for (int i = 0; i < builder->light_count; i++) {
-        beside[i + 1] = beside_ways(builder, i, object, radius);
+        beside[i + 1] = beside_ways(builder, i, &lit);
         beside[0] &= beside[i + 1];
     }
 }
 
 /* ---- what reaches into a solid ---- */
 
+/* Objects with less between them might meet, for all that rounding does. */
+static double least_gap(const HdBuilder *builder, int a, int b) {
+    return (radius_about(builder, a) + radius_about(builder, b)) * 1.0001 -
+           circumradius(builder, a) - circumradius(builder, b);
+}
+
+static bool reaches_into(const HdBuilder *builder, int other, int solid) {
+    const HdScene *scene = builder->scene;
+    double least = -least_gap(builder, solid, other);
+    if (other < builder->solid_count)
+        return hd_solid_depth(&scene->solids[solid], &scene->solids[other], least) > least;
+    if (builder->has_floor && other == builder->solid_count)
+        return hd_floor_depth(&scene->solids[solid], &scene->floor, least) > least;
+    double sum = circumradius(builder, solid) + circumradius(builder, other);
+    return !(hd_length(way_between(builder, solid, other)) - sum > -least);
+}
+
 static bool is_apart(const HdBuilder *builder, int solid) {
-    double radius = radius_about(builder, solid);
-    for (int i = 0; i < builder->object_count; i++) {
-        bool is_floor = builder->has_floor && i == builder->solid_count;
-        double least = (radius + radius_about(builder, i)) * 1.0001;
-        bool is_near = is_floor ? side_of_floor(builder, solid, radius) == 0
-                                : !(hd_length(way_between(builder, solid, i)) > least);
-        if (i != solid && is_near)
+    for (int i = 0; i < builder->object_count; i++)
+        if (i != solid && reaches_into(builder, i, solid))
             return false;
-    }
     return true;
 }
 

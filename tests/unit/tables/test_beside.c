@@ -37,9 +37,17 @@ static double between(double least, double most) {
     return least + (most - least) * (double)(state >> 11) * 0x1p-53;
 }
 
+static void compile(void) {
+    HdError error;
+    hd_scene_tables_free(&tables);
+    assert_int_equal(hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error), HD_OK);
+    objects = tables.table[HD_TABLE_objects].data;
+    planes = tables.table[HD_TABLE_planes].data;
+    ways = tables.table[HD_TABLE_light_ways].data;
+}
+
 static int begin(void **state) {
     (void)state;
-    HdError error;
     char text[16384], lights[LIGHTS * 64] = "";
     for (int i = 0; i < LIGHTS; i++) {
         double x = between(-6.0, 6.0), y = between(-6.0, 6.0), z = between(-1.3, 6.0);
@@ -47,11 +55,7 @@ static int begin(void **state) {
     }
     snprintf(text, sizeof text, pattern, lights);
     expect_scene(&file, text, NULL);
-    if (hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error) != HD_OK)
-        return 1;
-    objects = tables.table[HD_TABLE_objects].data;
-    planes = tables.table[HD_TABLE_planes].data;
-    ways = tables.table[HD_TABLE_light_ways].data;
+    compile();
     return 0;
 }
 
@@ -180,21 +184,15 @@ static void solids_that_others_reach_into_are_not_apart(void **state) {
 /* Where rays come from far away rounding puts points off the solids, so that nothing is known: the
    eye is 10^7 radii away, which a float tells by about one. */
 static void nothing_is_known_where_points_are_off(void **state) {
-    HdSceneTables near = tables;
-    file.scene.eye.point.x = 1e7;
-    memset(&tables, 0, sizeof tables);
     (void)state;
-    HdError error;
-    assert_int_equal(hd_compile_scene(&tables, &file.scene, HD_PRECISION_FLOAT, 8, &error), HD_OK);
-    objects = tables.table[HD_TABLE_objects].data;
-    ways = tables.table[HD_TABLE_light_ways].data;
+    file.scene.eye.point.x = 1e7;
+    compile();
     for (int from = 0; from < SOLIDS; from++) {
         assert_false(objects[from].apart);
         for (int light = 0; light < tables.light_count; light++)
             for (int object = 0; object < OBJECTS; object++)
                 assert_true(object == from || !is_beside(from, light, object));
     }
-    hd_scene_tables_free(&near);
 }
 
 int main(void) {
