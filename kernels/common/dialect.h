@@ -8,7 +8,7 @@
    words    FN begins every function (static and inlined); FN_APART one that is kept out of its
             callers where that helps. GLOBAL and LOCAL stand before the type that a pointer to a
             table, or to memory of a group, points to. RESTRICT, ALIGNED_16. BARRIER() waits for the
-            group, RECONVERGE() ends a turn of a long loop that threads leave at different times.
+            group.
    scalars  uint, uint64 and fixed64 of 32, 64 and 64 bits; real_bits: an integer as wide as real
    bundles  vreal of real; vint: int, or with several lanes integers as wide as real, to be used as
             if they had 32 bits; vmask: opaque, 0 or -1 in each lane, or a bit for each; vfix of
@@ -85,6 +85,29 @@ FN uint lane_bits(vmask m) {
     return bits;
 }
 #endif
+
+/* The lanes of `left` without those of `done`, which has the first of them. One lane leaves none: so
+   compilers see that a loop over groups of lanes is none there. */
+FN vmask lanes_after(vmask left, vmask done) {
+#if HD_LANES == 1
+    (void)left, (void)done;
+    return mask_none();
+#else
+    return left & ~done;
+#endif
+}
+
+/* Whether to do what only the lanes of `m` need. GPUs do it in any case: where other threads of the
+   warp need it, it costs nothing, and a branch less within others is one barrier less
+   (docs/lost-light.md). */
+FN int must_visit(vmask m) {
+#if HD_GROUP_SIZE
+    (void)m;
+    return 1;
+#else
+    return any_lane(m);
+#endif
+}
 
 /* `counts`, one more in the lanes of `m`. */
 FN vint count_lanes(vint counts, vmask m) {

@@ -252,7 +252,7 @@ FN Vec3 passing_light(SCENE_PARAMETERS int number, Vec3 light, Vec3 to_light,
         light = vec3_pick(blocked, vec3_zero(), light);
         lit = lit & ~blocked;
     }
-    if (MESHES(header) && any_lane(lit))
+    if (MESHES(header) && must_visit(lit))
         light = vec3_mul(light, transmittance_of_meshes(SCENE_ARGUMENTS surface->point, to_light,
                                                         points->object, points->face,
                                                         points->inside, number, lit));
@@ -284,7 +284,7 @@ FN LightRows light_rows(vint object) {
         rows.object[rows.count] = number;
         rows.points[rows.count] = same;
         rows.count++;
-        left = left & ~same;
+        left = lanes_after(left, same);
     } while (any_lane(left));
     return rows;
 }
@@ -324,7 +324,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     if (MESHES(header))
         point = vec3_add(point, start_of_instance(SCENE_ARGUMENTS points->object));
     vint shininess = spread_first(surface->material.shininess, points->active);
-    int common_shininess = all_same(shininess) ? lane_int(&shininess, 0) : 0;
+    int common_shininess = HD_LANES > 1 && all_same(shininess) ? lane_int(&shininess, 0) : 0;
     int shines = any_lane(points->active & lt(zero, surface->material.specular));
     /* Of the solids and the floor. */
     const int judged =
@@ -343,6 +343,7 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     }
 #endif
     for (int i = 0; i < header->light_count; i++) {
+        vmask lit = points->active;
 #if HD_LANES > 1
         int known = group_known[lights[i].group];
         if (known & GROUP_IS_DARK) {
@@ -351,17 +352,16 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         }
 #else
         int known = 0, run = MANY_LIGHTS(header) ? lights[i].run : 0;
-        if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
-                                   object_of(SCENE_ARGUMENTS points->object), i)) {
-            i += run - 1;
-            continue;
-        }
+        int is_dark = run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
+                                             object_of(SCENE_ARGUMENTS points->object), i);
+        i += is_dark ? run - 1 : 0;
+        lit = is_dark ? mask_none() : lit;
 #endif
         Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
-        vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
-                    lt(zero, squared) & ~beyond_falloff(lights + i, squared);
+        lit = lit & ~holds_light(lights + i, points) & lt(zero, cosine) & lt(zero, squared) &
+              ~beyond_falloff(lights + i, squared);
         if (!any_lane(lit))
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);

@@ -99,7 +99,7 @@ FN void keep_filter(GLOBAL const Skin *skins, Findings *found, const MeshRays *r
         int number = lane_int(&triangle->skin, first_lane(met));
         GLOBAL const Skin *skin = skins + number;
         vmask m = met & eq_int(triangle->skin, splat_int(number));
-        met = met & ~m;
+        met = lanes_after(met, m);
         for (int channel = 0; channel < 3; channel++) {
             vint more = pick_int(crossing->entering, splat_int(skin->filter[0][channel]),
                                  splat_int(skin->filter[1][channel]));
@@ -129,20 +129,6 @@ FN void keep_crossing(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
         keep_filter(skins, found, rays, triangle, met, &crossing);
     else
         keep_closest(found, rays, triangle, met, &crossing);
-}
-
-/* Tries all triangles of a mesh with rays that run any way. */
-FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
-                int count) {
-    const int axis[3] = {0, 1, 2};
-    for (int i = first; i < first + count; i++) {
-        TriangleLanes triangle =
-            same_triangle(triangles, i, axis, rays->first_face, rays->first_skin);
-        triangle.a = turn(rays->last, triangle.a);
-        triangle.b = turn(rays->last, triangle.b);
-        triangle.c = turn(rays->last, triangle.c);
-        keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
-    }
 }
 
 #endif

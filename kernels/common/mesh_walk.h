@@ -31,15 +31,16 @@ FN vmask same_way(const Slabs *slabs, LastAxis last, vmask m, Way *way) {
     return m;
 }
 
-/* Tries the triangles of a leaf with rays that run one way. */
-FN void try_leaf(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
-                 int leaf) {
-    int first = ~leaf >> HD_LEAF_ITEM_BITS, end = first + (~leaf & HD_LEAF_ITEM_MASK);
-    for (int i = first; i < end; i++) {
+/* Tries `count` triangles, one at least, with rays that run one way. */
+FN void try_triangles(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                      const Way *way, int first, int count) {
+    int i = first;
+    do {
         TriangleLanes triangle =
             same_triangle(triangles, i, way->axis, rays->first_face, rays->first_skin);
         keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
-    }
+        i++;
+    } while (i < first + count);
 }
 
 /* ---- nodes of two children ---- */

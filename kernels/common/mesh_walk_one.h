@@ -5,59 +5,54 @@
 
 #include "mesh_walk.h"
 
-/* The rays of `m`, which all run that way. */
-FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, const Way *way,
-                  int root) {
+/* In place of nodes and leaves, of which none has these numbers: nothing, and all triangles of a mesh
+   without a hierarchy. */
+enum { NO_NODE = -1, WHOLE_MESH = -2147483647 };
+
+/* The ray of `m`. Down to a leaf, then its triangles: so threads of a warp do the same at a time
+   (Aila and Laine 2009). */
+FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                    GLOBAL const Instance *instance) {
     int stack[NODE_STACK(header)];
     vreal stack_near[NODE_STACK(header)];
-    int waiting = 0, current = root;
-    for (;;) {
-        int next = -1, has_next = 0;
-        if (current >= 0) {
-            GLOBAL const MeshNode *node = mesh_nodes + current;
-            vreal near0 = entry_of_child(node, &rays->slabs, way, 0);
-            vreal near1 = entry_of_child(node, &rays->slabs, way, 1);
-            vreal far0 = lesser(exit_of_child(node, &rays->slabs, way, 0), found->limit);
-            vreal far1 = lesser(exit_of_child(node, &rays->slabs, way, 1), found->limit);
-            vmask alive = m & found->alive;
-            int meets0 = any_lane(alive & le(near0, far0));
-            int meets1 = any_lane(alive & le(near1, far1));
-            int last = way->backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
-            if (meets0 && meets1) {
-                stack[waiting] = node->child[last];
-                stack_near[waiting] = last ? near1 : near0;
-                waiting++;
-                next = node->child[!last];
-                has_next = 1;
-            } else if (meets0 || meets1) {
-                next = node->child[meets1 ? 1 : 0];
-                has_next = 1;
+    int waiting = 0, current = instance->root >= 0 ? instance->root : WHOLE_MESH;
+    Way way;
+    m = same_way(&rays->slabs, rays->last, m, &way);
+    do {
+        do {
+            if (current == NO_NODE) {
+                waiting--;
+                current = any_lane(le(stack_near[waiting], found->limit)) ? stack[waiting] : NO_NODE;
             }
-        } else {
-            try_leaf(SCENE_ARGUMENTS found, rays, m & found->alive, way, current);
+            if (current >= 0) {
+                GLOBAL const MeshNode *node = mesh_nodes + current;
+                vreal near0 = entry_of_child(node, &rays->slabs, &way, 0);
+                vreal near1 = entry_of_child(node, &rays->slabs, &way, 1);
+                vreal far0 = lesser(exit_of_child(node, &rays->slabs, &way, 0), found->limit);
+                vreal far1 = lesser(exit_of_child(node, &rays->slabs, &way, 1), found->limit);
+                vmask alive = m & found->alive;
+                int meets0 = any_lane(alive & le(near0, far0));
+                int meets1 = any_lane(alive & le(near1, far1));
+                int last = way.backward >> node->axis & 1 ? 0 : 1; /* further along the rays */
+                if (meets0 && meets1) {
+                    stack[waiting] = node->child[last];
+                    stack_near[waiting] = last ? near1 : near0;
+                    waiting++;
+                }
+                int next = meets0 && meets1 ? !last : meets1;
+                current = meets0 || meets1 ? node->child[next] : NO_NODE;
+            }
+        } while (current >= 0 || (current == NO_NODE && waiting > 0));
+        int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
+        if (current == WHOLE_MESH) {
+            first = instance->first_triangle;
+            count = instance->triangle_count;
         }
-        while (!has_next && waiting > 0) {
-            waiting--;
-            next = stack[waiting];
-            vmask alive = m & found->alive;
-            has_next = any_lane(alive & le(stack_near[waiting], found->limit));
-        }
-        RECONVERGE();
-        if (!has_next)
-            return;
-        current = next;
-    }
-}
-
-FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
-                         int root) {
-    vmask left = m;
-    while (any_lane(left)) {
-        Way way;
-        vmask same = same_way(&rays->slabs, rays->last, left, &way);
-        left = left & ~same;
-        walk_mesh(SCENE_ARGUMENTS found, rays, same, &way, root);
-    }
+        if (current != NO_NODE)
+            try_triangles(SCENE_ARGUMENTS found, rays, m & found->alive, &way, first, count);
+        current = NO_NODE;
+        waiting = any_lane(m & found->alive) ? waiting : 0;
+    } while (waiting > 0);
 }
 
 #endif

@@ -373,7 +373,8 @@ FN void walk_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask 
             continue;
         }
         if (current < 0) {
-            try_leaf(SCENE_ARGUMENTS found, rays, alive, way, current);
+            try_triangles(SCENE_ARGUMENTS found, rays, alive, way, ~current >> HD_LEAF_ITEM_BITS,
+                          ~current & HD_LEAF_ITEM_MASK);
             furthest = splat(greatest_lane(found->limit, m));
             continue;
         }
@@ -427,6 +428,29 @@ FN void search_hierarchy(SCENE_PARAMETERS Findings *found, const MeshRays *rays,
     }
     if (FEW_RAYS > 1)
         walk_in_turns(SCENE_ARGUMENTS found, rays, &alone);
+}
+
+/* Tries all triangles of a mesh with rays that run any way. */
+FN void try_all(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m, int first,
+                int count) {
+    const int axis[3] = {0, 1, 2};
+    for (int i = first; i < first + count; i++) {
+        TriangleLanes triangle =
+            same_triangle(triangles, i, axis, rays->first_face, rays->first_skin);
+        triangle.a = turn(rays->last, triangle.a);
+        triangle.b = turn(rays->last, triangle.b);
+        triangle.c = turn(rays->last, triangle.c);
+        keep_crossing(SCENE_ARGUMENTS found, rays, &triangle, m);
+    }
+}
+
+/* Searches one mesh with the rays of `m`, whichever way it is laid out. */
+FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmask m,
+                    GLOBAL const Instance *instance) {
+    if (instance->root >= 0)
+        search_hierarchy(SCENE_ARGUMENTS found, rays, m, instance->root);
+    else
+        try_all(SCENE_ARGUMENTS found, rays, m, instance->first_triangle, instance->triangle_count);
 }
 
 #endif

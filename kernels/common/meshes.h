@@ -4,7 +4,12 @@
 #define HD_MESHES_H
 
 #include "intersection.h"
-#include "mesh_search.h"
+#include "mesh_walk.h"
+#if HD_LANES > 1
+#include "mesh_walk_wide.h"
+#else
+#include "mesh_walk_one.h"
+#endif
 
 /* Rays relative to the meshes' centre. */
 typedef struct {
@@ -70,36 +75,48 @@ FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays 
     search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
 
+/* Puts the children of a node that rays of `m` meet on the stack, the nearer one on top; returns how
+   many nodes then wait there. */
+FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs, vmask m,
+                     const Way *way, int number, int *stack, int waiting) {
+    GLOBAL const MeshNode *node = mesh_nodes + number;
+    int last = way->backward >> node->axis & 1 ? 0 : 1;
+    for (int i = 0; i < 2; i++) {
+        int child = i == 0 ? last : !last;
+        vreal near = entry_of_child(node, slabs, way, child);
+        vreal far = lesser(exit_of_child(node, slabs, way, child), found->limit);
+        if (any_lane(m & found->alive & le(near, far))) {
+            stack[waiting] = node->child[child];
+            waiting++;
+        }
+    }
+    return waiting;
+}
+
 /* The rays of `m`, which all run that way, through the hierarchy over the instances. */
 FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world, const Slabs *slabs,
                        vmask m, const Way *way) {
     int stack[NODE_STACK(header)];
-    int waiting = 1;
+    int waiting = 1, item = 0, end = 0; /* of a leaf */
     stack[0] = header->top_root;
-    while (waiting > 0) {
-        waiting--;
-        int current = stack[waiting];
-        vmask alive = m & found->alive;
-        if (current < 0) {
-            int first = ~current >> HD_LEAF_ITEM_BITS, count = ~current & HD_LEAF_ITEM_MASK;
-            for (int i = first; i < first + count; i++) {
-                alive = alive & found->alive;
-                search_instance(SCENE_ARGUMENTS found, world, &alive, top_items[i]);
-            }
-            continue;
-        }
-        GLOBAL const MeshNode *node = mesh_nodes + current;
-        int last = way->backward >> node->axis & 1 ? 0 : 1;
-        for (int i = 0; i < 2; i++) {
-            int child = i == 0 ? last : !last; /* the nearer one ends on top */
-            vreal near = entry_of_child(node, slabs, way, child);
-            vreal far = lesser(exit_of_child(node, slabs, way, child), found->limit);
-            if (any_lane(alive & le(near, far))) {
-                stack[waiting] = node->child[child];
-                waiting++;
+    do {
+        while (item == end && waiting > 0) {
+            waiting--;
+            int current = stack[waiting];
+            if (current < 0) {
+                item = ~current >> HD_LEAF_ITEM_BITS;
+                end = item + (~current & HD_LEAF_ITEM_MASK);
+            } else {
+                waiting = push_children(SCENE_ARGUMENTS found, slabs, m, way, current, stack,
+                                        waiting);
             }
         }
-    }
+        if (item < end) {
+            vmask alive = m & found->alive;
+            search_instance(SCENE_ARGUMENTS found, world, &alive, top_items[item]);
+            item++;
+        }
+    } while (item < end || waiting > 0);
 }
 
 FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) {
@@ -114,12 +131,14 @@ FN void search_meshes(SCENE_PARAMETERS Findings *found, const WorldRays *world) 
     LastAxis unturned;
     unturned.x = unturned.y = mask_none();
     vmask left = found->alive;
-    while (any_lane(left)) {
+    if (!must_visit(left))
+        return;
+    do {
         Way way;
         vmask same = same_way(&slabs, unturned, left, &way);
-        left = left & ~same;
+        left = lanes_after(left, same);
         walk_instances(SCENE_ARGUMENTS found, world, &slabs, same, &way);
-    }
+    } while (any_lane(left));
 }
 
 /* ---- what rays meet ---- */

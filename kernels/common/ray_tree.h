@@ -60,7 +60,7 @@ FN Vec3 most_seen(SCENE_PARAMETERS const Ray *ray, vmask left) {
         Vec3 seen = vec3_pick(ray->inside, vec3_splat(in[0], in[1], in[2]),
                               vec3_splat(out[0], out[1], out[2]));
         most = vec3_pick(m, seen, most);
-        left = left & ~m;
+        left = lanes_after(left, m);
     }
     return most;
 }
@@ -205,7 +205,7 @@ FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *
     Hit hit = closest_hit(SCENE_ARGUMENTS ray, reference);
     vmask struck = ray->alive & ~lt_int(hit.object, splat_int(0));
     mirror->alive = through->alive = mask_none();
-    if (!any_lane(struck)) {
+    if (!must_visit(struck)) {
         add_radiance(SCENE_ARGUMENTS sample, ray->alive, radiance, ray->weight);
         return;
     }
@@ -219,32 +219,35 @@ FN void follow(SCENE_PARAMETERS const Ray *ray, int level, Sample *sample, Ray *
 }
 
 /* Adds to `sample` what the eye sees in `direction` (unit) in the lanes of `alive`. At most one ray
-   for each level waits on the stack. */
+   for each level waits on the stack. The inner loop follows rays down to where none goes on, the
+   outer one takes the next that waits: so threads of a warp go down together. */
 FN void trace(SCENE_PARAMETERS Vec3 direction, vmask alive, Sample *sample) {
     Ray stack[DEPTH_BOUND(view)];
     int stack_level[DEPTH_BOUND(view)];
-    int waiting = 0, level = 0;
+    int waiting = 0, level = 0, in_tree;
     Ray ray = eye_ray(direction, alive);
-    for (;;) {
-        Ray mirror, through;
-        follow(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
-        int mirrors = any_lane(mirror.alive), passes = any_lane(through.alive);
-        level++;
-        if (mirrors && passes) {
-            stack[waiting] = mirror;
-            stack_level[waiting] = level;
-            waiting++;
-        }
-        if (mirrors || passes) {
+    do {
+        int mirrors, passes;
+        do {
+            Ray mirror, through;
+            follow(SCENE_ARGUMENTS & ray, level, sample, &mirror, &through);
+            mirrors = any_lane(mirror.alive);
+            passes = any_lane(through.alive);
+            level++;
+            if (mirrors && passes) {
+                stack[waiting] = mirror;
+                stack_level[waiting] = level;
+                waiting++;
+            }
             ray = passes ? through : mirror;
-            continue;
+        } while (mirrors || passes);
+        in_tree = waiting > 0;
+        if (in_tree) {
+            waiting--;
+            ray = stack[waiting];
+            level = stack_level[waiting];
         }
-        if (waiting == 0)
-            break;
-        waiting--;
-        ray = stack[waiting];
-        level = stack_level[waiting];
-    }
+    } while (in_tree);
 }
 
 #endif

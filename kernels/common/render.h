@@ -174,18 +174,19 @@ FN void add_sample(SCENE_PARAMETERS const Sample *sample, int first, Gathered *g
     }
 }
 
-/* Traces every `parts`-th bundle of the item's samples, from bundle number `part` on. */
-FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, Gathered *gathered) {
-    int count = HD_PIXELS_PER_ITEM * view->samples;
-    for (int first = part * HD_LANES; first < count; first += parts * HD_LANES) {
+/* Traces every `parts`-th bundle of the item's first `count` samples, from bundle number `part` on;
+   at least one, which is dead where there is none. */
+FN void gather_samples(SCENE_PARAMETERS int item, int part, int parts, int count,
+                       Gathered *gathered) {
+    int first = part * HD_LANES;
+    do {
         Vec3 direction;
         vmask alive = sample_directions(SAMPLE_ARGUMENTS item, first, &direction);
-        if (!any_lane(alive))
-            continue;
         Sample sample = empty_sample();
-        trace(SCENE_ARGUMENTS direction, alive, &sample);
+        trace(SCENE_ARGUMENTS direction, first < count ? alive : mask_none(), &sample);
         add_sample(SCENE_ARGUMENTS & sample, first, gathered);
-    }
+        first += parts * HD_LANES;
+    } while (first < count);
 }
 
 FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int item,
@@ -212,7 +213,7 @@ FN void store_pixels(GLOBAL const Header *header, GLOBAL const View *view, int i
 FN void render_item(SCENE_PARAMETERS int item, GLOBAL float *pixels, GLOBAL RayCounts *counts) {
     Gathered gathered;
     clear_gathered(&gathered);
-    gather_samples(SCENE_ARGUMENTS item, 0, 1, &gathered);
+    gather_samples(SCENE_ARGUMENTS item, 0, 1, HD_PIXELS_PER_ITEM * view->samples, &gathered);
     store_pixels(header, view, item, &gathered, pixels);
     *counts = gathered.counts;
 }
@@ -260,8 +261,8 @@ FN void render_by_group(SCENE_PARAMETERS int first_item, int item_count, int par
         int has_item = place < items_per_group && first + place < item_count;
         Gathered gathered;
         clear_gathered(&gathered);
-        if (has_item)
-            gather_samples(SCENE_ARGUMENTS item, part, parts, &gathered);
+        gather_samples(SCENE_ARGUMENTS item, part, parts,
+                       has_item ? HD_PIXELS_PER_ITEM * view->samples : 0, &gathered);
         /* Threads without an item may have no neighbours to read from. */
         add_parts(&gathered, has_item ? part : -1, parts, room + thread * GROUP_ROOM);
         if (has_item && part == 0) {

@@ -227,7 +227,7 @@ FN void set_skins(SCENE_PARAMETERS GLOBAL const Instance *instance, vmask m,
         int number = lane_int(&triangle->skin, first_lane(m));
         GLOBAL const Skin *skin = skins + number;
         vmask same = m & eq_int(triangle->skin, splat_int(number));
-        m = m & ~same;
+        m = lanes_after(m, same);
         LaneMaterial material = splat_material(materials + skin->material, entering);
         material.colour =
             vec3_mul(material.colour,
@@ -378,7 +378,7 @@ FN Surface surface_at(SCENE_PARAMETERS const Ray *ray, Reference reference, Hit 
     while (any_lane(left)) {
         int object = lane_int(&hit->object, first_lane(left));
         vmask m = left & eq_int(hit->object, splat_int(object));
-        left = left & ~m;
+        left = lanes_after(left, m);
         if (MESHES(header) && object >= header->floor_end) {
             describe_mesh(SCENE_ARGUMENTS ray, &reference, object - header->floor_end, &m, hit,
                           &surface);

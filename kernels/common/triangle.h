@@ -194,7 +194,7 @@ FN vmask cross_triangle(const RayFrame *frame, const Slabs *slabs, vmask m, Vec3
     pass_edge(at_b, at_c, m, &left_a, &right_a);
     pass_edge(at_c, at_a, m, &left_b, &right_b);
     vmask left = m & left_a & left_b, right = m & right_a & right_b;
-    if (!any_lane(left | right))
+    if (!must_visit(left | right))
         return mask_none();
     pass_edge(at_a, at_b, left | right, &left_c, &right_c);
     left = left & left_c;

@@ -90,7 +90,7 @@ FN Vec3 fetch_vector(GLOBAL const Vector *table, vint index) {
         vmask m = eq_int(index, splat_int(number));
         v = table + number;
         result = vec3_pick(m, vec3_splat(v->x, v->y, v->z), result);
-        left = left & ~m;
+        left = lanes_after(left, m);
     }
     return result;
 }

@@ -7,12 +7,9 @@
 #define FN_APART static __device__ __forceinline__
 #define GLOBAL
 #define LOCAL
-/* Threads of a warp that left loops at different times come together again. Left to themselves,
-   NVIDIA's compilers (13.0, sm_90) lose what some of them do where loops are nested deeply. */
-#define BARRIER()    (__syncwarp(), __syncthreads())
-#define RECONVERGE() __syncwarp(__activemask())
-#define RESTRICT     __restrict__
-#define ALIGNED_16   __align__(16)
+#define BARRIER()  __syncthreads()
+#define RESTRICT   __restrict__
+#define ALIGNED_16 __align__(16)
 typedef unsigned int uint;
 typedef unsigned long long uint64;
 typedef long long fixed64;

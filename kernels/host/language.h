@@ -12,10 +12,9 @@
 #define FN_APART static __attribute__((noinline, unused))
 #define GLOBAL
 #define LOCAL
-#define BARRIER()    ((void)0) /* there is one work item in a group */
-#define RECONVERGE() ((void)0)
-#define RESTRICT     restrict
-#define ALIGNED_16   __attribute__((aligned(16)))
+#define BARRIER()  ((void)0) /* there is one work item in a group */
+#define RESTRICT   restrict
+#define ALIGNED_16 __attribute__((aligned(16)))
 typedef uint32_t uint;
 typedef uint64_t uint64;
 typedef int64_t fixed64;

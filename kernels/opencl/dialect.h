@@ -14,14 +14,6 @@
 #define GLOBAL    __global
 #define LOCAL     __local
 #define BARRIER() barrier(CLK_LOCAL_MEM_FENCE)
-/* NVIDIA's compiler; see CUDA's dialect. Before PTX 6.2 it has no activemask: then threads come
-   together when they will, which changes no byte. */
-#if defined(cl_nv_pragma_unroll) && !defined(HD_NO_ACTIVEMASK)
-#define RECONVERGE()                                                                               \
-    __asm__ volatile("{ .reg .b32 m; activemask.b32 m; bar.warp.sync m; }" ::: "memory")
-#else
-#define RECONVERGE() ((void)0)
-#endif
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef ulong uint64;

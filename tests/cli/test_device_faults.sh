@@ -145,15 +145,6 @@ else
         expect_stderr_contains 'refused the kernels (clBuildProgram: CL_'
         expect_files .
     done
-    # One that knows no activemask, as NVIDIA's before PTX 6.2, is asked for kernels without, which give the same bytes.
-    one=("$hedron" render "${small[@]}" --frames 0 --quiet)
-    expect_exit 0 "${one[@]}" --backend c -o expected.data
-    expect_exit 0 env HEDRON_CACHE=off "${opencl[@]}" \
-        FAILING_OPENCL_TEXT='#if defined(cl_nv_pragma_unroll) && !defined(HD_NO_ACTIVEMASK)' \
-        FAILING_OPENCL_FOR=$'#if !defined(HD_NO_ACTIVEMASK)\n#error activemask requires PTX ISA .version 6.2\n#elif 0' \
-        "${one[@]}" --backend opencl --lanes 1 -o picture.data
-    expect_same picture.data expected.data
-    rm expected.data picture.data
     # Kernels that are kept, but that the compiler no longer turns into a program, are compiled anew.
     expect_exit 0 "${opencl[@]}" FAILING_OPENCL=clBuildProgram FAILING_OPENCL_TIMES=1 FAILING_OPENCL_CODE=-11 \
         "$hedron" render --verbose --backend opencl "${small[@]}" --frames 0-4 -o '%d.data'

@@ -27,14 +27,7 @@ extern const FakeShared fake_shared = {__start_fake_shared_memory, __stop_fake_s
 /* ---- threads; each runs alone until it waits, so no other one is active ---- */
 
 static inline void __syncthreads() {
-    fake_thread.wait(FAKE_BLOCK);
-}
-static inline unsigned __activemask() {
-    return 1u << threadIdx.x % FAKE_WARP_THREADS;
-}
-static inline void __syncwarp(unsigned mask = 0xffffffffu) {
-    if (mask != __activemask())
-        fake_thread.wait_some(mask);
+    fake_thread.wait();
 }
 template <typename T> static inline T atomicAdd(T *to, T amount) {
     T before = *to;

@@ -19,7 +19,7 @@ enum {
 
 typedef struct Fiber {
     void *stack;
-    FakeScope waits_for;
+    bool waits; /* for all threads of the block */
     bool is_over;
 } Fiber;
 
@@ -85,20 +85,9 @@ static void begin_thread(void) {
     leave();
 }
 
-static void wait(FakeScope scope) {
-    current->waits_for = scope;
+static void wait(void) {
+    current->waits = true;
     leave();
-}
-
-static void wait_some(unsigned int mask) {
-    unsigned int whole = 0xffffffff;
-    unsigned int left =
-        grid->thread->threads.x - grid->thread->thread.x / FAKE_WARP_THREADS * FAKE_WARP_THREADS;
-    if (left < FAKE_WARP_THREADS)
-        whole = (1u << left) - 1;
-    if ((mask & whole) != whole)
-        failure = "__syncwarp of some threads but not all";
-    wait(FAKE_WARP);
 }
 
 /* ---- a block ---- */
@@ -114,7 +103,7 @@ static void start_threads(unsigned int count) {
 static bool run_ready(unsigned int count) {
     bool any = false;
     for (unsigned int i = 0; i < count; i++) {
-        if (fibers[i].is_over || fibers[i].waits_for != FAKE_NOTHING)
+        if (fibers[i].is_over || fibers[i].waits)
             continue;
         grid->thread->thread = (FakeIndex){i, 0, 0};
         current = &fibers[i];
@@ -124,24 +113,14 @@ static bool run_ready(unsigned int count) {
     return any;
 }
 
-/* Lets the threads [from, to) go on if all of them wait for the scope. Those that ended never will:
-   nothing waits for them. */
-static bool release(unsigned int from, unsigned int to, FakeScope scope) {
-    for (unsigned int i = from; i < to; i++)
-        if (fibers[i].is_over || fibers[i].waits_for != scope)
+/* Lets the threads go on if all of them wait. Those that ended never will: nothing waits for them. */
+static bool release(unsigned int count) {
+    for (unsigned int i = 0; i < count; i++)
+        if (fibers[i].is_over || !fibers[i].waits)
             return false;
-    for (unsigned int i = from; i < to; i++)
-        fibers[i].waits_for = FAKE_NOTHING;
+    for (unsigned int i = 0; i < count; i++)
+        fibers[i].waits = false;
     return true;
-}
-
-static bool release_some(unsigned int count) {
-    bool any = release(0, count, FAKE_BLOCK);
-    for (unsigned int from = 0; from < count; from += FAKE_WARP_THREADS) {
-        unsigned int to = from + FAKE_WARP_THREADS;
-        any = release(from, to < count ? to : count, FAKE_WARP) || any;
-    }
-    return any;
 }
 
 static void check_end(unsigned int count) {
@@ -159,7 +138,7 @@ static void run_block(unsigned int count) {
     do {
         while (run_ready(count))
             ;
-    } while (failure == NULL && release_some(count));
+    } while (failure == NULL && release(count));
     if (failure == NULL)
         check_end(count);
 }
@@ -180,7 +159,6 @@ static bool make_stacks(void) {
 const char *fake_run_grid(const FakeGrid *launched) {
     grid = launched;
     grid->thread->wait = wait;
-    grid->thread->wait_some = wait_some;
     failure = make_stacks() ? NULL : "there is no memory for stacks";
     for (unsigned int i = 0; failure == NULL && i < grid->thread->blocks.x; i++) {
         grid->thread->block = (FakeIndex){i, 0, 0};

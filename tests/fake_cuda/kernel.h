@@ -4,19 +4,16 @@
 #ifndef HD_FAKE_CUDA_KERNEL_H
 #define HD_FAKE_CUDA_KERNEL_H
 
-enum { FAKE_WARP_THREADS = 32, FAKE_ARGUMENT_BYTES = 8, FAKE_SHARED_GUARD = 64 };
+enum { FAKE_ARGUMENT_BYTES = 8, FAKE_SHARED_GUARD = 64 };
 
 typedef struct FakeIndex {
     unsigned int x, y, z;
 } FakeIndex;
 
-typedef enum FakeScope { FAKE_NOTHING, FAKE_WARP, FAKE_BLOCK } FakeScope;
-
 /* The thread that runs, set by the driver. */
 typedef struct FakeThread {
     FakeIndex thread, block, threads, blocks;
-    void (*wait)(FakeScope scope);        /* until all threads of the warp or block do so */
-    void (*wait_some)(unsigned int mask); /* of a warp */
+    void (*wait)(void); /* until all threads of the block do so */
 } FakeThread;
 
 typedef struct FakeParameter {

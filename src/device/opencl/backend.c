@@ -214,34 +214,20 @@ static HdStatus fail_with_log(const Device *device, cl_int code, HdError *error)
     return HD_FAILED;
 }
 
-/* NVIDIA's compilers before PTX 6.2, which name what they do not know. */
-static bool lacks_activemask(const Device *device) {
-    char *log = read_log(device);
-    bool is_named = log != NULL && strstr(log, "activemask") != NULL;
-    free(log);
-    return is_named;
-}
-
 static cl_int build_with(const Device *device, const char *options) {
     return clBuildProgram(device->program, 1, &device->id, options, NULL, NULL);
 }
 
-/* Once more, without what the compiler does not know. */
+/* Once more without the option that a driver may refuse. */
 static cl_int build(const Device *device, const char *options) {
-    static const char without_mask[] = " -DHD_NO_ACTIVEMASK=1";
-    char other[OPTIONS_LENGTH], last[sizeof other + sizeof without_mask];
+    char other[OPTIONS_LENGTH];
     const char *refused = strstr(options, rounding);
-    snprintf(other, sizeof other, "%s", options);
-    cl_int code = build_with(device, other);
-    if (code == CL_INVALID_BUILD_OPTIONS && refused != NULL) {
-        snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
-                 refused + strlen(rounding));
-        code = build_with(device, other);
-    }
-    if (code == CL_SUCCESS || !lacks_activemask(device))
+    cl_int code = build_with(device, options);
+    if (code != CL_INVALID_BUILD_OPTIONS || refused == NULL)
         return code;
-    snprintf(last, sizeof last, "%s%s", other, without_mask);
-    return build_with(device, last);
+    snprintf(other, sizeof other, "%.*s%s", (int)(refused - options), options,
+             refused + strlen(rounding));
+    return build_with(device, other);
 }
 
 static HdStatus compile(void *state, const HdKernelShape *shape, const char *options, char *maker,
