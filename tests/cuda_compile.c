@@ -2,10 +2,13 @@
 /* Compiles the kernels for an NVIDIA architecture, without a device, and tells what they need of
    it:
 
-       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--block N]
+       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
+                    [--lit-from-behind] [--many-lights] [--meshes] [--surveyed] [--block N]
                     [--planes N] [--depth N] [--log] [--cubin FILE]
 
-   Exits 0 when they compile, 1 when they do not, 77 when no NVRTC here knows the architecture. */
+   Exits 0 when they compile and no convergence barrier is saved to a register (docs/lost-light.md),
+   1 otherwise, 77 when no NVRTC here knows the architecture. */
+#include <elf.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,6 +48,8 @@ static bool parse(Options *options, int argc, char **argv) {
             options->shape.needs.lit_from_behind = true;
         else if (strcmp(argv[i], "--many-lights") == 0)
             options->shape.needs.many_lights = true;
+        else if (strcmp(argv[i], "--surveyed") == 0)
+            options->shape.needs.surveyed = true;
         else if (strcmp(argv[i], "--meshes") == 0)
             options->shape.needs.node_stack_bound = 32;
         else if (strcmp(argv[i], "--log") == 0)
@@ -137,6 +142,57 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
     return complete;
 }
 
+/* ---- convergence barriers of sm_70 and newer, in the machine code ---- */
+
+enum { INSTRUCTION_BYTES = 16, OPCODE_MASK = 0xfff, OPEN_BARRIER = 0x945, SAVE_BARRIER = 0x355 };
+enum { NO_REGISTER = 0xff, BARRIER_REGISTERS = 16 };
+
+typedef struct Barriers {
+    bool used[BARRIER_REGISTERS];
+    int saved;
+} Barriers;
+
+/* Bits 16 to 23 name what an instruction writes: of BSSY a barrier, of BMOV a register. */
+static void count_barriers(Barriers *barriers, const unsigned char *text, size_t size) {
+    for (size_t at = 0; at + INSTRUCTION_BYTES <= size; at += INSTRUCTION_BYTES) {
+        uint32_t word;
+        memcpy(&word, text + at, sizeof word);
+        unsigned int opcode = word & OPCODE_MASK, target = word >> 16 & 0xff;
+        if (opcode == OPEN_BARRIER)
+            barriers->used[target % BARRIER_REGISTERS] = true;
+        barriers->saved += opcode == SAVE_BARRIER && target != NO_REGISTER;
+    }
+}
+
+static Barriers barriers_of(const HdCudaCode *code) {
+    const unsigned char *image = (const unsigned char *)code->image;
+    Barriers barriers = {0};
+    Elf64_Ehdr header;
+    memcpy(&header, image, sizeof header);
+    for (int i = 0; i < header.e_shnum; i++) {
+        Elf64_Shdr section;
+        memcpy(&section, image + header.e_shoff + (size_t)i * sizeof section, sizeof section);
+        if (section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR) != 0)
+            count_barriers(&barriers, image + section.sh_offset, section.sh_size);
+    }
+    return barriers;
+}
+
+static bool check_barriers(const HdCudaCode *code) {
+    Barriers barriers = barriers_of(code);
+    int used = 0;
+    for (int i = 0; i < BARRIER_REGISTERS; i++)
+        used += barriers.used[i];
+    printf("%d convergence barriers, %d saved to registers\n", used, barriers.saved);
+    if (used == 0)
+        fprintf(stderr, "cuda_compile: the machine code has no convergence barriers, so their "
+                        "instructions are not known here\n");
+    if (barriers.saved > 0)
+        fprintf(stderr, "cuda_compile: branches and loops are too deep within each other; see "
+                        "docs/lost-light.md\n");
+    return used > 0 && barriers.saved == 0;
+}
+
 static bool write_cubin(const char *path, const HdCudaCode *code) {
     FILE *file = fopen(path, "wb");
     bool ok = file && fwrite(code->image, 1, code->size, file) == code->size;
@@ -151,10 +207,10 @@ int main(int argc, char **argv) {
     static HdError error;
     Options options;
     if (!parse(&options, argc, argv)) {
-        fprintf(stderr,
-                "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
-                "[--wavefront] [--block N] [--registers N] [--planes N] [--depth N] [--log] "
-                "[--defines ' -DX=1 ...'] [--cubin FILE]\n");
+        fprintf(stderr, "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
+                        "[--wavefront] [--refracts] [--lit-from-behind] [--many-lights] [--meshes] "
+                        "[--surveyed] [--block N] [--registers N] [--planes N] [--depth N] [--log] "
+                        "[--cubin FILE]\n");
         return USAGE;
     }
     HdNvrtc nvrtc;
@@ -173,6 +229,8 @@ int main(int argc, char **argv) {
         fprintf(stderr, "%s\n", error.message);
     } else {
         ok = report(&options, &nvrtc, &code);
+        if (options.arch >= 70)
+            ok = check_barriers(&code) && ok;
         if (options.cubin)
             ok = write_cubin(options.cubin, &code) && ok;
         hd_cuda_code_free(&code);

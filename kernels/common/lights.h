@@ -343,7 +343,6 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
     }
 #endif
     for (int i = 0; i < header->light_count; i++) {
-        vmask lit = points->active;
 #if HD_LANES > 1
         int known = group_known[lights[i].group];
         if (known & GROUP_IS_DARK) {
@@ -352,16 +351,17 @@ FN Vec3 direct_light(SCENE_PARAMETERS const Surface *surface, const LitPoints *p
         }
 #else
         int known = 0, run = MANY_LIGHTS(header) ? lights[i].run : 0;
-        int is_dark = run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
-                                             object_of(SCENE_ARGUMENTS points->object), i);
-        i += is_dark ? run - 1 : 0;
-        lit = is_dark ? mask_none() : lit;
+        if (run > 0 && run_is_dark(SCENE_ARGUMENTS point, surface->normal,
+                                   object_of(SCENE_ARGUMENTS points->object), i)) {
+            i += run - 1;
+            continue;
+        }
 #endif
         Vec3 to_light = vec3_sub(light_position(SCENE_ARGUMENTS & rows, i), point);
         vreal cosine = vec3_dot(surface->normal, to_light);
         vreal squared = vec3_dot(to_light, to_light);
-        lit = lit & ~holds_light(lights + i, points) & lt(zero, cosine) & lt(zero, squared) &
-              ~beyond_falloff(lights + i, squared);
+        vmask lit = points->active & ~holds_light(lights + i, points) & lt(zero, cosine) &
+                    lt(zero, squared) & ~beyond_falloff(lights + i, squared);
         if (!any_lane(lit))
             continue;
         *shadow_tests = count_lanes(*shadow_tests, lit);

@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "certify/first_difference.h"
 #include "certify/golden.h"
+#include "certify/random_test.h"
 #include "certify/render_scene.h"
 #include "device/kernel_source.h"
 #include "device/self_test_scenes.h"
@@ -33,6 +34,8 @@ enum { BUILDS = sizeof builds / sizeof *builds };
 
 /* Of the frames that a quick test renders. */
 enum { MOST_QUICK_SAMPLES = 65 * 65 };
+
+enum { RANDOM_SCENES = 2400 };
 
 /* ---- tests ---- */
 
@@ -126,9 +129,10 @@ static HdStatus test_frames(HdCertificate *certificate, HdRenderer *renderer, Hd
     snprintf(reason, sizeof reason, "%.1000s", status == HD_OK ? "" : error->message);
     if (is_wrong) {
         const SelfTestFrame what = {frame, build};
-        tell_difference(&(HdDispute){&certificate->device, precision, build->pipeline, &like,
-                                     build_self_test_frame, &what},
-                        reason, sizeof reason);
+        const HdRenderOptions options = {.precision = precision, .pipeline = build->pipeline};
+        tell_difference(
+            &(HdDispute){&certificate->device, &options, &like, build_self_test_frame, &what},
+            reason, sizeof reason);
     }
     HdVerdict verdict = is_wrong          ? HD_VERDICT_WRONG
                         : status == HD_OK ? HD_VERDICT_RIGHT
@@ -201,9 +205,10 @@ static void tell_golden_difference(const GoldenTest *golden, const HdDevice *dev
              ", expected %016" PRIx64,
              golden->wrong, golden->test->frames, golden->first_wrong->name, golden->found,
              golden->expected);
-    tell_difference(&(HdDispute){device, golden->precision, pipeline, golden->like,
-                                 build_golden_frame, golden->first_wrong},
-                    reason, capacity);
+    const HdRenderOptions options = {.precision = golden->precision, .pipeline = pipeline};
+    tell_difference(
+        &(HdDispute){device, &options, golden->like, build_golden_frame, golden->first_wrong},
+        reason, capacity);
 }
 
 static HdStatus test_golden_frames(HdCertificate *certificate, HdRenderer *renderer,
@@ -276,21 +281,58 @@ static HdStatus test_builds(HdCertificate *certificate, HdPrecision precision, i
     return status;
 }
 
-/* A device whose groups of threads lack 64-bit atomics has no wavefront. */
-static HdStatus test_precision(HdCertificate *certificate, HdPrecision precision, bool quick,
-                               HdError *error) {
-    const HdDevice *device = &certificate->device;
-    const HdRenderOptions waves = {.precision = precision, .pipeline = HD_PIPELINE_WAVEFRONT};
-    HdDevice unknown = *device;
-    unknown.not_strict[0] = '\0';
-    HdStatus status = test_builds(certificate, precision, 0, quick ? 1 : BUILDS - 1, quick, error);
-    if (status == HD_OK && !quick && certificate->verdict == HD_VERDICT_RIGHT &&
-        hd_device_obstacle(&unknown, &waves) == NULL)
-        status = test_builds(certificate, precision, BUILDS - 1, 1, quick, error);
+/* ---- random scenes ---- */
+
+/* A processor's own driver has threads enough. */
+static HdStatus test_random_scenes(HdCertificate *certificate, HdPrecision precision,
+                                   HdPipeline pipeline, HdError *error) {
+    static HdRandomResult result;
+    char name[96];
+    const HdRandomTest random = {.device = &certificate->device,
+                                 .options = {.precision = precision, .pipeline = pipeline},
+                                 .scenes = RANDOM_SCENES,
+                                 .kind = -1,
+                                 .threads = certificate->device.is_cpu ? 1 : 0};
+    snprintf(name, sizeof name, "random scenes in %s by %s", precision_names[precision],
+             hd_pipeline_names[pipeline]);
+    HdCertificateTest *test = begin_test(certificate, name);
+    HdStatus status = hd_random_test(&random, &result, error);
+    test->frames = result.scenes;
+    end_test(certificate, test,
+             status != HD_OK        ? HD_VERDICT_UNTESTED
+             : result.different > 0 ? HD_VERDICT_WRONG
+                                    : HD_VERDICT_RIGHT,
+             status == HD_OK ? result.text : error->message);
     return status;
 }
 
 /* ---- the certificate ---- */
+
+/* The parts of a test by one pipeline. */
+static HdStatus test_pipeline(HdCertificate *certificate, HdPrecision precision, int first,
+                              int count, HdTestEffort effort, HdError *error) {
+    HdStatus status =
+        test_builds(certificate, precision, first, count, effort == HD_TEST_QUICK, error);
+    if (status == HD_OK && effort == HD_TEST_DEEP && certificate->verdict == HD_VERDICT_RIGHT)
+        status = test_random_scenes(certificate, precision, builds[first].pipeline, error);
+    return status;
+}
+
+/* A device whose groups of threads lack 64-bit atomics has no wavefront. */
+static HdStatus test_precision(HdCertificate *certificate, HdPrecision precision,
+                               HdTestEffort effort, HdError *error) {
+    const HdDevice *device = &certificate->device;
+    const HdRenderOptions waves = {.precision = precision, .pipeline = HD_PIPELINE_WAVEFRONT};
+    const bool quick = effort == HD_TEST_QUICK;
+    HdDevice unknown = *device;
+    unknown.not_strict[0] = '\0';
+    HdStatus status =
+        test_pipeline(certificate, precision, 0, quick ? 1 : BUILDS - 1, effort, error);
+    if (status == HD_OK && !quick && certificate->verdict == HD_VERDICT_RIGHT &&
+        hd_device_obstacle(&unknown, &waves) == NULL)
+        status = test_pipeline(certificate, precision, BUILDS - 1, 1, effort, error);
+    return status;
+}
 
 static uint64_t hash_text(uint64_t hash, const char *text) {
     return hd_hash_bytes(hash, text, strlen(text) + 1);
@@ -315,14 +357,14 @@ static uint64_t hash_of(const HdCertificate *certificate) {
     return hash;
 }
 
-HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, bool quick,
+HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,
                     HdError *error) {
     HdStatus status = HD_OK;
     *certificate = (HdCertificate){
         .device = *device, .verdict = HD_VERDICT_RIGHT, .seconds = -hd_monotonic_seconds()};
     for (int p = HD_PRECISION_FLOAT; status != HD_INTERRUPTED && p <= HD_PRECISION_DOUBLE; p++)
         if (p == HD_PRECISION_FLOAT || device->has_double)
-            status = test_precision(certificate, (HdPrecision)p, quick, error);
+            status = test_precision(certificate, (HdPrecision)p, effort, error);
     certificate->seconds += hd_monotonic_seconds();
     certificate->time = (int64_t)time(NULL);
     certificate->hash = hash_of(certificate);

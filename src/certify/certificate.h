@@ -39,12 +39,17 @@ typedef struct HdCertificate {
     uint64_t hash; /* of all but the times: the same for the same device, driver and program */
 } HdCertificate;
 
+typedef enum HdTestEffort {
+    HD_TEST_WHOLE, /* HD_PROBE_WHOLE tuples, kernels of every kind, all golden frames */
+    HD_TEST_QUICK, /* HD_PROBE_QUICK tuples, one kind, small golden frames */
+    HD_TEST_DEEP   /* the whole, and random scenes beside plain C (random_test.h) */
+} HdTestEffort;
+
 /* Tests a device, whatever is remembered of it, in float and, where it has it, in double: the
-   arithmetic probe of kernels that are compiled (HD_PROBE_WHOLE tuples, or HD_PROBE_QUICK), then
-   the frames of the self-test and the golden frames, with `quick` by one build of the kernels and
-   of the golden frames the small ones, otherwise by builds of every kind and all of them. What is
-   found of the arithmetic is remembered. Fails with HD_INTERRUPTED only; other failures are a
-   part of the certificate. */
-HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, bool quick, HdError *error);
+   arithmetic probe of kernels that are compiled, then the frames of the self-test and the golden
+   frames. What is found of the arithmetic is remembered. Fails with HD_INTERRUPTED only; other
+   failures are a part of the certificate. */
+HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,
+                    HdError *error);
 
 #endif

@@ -98,6 +98,10 @@ OPTION(
     "test with 8192 operands and one kind of kernels, which takes a second or two once these are "
     "compiled",
     HD_COMMAND_SELFTEST, FLAG(quick))
+OPTION(bool deep, "--deep", NULL, NULL,
+       "render 2400 random scenes beside plain C too, in each precision and pipeline, which takes "
+       "minutes; what differs is reported with the pixel, the sample and the depth of the ray",
+       HD_COMMAND_SELFTEST, FLAG(deep))
 ROW("--lanes", NULL, "N",
     "rays traced together on a CPU: " HD_LANE_COUNTS_IN_WORDS " (default: what suits it)", SHOWING,
     .type = HD_OPTION_NUMERAL, AT(render.lanes), .choices = lane_counts)

@@ -106,7 +106,10 @@ typedef struct Tally {
 static HdStatus certify(const HdOptions *options, const HdDevice *device, json_t *list,
                         Tally *tally, HdError *error) {
     static HdCertificate certificate;
-    HdStatus status = hd_certify(&certificate, device, options->quick, error);
+    const HdTestEffort effort = options->deep    ? HD_TEST_DEEP
+                                : options->quick ? HD_TEST_QUICK
+                                                 : HD_TEST_WHOLE;
+    HdStatus status = hd_certify(&certificate, device, effort, error);
     if (status != HD_OK)
         return status;
     tally->tested += certificate.verdict != HD_VERDICT_UNTESTED;

@@ -135,8 +135,7 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason) {
 void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds) {
     char text[160];
-    snprintf(cache->maker, sizeof cache->maker, "%s%s", maker,
-             cache->shape.is_cautious ? " optimising little (fully, it computes wrongly)" : "");
+    snprintf(cache->maker, sizeof cache->maker, "%s", maker);
     snprintf(text, sizeof text, "compiled in %.0f ms%s%s", 1e3 * seconds,
              maker[0] != '\0' ? " by " : "", cache->maker);
     add_note(cache, text);
@@ -151,10 +150,6 @@ void hd_kernel_cache_accept(HdKernelCache *cache) {
         return;
     cache->is_untested = false;
     add_note(cache, cache->stamp);
-    if (cache->shape.is_cautious) {
-        add_note(cache, "not cached");
-        return;
-    }
     bool stored = store(cache, &error) == HD_OK;
     add_note(cache, stored ? "cached" : "not cached");
     if (!stored)

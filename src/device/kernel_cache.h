@@ -54,8 +54,7 @@ void hd_kernel_cache_refuse(HdKernelCache *cache, const char *reason);
 void hd_kernel_cache_compiled(HdKernelCache *cache, HdKernelReader *read, const void *context,
                               const char *maker, double seconds);
 
-/* The compiled kernels are in order: stores them, if that can be. Those that are optimised little
-   are not: a driver may optimise what it loads, and a newer compiler may need no caution. */
+/* The compiled kernels are in order: stores them, if that can be. */
 void hd_kernel_cache_accept(HdKernelCache *cache);
 
 #endif

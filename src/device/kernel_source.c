@@ -103,20 +103,6 @@ bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b) {
            a->surveyed == b->surveyed && a->small_tables == b->small_tables;
 }
 
-bool hd_kernel_shape_be_cautious(HdKernelShape *shape) {
-    if (shape->is_cautious)
-        return false;
-    shape->is_cautious = true;
-    shape->needs = (HdKernelNeeds){0};
-    return true;
-}
-
-void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs) {
-    bool has_other_scene = shape->needs.plane_bound > 0;
-    shape->is_cautious = shape->is_cautious && !has_other_scene;
-    shape->needs = *needs;
-}
-
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity) {
     snprintf(text, (size_t)capacity,
              "built for up to %d planes and depth %d, %s refraction, %s, %s%s%s",

@@ -41,7 +41,6 @@ typedef struct HdKernelShape {
     bool is_probe;      /* the kernel of the probe (probe.h) and no others */
     bool rounds_by_fma; /* division and roots are made of fused operations: those of the device are
                            not correctly rounded */
-    bool is_cautious;   /* to be optimised little: what was optimised fully computes wrongly */
 } HdKernelShape;
 
 /* The limit for a shape on an NVIDIA device of that architecture (61: sm_61): `asked`, or, where
@@ -76,13 +75,6 @@ int hd_kernel_bound(int count);
 /* What a scene needs, its numbers rounded up by hd_kernel_bound. */
 HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables);
 bool hd_kernel_needs_equal(const HdKernelNeeds *a, const HdKernelNeeds *b);
-
-/* Makes a shape cautious and its needs those of no scene, so that the next upload compiles. False
-   where it is cautious already. */
-bool hd_kernel_shape_be_cautious(HdKernelShape *shape);
-
-/* The needs of a scene to be compiled for. Caution ends with the scene that called for it. */
-void hd_kernel_shape_set_needs(HdKernelShape *shape, const HdKernelNeeds *needs);
 
 /* One line for people. */
 void hd_kernel_needs_describe(const HdKernelNeeds *needs, char *text, int capacity);

@@ -13,6 +13,7 @@
 #include "device/probe.h"
 #include "device/self_test.h"
 #include "kernels/host/shared.h"
+#include "system/warnings.h"
 
 struct HdRenderer {
     const HdBackend *backend;
@@ -106,20 +107,40 @@ static HdStatus settle_arithmetic(HdRenderer *renderer, HdError *error) {
     return status;
 }
 
-/* Compilers err most where they optimise most. Where that was not it, `error` stays as it is. */
-static HdStatus test_cautious_kernels(HdRenderer *renderer, const HdSceneTables *tables,
-                                      HdError *error) {
-    const HdBackend *backend = renderer->backend;
+/* Opens the device anew for the wavefront; false where it has none or works by it already. */
+static bool change_to_wavefront(HdRenderer *renderer) {
+    HdRenderOptions waves = renderer->options;
+    HdError ignored;
+    void *state;
+    waves.pipeline = HD_PIPELINE_WAVEFRONT;
+    if (hd_pipeline_is_wavefront(renderer->options.pipeline) ||
+        hd_device_obstacle(&renderer->device, &waves) != NULL ||
+        renderer->backend->functions->open(&renderer->device, &waves, &state, &ignored) != HD_OK)
+        return false;
+    renderer->backend->functions->close(renderer->state);
+    renderer->state = state;
+    renderer->options = waves;
+    renderer->is_probed = false;
+    return true;
+}
+
+/* After kernels of the megakernel computed wrongly, which `error` tells: it stays so where those of
+   the wavefront, with fewer branches within each other, do so too. */
+static HdStatus test_wavefront(HdRenderer *renderer, const HdSceneTables *tables, HdError *error) {
     HdError later;
     HdSelfTestFrame frame;
     bool is_wrong;
-    if (!hd_kernel_shape_be_cautious(&kernels_of(renderer)->shape))
+    if (!change_to_wavefront(renderer))
         return HD_UNAVAILABLE;
-    HdStatus status = backend->functions->upload(renderer->state, tables, &later);
+    HdStatus status = settle_arithmetic(renderer, &later);
     if (status == HD_OK)
-        status = hd_self_test(backend, renderer->state, &renderer->device, tables, &frame,
+        status = renderer->backend->functions->upload(renderer->state, tables, &later);
+    if (status == HD_OK)
+        status = hd_self_test(renderer->backend, renderer->state, &renderer->device, tables, &frame,
                               &is_wrong, &later);
-    if (status == HD_INTERRUPTED)
+    if (status == HD_OK)
+        hd_fallback_note("%s: the wavefront takes over", error->message);
+    else if (status == HD_INTERRUPTED)
         *error = later;
     return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;
 }
@@ -138,12 +159,12 @@ static HdStatus test_new_kernels(HdRenderer *renderer, const HdSceneTables *tabl
         status = hd_self_test(backend, renderer->state, &renderer->device, tables, &frame,
                               &is_wrong, error);
         if (is_wrong)
-            status = test_cautious_kernels(renderer, tables, error);
+            status = test_wavefront(renderer, tables, error);
         if (status == HD_OK)
             status = backend->functions->upload(renderer->state, tables, error);
     }
     if (status == HD_OK)
-        hd_kernel_cache_accept(kernels);
+        hd_kernel_cache_accept(kernels_of(renderer));
     return status;
 }
 
@@ -169,7 +190,6 @@ HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, 
                                HdSelfTestFrame *frame, bool *is_wrong, HdError *error) {
     const HdBackend *backend = renderer->backend;
     HdKernelCache *kernels = kernels_of(renderer);
-    HdError later;
     renderer->has_scene = false;
     *is_wrong = false;
     *hash = stamp_hash(renderer, like);
@@ -177,10 +197,6 @@ HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, 
     if (status == HD_OK)
         status =
             hd_self_test(backend, renderer->state, &renderer->device, like, frame, is_wrong, error);
-    if (*is_wrong && kernels != NULL && hd_kernel_shape_be_cautious(&kernels->shape) &&
-        hd_self_test(backend, renderer->state, &renderer->device, like, frame, is_wrong, &later) ==
-            HD_OK)
-        status = HD_OK;
     if (status == HD_OK && kernels != NULL)
         hd_kernel_cache_accept(kernels);
     return note_failure(renderer, status, error);

@@ -18,7 +18,8 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
                           const HdRenderOptions *options, HdError *error);
 
 /* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
-   strict arithmetic: HD_UNAVAILABLE where they do not. Those that do are kept on disk. */
+   strict arithmetic. Where those of the megakernel fail it, the wavefront takes over, and a note
+   tells (warnings.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
 /* Begins a frame, so that the device works on it while the caller does other things; at most
@@ -69,9 +70,8 @@ const char *hd_renderer_kernels_note(const HdRenderer *renderer);
 HdStatus hd_renderer_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error);
 
 /* Renders the frames of the self-test (self_test.h) by kernels that do what a scene with tables
-   like these needs, `hash` being that of what is expected and `frame` the last one. Where new
-   kernels compute wrongly, they are compiled again with little optimisation. There is no scene
-   afterwards. */
+   like these needs, `hash` being that of what is expected and `frame` the last one. There is no
+   scene afterwards. */
 HdStatus hd_renderer_self_test(HdRenderer *renderer, const HdSceneTables *like, uint64_t *hash,
                                HdSelfTestFrame *frame, bool *is_wrong, HdError *error);
 

@@ -12,10 +12,10 @@ static const char *const frame_names[HD_SELF_TEST_FRAMES] = {"solid", "floor", "
 /* By frame, precision, refraction and light from behind, which the floor has nothing of. They
    change with the kernels, on purpose only: the unit test of this file tells the new ones. */
 static const uint64_t hashes[HD_SELF_TEST_FRAMES][2][2][2] = {
-    [HD_SELF_TEST_SOLID] = {{{0xf8d67380d0ec445b, 0x0070d4d731526272},
-                             {0x9a87baee7e3393e4, 0xd1d25829f8434654}},
-                            {{0xcb3e76d8233c38a1, 0x493807fe4e186eae},
-                             {0xc7762e262fcbfb9e, 0xa870879512629fb4}}},
+    [HD_SELF_TEST_SOLID] = {{{0xcd3bc2e8742b4d9a, 0xf815259a7fc445a2},
+                             {0x23885c049df6be57, 0xc4af9ffd3d3480cf}},
+                            {{0x283ee83e31a5a45e, 0xd5752f7e6a8ea815},
+                             {0xc4003be42dedcf45, 0xffb4107fdd87a446}}},
     [HD_SELF_TEST_FLOOR] = {{{0x3aeda832e140caea}}, {{0x7fec99e0bbfce896}}},
     [HD_SELF_TEST_MESH] = {{{0x725afa96238f8955, 0xdbba712b1919574f},
                             {0x5618e362a7a1a362, 0xfae88fd411559ce9}},

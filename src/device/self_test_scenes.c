@@ -6,7 +6,7 @@
 
 #include "mesh/mesh.h"
 
-enum { SIDE = 16, SAMPLES = 2, DEPTH = 5, TEXTURE_WIDTH = 6, TEXTURE_HEIGHT = 5 };
+enum { SIDE = 16, SAMPLES = 2, DEPTH = 5, MOST_DEPTH = 8, TEXTURE_WIDTH = 6, TEXTURE_HEIGHT = 5 };
 
 static HdMaterial material(HdVec3 colour, double reflection, double transmission) {
     return (HdMaterial){.colour = colour,
@@ -59,22 +59,43 @@ static HdMaterial glass(bool refracts, bool lit_from_behind) {
     return glass;
 }
 
-static void add_cube(HdScene *scene, bool refracts, bool lit_from_behind, bool *has_room) {
-    const HdSolid cube = {.kind = HD_HEXAHEDRON,
-                          .circumradius = 1.25,
-                          .rotation_degrees = {10.0, 20.0, 30.0},
-                          .face = glass(refracts, lit_from_behind),
-                          .rim_width = 0.1,
-                          .rim = material(hd_vec3(0.3, 0.2, 0.1), 0.0, 0.0),
-                          .lights = {.per_edge = 2,
-                                     .colour_count = 2,
-                                     .colours = {{1.0, 0.5, 0.25}, {0.25, 0.75, 1.0}},
-                                     .intensity = 0.0625,
-                                     .falloff = {.distance = 1.25},
-                                     .disc_radius = 0.0625,
-                                     .disc_radiance = 2.0}};
-    scene->solids = copy_of(&cube, sizeof cube, has_room);
-    scene->solid_count = 1;
+/* Highlights of four exponents, rims, lights along the edges and many levels of rays: threads of a
+   warp part often. The solids are apart, since one refracts. */
+static void add_solids(HdScene *scene, bool refracts, bool lit_from_behind, bool *has_room) {
+    HdSolid solids[] = {{.kind = HD_HEXAHEDRON,
+                         .circumradius = 1.25,
+                         .rotation_degrees = {10.0, 20.0, 30.0},
+                         .face = glass(refracts, lit_from_behind),
+                         .rim_width = 0.1,
+                         .rim = material(hd_vec3(0.3, 0.2, 0.1), 0.0, 0.0),
+                         .lights = {.per_edge = 2,
+                                    .colour_count = 2,
+                                    .colours = {{1.0, 0.5, 0.25}, {0.25, 0.75, 1.0}},
+                                    .intensity = 0.0625,
+                                    .falloff = {.distance = 1.25},
+                                    .disc_radius = 0.0625,
+                                    .disc_radiance = 2.0}},
+                        {.kind = HD_TETRAHEDRON,
+                         .centre = {-0.75, 1.75, 0.25},
+                         .circumradius = 0.625,
+                         .rotation_degrees = {-20.0, 35.0, 50.0},
+                         .face = material(hd_vec3(0.6, 0.5, 0.9), 0.3, 0.6),
+                         .rim_width = 0.05,
+                         .rim = material(hd_vec3(0.4, 0.9, 0.8), 0.5, 0.0),
+                         .lights = {.per_edge = 1,
+                                    .colour_count = 1,
+                                    .colours = {{0.5, 1.0, 0.25}},
+                                    .intensity = 0.125,
+                                    .falloff = {.end = 7.0},
+                                    .disc_radius = 0.03125,
+                                    .disc_radiance = 1.5}}};
+    solids[0].rim.shininess = 3;
+    solids[1].face.shininess = 200;
+    solids[1].face.lit_from_behind = lit_from_behind;
+    solids[1].rim.shininess = 2;
+    scene->solids = copy_of(solids, sizeof solids, has_room);
+    scene->solid_count = sizeof solids / sizeof *solids;
+    scene->depth = MOST_DEPTH;
 }
 
 static HdTexture texture(bool *has_room) {
@@ -270,7 +291,7 @@ HdStatus hd_self_test_scene(HdScene *scene, HdSelfTestFrame frame, bool refracts
                        .background = hd_vec3(0.01, 0.02, 0.04)};
     add_lights(scene, &has_room);
     if (frame == HD_SELF_TEST_SOLID)
-        add_cube(scene, refracts, lit_from_behind, &has_room);
+        add_solids(scene, refracts, lit_from_behind, &has_room);
     else
         add_floor(scene, &has_room);
     if (frame == HD_SELF_TEST_MESH)

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 
 typedef enum HdSelfTestFrame {
-    HD_SELF_TEST_SOLID, /* a cube with rims and edge lights, a mirror and glass at once */
+    HD_SELF_TEST_SOLID, /* two solids with rims and edge lights, mirrors and glass at once */
     HD_SELF_TEST_FLOOR, /* a textured floor */
     HD_SELF_TEST_MESH,  /* two meshes in two places each over that floor, one of glass */
     HD_SELF_TEST_FRAMES,

@@ -94,7 +94,7 @@ static bool read_options(int *registers, bool is_ptx, unsigned int count,
     for (unsigned int i = 0; i < count; i++)
         if (options[i] == HD_CU_JIT_MAX_REGISTERS)
             *registers = (int)(uintptr_t)values[i];
-        else if (options[i] != HD_CU_JIT_OPTIMIZATION_LEVEL)
+        else
             return false;
     return is_ptx || count == 0;
 }

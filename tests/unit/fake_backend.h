@@ -16,14 +16,14 @@
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 
 static struct {
-    bool is_missing;           /* open fails */
-    bool fails;                /* to render */
-    bool renders_wrongly;      /* a bit of the picture's last number is wrong */
-    bool is_right_if_cautious; /* then not */
-    bool refuses_binary;       /* what comes from the cache */
-    bool hides_binary;         /* gives none away */
-    bool adds_wrongly;         /* in every precision */
-    bool divides_wrongly;      /* but by fused operations */
+    bool is_missing;        /* open fails */
+    bool fails;             /* to render */
+    bool renders_wrongly;   /* a bit of the picture's last number is wrong */
+    bool is_right_in_waves; /* not by the wavefront */
+    bool refuses_binary;    /* what comes from the cache */
+    bool hides_binary;      /* gives none away */
+    bool adds_wrongly;      /* in every precision */
+    bool divides_wrongly;   /* but by fused operations */
     const char *options;
     int slow_milliseconds; /* more, for each frame of the device with this number */
     int slow_index;
@@ -109,7 +109,7 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
     FakeRenderer *renderer = state;
     HdKernelNeeds needs = hd_kernel_needs(tables);
     if (!renderer->is_built || !hd_kernel_needs_equal(&needs, &renderer->kernels.shape.needs)) {
-        hd_kernel_shape_set_needs(&renderer->kernels.shape, &needs);
+        renderer->kernels.shape.needs = needs;
         fake_build(renderer);
     }
     HdStatus status = fake_event(FAKE_UPLOAD, renderer->index, error);
@@ -142,8 +142,8 @@ static HdStatus fake_collect(void *state, const HdFrameTables *tables, HdFrame *
         return hd_fail(error, HD_FAILED, "it fails");
     if (status == HD_OK && fake.trace_seconds != NULL)
         frame->trace_seconds = fake.trace_seconds(&renderer->options);
-    bool is_careful = fake.is_right_if_cautious && renderer->kernels.shape.is_cautious;
-    if (status == HD_OK && fake.renders_wrongly && !is_careful) {
+    bool is_right = fake.is_right_in_waves && hd_pipeline_is_wavefront(renderer->options.pipeline);
+    if (status == HD_OK && fake.renders_wrongly && !is_right) {
         uint32_t bits;
         float *last = &frame->rgb[(size_t)frame->width * (size_t)frame->height * 3 - 1];
         memcpy(&bits, last, sizeof bits);

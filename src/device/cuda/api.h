@@ -57,8 +57,7 @@ enum {
     HD_CU_EVENT_BLOCKING_SYNC = 1,
     HD_CU_EVENT_DISABLE_TIMING = 2,
     HD_CU_STREAM_NON_BLOCKING = 1,
-    HD_CU_JIT_MAX_REGISTERS = 0,
-    HD_CU_JIT_OPTIMIZATION_LEVEL = 7
+    HD_CU_JIT_MAX_REGISTERS = 0
 };
 
 /* X(function, version, parameters); all return HdCuResult. The version belongs to the symbol: the

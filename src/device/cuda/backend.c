@@ -313,13 +313,11 @@ static HdStatus get_kernels(Device *device, const HdKernelShape *shape, HdError 
 /* Of PTX the driver makes machine code, as NVRTC would be asked to. */
 static HdCuResult load_image(const Device *device, const HdKernelShape *shape, const char *image,
                              HdCuModule *module) {
-    enum { MOST_OPTIONS = 2 };
-    HdCuJitOption options[MOST_OPTIONS] = {HD_CU_JIT_MAX_REGISTERS, HD_CU_JIT_OPTIMIZATION_LEVEL};
+    HdCuJitOption option = HD_CU_JIT_MAX_REGISTERS;
     uintptr_t limit = (uintptr_t)shape->register_limit;
-    void *values[MOST_OPTIONS] = {(void *)limit, NULL}; /* NOLINT(performance-no-int-to-ptr) */
+    void *value = (void *)limit; /* NOLINT(performance-no-int-to-ptr) */
     bool is_ptx = memcmp(image, "\177ELF", 4) != 0;
-    unsigned int count = shape->is_cautious ? MOST_OPTIONS : 1;
-    return device->driver.cuModuleLoadDataEx(module, image, is_ptx ? count : 0, options, values);
+    return device->driver.cuModuleLoadDataEx(module, image, is_ptx ? 1 : 0, &option, &value);
 }
 
 static HdStatus load_module(Device *device, const HdKernelShape *shape, const char *image,

@@ -70,10 +70,9 @@ void hd_cuda_options(char *options, size_t capacity, HdCudaTarget target,
     static const char strict[] = "--fmad=false --prec-div=true --prec-sqrt=true --ftz=false";
     char defines[HD_KERNEL_DEFINES_SIZE];
     hd_kernel_defines(shape, defines);
-    snprintf(options, capacity, "--gpu-architecture=%s_%d --maxrregcount=%d %s%s%s",
+    snprintf(options, capacity, "--gpu-architecture=%s_%d --maxrregcount=%d %s%s",
              prefix_of(target), target.arch, shape->register_limit,
-             shape->math == HD_MATH_FAST ? "--use_fast_math" : strict, defines,
-             shape->is_cautious ? " --ptxas-options=-O0" : "");
+             shape->math == HD_MATH_FAST ? "--use_fast_math" : strict, defines);
 }
 
 /* Cuts the text at its spaces and returns the number of parts. */

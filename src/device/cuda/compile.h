@@ -23,8 +23,8 @@ typedef struct HdCudaTarget {
 /* What the shape is compiled to for a device of sm_`arch`. */
 HdCudaTarget hd_cuda_target(const HdKernelShape *shape, int arch);
 
-/* The compiler's options for that target, a space between two. With PTX the limit of registers and
-   caution are the driver's business, and here for whoever compares options. */
+/* The compiler's options for that target, a space between two. With PTX the limit of registers
+   is the driver's business, and here for whoever compares options. */
 void hd_cuda_options(char *options, size_t capacity, HdCudaTarget target,
                      const HdKernelShape *shape);
 

@@ -72,7 +72,7 @@ HdStatus hd_gpu_build(HdGpuProgram *program, const HdGpu *gpu, const HdKernelNee
     program->is_built = false;
     shape->is_probe = false;
     gpu->driver->unload(gpu->handle);
-    hd_kernel_shape_set_needs(shape, needs);
+    shape->needs = *needs;
     limit_registers(program, shape);
     gpu->driver->write_options(gpu->handle, shape, options, sizeof options);
     HdStatus status =

@@ -148,8 +148,7 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 static const char rounding[] = " -cl-fp32-correctly-rounded-divide-sqrt";
 
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {
-    const Device *device = state;
-    const char *cautious = device->is.nvidia_arch > 0 ? " -cl-nv-opt-level=0" : " -cl-opt-disable";
+    (void)state;
     const char *math = shape->math == HD_MATH_FAST ? " -cl-fast-relaxed-math"
                        : shape->rounds_by_fma      ? ""
                                                    : rounding;
@@ -157,8 +156,7 @@ static void write_options(void *state, const HdKernelShape *shape, char *text, s
     hd_kernel_defines(shape, defines);
     if (shape->register_limit > 0)
         snprintf(limit, sizeof limit, " -cl-nv-maxrregcount=%d", shape->register_limit);
-    snprintf(text, capacity, "-cl-std=CL1.2%s%s%s%s", math, defines, limit,
-             shape->is_cautious ? cautious : "");
+    snprintf(text, capacity, "-cl-std=CL1.2%s%s%s", math, defines, limit);
 }
 
 /* Tells what the device's name and driver do not, such as which LLVM PoCL has. */
@@ -242,7 +240,8 @@ static HdStatus compile(void *state, const HdKernelShape *shape, const char *opt
     code = build(device, options);
     if (code != CL_SUCCESS)
         return fail_with_log(device, code, error);
-    snprintf(maker, capacity, "%s", shape->is_cautious ? "the driver" : "");
+    maker[0] = '\0';
+    (void)capacity;
     return create_kernels(device, shape, error);
 }
 

@@ -4,6 +4,7 @@
 
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
+#include "system/warnings.h"
 #include "system/cache_folder.h"
 #include "test_folder.h"
 
@@ -17,6 +18,7 @@ static int begin(void **state) {
     memset(&fake, 0, sizeof fake);
     options = (HdRenderOptions){.threads = 1};
     device = fake_device();
+    device.has_wide_atomics = true; /* for the wavefront */
     setenv("HEDRON_CACHE", "cache", 1);
     return 0;
 }
@@ -159,35 +161,22 @@ static void wrong_kernels_are_an_error(void **state) {
     expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
     expect_contains(error.message, "the test frame 'solid' with the hash ");
     expect_contains(error.message, ", expected ");
-    assert_int_equal(fake.rendered, 2); /* optimised fully, then little */
+    assert_int_equal(fake.rendered, 2); /* by the megakernel, then by the wavefront */
     fake.renders_wrongly = false;
     assert_int_equal(upload(), HD_OK); /* they were not kept */
     expect_counts(3, 0);
 }
 
-static void wrong_kernels_are_compiled_again_with_little_optimisation(void **state) {
+static void the_wavefront_takes_over(void **state) {
     (void)state;
-    fake.renders_wrongly = fake.is_right_if_cautious = true;
+    char text[HD_FALLBACK_LENGTH];
+    fake.renders_wrongly = fake.is_right_in_waves = true;
     assert_int_equal(upload(), HD_OK);
     expect_counts(2, 0);
-    expect_contains(note, "by nobody optimising little (fully, it computes wrongly); passed");
-    expect_contains(note, "; not cached");
-    assert_int_equal(upload(), HD_OK);
-    expect_counts(4, 0);
-}
-
-static void caution_ends_with_the_scene(void **state) {
-    (void)state;
-    const HdKernelNeeds first = {.plane_bound = 8, .depth_bound = 8};
-    const HdKernelNeeds other = {.plane_bound = 16, .depth_bound = 8};
-    HdKernelShape shape = {.needs = first};
-    assert_true(hd_kernel_shape_be_cautious(&shape));
-    assert_false(hd_kernel_shape_be_cautious(&shape));
-    assert_false(hd_kernel_needs_equal(&shape.needs, &first)); /* so that it is compiled again */
-    hd_kernel_shape_set_needs(&shape, &first);
-    assert_true(shape.is_cautious);
-    hd_kernel_shape_set_needs(&shape, &other);
-    assert_false(shape.is_cautious);
+    expect_contains(note, "; passed");
+    assert_true(hd_fallback_take(text));
+    expect_contains(text, "computes wrongly: ");
+    expect_contains(text, ": the wavefront takes over");
 }
 
 static void wrong_kernels_render_nothing(void **state) {
@@ -293,8 +282,7 @@ int main(void) {
         TEST(what_a_driver_refuses_is_compiled_anew),
         TEST(without_a_folder_all_goes_on),
         TEST(wrong_kernels_are_an_error),
-        TEST(wrong_kernels_are_compiled_again_with_little_optimisation),
-        TEST(caution_ends_with_the_scene),
+        TEST(the_wavefront_takes_over),
         TEST(wrong_kernels_render_nothing),
         TEST(kernels_with_meshes_pass_one_more_frame),
         TEST(fast_arithmetic_is_not_tested),
