@@ -31,13 +31,13 @@ typedef struct Run {
     HdError *error;
 } Run;
 
+/* Pixels of a surveyed scene have other sizes: kernels for them are for no other scene. */
 static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
     static const HdSceneTables general = {.plane_count = 32,
                                           .depth = 32,
                                           .node_stack = 32,
                                           .refracts = true,
-                                          .lit_from_behind = true,
-                                          .surveyed = true};
+                                          .lit_from_behind = true};
     return test->general ? &general : &hd_random_kinds[kind].needs;
 }
 
@@ -128,11 +128,13 @@ static bool has_failed(const void *context) {
 static HdStatus open_workers(Run *run, HdError *error) {
     const HdRandomTest *test = run->test;
     const HdRenderOptions plain = {.precision = test->options.precision, .threads = 1};
+    HdRenderOptions options = test->options;
+    options.test.keeps_pipeline = true;
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < run->worker_count; i++) {
         Worker *worker = &run->workers[i];
         worker->kind = ALL;
-        status = hd_renderer_open(&worker->renderers[DEVICE], test->device, &test->options, error);
+        status = hd_renderer_open(&worker->renderers[DEVICE], test->device, &options, error);
         if (status == HD_OK)
             status = hd_renderer_open(&worker->renderers[PLAIN_C], &run->plain, &plain, error);
     }

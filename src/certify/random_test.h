@@ -12,7 +12,7 @@ typedef struct HdRandomTest {
     uint64_t seed;           /* of the first scene; the others' follow */
     int scenes;
     int kind;     /* the only kind of scene, of hd_random_kinds; -1: all */
-    bool general; /* all kinds are rendered by kernels that do everything */
+    bool general; /* one build of the kernels does everything, but for surveys */
     int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core */
 } HdRandomTest;
 

@@ -114,6 +114,7 @@ static bool change_to_wavefront(HdRenderer *renderer) {
     void *state;
     waves.pipeline = HD_PIPELINE_WAVEFRONT;
     if (hd_pipeline_is_wavefront(renderer->options.pipeline) ||
+        renderer->options.test.keeps_pipeline ||
         hd_device_obstacle(&renderer->device, &waves) != NULL ||
         renderer->backend->functions->open(&renderer->device, &waves, &state, &ignored) != HD_OK)
         return false;

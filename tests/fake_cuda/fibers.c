@@ -99,10 +99,12 @@ static void start_threads(unsigned int count) {
         fibers[i] = (Fiber){.stack = prepare(stacks + (size_t)i * STACK, begin_thread)};
 }
 
-/* Returns whether any thread could run. */
+/* Returns whether any thread could run. Every other block begins with its last thread, so that what
+   relies on an order is wrong in one of them. */
 static bool run_ready(unsigned int count) {
     bool any = false;
-    for (unsigned int i = 0; i < count; i++) {
+    for (unsigned int turn = 0; turn < count; turn++) {
+        unsigned int i = grid->thread->block.x % 2 ? count - 1 - turn : turn;
         if (fibers[i].is_over || fibers[i].waits)
             continue;
         grid->thread->thread = (FakeIndex){i, 0, 0};
