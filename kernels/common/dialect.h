@@ -86,8 +86,8 @@ FN uint lane_bits(vmask m) {
 }
 #endif
 
-/* The lanes of `left` without those of `done`, which has the first of them. One lane leaves none: so
-   compilers see that a loop over groups of lanes is none there. */
+/* The lanes of `left` without those of `done`, which has the first of them. One lane leaves none:
+   so compilers see that a loop over groups of lanes is none there. */
 FN vmask lanes_after(vmask left, vmask done) {
 #if HD_LANES == 1
     (void)left, (void)done;

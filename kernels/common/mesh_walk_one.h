@@ -5,8 +5,8 @@
 
 #include "mesh_walk.h"
 
-/* In place of nodes and leaves, of which none has these numbers: nothing, and all triangles of a mesh
-   without a hierarchy. */
+/* In place of nodes and leaves, of which none has these numbers: nothing, and all triangles of a
+   mesh without a hierarchy. */
 enum { NO_NODE = -1, WHOLE_MESH = -2147483647 };
 
 /* The ray of `m`. Down to a leaf, then its triangles: so threads of a warp do the same at a time
@@ -22,7 +22,8 @@ FN void search_mesh(SCENE_PARAMETERS Findings *found, const MeshRays *rays, vmas
         do {
             if (current == NO_NODE) {
                 waiting--;
-                current = any_lane(le(stack_near[waiting], found->limit)) ? stack[waiting] : NO_NODE;
+                current =
+                    any_lane(le(stack_near[waiting], found->limit)) ? stack[waiting] : NO_NODE;
             }
             if (current >= 0) {
                 GLOBAL const MeshNode *node = mesh_nodes + current;

@@ -75,8 +75,8 @@ FN_APART void search_instance(SCENE_PARAMETERS Findings *found, const WorldRays 
     search_mesh(SCENE_ARGUMENTS found, &rays, *m, instances + number);
 }
 
-/* Puts the children of a node that rays of `m` meet on the stack, the nearer one on top; returns how
-   many nodes then wait there. */
+/* Puts the children of a node that rays of `m` meet on the stack, the nearer one on top; returns
+   how many nodes then wait there. */
 FN int push_children(SCENE_PARAMETERS const Findings *found, const Slabs *slabs, vmask m,
                      const Way *way, int number, int *stack, int waiting) {
     GLOBAL const MeshNode *node = mesh_nodes + number;
@@ -107,8 +107,8 @@ FN void walk_instances(SCENE_PARAMETERS Findings *found, const WorldRays *world,
                 item = ~current >> HD_LEAF_ITEM_BITS;
                 end = item + (~current & HD_LEAF_ITEM_MASK);
             } else {
-                waiting = push_children(SCENE_ARGUMENTS found, slabs, m, way, current, stack,
-                                        waiting);
+                waiting =
+                    push_children(SCENE_ARGUMENTS found, slabs, m, way, current, stack, waiting);
             }
         }
         if (item < end) {

@@ -9,11 +9,11 @@
 #if HD_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
-#define FN        static inline
-#define FN_APART  static
-#define GLOBAL    __global
-#define LOCAL     __local
-#define BARRIER() barrier(CLK_LOCAL_MEM_FENCE)
+#define FN         static inline
+#define FN_APART   static
+#define GLOBAL     __global
+#define LOCAL      __local
+#define BARRIER()  barrier(CLK_LOCAL_MEM_FENCE)
 #define RESTRICT   restrict
 #define ALIGNED_16 __attribute__((aligned(16)))
 typedef ulong uint64;

@@ -4,7 +4,7 @@
    how many of them fail, else all from there, and FAILING_OPENCL_CODE what they fail with.
    FAILING_OPENCL_HANGS, if it is there, is a file that is made before the call then waits for ever.
    FAILING_OPENCL_TEXT is what a compiler of it takes for something else, FAILING_OPENCL_FOR: all of
-   it in the text of a program; FAILING_OPENCL_WITHOUT is an option that it does not heed.
+   it in the text of a program.
    FAILING_OPENCL_NAME is what each device says is its name, and with FAILING_OPENCL_LIES a driver
    claims a hundred devices more than it has, and texts of all the memory that there is, which it
    then writes to. */
@@ -160,20 +160,10 @@ cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const ch
     return program;
 }
 
-cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id *devices,
-                      const char *options, OnProgram notify, void *user) {
-    cl_int (*real)(cl_program, cl_uint, const cl_device_id *, const char *, OnProgram, void *);
-    void *found = dlsym(RTLD_NEXT, "clBuildProgram");
-    const char *without = getenv("FAILING_OPENCL_WITHOUT");
-    cl_int code = failure_of("clBuildProgram");
-    memcpy(&real, &found, sizeof real);
-    if (code != CL_SUCCESS)
-        return code;
-    char *heeded = replaced(options, without != NULL ? without : " ", without != NULL ? "" : " ");
-    code = real(program, count, devices, heeded, notify, user);
-    free(heeded);
-    return code;
-}
+CODED(clBuildProgram,
+      (cl_program program, cl_uint count, const cl_device_id *devices, const char *options,
+       OnProgram notify, void *user),
+      (program, count, devices, options, notify, user))
 MADE(cl_kernel, clCreateKernel, (cl_program program, const char *name, cl_int *code),
      (program, name, code))
 MADE(cl_mem, clCreateBuffer,

@@ -115,7 +115,8 @@ static bool run_ready(unsigned int count) {
     return any;
 }
 
-/* Lets the threads go on if all of them wait. Those that ended never will: nothing waits for them. */
+/* Lets the threads go on if all of them wait. Those that ended never will: nothing waits for them.
+ */
 static bool release(unsigned int count) {
     for (unsigned int i = 0; i < count; i++)
         if (fibers[i].is_over || !fibers[i].waits)

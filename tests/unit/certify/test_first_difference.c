@@ -87,9 +87,10 @@ static void the_place_is_named(void **state) {
 /* The sky needs nothing else; one of two lights is enough for what is wrong with it. */
 static void what_is_needed_is_left(void **state) {
     (void)state;
-    expect_words(difference("tetrahedron", with_other_sky),
-                 "it differs with 0 of 1 solids, 0 of 20 lights, 0 of 0 instances of meshes without "
-                 "the floor, in a part of 1 x 1 pixels");
+    expect_words(
+        difference("tetrahedron", with_other_sky),
+        "it differs with 0 of 1 solids, 0 of 20 lights, 0 of 0 instances of meshes without "
+        "the floor, in a part of 1 x 1 pixels");
     expect_words(difference("tetrahedron", with_other_light), "0 of 1 solids, 2 of 20 lights");
 }
 

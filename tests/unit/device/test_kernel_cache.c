@@ -4,8 +4,8 @@
 
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
-#include "system/warnings.h"
 #include "system/cache_folder.h"
+#include "system/warnings.h"
 #include "test_folder.h"
 
 static HdError error;
