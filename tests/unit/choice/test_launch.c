@@ -431,6 +431,7 @@ static void jobs_alike_serve_each_other(void **state) {
     scene.instance_count = 0;
     remove_folder("cache");
     const HdSolidKind kinds[] = {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON};
+    scene.solid_count = 1;
     scene.solids[0].lights.per_edge = 0; /* which would tell them apart */
     for (int i = 0; i < 4; i++) {        /* 4, 6, 8, 12 planes */
         scene.solids[0].kind = kinds[i];
