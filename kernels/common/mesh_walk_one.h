@@ -5,8 +5,8 @@
 
 #include "mesh_walk.h"
 
-/* In place of nodes and leaves, of which none has these numbers: nothing, and all triangles of a
-   mesh without a hierarchy. */
+/* In place of nodes and leaves, of which none that holds anything has these numbers: nothing, and
+   all triangles of a mesh without a hierarchy. */
 enum { NO_NODE = -1, WHOLE_MESH = -2147483647 };
 
 /* The ray of `m`. Down to a leaf, then its triangles: so threads of a warp do the same at a time

@@ -241,7 +241,8 @@ static HdStatus test_golden_frames(HdCertificate *certificate, HdRenderer *rende
 
 static HdStatus open_renderer(HdRenderer **renderer, HdCertificate *certificate,
                               HdPrecision precision, HdPipeline pipeline, HdError *error) {
-    const HdRenderOptions options = {.precision = precision, .pipeline = pipeline};
+    const HdRenderOptions options = {
+        .precision = precision, .pipeline = pipeline, .test.keeps_pipeline = true};
     HdDevice device = certificate->device;
     device.not_strict[0] = '\0'; /* it is to be found out anew */
     HdStatus status = hd_renderer_open(renderer, &device, &options, error);
@@ -288,21 +289,23 @@ static HdStatus test_random_scenes(HdCertificate *certificate, HdPrecision preci
                                    HdPipeline pipeline, HdError *error) {
     static HdRandomResult result;
     char name[96];
-    const HdRandomTest random = {.device = &certificate->device,
+    HdDevice device = certificate->device;
+    const HdRandomTest random = {.device = &device,
                                  .options = {.precision = precision, .pipeline = pipeline},
                                  .scenes = RANDOM_SCENES,
                                  .kind = -1,
                                  .threads = certificate->device.is_cpu ? 1 : 0};
     snprintf(name, sizeof name, "random scenes in %s by %s", precision_names[precision],
              hd_pipeline_names[pipeline]);
+    device.not_strict[0] = '\0'; /* it was found out anew */
     HdCertificateTest *test = begin_test(certificate, name);
     HdStatus status = hd_random_test(&random, &result, error);
     test->frames = result.scenes;
-    end_test(certificate, test,
-             status != HD_OK        ? HD_VERDICT_UNTESTED
-             : result.different > 0 ? HD_VERDICT_WRONG
-                                    : HD_VERDICT_RIGHT,
-             status == HD_OK ? result.text : error->message);
+    HdVerdict verdict = result.different > 0 ? HD_VERDICT_WRONG
+                        : status != HD_OK    ? HD_VERDICT_UNTESTED
+                                             : HD_VERDICT_RIGHT;
+    end_test(certificate, test, verdict,
+             verdict == HD_VERDICT_UNTESTED ? error->message : result.text);
     return status;
 }
 

@@ -258,16 +258,18 @@ static void tell_counts(const Search *search, char *text, size_t capacity) {
                      counts[i].what, counts[i].found, counts[i].expected);
 }
 
-/* Where the first value that differs is, in the whole picture. */
-static void tell_place(const Search *search, int side, int value, char *text, size_t capacity) {
+/* Where the first value that differs is, in the frame that was given. */
+static void tell_place(const Search *search, const HdScene *whole, int value, char *text,
+                       size_t capacity) {
     const HdFrame *frame = &search->frames[DEVICE];
     const Cuts *cuts = &search->cuts;
     int pixel = value / frame->floats;
     int x = cuts->left + pixel % frame->width, y = cuts->top + pixel / frame->width;
+    int side = whole->samples_per_side;
     if (cuts->samples_are_pixels)
         snprintf(text, capacity, "pixel %d, %d, sample %d, %d of %d x %d", x / side, y / side,
                  x % side, y % side, side, side);
-    else if (side > 1)
+    else if (side > 1 && !hd_scene_is_surveyed(whole))
         snprintf(text, capacity, "pixel %d, %d, though no sample of its %d x %d differs alone", x,
                  y, side, side);
     else
@@ -282,7 +284,7 @@ static void tell(const Search *search, const HdScene *whole, char *text, size_t 
         tell_counts(search, text, capacity);
         return;
     }
-    tell_place(search, whole->samples_per_side, number, place, sizeof place);
+    tell_place(search, whole, number, place, sizeof place);
     tell_value(search, number, value, sizeof value);
     snprintf(text, capacity,
              "%s, depth %d of the ray: %s; it differs with %d of %d solids, %d of %d lights, %d of "

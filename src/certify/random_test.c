@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,7 +14,7 @@
 #include "system/thread_pool.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
-enum { ALL = -1 };
+enum { ALL = -1, MOST_WORKERS = 16 };
 
 typedef struct Worker {
     HdRenderer *renderers[SIDES];
@@ -29,6 +30,7 @@ typedef struct Run {
     HdRandomResult *result;
     HdStatus status; /* the first failure's */
     HdError *error;
+    atomic_bool has_failed; /* then nothing more is begun */
 } Run;
 
 /* Pixels of a surveyed scene have other sizes: kernels for them are for no other scene. */
@@ -90,6 +92,7 @@ static void note(Run *run, uint64_t seed, HdStatus status, bool differs, const H
     if (status != HD_OK && run->status == HD_OK) {
         run->status = status;
         *run->error = *error;
+        run->has_failed = true;
     }
     result->scenes += status == HD_OK;
     if (status == HD_OK && differs) {
@@ -116,13 +119,13 @@ static void work(void *context, int thread, int number) {
                                   ? hd_fail(&error, HD_INTERRUPTED, "interrupted")
                                   : compare(run, &run->workers[number], seed, &differs, &error);
             note(run, seed, status, differs, &error);
-            if (status != HD_OK || run->status != HD_OK)
+            if (run->has_failed)
                 return;
         }
 }
 
 static bool has_failed(const void *context) {
-    return ((const Run *)context)->status != HD_OK;
+    return ((const Run *)context)->has_failed;
 }
 
 static HdStatus open_workers(Run *run, HdError *error) {
@@ -170,16 +173,19 @@ static HdStatus build(const void *what, HdScene *scene, HdCamera *camera, HdErro
     return HD_OK;
 }
 
+/* Where the search fails, that a scene differs is told all the same. */
 static HdStatus tell_difference(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
     char text[sizeof result->text / 2];
     int kind = hd_random_kind_of(result->first_seed);
     const HdDispute dispute = {test->device, &test->options, needs_of(test, kind), build, result};
     HdStatus status = hd_first_difference(&dispute, text, sizeof text, error);
-    if (status == HD_OK)
-        snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s",
-                 result->first_seed, hd_random_kinds[kind].name,
-                 text[0] != '\0' ? text : "asked again it renders as plain C does");
-    return status;
+    snprintf(result->text, sizeof result->text, "the scene of seed %" PRIu64 " (%s): %s%.400s",
+             result->first_seed, hd_random_kinds[kind].name,
+             status != HD_OK   ? "where it differs could not be found out: "
+             : text[0] != '\0' ? ""
+                               : "asked again it renders as plain C does",
+             status != HD_OK ? error->message : text);
+    return status == HD_INTERRUPTED ? status : HD_OK;
 }
 
 HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdError *error) {
@@ -190,6 +196,8 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     if (status != HD_OK)
         return status;
     run.worker_count = test->threads > 0 ? test->threads : hd_processor_count();
+    if (run.worker_count > MOST_WORKERS)
+        run.worker_count = MOST_WORKERS;
     run.workers = calloc((size_t)run.worker_count, sizeof *run.workers);
     if (run.workers == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for %d threads", run.worker_count);
@@ -197,5 +205,9 @@ HdStatus hd_random_test(const HdRandomTest *test, HdRandomResult *result, HdErro
     status = run_workers(&run, error);
     pthread_mutex_destroy(&run.mutex);
     free(run.workers);
-    return status == HD_OK && result->different > 0 ? tell_difference(test, result, error) : status;
+    if (status == HD_INTERRUPTED || result->different == 0)
+        return status;
+    HdError later; /* the first failure is told */
+    HdStatus told = tell_difference(test, result, &later);
+    return status == HD_OK ? told : status;
 }

@@ -13,7 +13,8 @@ typedef struct HdRandomTest {
     int scenes;
     int kind;     /* the only kind of scene, of hd_random_kinds; -1: all */
     bool general; /* one build of the kernels does everything, but for surveys */
-    int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core */
+    int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core,
+                    16 at most */
 } HdRandomTest;
 
 typedef struct HdRandomResult {

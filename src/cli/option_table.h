@@ -99,7 +99,7 @@ OPTION(
     "compiled",
     HD_COMMAND_SELFTEST, FLAG(quick))
 OPTION(bool deep, "--deep", NULL, NULL,
-       "render 2400 random scenes beside plain C too, in each precision and pipeline, which takes "
+       "also compare 2400 random scenes with plain C, in each precision and pipeline, which takes "
        "minutes; what differs is reported with the pixel, the sample and the depth of the ray",
        HD_COMMAND_SELFTEST, FLAG(deep))
 ROW("--lanes", NULL, "N",

@@ -140,7 +140,7 @@ static HdStatus test_wavefront(HdRenderer *renderer, const HdSceneTables *tables
         status = hd_self_test(renderer->backend, renderer->state, &renderer->device, tables, &frame,
                               &is_wrong, &later);
     if (status == HD_OK)
-        hd_fallback_note("%s: the wavefront takes over", error->message);
+        hd_fallback_note("the wavefront takes over: %s", error->message);
     else if (status == HD_INTERRUPTED)
         *error = later;
     return status == HD_OK || status == HD_INTERRUPTED ? status : HD_UNAVAILABLE;

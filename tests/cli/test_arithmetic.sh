@@ -71,7 +71,7 @@ expect_refused 'return a < b ? -1 : 0;' 'return a <= b ? -1 : 0;' ': the lesser 
 # ---- kernels that render wrongly in the megakernel alone: the wavefront takes over
 take '1.5259021896696422e-5' $'\n#if HD_WAVEFRONT\n1.5259021896696422e-5\n#else\n1.6e-5\n#endif\n'
 expect_exit 0 "${driver[@]}" "${render[@]}" --pipeline mega --verbose
-expect_stderr_contains ': the wavefront takes over'
+expect_stderr_contains 'the wavefront takes over: '
 expect_stderr_contains 'passed the self-test ('
 expect_same picture.data expected.data
 rm -r "$work/cache" picture.data

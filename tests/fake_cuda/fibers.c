@@ -28,6 +28,7 @@ static unsigned char *stacks;
 static void *scheduler; /* its stack */
 static Fiber *current;
 static const FakeGrid *grid; /* that runs */
+static unsigned int launches;
 static const char *failure;
 
 /* ---- from one stack to another ---- */
@@ -99,12 +100,12 @@ static void start_threads(unsigned int count) {
         fibers[i] = (Fiber){.stack = prepare(stacks + (size_t)i * STACK, begin_thread)};
 }
 
-/* Returns whether any thread could run. Every other block begins with its last thread, so that what
-   relies on an order is wrong in one of them. */
+/* Returns whether any thread could run. Every other block, and launch, begins with its last thread,
+   so that what relies on an order is wrong in one of them. */
 static bool run_ready(unsigned int count) {
     bool any = false;
     for (unsigned int turn = 0; turn < count; turn++) {
-        unsigned int i = grid->thread->block.x % 2 ? count - 1 - turn : turn;
+        unsigned int i = (grid->thread->block.x + launches) % 2 ? count - 1 - turn : turn;
         if (fibers[i].is_over || fibers[i].waits)
             continue;
         grid->thread->thread = (FakeIndex){i, 0, 0};
@@ -161,6 +162,7 @@ static bool make_stacks(void) {
 
 const char *fake_run_grid(const FakeGrid *launched) {
     grid = launched;
+    launches++;
     grid->thread->wait = wait;
     failure = make_stacks() ? NULL : "there is no memory for stacks";
     for (unsigned int i = 0; failure == NULL && i < grid->thread->blocks.x; i++) {
