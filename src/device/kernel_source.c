@@ -90,6 +90,7 @@ HdKernelNeeds hd_kernel_needs(const HdSceneTables *tables) {
         .node_stack_bound = tables->node_stack > 0 ? stack_bound(tables->node_stack) : 0,
         .refracts = tables->refracts,
         .lit_from_behind = tables->lit_from_behind,
+        /* With meshes too, branches would nest too deeply (docs/lost-light.md). */
         .many_lights = tables->many_lights && tables->node_stack == 0,
         .surveyed = tables->surveyed,
         .small_tables = tables->small_tables,
