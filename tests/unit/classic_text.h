@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "expect.h"
 #include "input/classic.h"
+#include "unit_test.h"
 
 /* The official example of the task. */
 static const char official[] =

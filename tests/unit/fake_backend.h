@@ -11,7 +11,7 @@
 #include "device/kernel_cache.h"
 #include "device/probe_operands.h"
 #include "device/renderer.h"
-#include "expect.h"
+#include "unit_test.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 

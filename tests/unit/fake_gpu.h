@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "device/gpu/program.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static struct {
     size_t room;       /* what may still be taken */

@@ -8,18 +8,21 @@
 
 #include "mesh/hierarchy.h"
 #include "system/machine.h"
+#include "unit_test.h"
+#include "wrapped.h"
 
 static HdError error;
 static HdThreadPool *pool;
 
-/* Takes the place of the library's: the allocation with this number fails. -1: none. */
+/* The allocation with this number fails. -1: none. */
 static int failing_allocation = -1, allocations;
 
-void *hd_large_allocate(size_t bytes) {
+static void *allocate_or_fail(size_t bytes) {
     if (allocations++ == failing_allocation)
         return NULL;
     return aligned_alloc(64, (bytes + 63) / 64 * 64);
 }
+REPLACE(hd_large_allocate, allocate_or_fail)
 
 static int start_pool(void **state) {
     (void)state;

@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Tests of the shared kernel functions, called from C; included once for each HD_LANES. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "cpu/dialect.h"
 #include "kernels/common/wavefront.h"
+#include "unit_test.h"
 
 #define CLOSE(found, expected) assert_true(fabs((double)(found) - (double)(expected)) < 1e-5)
 
@@ -26,8 +20,7 @@ static vint int_ramp(int start, int step) {
     return v;
 }
 
-static void masks_tell_lanes_apart(void **state) {
-    (void)state;
+TEST(masks_tell_lanes_apart) {
     vint numbers = int_ramp(0, 1);
     vmask last = eq_int(numbers, splat_int(HD_LANES - 1));
     assert_true(any_lane(last));
@@ -46,8 +39,7 @@ static void masks_tell_lanes_apart(void **state) {
     assert_int_equal(lane_int(&spread, 0), 0);
 }
 
-static void lesser_and_greater_drop_nan(void **state) {
-    (void)state;
+TEST(lesser_and_greater_drop_nan) {
     vreal nan = splat((real)NAN), one = splat(R(1.0)), two = splat(R(2.0));
     vreal r = lesser(nan, one);
     assert_true(lane_real(&r, 0) == R(1.0));
@@ -59,8 +51,7 @@ static void lesser_and_greater_drop_nan(void **state) {
     assert_true(lane_real(&r, 0) == R(2.0));
 }
 
-static void multiply_add_rounds_once(void **state) {
-    (void)state;
+TEST(multiply_add_rounds_once) {
     /* (1 + e)(1 - e) - 1 = -e^2: lost if the product is rounded on its own. */
     real e = sizeof(real) == 4 ? R(1.1920928955078125e-7) : R(2.220446049250313e-16);
     vreal r = multiply_add(splat(R(1.0) + e), splat(R(1.0) - e), splat(R(-1.0)));
@@ -68,16 +59,14 @@ static void multiply_add_rounds_once(void **state) {
         assert_true(lane_real(&r, lane) == -e * e);
 }
 
-static void lowest_bits(void **state) {
-    (void)state;
+TEST(lowest_bits) {
     for (int bit = 0; bit < 32; bit++) {
         assert_int_equal(lowest_bit((uint)1 << bit), bit);
         assert_int_equal(lowest_bit(~(uint)0 << bit), bit);
     }
 }
 
-static void powers(void **state) {
-    (void)state;
+TEST(powers) {
     vreal x = ramp(R(0.5), R(0.05));
     for (int n = 1; n <= 70; n++) {
         vreal common = power(x, splat_int(n), n), mixed = power(x, splat_int(n), 0);
@@ -100,8 +89,7 @@ static fixed64 one_contribution(real radiance, real weight, int *clamps) {
     return lane_fix(&fixed, 0);
 }
 
-static void contributions_are_clamped(void **state) {
-    (void)state;
+TEST(contributions_are_clamped) {
     int clamps;
     assert_true(one_contribution(R(1.0), R(0.5), &clamps) == (fixed64)1 << 39);
     assert_int_equal(clamps, 0);
@@ -144,14 +132,12 @@ static long double exact_reciprocal_root(long double x) {
     return 1.0L / sqrtl(x);
 }
 
-static void reciprocals_are_accurate(void **state) {
-    (void)state;
+TEST(reciprocals_are_accurate) {
     assert_true(worst_error(reciprocal_of, exact_reciprocal) < 1.0);
     assert_true(worst_error(reciprocal_root_of, exact_reciprocal_root) < 1.5);
 }
 
-static void fetching_by_lane(void **state) {
-    (void)state;
+TEST(fetching_by_lane) {
     Vector table[40];
     for (int i = 0; i < 40; i++)
         table[i] = (Vector){(real)i, (real)(2 * i), (real)(-i), R(0.0)};
@@ -179,8 +165,7 @@ static FloorMap map_of(const double a[4], const double b[4]) {
     return map;
 }
 
-static void floor_coordinates_invert_the_map(void **state) {
-    (void)state;
+TEST(floor_coordinates_invert_the_map) {
     static const double quads[][2][4] = {
         {{-5, 5, 5, -5}, {5, 5, -5, -5}},     /* a square, clockwise */
         {{0, 4, 5, 1}, {0, 0, 3, 3}},         /* a parallelogram */
@@ -211,8 +196,7 @@ static void floor_coordinates_invert_the_map(void **state) {
     }
 }
 
-static void texels_are_interpolated(void **state) {
-    (void)state;
+TEST(texels_are_interpolated) {
     enum { WIDTH = 3, HEIGHT = 2 };
     uint texels[(WIDTH + 1) * (HEIGHT + 1) * 2];
     Picture picture = {.width = WIDTH, .height = HEIGHT, .is_clamped = 1};
@@ -250,8 +234,7 @@ static Vec3 refract_at_level(Vec3 direction, vreal relative_index, vmask *total)
     return refract(direction, normal, vec3_dot(normal, direction), relative_index, total);
 }
 
-static void rays_bend_by_snells_law(void **state) {
-    (void)state;
+TEST(rays_bend_by_snells_law) {
     static const double indices[] = {0.4, 0.75, 0.999, 1.001, 1.5, 2.45};
     for (int i = 0; i < 6; i++)
         for (int step = 0; step < 20; step++) {
@@ -271,8 +254,7 @@ static void rays_bend_by_snells_law(void **state) {
         }
 }
 
-static void index_one_and_upright_rays_go_straight(void **state) {
-    (void)state;
+TEST(index_one_and_upright_rays_go_straight) {
     vmask total;
     Vec3 before = falling(ramp(R(0.1), R(0.06)));
     Vec3 after = refract_at_level(before, splat(R(1.0)), &total);
@@ -290,8 +272,7 @@ static void index_one_and_upright_rays_go_straight(void **state) {
 }
 
 /* A direction may be longer than 1 by rounding; grazing and upright rays must not become NaN. */
-static void refraction_survives_rounding(void **state) {
-    (void)state;
+TEST(refraction_survives_rounding) {
     vmask total;
     const real ulp = sizeof(real) == 4 ? R(1.1920928955078125e-7) : R(2.220446049250313e-16);
     Vec3 after = refract_at_level(vec3_splat(R(0.0), R(0.0), R(-1.0) - ulp), splat(R(2.0)), &total);
@@ -306,8 +287,7 @@ static void refraction_survives_rounding(void **state) {
 
 /* The vector form is longer or shorter than 1 where the ray's direction is: it must not pass that
    on from face to face. */
-static void refracted_directions_have_length_one(void **state) {
-    (void)state;
+TEST(refracted_directions_have_length_one) {
     vmask total;
     Vec3 before = vec3_scale(falling(splat(R(0.3))), splat(R(1.001)));
     Vec3 after = refract_at_level(before, splat(R(1.3)), &total);
@@ -315,8 +295,7 @@ static void refracted_directions_have_length_one(void **state) {
     CLOSE(lane_real(&length, 0), 1.0);
 }
 
-static void materials_have_two_sides(void **state) {
-    (void)state;
+TEST(materials_have_two_sides) {
     Material material = {.reflection = R(0.125),
                          .transmission = R(0.25),
                          .inner_reflection = R(0.5),
@@ -333,8 +312,7 @@ static void materials_have_two_sides(void **state) {
     assert_false(any_lane(seen.lit_from_behind));
 }
 
-static void faces_turn_over(void **state) {
-    (void)state;
+TEST(faces_turn_over) {
     vint numbers = int_ramp(0, 1);
     Surface surface;
     LitPoints points;
@@ -361,8 +339,7 @@ static void faces_turn_over(void **state) {
     assert_false(any_lane(points.active));
 }
 
-static void falloff_ends(void **state) {
-    (void)state;
+TEST(falloff_ends) {
     Light light = {.inverse_falloff_squared = R(-0.25)};
     static const real squared[] = {R(0.0), R(1.0), R(2.0), R(3.0), R(4.0), R(5.0), R(1e30)};
     static const real shares[] = {R(1.0), R(0.5625), R(0.25), R(0.0625), R(0.0), R(0.0), R(0.0)};
@@ -382,8 +359,7 @@ static void falloff_ends(void **state) {
     assert_true(lane_real(&share, 0) == R(1.0));
 }
 
-static void every_pixel_has_one_place(void **state) {
-    (void)state;
+TEST(every_pixel_has_one_place) {
     enum { WIDTH = 21, HEIGHT = 13, BLOCKS = 3 * 2 };
     View view = {.width = WIDTH, .height = HEIGHT};
     int seen[HEIGHT][WIDTH] = {{0}};
@@ -397,8 +373,7 @@ static void every_pixel_has_one_place(void **state) {
             assert_int_equal(seen[y][x], 1);
 }
 
-static void samples_fill_the_lanes(void **state) {
-    (void)state;
+TEST(samples_fill_the_lanes) {
     View view = {.forward = {R(0.0), R(1.0)},
                  .right = {R(0.001)},
                  .down = {R(0.0), R(0.0), R(-0.001)},
@@ -420,8 +395,7 @@ static void samples_fill_the_lanes(void **state) {
     assert_int_equal(live, 64 * 9);
 }
 
-static void live_lanes_are_stored_side_by_side(void **state) {
-    (void)state;
+TEST(live_lanes_are_stored_side_by_side) {
     real reals[3 * HD_LANES];
     int ints[3 * HD_LANES], offset[HD_LANES];
     for (int left_out = 0; left_out <= HD_LANES; left_out++) {
@@ -439,8 +413,7 @@ static void live_lanes_are_stored_side_by_side(void **state) {
     }
 }
 
-static void numbers_are_loaded_from_anywhere(void **state) {
-    (void)state;
+TEST(numbers_are_loaded_from_anywhere) {
     real reals[HD_LANES + 1];
     int ints[HD_LANES + 1];
     for (int i = 0; i <= HD_LANES; i++) {
@@ -545,8 +518,7 @@ static bool is_far_from_rim(MeshPoint p) {
 }
 
 /* From within, a ray through an edge or a corner leaves exactly once. */
-static void rays_leave_a_closed_mesh_once(void **state) {
-    (void)state;
+TEST(rays_leave_a_closed_mesh_once) {
     static MeshPoint mesh[MESH_TRIANGLES][3];
     uint64_t random = 1;
     build_mesh(mesh);
@@ -572,8 +544,7 @@ static void rays_leave_a_closed_mesh_once(void **state) {
 
 /* From outside it enters as often as it leaves. The mesh is not quite convex: along its rim a ray
    may do so twice. */
-static void rays_enter_a_closed_mesh_as_often_as_they_leave(void **state) {
-    (void)state;
+TEST(rays_enter_a_closed_mesh_as_often_as_they_leave) {
     static MeshPoint mesh[MESH_TRIANGLES][3];
     uint64_t random = 2;
     int entered_in_all = 0;
@@ -601,8 +572,7 @@ static void rays_enter_a_closed_mesh_as_often_as_they_leave(void **state) {
     assert_in_range(entered_in_all, 1000 * HD_LANES, 3000 * HD_LANES);
 }
 
-static void what_filters_light_adds_up(void **state) {
-    (void)state;
+TEST(what_filters_light_adds_up) {
     vreal share = passing_share(splat_int(0), splat_int(0));
     assert_true(lane_real(&share, 0) == R(1.0));
     share = passing_share(splat_int(3 * HD_OCTAVE), splat_int(0));
@@ -619,8 +589,7 @@ static void what_filters_light_adds_up(void **state) {
     }
 }
 
-static void pictures_repeat_or_end(void **state) {
-    (void)state;
+TEST(pictures_repeat_or_end) {
     Picture repeats = {0, 4, 2, 0}, ends = {0, 4, 2, 1};
     uint texels[2 * 5 * 3 + 2] = {0};
     for (int row = 0; row < 3; row++)
@@ -726,8 +695,7 @@ static vmask end_rays_of(Ends *ends, int level, int channel) {
 
 /* By the greatest radiance that is seen from where a ray leaves, times the exposure; a bound that
    is the limit is not below it. */
-static void rays_that_end_are_bounded(void **state) {
-    (void)state;
+TEST(rays_that_end_are_bounded) {
     for (int channel = 0; channel < CHANNELS; channel++) {
         double each = 0.5 * (double)channel_bounds[channel], bounds[HD_LANES];
         for (int lane = 0; lane < HD_LANES; lane++)
@@ -749,8 +717,7 @@ static void rays_that_end_are_bounded(void **state) {
 }
 
 /* Lights in both of the surface's sides where it is lit from behind: in every second lane. */
-static void lights_that_are_left_out_are_bounded(void **state) {
-    (void)state;
+TEST(lights_that_are_left_out_are_bounded) {
     static const double colours[CHANNELS] = {0.5, 0.25, 1.0};
     for (int channel = 0; channel < CHANNELS; channel++) {
         double arriving = 0.5 * (double)channel_bounds[channel];
@@ -773,37 +740,4 @@ static void lights_that_are_left_out_are_bounded(void **state) {
             expect_end(&ends, lit, lane, bound, bound < limit);
         }
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(masks_tell_lanes_apart),
-        cmocka_unit_test(lesser_and_greater_drop_nan),
-        cmocka_unit_test(multiply_add_rounds_once),
-        cmocka_unit_test(lowest_bits),
-        cmocka_unit_test(powers),
-        cmocka_unit_test(contributions_are_clamped),
-        cmocka_unit_test(reciprocals_are_accurate),
-        cmocka_unit_test(fetching_by_lane),
-        cmocka_unit_test(floor_coordinates_invert_the_map),
-        cmocka_unit_test(texels_are_interpolated),
-        cmocka_unit_test(rays_bend_by_snells_law),
-        cmocka_unit_test(index_one_and_upright_rays_go_straight),
-        cmocka_unit_test(refraction_survives_rounding),
-        cmocka_unit_test(refracted_directions_have_length_one),
-        cmocka_unit_test(materials_have_two_sides),
-        cmocka_unit_test(faces_turn_over),
-        cmocka_unit_test(falloff_ends),
-        cmocka_unit_test(rays_leave_a_closed_mesh_once),
-        cmocka_unit_test(rays_enter_a_closed_mesh_as_often_as_they_leave),
-        cmocka_unit_test(what_filters_light_adds_up),
-        cmocka_unit_test(pictures_repeat_or_end),
-        cmocka_unit_test(rays_that_end_are_bounded),
-        cmocka_unit_test(lights_that_are_left_out_are_bounded),
-        cmocka_unit_test(every_pixel_has_one_place),
-        cmocka_unit_test(samples_fill_the_lanes),
-        cmocka_unit_test(live_lanes_are_stored_side_by_side),
-        cmocka_unit_test(numbers_are_loaded_from_anywhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,19 +5,13 @@
 #define HD_ROUNDED_BY_FMA 1
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "cpu/dialect.h"
 
 #include "kernels/common/dialect.h"
 
 #include "device/probe_operands.h"
+#include "unit_test.h"
 
 static real own_root(real a) {
     return sizeof(real) == sizeof(float) ? (real)sqrtf((float)a) : (real)sqrt((double)a);
@@ -41,8 +35,7 @@ static void check(const real a[HD_LANES], const real b[HD_LANES]) {
 }
 
 /* Every number in [1, 2) divides one that is drawn from there; the roots of all in [1, 4). */
-static void all_digits_are_right(void **state) {
-    (void)state;
+TEST(all_digits_are_right) {
     const uint32_t digits = (uint32_t)1 << 23;
     real a[HD_LANES], b[HD_LANES], drawn[HD_LANES];
     for (uint32_t i = 0; sizeof(real) == sizeof(float) && i < digits; i += HD_LANES) {
@@ -57,8 +50,7 @@ static void all_digits_are_right(void **state) {
     }
 }
 
-static void hard_cases_are_right(void **state) {
-    (void)state;
+TEST(hard_cases_are_right) {
     enum { COUNT = 1 << 12, BATCHES = 1 << 8 };
     static real numbers[3][COUNT];
     static int64_t bits[COUNT];
@@ -76,12 +68,4 @@ static void hard_cases_are_right(void **state) {
             check(numbers[1] + i, numbers[2] + i);
         }
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_digits_are_right),
-        cmocka_unit_test(hard_cases_are_right),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "expect.h"
 #include "input/load.h"
+#include "unit_test.h"
 
 /* What must be there, and nothing else. */
 static const char least_text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [30, 0, 0]}}";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A temporary folder for a test program, and what it needs for the files in it. Define
-   _XOPEN_SOURCE as 700 first. */
+/* A temporary folder for the tests of the file that includes this, and what they need for the files
+   in it. Define _XOPEN_SOURCE as 700 first. */
 #ifndef HD_TEST_FOLDER_H
 #define HD_TEST_FOLDER_H
 
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "expect.h"
+#include "unit_test.h"
 
 static char test_folder[] = "/tmp/hedron-test-XXXXXX";
 
@@ -29,7 +29,7 @@ static inline int remove_folder(const char *path) {
     return nftw(path, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* The setup and teardown of a group: the program works in the folder. */
+/* The setup and teardown of the file, where it has no others: its tests run in the folder. */
 static inline int make_test_folder(void **state) {
     (void)state;
     return mkdtemp(test_folder) == NULL || chdir(test_folder) != 0;
@@ -39,6 +39,7 @@ static inline int remove_test_folder(void **state) {
     (void)state;
     return chdir("/") != 0 || remove_folder(test_folder) != 0;
 }
+GROUP(make_test_folder, remove_test_folder)
 
 static inline int count_entries(const char *path) {
     int count = 0;

@@ -2,7 +2,7 @@
 /* No bit of the data is lost on the way. */
 #include "base/hash.h"
 #include "base/keyed_hash.h"
-#include "expect.h"
+#include "unit_test.h"
 
 enum { SIZE = 27 };
 static unsigned char bytes[SIZE];
@@ -26,30 +26,26 @@ static void expect_all_bits_count(Hash *hash) {
     assert_true(hash(HD_HASH_START + 1, bytes, SIZE) != usual);
 }
 
-static void every_bit_counts(void **state) {
-    (void)state;
+TEST(every_bit_counts) {
     for (int i = 0; i < SIZE; i++)
         bytes[i] = (unsigned char)(37 * i);
     expect_all_bits_count(hd_hash_bytes);
     expect_all_bits_count(hd_hash_words);
 }
 
-static void bytes_are_hashed_as_fnv_1a_has_it(void **state) {
-    (void)state;
+TEST(bytes_are_hashed_as_fnv_1a_has_it) {
     assert_true(hd_hash_bytes(HD_HASH_START, "", 0) == HD_HASH_START);
     assert_true(hd_hash_bytes(HD_HASH_START, "foobar", 6) == UINT64_C(0x85944171f73967e8));
 }
 
 /* The value is that of another implementation. */
-static void words_are_hashed_one_by_one(void **state) {
-    (void)state;
+TEST(words_are_hashed_one_by_one) {
     assert_true(hd_hash_words(HD_HASH_START, "abcdefghABCDEFGHxyz", 19) ==
                 UINT64_C(0x8959acab3d795e5));
 }
 
 /* The first and the last of what SipHash's authors tell. */
-static void keyed_hashes_are_siphash(void **state) {
-    (void)state;
+TEST(keyed_hashes_are_siphash) {
     unsigned char key[HD_HASH_KEY_BYTES];
     for (int i = 0; i < HD_HASH_KEY_BYTES; i++)
         key[i] = (unsigned char)i;
@@ -57,14 +53,4 @@ static void keyed_hashes_are_siphash(void **state) {
     assert_true(hd_keyed_hash(key, key, 15) == UINT64_C(0xa129ca6149be45e5));
     key[15] ^= 1;
     assert_true(hd_keyed_hash(key, "", 0) != UINT64_C(0x726fdb47dd0e0e31));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_bit_counts),
-        cmocka_unit_test(bytes_are_hashed_as_fnv_1a_has_it),
-        cmocka_unit_test(words_are_hashed_one_by_one),
-        cmocka_unit_test(keyed_hashes_are_siphash),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "expect.h"
+#include "unit_test.h"
 
 static HdProblems problems;
 static HdError error;
@@ -15,22 +15,19 @@ static int clear(void **state) {
     return 0;
 }
 
-static void test_nothing_wrong(void **state) {
-    (void)state;
+TEST(test_nothing_wrong) {
     assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_OK);
     assert_string_equal(error.message, "");
 }
 
-static void test_one_is_one_line(void **state) {
-    (void)state;
+TEST(test_one_is_one_line) {
     hd_problem(&problems, "depth is %d, expected 0 to 1000", -1);
     assert_int_equal(hd_problems_status(&problems, "a.json", &error), HD_BAD_INPUT);
     assert_int_equal(error.status, HD_BAD_INPUT);
     assert_string_equal(error.message, "a.json: depth is -1, expected 0 to 1000");
 }
 
-static void test_several_are_a_list(void **state) {
-    (void)state;
+TEST(test_several_are_a_list) {
     hd_problem(&problems, "first");
     hd_problem(&problems, "second");
     hd_problem(&problems, "third");
@@ -38,16 +35,14 @@ static void test_several_are_a_list(void **state) {
     assert_string_equal(error.message, "a.json: 3 problems\n  first\n  second\n  third");
 }
 
-static void test_percent_signs_stay(void **state) {
-    (void)state;
+TEST(test_percent_signs_stay) {
     hd_problem(&problems, "%s", "out/%d.png");
     hd_problem(&problems, "%s", "%s%s%n");
     assert_int_equal(hd_problems_status(&problems, "%d", &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "%d: 2 problems\n  out/%d.png\n  %s%s%n");
 }
 
-static void test_more_than_there_is_room_for(void **state) {
-    (void)state;
+TEST(test_more_than_there_is_room_for) {
     for (int i = 0; i < 5000; i++)
         hd_problem(&problems, "problem %d", i);
     assert_int_equal(problems.count, 5000);
@@ -58,8 +53,7 @@ static void test_more_than_there_is_room_for(void **state) {
     assert_null(strstr(error.message, "problem 4999"));
 }
 
-static void test_a_line_that_is_too_long_is_cut(void **state) {
-    (void)state;
+TEST(test_a_line_that_is_too_long_is_cut) {
     static char text[8192];
     memset(text, 'x', sizeof text - 1);
     for (int i = 0; i < 20; i++)
@@ -71,8 +65,7 @@ static void test_a_line_that_is_too_long_is_cut(void **state) {
     expect_contains(error.message, "\n  and more of them");
 }
 
-static void test_each_is_printed_in_a_line(void **state) {
-    (void)state;
+TEST(test_each_is_printed_in_a_line) {
     char text[128] = "";
     FILE *out = tmpfile();
     assert_non_null(out);
@@ -85,8 +78,7 @@ static void test_each_is_printed_in_a_line(void **state) {
     assert_string_equal(text, "hedron: first\nhedron: second\n");
 }
 
-static void test_they_are_full_from_some_number_on(void **state) {
-    (void)state;
+TEST(test_they_are_full_from_some_number_on) {
     while (!hd_problems_are_full(&problems) && problems.count < 100000)
         hd_problem(&problems, "%s", "");
     assert_true(problems.count < 100000);
@@ -94,16 +86,4 @@ static void test_they_are_full_from_some_number_on(void **state) {
     assert_true(hd_problems_are_full(&problems));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_nothing_wrong, clear),
-        cmocka_unit_test_setup(test_one_is_one_line, clear),
-        cmocka_unit_test_setup(test_several_are_a_list, clear),
-        cmocka_unit_test_setup(test_percent_signs_stay, clear),
-        cmocka_unit_test_setup(test_more_than_there_is_room_for, clear),
-        cmocka_unit_test_setup(test_a_line_that_is_too_long_is_cut, clear),
-        cmocka_unit_test_setup(test_each_is_printed_in_a_line, clear),
-        cmocka_unit_test_setup(test_they_are_full_from_some_number_on, clear),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(clear, NULL)

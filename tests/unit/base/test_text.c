@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/problems.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static void expect_escaped(const char *text, const char *expected) {
     char out[80];
@@ -15,8 +15,7 @@ static void expect_escaped(const char *text, const char *expected) {
     assert_string_equal(out, expected);
 }
 
-static void test_controls(void **state) {
-    (void)state;
+TEST(test_controls) {
     expect_escaped("", "");
     expect_escaped("a\x1b[31m\a\n\t\x7f~", "a\\u001b[31m\\u0007\\u000a\\u0009\\u007f~");
     expect_escaped("\xc2\x80\xc2\x9f\xc2\xa0", "\\u0080\\u009f\xc2\xa0");
@@ -27,8 +26,7 @@ static void test_controls(void **state) {
                    "\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa");
 }
 
-static void test_what_is_not_utf8(void **state) {
-    (void)state;
+TEST(test_what_is_not_utf8) {
     expect_escaped("\x9b[2J", "\\x9b[2J"); /* an escape sequence where there are 8 bits */
     expect_escaped("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
     expect_escaped("\xc3", "\\xc3");
@@ -39,8 +37,7 @@ static void test_what_is_not_utf8(void **state) {
     expect_escaped("\xf4\x90\x80\x80\xff", "\\xf4\\x90\\x80\\x80\\xff");
 }
 
-static void test_cut(void **state) {
-    (void)state;
+TEST(test_cut) {
     char out[8];
     assert_int_equal(hd_escape("ab\x1b"
                                "c",
@@ -53,8 +50,7 @@ static void test_cut(void **state) {
     assert_string_equal(out, "abcde\xc3\xa9");
 }
 
-static void test_errors_and_problems(void **state) {
-    (void)state;
+TEST(test_errors_and_problems) {
     static HdError error;
     HdProblems problems = {.count = 0};
     hd_fail(&error, HD_BAD_INPUT, "%s: line\n\ttwo", "a\x1b]0;b\a");
@@ -67,21 +63,11 @@ static void test_errors_and_problems(void **state) {
     assert_string_equal(error.message, "b: a\\u000ahedron: all is well\\u001b is wrong");
 }
 
-static void test_longest_error(void **state) {
-    (void)state;
+TEST(test_longest_error) {
     static HdError error;
     static char text[sizeof error.message + 10];
     memset(text, '\x1b', sizeof text - 1);
     hd_fail(&error, HD_BAD_INPUT, "%s", text);
     assert_true(strlen(error.message) > sizeof error.message - 8);
     assert_null(strchr(error.message, '\x1b'));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_controls),      cmocka_unit_test(test_what_is_not_utf8),
-        cmocka_unit_test(test_cut),           cmocka_unit_test(test_errors_and_problems),
-        cmocka_unit_test(test_longest_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

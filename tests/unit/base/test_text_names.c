@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/text.h"
-#include "expect.h"
+#include "unit_test.h"
 
 #include <limits.h>
 
-static void distances_are_edits(void **state) {
-    (void)state;
+TEST(distances_are_edits) {
     assert_int_equal(hd_edit_distance("", ""), 0);
     assert_int_equal(hd_edit_distance("render", "render"), 0);
     assert_int_equal(hd_edit_distance("", "abc"), 3);
@@ -18,8 +17,7 @@ static void distances_are_edits(void **state) {
     assert_int_equal(hd_edit_distance("flaw", "lawn"), 2);
 }
 
-static void long_words_are_far(void **state) {
-    (void)state;
+TEST(long_words_are_far) {
     const char *longest = "0123456789012345678901234567890";
     const char *too_long = "01234567890123456789012345678901";
     assert_int_equal(strlen(longest), 31);
@@ -37,8 +35,7 @@ static const char *nearest(const char *word) {
     return best.name;
 }
 
-static void the_nearest_is_kept(void **state) {
-    (void)state;
+TEST(the_nearest_is_kept) {
     assert_string_equal(nearest("rendr"), "render");
     assert_string_equal(nearest("redner"), "render");
     assert_string_equal(nearest("device"), "devices");
@@ -48,20 +45,9 @@ static void the_nearest_is_kept(void **state) {
     assert_null(nearest("hxxp"));
 }
 
-static void what_is_far_is_nothing(void **state) {
-    (void)state;
+TEST(what_is_far_is_nothing) {
     assert_null(nearest("xyzzy"));
     assert_null(nearest(""));
     assert_null(nearest("r"));
     assert_null(nearest("reflection"));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distances_are_edits),
-        cmocka_unit_test(long_words_are_far),
-        cmocka_unit_test(the_nearest_is_kept),
-        cmocka_unit_test(what_is_far_is_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/text.h"
-#include "expect.h"
+#include "unit_test.h"
 
 #include <stdlib.h>
 
-static void numbers_read_back(void **state) {
-    (void)state;
+TEST(numbers_read_back) {
     static const struct {
         double value;
         const char *exact, *brief;
@@ -29,11 +28,4 @@ static void numbers_read_back(void **state) {
         assert_string_equal(text, numbers[i].brief);
         assert_true(strtod(text, NULL) == numbers[i].value);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_read_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include <float.h>
 
 #include "base/trigonometry.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static const double tolerance = 2.0 * DBL_EPSILON;
 
@@ -16,14 +16,12 @@ static void compare(double x, double library_argument) {
         fail_msg("cosine of %.17g is %.17g, expected %.17g", x, cosine, cos(library_argument));
 }
 
-static void test_one_turn(void **state) {
-    (void)state;
+TEST(test_one_turn) {
     for (int i = -100000; i <= 100000; i++)
         compare(i * (HD_PI / 50000.0), i * (HD_PI / 50000.0));
 }
 
-static void test_up_to_the_promised_limit(void **state) {
-    (void)state;
+TEST(test_up_to_the_promised_limit) {
     for (double x = 1e-320; x < 1e5; x *= 1.001) {
         compare(x, x);
         compare(-x, -x);
@@ -33,15 +31,13 @@ static void test_up_to_the_promised_limit(void **state) {
     compare(1e5, 1e5);
 }
 
-static void test_up_to_the_end_of_the_exact_reduction(void **state) {
-    (void)state;
+TEST(test_up_to_the_end_of_the_exact_reduction) {
     for (int i = 0; i < 100000; i++)
         compare(1e6 - i * 0.7071, 1e6 - i * 0.7071);
     compare(1e6, 1e6);
 }
 
-static void test_neighbours_of_the_quadrants(void **state) {
-    (void)state;
+TEST(test_neighbours_of_the_quadrants) {
     for (int k = -60000; k <= 60000; k++) {
         const double at = k * (HD_PI / 4.0);
         compare(at, at);
@@ -50,8 +46,7 @@ static void test_neighbours_of_the_quadrants(void **state) {
     }
 }
 
-static void test_huge_arguments_are_taken_modulo_the_double_two_pi(void **state) {
-    (void)state;
+TEST(test_huge_arguments_are_taken_modulo_the_double_two_pi) {
     for (double x = 1.1e6; x < DBL_MAX / 2.0; x *= 1.37) {
         const double rest = fmod(x, 2.0 * HD_PI);
         compare(x, rest);
@@ -60,8 +55,7 @@ static void test_huge_arguments_are_taken_modulo_the_double_two_pi(void **state)
     compare(DBL_MAX, fmod(DBL_MAX, 2.0 * HD_PI));
 }
 
-static void test_quadrant_points(void **state) {
-    (void)state;
+TEST(test_quadrant_points) {
     static const double expected[4][2] = {{0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}};
     for (int k = 0; k < 400; k++) {
         double sine, cosine;
@@ -73,8 +67,7 @@ static void test_quadrant_points(void **state) {
     }
 }
 
-static void test_zero_is_exact(void **state) {
-    (void)state;
+TEST(test_zero_is_exact) {
     double sine, cosine;
     hd_sine_cosine(0.0, &sine, &cosine);
     assert_true(sine == 0.0 && !signbit(sine) && cosine == 1.0);
@@ -82,8 +75,7 @@ static void test_zero_is_exact(void **state) {
     assert_true(sine == 0.0 && signbit(sine) && cosine == 1.0);
 }
 
-static void test_symmetries_are_exact(void **state) {
-    (void)state;
+TEST(test_symmetries_are_exact) {
     for (double x = 1e-10; x < 1e12; x *= 1.01) {
         double sine, cosine, mirrored_sine, mirrored_cosine;
         hd_sine_cosine(x, &sine, &cosine);
@@ -94,27 +86,11 @@ static void test_symmetries_are_exact(void **state) {
     }
 }
 
-static void test_not_finite(void **state) {
-    (void)state;
+TEST(test_not_finite) {
     const double arguments[3] = {HUGE_VAL, -HUGE_VAL, (double)NAN};
     for (int i = 0; i < 3; i++) {
         double sine = 0.0, cosine = 0.0;
         hd_sine_cosine(arguments[i], &sine, &cosine);
         assert_true(isnan(sine) && isnan(cosine));
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_turn),
-        cmocka_unit_test(test_up_to_the_promised_limit),
-        cmocka_unit_test(test_up_to_the_end_of_the_exact_reduction),
-        cmocka_unit_test(test_neighbours_of_the_quadrants),
-        cmocka_unit_test(test_huge_arguments_are_taken_modulo_the_double_two_pi),
-        cmocka_unit_test(test_quadrant_points),
-        cmocka_unit_test(test_zero_is_exact),
-        cmocka_unit_test(test_symmetries_are_exact),
-        cmocka_unit_test(test_not_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

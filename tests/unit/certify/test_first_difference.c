@@ -5,8 +5,8 @@
 
 #include "certify/golden.h"
 #include "certify/render_scene.h"
-#include "expect.h"
 #include "kernels/host/shared.h"
+#include "unit_test.h"
 
 static HdError error;
 static void (*tamper)(const HdSceneTables *tables);
@@ -67,15 +67,13 @@ static void expect_words(const char *text, const char *words) {
         fail_msg("'%s' is not in '%s'", words, text);
 }
 
-static void equal_frames_have_none(void **state) {
-    (void)state;
+TEST(equal_frames_have_none) {
     assert_string_equal(difference("tetrahedron", with_nothing), "");
 }
 
 /* What is wrong in mirrors is not seen before a ray was mirrored; the sky at once, in the corner.
  */
-static void the_place_is_named(void **state) {
-    (void)state;
+TEST(the_place_is_named) {
     expect_words(difference("tetrahedron", with_other_mirrors), "depth 1 of the ray: ");
     const char *sky = difference("tetrahedron", with_other_sky);
     expect_words(sky, "pixel 0, 0, sample 0, 0 of 2 x 2, depth 0 of the ray: ");
@@ -85,20 +83,10 @@ static void the_place_is_named(void **state) {
 }
 
 /* The sky needs nothing else; one of two lights is enough for what is wrong with it. */
-static void what_is_needed_is_left(void **state) {
-    (void)state;
+TEST(what_is_needed_is_left) {
     expect_words(
         difference("tetrahedron", with_other_sky),
         "it differs with 0 of 1 solids, 0 of 20 lights, 0 of 0 instances of meshes without "
         "the floor, in a part of 1 x 1 pixels");
     expect_words(difference("tetrahedron", with_other_light), "0 of 1 solids, 2 of 20 lights");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_frames_have_none),
-        cmocka_unit_test(the_place_is_named),
-        cmocka_unit_test(what_is_needed_is_left),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "certify/golden.h"
 
-#include "expect.h"
+#include "unit_test.h"
 
 static HdError error;
 
-static void every_frame_has_one_line(void **state) {
-    (void)state;
+TEST(every_frame_has_one_line) {
     int lines = 0;
     for (const char *at = hd_golden_text(); *at != '\0'; at++)
         lines += *at == '\n';
@@ -20,8 +19,7 @@ static void every_frame_has_one_line(void **state) {
         }
 }
 
-static void precisions_and_names_are_told_apart(void **state) {
-    (void)state;
+TEST(precisions_and_names_are_told_apart) {
     HdGoldenHashes single, both, unknown;
     assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_FLOAT, &single));
     assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_DOUBLE, &both));
@@ -32,8 +30,7 @@ static void precisions_and_names_are_told_apart(void **state) {
     assert_false(hd_golden_find_hashes("", HD_PRECISION_FLOAT, &unknown));
 }
 
-static void every_frame_is_built(void **state) {
-    (void)state;
+TEST(every_frame_is_built) {
     for (int i = 0; i < hd_golden_frame_count; i++) {
         HdScene scene;
         HdCamera camera;
@@ -41,13 +38,4 @@ static void every_frame_is_built(void **state) {
         assert_true(scene.width > 0);
         hd_scene_free(&scene);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_frame_has_one_line),
-        cmocka_unit_test(precisions_and_names_are_told_apart),
-        cmocka_unit_test(every_frame_is_built),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "fake_backend.h"
 #include "system/machine.h"
 #include "test_folder.h"
+#include "wrapped.h"
 
 static HdError error;
 static HdRenderOptions options;
@@ -62,18 +63,26 @@ static const HdBackend c = {.name = "c",
                             .uses_host_threads = true,
                             .functions = &c_functions,
                             .enumerate = list_c};
-const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&near, &far, &c};
 
-const HdBackend *hd_backend_find(const char *name) {
+static const HdBackend *find_backend(const char *name) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++)
         if (strcmp(hd_backends[i]->name, name) == 0)
             return hd_backends[i];
     return NULL;
 }
+REPLACE(hd_backend_find, find_backend)
 
-const HdBackend *hd_backend_always_there(void) {
+static const HdBackend *find_c(void) {
     return &c;
 }
+REPLACE(hd_backend_always_there, find_c)
+
+static void replace_backends(void) {
+    replaced_hd_backends[NEAR] = &near;
+    replaced_hd_backends[FAR] = &far;
+    replaced_hd_backends[C] = &c;
+}
+AT_START(replace_backends)
 
 /* Returns the device, to be changed. */
 static HdDevice *add(int backend, const char *name, int units) {
@@ -143,8 +152,7 @@ static const char *opened_by(const HdDeviceWish *wish, HdStatus status) {
 
 /* ---- one ---- */
 
-static void gpus_come_first_then_the_fastest(void **state) {
-    (void)state;
+TEST(gpus_come_first_then_the_fastest) {
     expect_opened("c:0", .kind = HD_ONLY_CPU);
     assert_string_equal(team.why, "the C backend, since only a CPU will do");
     assert_int_equal(there[NEAR].asked + there[FAR].asked, 0);
@@ -169,8 +177,7 @@ static void gpus_come_first_then_the_fastest(void **state) {
     assert_true(candidates.is_free && candidates.frame_seconds > 0.0);
 }
 
-static void names_are_numbers_and_parts_of_names(void **state) {
-    (void)state;
+TEST(names_are_numbers_and_parts_of_names) {
     add(NEAR, "Turbo 10", 1);
     add(NEAR, "Giga 20", 9);
     add(FAR, "Giga 30", 9);
@@ -195,8 +202,7 @@ static void names_are_numbers_and_parts_of_names(void **state) {
     expect_failure(HD_UNAVAILABLE, "near: no device", .device = "1\xc3\xa9");
 }
 
-static void a_small_job_asks_no_driver(void **state) {
-    (void)state;
+TEST(a_small_job_asks_no_driver) {
     add(NEAR, "Turbo", 9);
     expect_opened("c:0", .kind = HD_WANT_ANY);
     assert_int_equal(there[NEAR].asked, 0);
@@ -206,8 +212,7 @@ static void a_small_job_asks_no_driver(void **state) {
 }
 
 /* Nobody has so many frames in a quarter of a second. */
-static void a_large_job_compares_all_but_processors_by_drivers(void **state) {
-    (void)state;
+TEST(a_large_job_compares_all_but_processors_by_drivers) {
     HdCandidates candidates;
     HdDeviceWish any = {.options = &options, .job = &job};
     job.frame_count = 1 << 24;
@@ -224,8 +229,7 @@ static void a_large_job_compares_all_but_processors_by_drivers(void **state) {
     assert_false(candidates.is_free);
 }
 
-static void more_devices_than_there_is_room_for(void **state) {
-    (void)state;
+TEST(more_devices_than_there_is_room_for) {
     HdCandidates candidates;
     const HdDeviceWish gpu = {.backend = "near", .options = &options, .job = &job};
     for (int i = 0; i < MOST; i++)
@@ -236,8 +240,7 @@ static void more_devices_than_there_is_room_for(void **state) {
         assert_int_equal(candidates.list[i].device.index, 19 - i / 2 + (i % 2) * 20);
 }
 
-static void a_gpu_that_is_passed_over_is_told(void **state) {
-    (void)state;
+TEST(a_gpu_that_is_passed_over_is_told) {
     HdDevice *broken = add(NEAR, "Broken", 9);
     snprintf(broken->unusable, sizeof broken->unusable, "no compiler is here");
     snprintf(add(FAR, "Wrong", 9)->not_strict, 100, "it computes wrongly: 1 + 1");
@@ -277,8 +280,7 @@ static void a_gpu_that_is_passed_over_is_told(void **state) {
     expect_contains(candidates.reasons, "; far: its driver is ill");
 }
 
-static void only_a_cpu_is_no_gpu(void **state) {
-    (void)state;
+TEST(only_a_cpu_is_no_gpu) {
     add(NEAR, "Turbo", 9);
     expect_failure(HD_UNAVAILABLE, "no device can do this: Turbo: it is not a CPU",
                    .kind = HD_ONLY_CPU, .backend = "near");
@@ -286,8 +288,7 @@ static void only_a_cpu_is_no_gpu(void **state) {
 
 /* ---- several ---- */
 
-static void a_list_names_each_once(void **state) {
-    (void)state;
+TEST(a_list_names_each_once) {
     add(NEAR, "Turbo", 9);
     add(NEAR, "Giga", 9);
     expect_opened("near:1 c:0 near:0", .device = "near:1,c:0,turbo");
@@ -305,8 +306,7 @@ static void a_list_names_each_once(void **state) {
                    .is_for_one = true);
 }
 
-static void a_list_has_an_end(void **state) {
-    (void)state;
+TEST(a_list_has_an_end) {
     char list[8 * HD_MOST_TRACERS + 8] = "";
     near.needs_no_driver = far.needs_no_driver =
         true; /* nothing is remembered of their arithmetic */
@@ -325,8 +325,7 @@ static void a_list_has_an_end(void **state) {
     assert_int_equal(team.count, HD_MOST_TRACERS);
 }
 
-static void all_are_those_that_can_do_it(void **state) {
-    (void)state;
+TEST(all_are_those_that_can_do_it) {
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(NEAR, "Turbo", 9)->nvidia_arch = 61;
     add(FAR, "Turbo", 9)->nvidia_arch = 61;
@@ -352,8 +351,7 @@ static void all_are_those_that_can_do_it(void **state) {
 }
 
 /* A core of plain C's goes to each GPU. */
-static void plain_c_leaves_cores_to_gpus(void **state) {
-    (void)state;
+TEST(plain_c_leaves_cores_to_gpus) {
     char text[256];
     const int all = hd_processor_count();
     options.threads = 0;
@@ -371,8 +369,7 @@ static void plain_c_leaves_cores_to_gpus(void **state) {
 
 /* ---- lists of what is there ---- */
 
-static void devices_are_named_whatever_they_can_do(void **state) {
-    (void)state;
+TEST(devices_are_named_whatever_they_can_do) {
     static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
     int count;
     snprintf(add(NEAR, "Turbo", 9)->unusable, 100, "no compiler is here");
@@ -398,22 +395,4 @@ static void devices_are_named_whatever_they_can_do(void **state) {
     assert_string_equal(error.message, "there is no such device: far: its driver is ill");
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(gpus_come_first_then_the_fastest),
-        TEST(names_are_numbers_and_parts_of_names),
-        TEST(a_small_job_asks_no_driver),
-        TEST(a_large_job_compares_all_but_processors_by_drivers),
-        TEST(more_devices_than_there_is_room_for),
-        TEST(a_gpu_that_is_passed_over_is_told),
-        TEST(only_a_cpu_is_no_gpu),
-        TEST(a_list_names_each_once),
-        TEST(a_list_has_an_end),
-        TEST(all_are_those_that_can_do_it),
-        TEST(plain_c_leaves_cores_to_gpus),
-        TEST(devices_are_named_whatever_they_can_do),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(begin, end)

@@ -62,8 +62,7 @@ static void expect_chosen(const HdBackend *backend, const char *reason) {
     expect_contains(candidates.why, reason);
 }
 
-static void the_fastest_is_taken_and_remembered(void **state) {
-    (void)state;
+TEST(the_fastest_is_taken_and_remembered) {
     fake.slow_milliseconds = 400;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
     expect_contains(candidates.why, " ms (fake 0)");
@@ -74,8 +73,7 @@ static void the_fastest_is_taken_and_remembered(void **state) {
     assert_string_equal(candidates.note, "");
 }
 
-static void order_decides_nothing(void **state) {
-    (void)state;
+TEST(order_decides_nothing) {
     candidates.list[1] = candidates.list[0];
     candidates.list[1].device.index = 1;
     fake.slow_milliseconds = 400;
@@ -92,8 +90,7 @@ static void expect_measured(bool is_measured) {
     assert_int_equal(fake.opened, is_measured);
 }
 
-static void scenes_and_devices_of_another_kind_are_measured(void **state) {
-    (void)state;
+TEST(scenes_and_devices_of_another_kind_are_measured) {
     fake.slow_milliseconds = 200;
     expect_measured(true);
     expect_measured(false);
@@ -117,8 +114,7 @@ static void scenes_and_devices_of_another_kind_are_measured(void **state) {
 }
 
 /* Whatever else is the same. */
-static void meshes_of_another_size_are_another_kind(void **state) {
-    (void)state;
+TEST(meshes_of_another_size_are_another_kind) {
     char text[16];
     HdScene meshes;
     assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
@@ -131,8 +127,7 @@ static void meshes_of_another_size_are_another_kind(void **state) {
     hd_scene_free(&meshes);
 }
 
-static void a_job_too_short_is_not_measured(void **state) {
-    (void)state;
+TEST(a_job_too_short_is_not_measured) {
     job.frame_count = 1;
     expect_chosen(&hd_backend_c, "it needs about 1 s, too little to measure");
     assert_int_equal(fake.opened, 0);
@@ -140,8 +135,7 @@ static void a_job_too_short_is_not_measured(void **state) {
     expect_chosen(&fake_backend, "");
 }
 
-static void what_computes_wrongly_is_passed_over(void **state) {
-    (void)state;
+TEST(what_computes_wrongly_is_passed_over) {
     fake.renders_wrongly = true;
     expect_chosen(&hd_backend_c, "the fastest of 2");
     expect_contains(candidates.note, "fake: Fake 1000 (driver 7) computes wrongly");
@@ -153,8 +147,7 @@ static void what_computes_wrongly_is_passed_over(void **state) {
     expect_contains(candidates.note, "computes wrongly");
 }
 
-static void what_is_missing_is_passed_over(void **state) {
-    (void)state;
+TEST(what_is_missing_is_passed_over) {
     fake.is_missing = true;
     expect_chosen(&hd_backend_c, "the fastest of 2");
     expect_contains(candidates.note, "fake: it is missing");
@@ -164,8 +157,7 @@ static void what_is_missing_is_passed_over(void **state) {
     expect_contains(error.message, "fake: it is missing");
 }
 
-static void what_fails_at_work_is_tried_again(void **state) {
-    (void)state;
+TEST(what_fails_at_work_is_tried_again) {
     fake.fails = true;
     for (int i = 1; i <= 2; i++) {
         expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
@@ -174,8 +166,7 @@ static void what_fails_at_work_is_tried_again(void **state) {
     }
 }
 
-static void without_a_folder_it_is_measured_each_time(void **state) {
-    (void)state;
+TEST(without_a_folder_it_is_measured_each_time) {
     setenv("HEDRON_CACHE", "off", 1);
     fake.slow_milliseconds = 400;
     for (int i = 1; i <= 2; i++) {
@@ -188,8 +179,7 @@ static void without_a_folder_it_is_measured_each_time(void **state) {
 
 /* No machine is so slow or busy that less than what it really needs would be told: more than a
    second for so many pixels on one thread, of which a few thousandths are measured. */
-static void the_estimate_scales_with_the_picture(void **state) {
-    (void)state;
+TEST(the_estimate_scales_with_the_picture) {
     double seconds;
     scene.width = scene.height = 16384;
     assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &seconds, &error), HD_OK);
@@ -197,20 +187,5 @@ static void the_estimate_scales_with_the_picture(void **state) {
 }
 
 /* It is measured with the meshes, so that their triangles count. */
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(the_fastest_is_taken_and_remembered),
-        TEST(order_decides_nothing),
-        TEST(scenes_and_devices_of_another_kind_are_measured),
-        TEST(meshes_of_another_size_are_another_kind),
-        TEST(a_job_too_short_is_not_measured),
-        TEST(what_computes_wrongly_is_passed_over),
-        TEST(what_is_missing_is_passed_over),
-        TEST(what_fails_at_work_is_tried_again),
-        TEST(without_a_folder_it_is_measured_each_time),
-        TEST(the_estimate_scales_with_the_picture),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)

@@ -62,8 +62,7 @@ static void expect_candidate(int index, const char *text) {
     assert_string_equal(described, text);
 }
 
-static void a_gpu_has_its_candidates(void **state) {
-    (void)state;
+TEST(a_gpu_has_its_candidates) {
     fake.trace_seconds = picky;
     device.nvidia_arch = 90;
     tune();
@@ -91,16 +90,14 @@ static void a_gpu_has_its_candidates(void **state) {
     assert_true(tuning.candidates[0].seconds == 1.2);
 }
 
-static void only_nvidia_devices_have_limits_of_registers(void **state) {
-    (void)state;
+TEST(only_nvidia_devices_have_limits_of_registers) {
     fake.trace_seconds = picky;
     tune();
     assert_int_equal(tuning.count, 2 + 3 + 2);
     assert_int_equal(best().registers, 0);
 }
 
-static void a_cpu_has_pipelines_and_lanes(void **state) {
-    (void)state;
+TEST(a_cpu_has_pipelines_and_lanes) {
     fake.trace_seconds = picky;
     device.is_cpu = true;
     tune();
@@ -113,8 +110,7 @@ static void a_cpu_has_pipelines_and_lanes(void **state) {
     assert_int_equal(tuning.best, 1);
 }
 
-static void what_the_options_fix_stays(void **state) {
-    (void)state;
+TEST(what_the_options_fix_stays) {
     fake.trace_seconds = picky;
     device.nvidia_arch = 90;
     options.pipeline = HD_PIPELINE_MEGA;
@@ -134,8 +130,7 @@ static double nearly_alike(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 0.99 : asked->block > 0 ? 0.985 : 1.0;
 }
 
-static void noise_decides_nothing(void **state) {
-    (void)state;
+TEST(noise_decides_nothing) {
     fake.trace_seconds = nearly_alike;
     tune();
     assert_int_equal(tuning.best, 0);
@@ -145,8 +140,7 @@ static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT || asked->block == 256;
 }
 
-static void what_cannot_be_used_is_told(void **state) {
-    (void)state;
+TEST(what_cannot_be_used_is_told) {
     fake.trace_seconds = picky;
     fake.refuses = refuses_wavefronts_and_256;
     tune();
@@ -166,8 +160,7 @@ static double likes_mega(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 2.0 : 1.0;
 }
 
-static void a_display_is_not_kept_by_deep_trees(void **state) {
-    (void)state;
+TEST(a_display_is_not_kept_by_deep_trees) {
     fake.trace_seconds = likes_mega;
     device.has_timeout = true;
     tune();
@@ -181,8 +174,7 @@ static void a_display_is_not_kept_by_deep_trees(void **state) {
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
 }
 
-static void a_device_that_fails_is_an_error(void **state) {
-    (void)state;
+TEST(a_device_that_fails_is_an_error) {
     fake.is_missing = true;
     assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_UNAVAILABLE);
     expect_contains(error.message, "fake: it is missing");
@@ -195,8 +187,7 @@ static double unlucky_once(const HdRenderOptions *asked) {
     return fake.opened == 2 ? 1.4 : 0.5;
 }
 
-static void what_was_unlucky_is_measured_again(void **state) {
-    (void)state;
+TEST(what_was_unlucky_is_measured_again) {
     fake.trace_seconds = unlucky_once;
     tune();
     assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
@@ -223,8 +214,7 @@ static bool is_recalled(void) {
     return recall(&launch);
 }
 
-static void a_choice_is_remembered(void **state) {
-    (void)state;
+TEST(a_choice_is_remembered) {
     HdLaunch launch;
     options.lanes = 1;
     assert_false(recall(&launch));
@@ -242,8 +232,7 @@ static void a_choice_is_remembered(void **state) {
     assert_int_equal(used.threads, 1);
 }
 
-static void another_job_or_device_is_not_meant(void **state) {
-    (void)state;
+TEST(another_job_or_device_is_not_meant) {
     remember();
     scene.exposure = 2.0;
     device.index = 3;
@@ -274,8 +263,7 @@ static void another_job_or_device_is_not_meant(void **state) {
     assert_true(is_recalled());
 }
 
-static void options_of_a_run_win(void **state) {
-    (void)state;
+TEST(options_of_a_run_win) {
     remember();
     options.pipeline = HD_PIPELINE_MEGA;
     HdLaunch launch;
@@ -305,8 +293,7 @@ static void options_of_a_run_win(void **state) {
 }
 
 /* Whole entries, but of nonsense. */
-static void nonsense_is_ignored(void **state) {
-    (void)state;
+TEST(nonsense_is_ignored) {
     static const HdLaunch wrong[] = {
         {.pipeline = HD_PIPELINE_COUNT}, {.lanes = 3},       {.lanes = 8},      {.block = 33},
         {.grid = HD_MAX_GRID + 1},       {.registers = 256}, {.registers = 15}, {.grid = -1}};
@@ -326,8 +313,7 @@ static void write_text(const char *text) {
         HD_OK);
 }
 
-static void other_texts_are_ignored(void **state) {
-    (void)state;
+TEST(other_texts_are_ignored) {
     write_text("pipeline 2, lanes 0, block 64, grid 80, registers 96\n");
     assert_true(is_recalled()); /* so the key is the right one */
     static const char *const texts[] = {
@@ -343,8 +329,7 @@ static void other_texts_are_ignored(void **state) {
     }
 }
 
-static void deep_trees_are_another_kind_of_job(void **state) {
-    (void)state;
+TEST(deep_trees_are_another_kind_of_job) {
     remember();
     options.has_deep_trees = true;
     assert_false(is_recalled());
@@ -352,8 +337,7 @@ static void deep_trees_are_another_kind_of_job(void **state) {
     assert_true(is_recalled());
 }
 
-static void without_a_folder_nothing_is_remembered(void **state) {
-    (void)state;
+TEST(without_a_folder_nothing_is_remembered) {
     setenv("HEDRON_CACHE", "off", 1);
     assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error),
                      HD_UNAVAILABLE);
@@ -368,8 +352,7 @@ static bool note_pipeline(const HdRenderOptions *asked) {
     return false;
 }
 
-static void what_is_remembered_is_opened(void **state) {
-    (void)state;
+TEST(what_is_remembered_is_opened) {
     HdTeamDevice opened = {.device = device};
     HdRenderer *renderer;
     fake.refuses = note_pipeline;
@@ -416,8 +399,7 @@ static void expect_rounded(int *number) {
     }
 }
 
-static void jobs_alike_serve_each_other(void **state) {
-    (void)state;
+TEST(jobs_alike_serve_each_other) {
     scene.width = scene.height = 4;
     scene.samples_per_side = 1;
     expect_rounded(&scene.width);
@@ -445,8 +427,7 @@ static void jobs_alike_serve_each_other(void **state) {
     }
 }
 
-static void samples_are_squares(void **state) {
-    (void)state;
+TEST(samples_are_squares) {
     scene.width = scene.height = 16;
     scene.samples_per_side = 4;
     assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
@@ -456,8 +437,7 @@ static void samples_are_squares(void **state) {
     expect_alike(true);
 }
 
-static void devices_and_kinds_are_told_apart(void **state) {
-    (void)state;
+TEST(devices_and_kinds_are_told_apart) {
     char text[16], lines[3000];
     memset(lines, 'a', sizeof lines);
     lines[sizeof lines - 1] = '\0';
@@ -477,8 +457,7 @@ static double fall(const HdRenderOptions *asked) {
     return 5.0 - (double)measured++;
 }
 
-static void the_least_of_several_counts(void **state) {
-    (void)state;
+TEST(the_least_of_several_counts) {
     HdRenderer *renderer;
     HdTrialTime time;
     measured = 0;
@@ -512,31 +491,4 @@ static void the_least_of_several_counts(void **state) {
     hd_renderer_close(renderer);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(a_gpu_has_its_candidates),
-        TEST(only_nvidia_devices_have_limits_of_registers),
-        TEST(a_cpu_has_pipelines_and_lanes),
-        TEST(what_the_options_fix_stays),
-        TEST(noise_decides_nothing),
-        TEST(what_cannot_be_used_is_told),
-        TEST(a_display_is_not_kept_by_deep_trees),
-        TEST(a_device_that_fails_is_an_error),
-        TEST(what_was_unlucky_is_measured_again),
-        TEST(a_choice_is_remembered),
-        TEST(another_job_or_device_is_not_meant),
-        TEST(options_of_a_run_win),
-        TEST(nonsense_is_ignored),
-        TEST(other_texts_are_ignored),
-        TEST(deep_trees_are_another_kind_of_job),
-        TEST(without_a_folder_nothing_is_remembered),
-        TEST(what_is_remembered_is_opened),
-        TEST(jobs_alike_serve_each_other),
-        TEST(samples_are_squares),
-        TEST(devices_and_kinds_are_told_apart),
-        TEST(the_least_of_several_counts),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "cli/console.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static void check_time(double seconds, const char *expected) {
     char text[32];
@@ -8,8 +8,7 @@ static void check_time(double seconds, const char *expected) {
     assert_string_equal(text, expected);
 }
 
-static void times_have_minutes_and_hours(void **state) {
-    (void)state;
+TEST(times_have_minutes_and_hours) {
     check_time(0.0, "0:00");
     check_time(0.4, "0:00");
     check_time(0.5, "0:01");
@@ -34,8 +33,7 @@ static void check_line(int done, int total, double seconds, const char *expected
     check_progress((HdProgress){done, total, 0.0, seconds, 0.0}, expected);
 }
 
-static void lines_tell_rate_and_time_left(void **state) {
-    (void)state;
+TEST(lines_tell_rate_and_time_left) {
     check_line(12, 120, 8.5, "12/120 frames, 1.41 frames/s, 1:17 left");
     check_line(0, 120, 8.5, "0/120 frames");
     check_line(1, 2, 2.0, "1/2 frames, 0.50 frames/s, 0:02 left");
@@ -43,14 +41,12 @@ static void lines_tell_rate_and_time_left(void **state) {
     check_line(1, 2, 0.0, "1/2 frames, 0.00 frames/s, 0:00 left");
 }
 
-static void the_last_line_tells_the_whole_time(void **state) {
-    (void)state;
+TEST(the_last_line_tells_the_whole_time) {
     check_line(120, 120, 85.0, "120/120 frames, 1.41 frames/s, 1:25 in all");
     check_line(1, 1, 0.0, "1/1 frames, 0.00 frames/s, 0:00 in all");
 }
 
-static void parts_of_frames_tell_time_left(void **state) {
-    (void)state;
+TEST(parts_of_frames_tell_time_left) {
     check_progress((HdProgress){0, 1, 0.25, 12.0, 2.0}, "0/1 frames, 25 % of the next, 0:30 left");
     check_progress((HdProgress){0, 1, 0.999, 12.0, 2.0}, "0/1 frames, 99 % of the next, 0:00 left");
     check_progress((HdProgress){0, 3, 0.001, 2.0, 2.0}, "0/3 frames, 0 % of the next, 0:00 left");
@@ -67,8 +63,7 @@ static void check_bar(int columns, const char *expected) {
     assert_string_equal(text, expected);
 }
 
-static void the_bar_is_no_wider_than_the_terminal(void **state) {
-    (void)state;
+TEST(the_bar_is_no_wider_than_the_terminal) {
     check_bar(79, "[############............] 1/2 frames");
     check_bar(37, "[############............] 1/2 frames");
     check_bar(36, "1/2 frames");
@@ -82,15 +77,4 @@ static void the_bar_is_no_wider_than_the_terminal(void **state) {
     const HdProgress part = {.done = 1, .total = 3, .part = 0.5};
     hd_progress_bar(&part, "1/3 frames", 79, text);
     assert_string_equal(text, "[############............] 1/3 frames");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(times_have_minutes_and_hours),
-        cmocka_unit_test(lines_tell_rate_and_time_left),
-        cmocka_unit_test(parts_of_frames_tell_time_left),
-        cmocka_unit_test(the_bar_is_no_wider_than_the_terminal),
-        cmocka_unit_test(the_last_line_tells_the_whole_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #include "cli/option_values.h"
 #include "cli/options.h"
 #include "device/renderer.h"
-#include "expect.h"
+#include "unit_test.h"
 
 enum { MAX_ARGUMENTS = 200 };
 
@@ -33,8 +33,7 @@ static void check_refused(const char *line, const char *part) {
         fail_msg("'%s' has more than one line", error.message);
 }
 
-static void nothing_is_the_classic_mode(void **state) {
-    (void)state;
+TEST(nothing_is_the_classic_mode) {
     assert_int_equal(parse("hedron"), HD_OK);
     assert_int_equal(options.command, HD_COMMAND_CLASSIC);
     assert_int_equal(options.variant, 4);
@@ -44,8 +43,7 @@ static void nothing_is_the_classic_mode(void **state) {
     assert_false(options.quiet || options.verbose);
 }
 
-static void comparisons_take_two_pictures(void **state) {
-    (void)state;
+TEST(comparisons_take_two_pictures) {
     assert_int_equal(parse("hedron compare a.png b.pfm"), HD_OK);
     assert_int_equal(options.command, HD_COMMAND_COMPARE);
     assert_string_equal(options.operands[1], "b.pfm");
@@ -71,8 +69,7 @@ static void comparisons_take_two_pictures(void **state) {
     check_refused("hedron render --diff d.png", "--diff does not belong to 'hedron render'");
 }
 
-static void operands_and_options_mix(void **state) {
-    (void)state;
+TEST(operands_and_options_mix) {
     assert_int_equal(parse("hedron check --help"), HD_OK);
     assert_int_equal(parse("hedron check a.json b.json c.json"), HD_OK);
     assert_int_equal(options.operand_count, 3);
@@ -100,8 +97,7 @@ static const char *repeated(const char *option, int count) {
     return line;
 }
 
-static void repetitions_have_a_limit(void **state) {
-    (void)state;
+TEST(repetitions_have_a_limit) {
     assert_int_equal(parse(repeated("--output=a.png", 8)), HD_OK);
     assert_int_equal(options.output_count, 8);
     check_refused(repeated("--output=a.png", 9), "at most 8");
@@ -112,8 +108,7 @@ static void repetitions_have_a_limit(void **state) {
     check_refused("hedron convert -o a.json -o b.json", "at most 1");
 }
 
-static void changes_have_a_path_and_a_value(void **state) {
-    (void)state;
+TEST(changes_have_a_path_and_a_value) {
     assert_int_equal(parse("hedron render --set a=b=c --set d="), HD_OK);
     assert_string_equal(options.changes[0], "a=b=c");
     check_refused("hedron render --set abc", "PATH=VALUE");
@@ -122,8 +117,7 @@ static void changes_have_a_path_and_a_value(void **state) {
     check_refused("hedron --set a=1", "--set does not belong to the classic mode");
 }
 
-static void opposites_exclude_each_other(void **state) {
-    (void)state;
+TEST(opposites_exclude_each_other) {
     assert_int_equal(parse("hedron render --quiet --quiet"), HD_OK);
     assert_true(options.quiet && !options.verbose);
     assert_int_equal(parse("hedron --verbose"), HD_OK);
@@ -132,8 +126,7 @@ static void opposites_exclude_each_other(void **state) {
     check_refused("hedron --cpu --gpu", "only one of --gpu, --cpu and --default");
 }
 
-static void the_nearest_word_is_suggested(void **state) {
-    (void)state;
+TEST(the_nearest_word_is_suggested) {
     check_refused("hedron rendr", "did you mean 'hedron render'?");
     check_refused("hedron xyzzy", "see 'hedron help'");
     check_refused("hedron foo.json", "did you mean 'hedron render foo.json'?");
@@ -148,8 +141,7 @@ static void the_nearest_word_is_suggested(void **state) {
     check_refused("hedron help x", "see 'hedron help help'");
 }
 
-static void help_has_topics(void **state) {
-    (void)state;
+TEST(help_has_topics) {
     assert_int_equal(parse("hedron help"), HD_OK);
     assert_int_equal(options.help_topic.form, HD_HELP_TEXT);
     assert_int_equal(options.help_topic.command, HD_COMMAND_CLASSIC);
@@ -167,8 +159,7 @@ static void help_has_topics(void **state) {
     check_refused("hedron help man page", "takes one name only");
 }
 
-static void names_are_counted(void **state) {
-    (void)state;
+TEST(names_are_counted) {
     check_refused("hedron check", "needs the name of a scene");
     check_refused("hedron check --schema a.json", "looks at no scene");
     assert_int_equal(parse("hedron check --schema"), HD_OK);
@@ -178,8 +169,7 @@ static void names_are_counted(void **state) {
     assert_int_equal(parse("hedron render --stats -"), HD_OK);
 }
 
-static void choices_are_words_of_a_list(void **state) {
-    (void)state;
+TEST(choices_are_words_of_a_list) {
     static const char *const four[] = {"auto", "c", "opencl", "cuda", NULL};
     static const char *const two[] = {"float", "double", NULL};
     static const char *const one[] = {"one", NULL};
@@ -200,8 +190,7 @@ static void choices_are_words_of_a_list(void **state) {
 }
 
 /* The table has a line for each backend, and every option can be parsed. */
-static void the_table_is_whole(void **state) {
-    (void)state;
+TEST(the_table_is_whole) {
     for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
         assert_int_equal(strncmp(spec->name, "--", 2), 0);
         assert_non_null(spec->help);
@@ -222,8 +211,7 @@ static void the_table_is_whole(void **state) {
 }
 
 /* Each value reaches its own member. */
-static void values_reach_their_members(void **state) {
-    (void)state;
+TEST(values_reach_their_members) {
     assert_int_equal(parse("hedron render --samples 3 --depth 5 --cutoff .25 --aa adaptive "
                            "--max-error 2 --crop 1x2+3+4 --size 6X7 --geometry triangles "
                            "--divisions 8 --accel bvh --frames 0-9 --device c:0 --stats - "
@@ -261,22 +249,4 @@ static void values_reach_their_members(void **state) {
     assert_true(options.prints_default && !options.cpu && !options.gpu);
     assert_null(options.backend);
     assert_int_equal(options.variant, 7);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_is_the_classic_mode),
-        cmocka_unit_test(comparisons_take_two_pictures),
-        cmocka_unit_test(operands_and_options_mix),
-        cmocka_unit_test(repetitions_have_a_limit),
-        cmocka_unit_test(changes_have_a_path_and_a_value),
-        cmocka_unit_test(opposites_exclude_each_other),
-        cmocka_unit_test(the_nearest_word_is_suggested),
-        cmocka_unit_test(help_has_topics),
-        cmocka_unit_test(names_are_counted),
-        cmocka_unit_test(choices_are_words_of_a_list),
-        cmocka_unit_test(the_table_is_whole),
-        cmocka_unit_test(values_reach_their_members),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

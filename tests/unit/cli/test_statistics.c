@@ -100,8 +100,7 @@ static void check_begins(json_t *line) {
     assert_true(json_is_null(json_object_get(began, "film"))); /* there was none */
 }
 
-static void a_line_has_everything(void **state) {
-    (void)state;
+TEST(a_line_has_everything) {
     json_t *line = read_line_about("A \"quoted\" \\ name\twith a tab");
     assert_non_null(line);
     assert_int_equal(json_object_size(line), 15);
@@ -115,8 +114,7 @@ static void a_line_has_everything(void **state) {
     json_decref(line);
 }
 
-static void the_longest_launch_is_told_where_it_is_known(void **state) {
-    (void)state;
+TEST(the_longest_launch_is_told_where_it_is_known) {
     json_t *line = read_line_about("GPU");
     assert_true(json_real_value(json_object_get(line, "longest_launch_ms")) == 62.5);
     json_decref(line);
@@ -127,8 +125,7 @@ static void the_longest_launch_is_told_where_it_is_known(void **state) {
     stored.times.longest_launch = 0.0625;
 }
 
-static void names_in_other_encodings_stay_json(void **state) {
-    (void)state;
+TEST(names_in_other_encodings_stay_json) {
     json_t *line = read_line_about("Intel\xae Xeon");
     assert_non_null(line);
     assert_string_equal(json_string_value(json_object_get(line, "device")), "Intel? Xeon");
@@ -150,8 +147,7 @@ static int has_decimal_comma(void) {
     return setlocale(LC_ALL, "de_DE.UTF-8") != NULL;
 }
 
-static void numbers_have_a_point_in_every_locale(void **state) {
-    (void)state;
+TEST(numbers_have_a_point_in_every_locale) {
     char text[16];
     if (!has_decimal_comma())
         skip();
@@ -164,8 +160,7 @@ static void numbers_have_a_point_in_every_locale(void **state) {
     json_decref(line);
 }
 
-static void files_that_take_nothing_are_told(void **state) {
-    (void)state;
+TEST(files_that_take_nothing_are_told) {
     HdStatistics statistics;
     HdError error;
     HdDevice device = {.backend = &hd_backend_c};
@@ -177,15 +172,4 @@ static void files_that_take_nothing_are_told(void **state) {
     assert_int_equal(hd_statistics_add(&statistics, &facts, &stored, &error), HD_FAILED);
     assert_non_null(strstr(error.message, "/dev/full"));
     hd_statistics_close(&statistics, true, &error);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_has_everything),
-        cmocka_unit_test(the_longest_launch_is_told_where_it_is_known),
-        cmocka_unit_test(names_in_other_encodings_stay_json),
-        cmocka_unit_test(numbers_have_a_point_in_every_locale),
-        cmocka_unit_test(files_that_take_nothing_are_told),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What the errors of drivers are called, and which of them mean that a device is lost. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "device/backend.h"
 #include "device/cuda/api.h"
 #include "device/opencl/error.h"
+#include "unit_test.h"
 
 static HdCuResult name_error(HdCuResult code, const char **text) {
     *text = code == HD_CU_ERROR_OUT_OF_MEMORY ? "NO_ROOM" : "OTHER";
@@ -30,8 +24,7 @@ static bool is_lost(const HdError *error) {
     return error->status == HD_UNAVAILABLE && hd_is_loss(error);
 }
 
-static void cuda_errors_have_their_names(void **state) {
-    (void)state;
+TEST(cuda_errors_have_their_names) {
     const HdCudaDriver silent = {.cuGetErrorName = know_nothing, .cuGetErrorString = know_nothing};
     HdError error;
     assert_int_equal(hd_cuda_fail(&driver, "cuMemAlloc", HD_CU_ERROR_OUT_OF_MEMORY, &error),
@@ -41,8 +34,7 @@ static void cuda_errors_have_their_names(void **state) {
     assert_string_equal(error.message, "cuInit failed with an unknown error (999: no description)");
 }
 
-static void cuda_tells_a_lost_device(void **state) {
-    (void)state;
+TEST(cuda_tells_a_lost_device) {
     static const HdCuResult fatal[] = {46, 214, 220, 700, 702, 709, 714, 715, 716, 717, 718, 719};
     static const HdCuResult others[] = {1, 2, 3, 101, 201, 701, 999};
     HdError error;
@@ -58,8 +50,7 @@ static void cuda_tells_a_lost_device(void **state) {
     }
 }
 
-static void opencl_tells_a_lost_device(void **state) {
-    (void)state;
+TEST(opencl_tells_a_lost_device) {
     HdError error;
     hd_opencl_fail(&error, "clFinish", CL_OUT_OF_RESOURCES);
     assert_non_null(strstr(error.message, "clFinish failed with CL_OUT_OF_RESOURCES (-5)"));
@@ -78,8 +69,7 @@ static void opencl_tells_a_lost_device(void **state) {
 }
 
 /* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
-static void opencl_errors_have_their_names(void **state) {
-    (void)state;
+TEST(opencl_errors_have_their_names) {
     for (int code = -68; code <= 1; code++) {
         const bool is_none = code >= 0 || (code > CL_INVALID_VALUE && code < -19);
         const char *name = hd_opencl_error_name(code);
@@ -90,14 +80,4 @@ static void opencl_errors_have_their_names(void **state) {
     assert_string_equal(hd_opencl_error_name(-1001), "CL_PLATFORM_NOT_FOUND_KHR");
     assert_string_equal(hd_opencl_error_name(-1002), "an unknown error");
     assert_string_equal(hd_opencl_error_name(-2000000), "an unknown error");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cuda_errors_have_their_names),
-        cmocka_unit_test(cuda_tells_a_lost_device),
-        cmocka_unit_test(opencl_tells_a_lost_device),
-        cmocka_unit_test(opencl_errors_have_their_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,8 +72,7 @@ static void expect_counts(int compiled, int loaded) {
     assert_int_equal(fake.loaded, loaded);
 }
 
-static void a_warm_start_compiles_and_tests_nothing(void **state) {
-    (void)state;
+TEST(a_warm_start_compiles_and_tests_nothing) {
     uint64_t cold, warm;
     assert_int_equal(upload_with(false, &cold), HD_OK);
     expect_counts(1, 0);
@@ -87,8 +86,7 @@ static void a_warm_start_compiles_and_tests_nothing(void **state) {
     assert_true(warm == cold);
 }
 
-static void whatever_kernels_depend_on_counts(void **state) {
-    (void)state;
+TEST(whatever_kernels_depend_on_counts) {
     assert_int_equal(upload(), HD_OK);
     snprintf(device.name, sizeof device.name, "Fake 2000");
     assert_int_equal(upload(), HD_OK);
@@ -106,8 +104,7 @@ static void whatever_kernels_depend_on_counts(void **state) {
     expect_counts(6, 1);
 }
 
-static void damaged_kernels_are_compiled_anew(void **state) {
-    (void)state;
+TEST(damaged_kernels_are_compiled_anew) {
     HdKernelCache cache;
     unsigned char *binary;
     size_t size;
@@ -128,8 +125,7 @@ static void damaged_kernels_are_compiled_anew(void **state) {
     }
 }
 
-static void what_a_driver_refuses_is_compiled_anew(void **state) {
-    (void)state;
+TEST(what_a_driver_refuses_is_compiled_anew) {
     assert_int_equal(upload(), HD_OK);
     fake.refuses_binary = true;
     assert_int_equal(upload(), HD_OK);
@@ -137,8 +133,7 @@ static void what_a_driver_refuses_is_compiled_anew(void **state) {
     expect_contains(note, "the driver refused the cached kernels; it does not like them; compiled");
 }
 
-static void without_a_folder_all_goes_on(void **state) {
-    (void)state;
+TEST(without_a_folder_all_goes_on) {
     setenv("HEDRON_CACHE", "off", 1);
     assert_int_equal(upload(), HD_OK);
     expect_contains(note, "not cached; HEDRON_CACHE is off");
@@ -154,8 +149,7 @@ static void without_a_folder_all_goes_on(void **state) {
 
 /* ---- the self-test ---- */
 
-static void wrong_kernels_are_an_error(void **state) {
-    (void)state;
+TEST(wrong_kernels_are_an_error) {
     fake.renders_wrongly = true;
     assert_int_equal(upload(), HD_UNAVAILABLE);
     expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
@@ -167,8 +161,7 @@ static void wrong_kernels_are_an_error(void **state) {
     expect_counts(3, 0);
 }
 
-static void the_wavefront_takes_over(void **state) {
-    (void)state;
+TEST(the_wavefront_takes_over) {
     char text[HD_FALLBACK_LENGTH];
     fake.renders_wrongly = fake.is_right_in_waves = true;
     assert_int_equal(upload(), HD_OK);
@@ -179,8 +172,7 @@ static void the_wavefront_takes_over(void **state) {
     expect_contains(text, "computes wrongly: ");
 }
 
-static void wrong_kernels_render_nothing(void **state) {
-    (void)state;
+TEST(wrong_kernels_render_nothing) {
     HdRenderer *renderer;
     HdScene scene;
     HdSceneTables tables;
@@ -200,8 +192,7 @@ static void wrong_kernels_render_nothing(void **state) {
     hd_scene_free(&scene);
 }
 
-static void kernels_with_meshes_pass_one_more_frame(void **state) {
-    (void)state;
+TEST(kernels_with_meshes_pass_one_more_frame) {
     options.lanes = 1;
     fake.options = "-DMESHES";
     assert_int_equal(upload_frame(HD_SELF_TEST_MESH, false, NULL), HD_OK);
@@ -224,8 +215,7 @@ static void kernels_with_meshes_pass_one_more_frame(void **state) {
     expect_contains(note, "passed no test of this program's; compiled in");
 }
 
-static void fast_arithmetic_is_not_tested(void **state) {
-    (void)state;
+TEST(fast_arithmetic_is_not_tested) {
     options.math = HD_MATH_FAST;
     fake.options = "-DFAST";
     fake.renders_wrongly = true;
@@ -240,8 +230,7 @@ static void fast_arithmetic_is_not_tested(void **state) {
 }
 
 /* What came of the probe is remembered with all that it depends on, good or bad. */
-static void arithmetic_is_probed_once(void **state) {
-    (void)state;
+TEST(arithmetic_is_probed_once) {
     assert_int_equal(upload(), HD_OK);
     assert_int_equal(fake.probed, 1);
     assert_int_equal(upload(), HD_OK);
@@ -260,8 +249,7 @@ static void arithmetic_is_probed_once(void **state) {
     assert_int_equal(fake.probed, 2);
 }
 
-static void division_that_was_healed_stays_so(void **state) {
-    (void)state;
+TEST(division_that_was_healed_stays_so) {
     fake.divides_wrongly = true;
     for (int i = 0; i < 2; i++) {
         assert_int_equal(upload(), HD_OK);
@@ -272,22 +260,4 @@ static void division_that_was_healed_stays_so(void **state) {
     assert_int_equal(fake.probed, 4);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(a_warm_start_compiles_and_tests_nothing),
-        TEST(whatever_kernels_depend_on_counts),
-        TEST(damaged_kernels_are_compiled_anew),
-        TEST(what_a_driver_refuses_is_compiled_anew),
-        TEST(without_a_folder_all_goes_on),
-        TEST(wrong_kernels_are_an_error),
-        TEST(the_wavefront_takes_over),
-        TEST(wrong_kernels_render_nothing),
-        TEST(kernels_with_meshes_pass_one_more_frame),
-        TEST(fast_arithmetic_is_not_tested),
-        TEST(arithmetic_is_probed_once),
-        TEST(division_that_was_healed_stays_so),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)

@@ -4,10 +4,9 @@
 
 #include <limits.h>
 
-#include "expect.h"
+#include "unit_test.h"
 
-static void registers_suit_the_card_and_the_block(void **state) {
-    (void)state;
+TEST(registers_suit_the_card_and_the_block) {
     static const struct {
         HdPrecision precision;
         int group_size, arch, asked, expected;
@@ -24,8 +23,7 @@ static void registers_suit_the_card_and_the_block(void **state) {
     }
 }
 
-static void registers_suit_many_lights_meshes_and_every_block(void **state) {
-    (void)state;
+TEST(registers_suit_many_lights_meshes_and_every_block) {
     HdKernelShape shape = {.group_size = 128};
     assert_int_equal(hd_register_limit(&shape, 61, 0), 64);
     assert_int_equal(hd_register_limit(&shape, 70, 0), 128);
@@ -63,8 +61,7 @@ static void expect_names(const HdKernelShape *shape, const char *const names[HD_
     }
 }
 
-static void each_shape_has_its_kernels(void **state) {
-    (void)state;
+TEST(each_shape_has_its_kernels) {
     HdKernelShape shape = {0};
     expect_names(&shape,
                  (const char *const[]){"hedron_render", NULL, "hedron_sum_counts", NULL, NULL});
@@ -82,15 +79,13 @@ static void each_shape_has_its_kernels(void **state) {
     expect_names(&shape, (const char *const[]){"hedron_probe", NULL, NULL, NULL, NULL});
 }
 
-static void bounds_are_powers_of_two(void **state) {
-    (void)state;
+TEST(bounds_are_powers_of_two) {
     static const int counts[][2] = {{0, 8}, {8, 8}, {9, 16}, {16, 16}, {17, 32}, {1000, 1024}};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         assert_int_equal(hd_kernel_bound(counts[i][0]), counts[i][1]);
 }
 
-static void scenes_of_similar_size_need_the_same(void **state) {
-    (void)state;
+TEST(scenes_of_similar_size_need_the_same) {
     HdSceneTables tables = {.plane_count = 20, .depth = 9, .surveyed = true};
     const HdKernelNeeds plain = hd_kernel_needs(&tables);
     const HdKernelNeeds expected = {.plane_bound = 32, .depth_bound = 16, .surveyed = true};
@@ -115,8 +110,7 @@ static void scenes_of_similar_size_need_the_same(void **state) {
     }
 }
 
-static void needs_are_told_in_words(void **state) {
-    (void)state;
+TEST(needs_are_told_in_words) {
     char text[200];
     HdKernelNeeds needs = {.plane_bound = 8, .depth_bound = 16};
     hd_kernel_needs_describe(&needs, text, sizeof text);
@@ -129,8 +123,7 @@ static void needs_are_told_in_words(void **state) {
                               "from behind, meshes, many lights, with surveys");
 }
 
-static void whatever_a_shape_has_is_defined(void **state) {
-    (void)state;
+TEST(whatever_a_shape_has_is_defined) {
     char text[HD_KERNEL_DEFINES_SIZE];
     HdKernelShape shape = {.lanes = 4,
                            .pixels_per_item = 2,
@@ -159,26 +152,11 @@ static void whatever_a_shape_has_is_defined(void **state) {
                               " -DHD_STRICT=1 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=1");
 }
 
-static void blocks_cover_the_picture(void **state) {
-    (void)state;
+TEST(blocks_cover_the_picture) {
     assert_int_equal(hd_kernel_item_count(1, 1, 64), 1);
     assert_int_equal(hd_kernel_item_count(8, 8, 64), 1);
     assert_int_equal(hd_kernel_item_count(9, 8, 64), 2);
     assert_int_equal(hd_kernel_item_count(8, 9, 16), 8);
     assert_int_equal(hd_kernel_item_count(17, 25, 1), 3 * 4 * 64);
     assert_int_equal(hd_kernel_item_count(65536, 65536, 1), INT_MAX);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(registers_suit_the_card_and_the_block),
-        cmocka_unit_test(registers_suit_many_lights_meshes_and_every_block),
-        cmocka_unit_test(each_shape_has_its_kernels),
-        cmocka_unit_test(bounds_are_powers_of_two),
-        cmocka_unit_test(scenes_of_similar_size_need_the_same),
-        cmocka_unit_test(needs_are_told_in_words),
-        cmocka_unit_test(whatever_a_shape_has_is_defined),
-        cmocka_unit_test(blocks_cover_the_picture),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

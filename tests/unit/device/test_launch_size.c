@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Sizes of launches, with devices whose speed is made up. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "device/launch_size.h"
+#include "unit_test.h"
 
 /* The seconds that the piece of work number `at` of a frame takes. */
 typedef double Cost(int at);
@@ -49,8 +44,7 @@ static double uneven(int at) {
     return at % 2000000 < 1000000 ? 1e-9 : 3e-7;
 }
 
-static void short_frames_are_one_launch(void **state) {
-    (void)state;
+TEST(short_frames_are_one_launch) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     Frame first = run_frame(&size, 1000000, 4, cheap);
     assert_in_range(first.launches, 2, 6);
@@ -59,8 +53,7 @@ static void short_frames_are_one_launch(void **state) {
     assert_int_equal(first.launches, 1);
 }
 
-static void long_frames_are_cut_below_the_limit(void **state) {
-    (void)state;
+TEST(long_frames_are_cut_below_the_limit) {
     HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
     Frame frame = run_frame(&size, 1000000, 1, costly);
     assert_true(frame.longest < HD_LAUNCH_SECONDS);
@@ -101,8 +94,7 @@ static Frame run_tail_frames(HdLaunchSize *size, int count, double each) {
 
 /* Cutting does not pay there: it soon costs less than the frame, and never more than three times.
  */
-static void slow_threads_are_not_cut_for(void **state) {
-    (void)state;
+TEST(slow_threads_are_not_cut_for) {
     static const int units[] = {5, 132};
     static const double samples_a_second[] = {1e8, 3e9};
     for (int device = 0; device < 2; device++) {
@@ -121,8 +113,7 @@ static void slow_threads_are_not_cut_for(void **state) {
 }
 
 /* Once they are gone, launches are cut as before. */
-static void slow_threads_are_forgotten(void **state) {
-    (void)state;
+TEST(slow_threads_are_forgotten) {
     HdLaunchSize size = hd_launch_size_start(5, HD_LAUNCH_SECONDS);
     tail = 0.3;
     assert_true(run_tail_frames(&size, 20, 1e-8).longest > 0.3);
@@ -132,15 +123,13 @@ static void slow_threads_are_forgotten(void **state) {
 
 /* Where nothing ends a kernel, launches may last ten times as long: the same frame is one launch.
  */
-static void free_devices_are_cut_less(void **state) {
-    (void)state;
+TEST(free_devices_are_cut_less) {
     HdLaunchSize size = hd_launch_size_start(132, HD_LAUNCH_SECONDS_FREE);
     tail = 0.06;
     assert_int_equal(run_tail_frames(&size, 12, 4e-10).launches, 1);
 }
 
-static void launches_at_most_double(void **state) {
-    (void)state;
+TEST(launches_at_most_double) {
     HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
     for (int i = 0; i < 40; i++) {
         int before = size.limit;
@@ -151,8 +140,7 @@ static void launches_at_most_double(void **state) {
 }
 
 /* After the first frame, which cannot know what is below the sky. */
-static void costly_parts_are_remembered(void **state) {
-    (void)state;
+TEST(costly_parts_are_remembered) {
     HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
     Frame frame = run_frame(&size, 4000000, 1, uneven);
     for (int i = 0; i < 30; i++) {
@@ -162,8 +150,7 @@ static void costly_parts_are_remembered(void **state) {
     assert_true(frame.launches < 4.0 * frame.seconds / (HD_LAUNCH_AIM * HD_LAUNCH_SECONDS));
 }
 
-static void after_a_slow_launch_sizes_rise_by_a_quarter_a_frame(void **state) {
-    (void)state;
+TEST(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     hd_launch_size_begin_frame(&size);
     hd_launch_size_note(&size, size.limit, 0.16);
@@ -182,8 +169,7 @@ static void after_a_slow_launch_sizes_rise_by_a_quarter_a_frame(void **state) {
     }
 }
 
-static void one_slow_launch_is_forgotten_again(void **state) {
-    (void)state;
+TEST(one_slow_launch_is_forgotten_again) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     run_frame(&size, 1000000, 4, cheap);
     hd_launch_size_note(&size, 100000.0, 60.0);
@@ -194,8 +180,7 @@ static void one_slow_launch_is_forgotten_again(void **state) {
     assert_int_equal(frame.launches, 1);
 }
 
-static void small_launches_tell_little(void **state) {
-    (void)state;
+TEST(small_launches_tell_little) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     const HdLaunchSize before = size;
     hd_launch_size_note(&size, before.least / 4.0, 10.0); /* one slow thread */
@@ -206,8 +191,7 @@ static void small_launches_tell_little(void **state) {
     assert_true(size.limit < before.limit / 4);
 }
 
-static void items_come_in_equal_parts_of_whole_groups(void **state) {
-    (void)state;
+TEST(items_come_in_equal_parts_of_whole_groups) {
     HdLaunchSize size = hd_launch_size_fixed(1000);
     assert_int_equal(hd_launch_size_items(&size, 1000, 1, 1), 1000);
     assert_int_equal(hd_launch_size_items(&size, 1001, 1, 1), 501);
@@ -220,8 +204,7 @@ static void items_come_in_equal_parts_of_whole_groups(void **state) {
     assert_int_equal(hd_launch_size_items(&size, 2000000000, 4096, 1024), 1024);
 }
 
-static void fixed_sizes_stay(void **state) {
-    (void)state;
+TEST(fixed_sizes_stay) {
     HdLaunchSize size = hd_launch_size_fixed(77);
     for (int i = 0; i < 5; i++) {
         hd_launch_size_begin_frame(&size);
@@ -230,8 +213,7 @@ static void fixed_sizes_stay(void **state) {
     }
 }
 
-static void any_device_has_a_first_size(void **state) {
-    (void)state;
+TEST(any_device_has_a_first_size) {
     static const int units[] = {-1, 0, 1, 132, 1 << 30};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
         HdLaunchSize size = hd_launch_size_start(units[i], HD_LAUNCH_SECONDS);
@@ -239,23 +221,4 @@ static void any_device_has_a_first_size(void **state) {
         assert_in_range(size.least, 1 << 10, size.limit / 16);
     }
     assert_int_equal(hd_launch_size_start(132, HD_LAUNCH_SECONDS).limit, 132 * 2048);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(short_frames_are_one_launch),
-        cmocka_unit_test(long_frames_are_cut_below_the_limit),
-        cmocka_unit_test(slow_threads_are_not_cut_for),
-        cmocka_unit_test(slow_threads_are_forgotten),
-        cmocka_unit_test(free_devices_are_cut_less),
-        cmocka_unit_test(launches_at_most_double),
-        cmocka_unit_test(costly_parts_are_remembered),
-        cmocka_unit_test(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame),
-        cmocka_unit_test(one_slow_launch_is_forgotten_again),
-        cmocka_unit_test(small_launches_tell_little),
-        cmocka_unit_test(items_come_in_equal_parts_of_whole_groups),
-        cmocka_unit_test(fixed_sizes_stay),
-        cmocka_unit_test(any_device_has_a_first_size),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

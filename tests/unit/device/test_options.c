@@ -2,7 +2,7 @@
 /* The least and the greatest of each option, and what is beyond. */
 #include "device/options.h"
 
-#include "expect.h"
+#include "unit_test.h"
 
 static HdError error;
 
@@ -15,8 +15,7 @@ static void expect_bad(HdRenderOptions options, const char *words) {
     expect_contains(error.message, words);
 }
 
-static void what_a_device_can_have_is_accepted(void **state) {
-    (void)state;
+TEST(what_a_device_can_have_is_accepted) {
     expect_good((HdRenderOptions){0});
     for (int lanes = 0; lanes <= 17; lanes++)
         if (lanes == 0 || lanes == 1 || lanes == 4 || lanes == 8 || lanes == 16)
@@ -32,8 +31,7 @@ static void what_a_device_can_have_is_accepted(void **state) {
         expect_good((HdRenderOptions){.pipeline = (HdPipeline)i});
 }
 
-static void what_none_can_have_is_told(void **state) {
-    (void)state;
+TEST(what_none_can_have_is_told) {
     expect_bad((HdRenderOptions){.lanes = -1}, "lanes");
     expect_bad((HdRenderOptions){.threads = -1}, "threads must be 0 to 1024, not -1");
     expect_bad((HdRenderOptions){.threads = 1025}, "not 1025");
@@ -53,21 +51,11 @@ static void what_none_can_have_is_told(void **state) {
     expect_bad((HdRenderOptions){.math = (HdMath)2}, "unknown arithmetic 2");
 }
 
-static void pipelines_have_names(void **state) {
-    (void)state;
+TEST(pipelines_have_names) {
     static const bool is_wavefront[] = {false, false, true, true};
     for (int i = 0; i < HD_PIPELINE_COUNT; i++)
         assert_true(hd_pipeline_is_wavefront((HdPipeline)i) == is_wavefront[i]);
     assert_string_equal(hd_pipeline_names[HD_PIPELINE_WAVEFRONT_UNCOMPACTED],
                         "wavefront-uncompacted");
     assert_null(hd_pipeline_names[HD_PIPELINE_COUNT]);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_device_can_have_is_accepted),
-        cmocka_unit_test(what_none_can_have_is_told),
-        cmocka_unit_test(pipelines_have_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

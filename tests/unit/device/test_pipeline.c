@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Which pipeline is taken, and what it needs of a device. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "device/renderer.h"
+#include "unit_test.h"
 
-static void auto_is_mega(void **state) {
-    (void)state;
+TEST(auto_is_mega) {
     HdDevice device = {.is_cpu = true};
     HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO};
     assert_int_equal(hd_choose_pipeline(&device, &options, NULL), HD_PIPELINE_MEGA);
@@ -21,8 +14,7 @@ static void auto_is_mega(void **state) {
                         "wavefront-uncompacted");
 }
 
-static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
-    (void)state;
+TEST(many_endless_lights_on_a_cpu_take_the_wavefront) {
     HdLight lights[100] = {{.falloff = {.end = 0.0}}};
     HdScene scene = {.lights = lights, .light_count = 100};
     HdDevice cpu = {.is_cpu = true}, gpu = {.is_cpu = false};
@@ -36,8 +28,7 @@ static void many_endless_lights_on_a_cpu_take_the_wavefront(void **state) {
 }
 
 /* A display must not stand still for as long as a tree of hundreds of levels takes. */
-static void deep_trees_on_a_gpu_with_a_display_take_the_wavefront(void **state) {
-    (void)state;
+TEST(deep_trees_on_a_gpu_with_a_display_take_the_wavefront) {
     HdDevice gpu = {.has_timeout = true, .has_wide_atomics = true}, cpu = {.is_cpu = true};
     HdRenderOptions options = {.pipeline = HD_PIPELINE_AUTO, .has_deep_trees = true};
     assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_WAVEFRONT);
@@ -59,8 +50,7 @@ static void deep_trees_on_a_gpu_with_a_display_take_the_wavefront(void **state) 
     assert_int_equal(hd_choose_pipeline(&gpu, &options, NULL), HD_PIPELINE_MEGA);
 }
 
-static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
-    (void)state;
+TEST(a_wavefront_of_groups_needs_wide_atomics) {
     HdDevice gpu = {.name = "a GPU"};
     HdRenderOptions options = {.pipeline = HD_PIPELINE_WAVEFRONT};
     const char *obstacle = hd_device_obstacle(&gpu, &options);
@@ -77,8 +67,7 @@ static void a_wavefront_of_groups_needs_wide_atomics(void **state) {
     assert_null(hd_device_obstacle(&cpu, &options));
 }
 
-static void sizes_of_launches_are_checked(void **state) {
-    (void)state;
+TEST(sizes_of_launches_are_checked) {
     static const HdRenderOptions wrong[] = {
         {.block = 33},
         {.block = -32},
@@ -96,8 +85,7 @@ static void sizes_of_launches_are_checked(void **state) {
     }
 }
 
-static void more_lanes_than_registers_are_refused(void **state) {
-    (void)state;
+TEST(more_lanes_than_registers_are_refused) {
     HdDevice cpu = {.is_cpu = true, .has_double = true, .most_lanes = {16, 8}};
     HdRenderOptions options = {.lanes = 16};
     assert_null(hd_device_obstacle(&cpu, &options));
@@ -116,8 +104,7 @@ static void more_lanes_than_registers_are_refused(void **state) {
     assert_null(hd_device_obstacle(&cpu, &options));
 }
 
-static void launches_last_as_long_as_they_may(void **state) {
-    (void)state;
+TEST(launches_last_as_long_as_they_may) {
     HdDevice gpu = {.has_timeout = true};
     HdRenderOptions options = {.launch_ms = 0.0};
     assert_true(hd_longest_launch(&gpu, &options) == 0.05);
@@ -127,8 +114,7 @@ static void launches_last_as_long_as_they_may(void **state) {
     assert_true(hd_longest_launch(&gpu, &options) == 5e-4);
 }
 
-static void a_lost_device_is_known_by_its_error(void **state) {
-    (void)state;
+TEST(a_lost_device_is_known_by_its_error) {
     HdError error;
     assert_int_equal(hd_fail_lost(&error, "clFinish"), HD_UNAVAILABLE);
     assert_true(hd_is_loss(&error));
@@ -136,18 +122,4 @@ static void a_lost_device_is_known_by_its_error(void **state) {
     assert_false(hd_is_loss(&error));
     hd_fail(&error, HD_UNAVAILABLE, "there is no device");
     assert_false(hd_is_loss(&error));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(auto_is_mega),
-        cmocka_unit_test(many_endless_lights_on_a_cpu_take_the_wavefront),
-        cmocka_unit_test(deep_trees_on_a_gpu_with_a_display_take_the_wavefront),
-        cmocka_unit_test(a_wavefront_of_groups_needs_wide_atomics),
-        cmocka_unit_test(sizes_of_launches_are_checked),
-        cmocka_unit_test(more_lanes_than_registers_are_refused),
-        cmocka_unit_test(launches_last_as_long_as_they_may),
-        cmocka_unit_test(a_lost_device_is_known_by_its_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 #include "device/kernel_cache.h"
 #include "device/probe_operands.h"
-#include "expect.h"
+#include "unit_test.h"
 
 typedef enum Fault {
     NONE,
@@ -95,8 +95,7 @@ static HdProbeReport probe(Fault of, HdPrecision precision, int tuples) {
 }
 
 /* Plain C's results on every processor; they change with the operands, on purpose only. */
-static void expectations_are_known(void **state) {
-    (void)state;
+TEST(expectations_are_known) {
     static const uint64_t hashes[] = {0x98b531570775fa8d, 0x9aa55f0c416093c4};
     for (int precision = 0; precision < 2; precision++) {
         HdProbeReport report = probe(NONE, (HdPrecision)precision, HD_PROBE_QUICK);
@@ -108,15 +107,13 @@ static void expectations_are_known(void **state) {
     }
 }
 
-static void nan_is_nan(void **state) {
-    (void)state;
+TEST(nan_is_nan) {
     HdProbeReport report = probe(OTHER_NAN, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
     assert_string_equal(report.difference, "");
     assert_true(report.hash == report.expected);
 }
 
-static void wrong_division_is_made_of_fma(void **state) {
-    (void)state;
+TEST(wrong_division_is_made_of_fma) {
     HdProbeReport report = probe(DIVISION, HD_PRECISION_FLOAT, HD_PROBE_QUICK);
     assert_string_equal(report.difference, "");
     assert_true(report.rounds_by_fma);
@@ -130,8 +127,7 @@ static void wrong_division_is_made_of_fma(void **state) {
     assert_true(report.hash != report.expected);
 }
 
-static void other_faults_are_told(void **state) {
-    (void)state;
+TEST(other_faults_are_told) {
     static const struct {
         Fault fault;
         const char *primitive, *cause;
@@ -152,8 +148,7 @@ static void other_faults_are_told(void **state) {
     }
 }
 
-static void operands_are_told(void **state) {
-    (void)state;
+TEST(operands_are_told) {
     float numbers[3][8];
     int64_t bits[8];
     HdProbeBatch batch = {
@@ -168,8 +163,7 @@ static void operands_are_told(void **state) {
 
 /* Of the tuples a good many are as hard as they are meant to be: quotients and roots whose digits
    go on for as long again with nothing but zeros or ones after the middle of two numbers. */
-static void operands_are_hard(void **state) {
-    (void)state;
+TEST(operands_are_hard) {
     enum { COUNT = HD_PROBE_QUICK };
     static float numbers[3][COUNT];
     static int64_t bits[COUNT];
@@ -193,16 +187,4 @@ static void operands_are_hard(void **state) {
     assert_true(small > COUNT / 64);
     assert_true(nans > COUNT / 128);
     assert_true(ties > COUNT / 16);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(expectations_are_known),
-        cmocka_unit_test(nan_is_nan),
-        cmocka_unit_test(wrong_division_is_made_of_fma),
-        cmocka_unit_test(other_faults_are_told),
-        cmocka_unit_test(operands_are_told),
-        cmocka_unit_test(operands_are_hard),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

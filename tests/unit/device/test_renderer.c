@@ -2,7 +2,7 @@
 #include "device/renderer.h"
 
 #include "device/self_test_scenes.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static HdError error;
 static HdRendererFunctions functions;
@@ -43,8 +43,7 @@ static int end(void **state) {
     return 0;
 }
 
-static void frames_that_are_under_way_are_dropped(void **state) {
-    (void)state;
+TEST(frames_that_are_under_way_are_dropped) {
     static const HdFrameWish radiance = {.radiance = true};
     HdCamera camera;
     HdFrameTables view;
@@ -60,8 +59,7 @@ static void frames_that_are_under_way_are_dropped(void **state) {
     hd_frame_tables_free(&view);
 }
 
-static void tables_without_their_data_are_refused(void **state) {
-    (void)state;
+TEST(tables_without_their_data_are_refused) {
     HdSceneTables others = tables;
     int last = others.table_count - 1;
     while (others.table[last].bytes == 0)
@@ -77,12 +75,4 @@ static void tables_without_their_data_are_refused(void **state) {
     assert_int_equal(hd_renderer_upload(renderer, &others, &error), HD_BAD_INPUT);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(frames_that_are_under_way_are_dropped),
-        TEST(tables_without_their_data_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(begin, end)

@@ -2,9 +2,9 @@
 #include "device/self_test.h"
 
 #include "device/self_test_scenes.h"
-#include "expect.h"
 #include "input/check.h"
 #include "kernels/host/shared.h"
+#include "unit_test.h"
 
 static HdError error;
 
@@ -38,8 +38,7 @@ static bool passes(int lanes, HdPrecision precision, bool refracts, bool lit_fro
 }
 
 /* Every frame that fails is told, for what it tells is what to commit where kernels changed. */
-static void the_c_backend_passes(void **state) {
-    (void)state;
+TEST(the_c_backend_passes) {
     static const int lanes[] = {0, 1, 4, 8, 16};
     const HdDevice device = c_device();
     int failed = 0;
@@ -51,8 +50,7 @@ static void the_c_backend_passes(void **state) {
     assert_int_equal(failed, 0);
 }
 
-static void frames_are_valid_and_fit_every_build(void **state) {
-    (void)state;
+TEST(frames_are_valid_and_fit_every_build) {
     for (int i = 0; i < 4 * HD_SELF_TEST_FRAMES; i++) {
         HdScene scene;
         HdSceneTables tables;
@@ -77,8 +75,7 @@ static void frames_are_valid_and_fit_every_build(void **state) {
 }
 
 /* There is a hierarchy over each mesh and over all of them, and nodes for rays alone. */
-static void meshes_are_searched_in_every_way(void **state) {
-    (void)state;
+TEST(meshes_are_searched_in_every_way) {
     HdScene scene;
     HdSceneTables tables;
     assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
@@ -100,8 +97,7 @@ static void write_stamp(int variant, int node_stack_bound, char stamp[160]) {
 }
 
 /* What the frames are to find must change them. */
-static void frames_differ(void **state) {
-    (void)state;
+TEST(frames_differ) {
     char stamps[8][160], mesh_stamps[8][160];
     for (int i = 0; i < 8; i++) {
         write_stamp(i, 0, stamps[i]);
@@ -114,8 +110,7 @@ static void frames_differ(void **state) {
 }
 
 /* Kernels that can search meshes must pass a third frame, and their entries say so. */
-static void the_stamp_names_each_frame(void **state) {
-    (void)state;
+TEST(the_stamp_names_each_frame) {
     char stamp[160], mesh_stamp[160];
     write_stamp(0, 0, stamp);
     write_stamp(0, 32, mesh_stamp);
@@ -123,15 +118,4 @@ static void the_stamp_names_each_frame(void **state) {
     assert_int_equal(stamp[shorter], ')');
     assert_memory_equal(mesh_stamp, stamp, shorter);
     assert_int_equal(strlen(mesh_stamp), shorter + strlen(", 0123456789abcdef)"));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_c_backend_passes),
-        cmocka_unit_test(frames_are_valid_and_fit_every_build),
-        cmocka_unit_test(meshes_are_searched_in_every_way),
-        cmocka_unit_test(frames_differ),
-        cmocka_unit_test(the_stamp_names_each_frame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,8 +10,7 @@ static bool get(const char *device, const char *driver) {
     return hd_verdict_get(device, driver, difference, sizeof difference);
 }
 
-static void a_verdict_is_a_devices_and_a_drivers(void **state) {
-    (void)state;
+TEST(a_verdict_is_a_devices_and_a_drivers) {
     setenv("HEDRON_CACHE", "cache", 1);
     assert_false(get("card", "1.2"));
     hd_verdict_put("card", "1.2", "");
@@ -25,8 +24,7 @@ static void a_verdict_is_a_devices_and_a_drivers(void **state) {
     assert_false(get("1.2", "card"));
 }
 
-static void the_last_verdict_counts(void **state) {
-    (void)state;
+TEST(the_last_verdict_counts) {
     setenv("HEDRON_CACHE", "cache", 1);
     hd_verdict_put("card", "1.2", "what it computes is wrong");
     assert_true(get("card", "1.2"));
@@ -34,12 +32,4 @@ static void the_last_verdict_counts(void **state) {
     hd_verdict_put("card", "1.2", "");
     assert_true(get("card", "1.2"));
     assert_string_equal(difference, "");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_verdict_is_a_devices_and_a_drivers),
-        cmocka_unit_test(the_last_verdict_counts),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

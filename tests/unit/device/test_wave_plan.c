@@ -1,19 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* The order in which a wavefront's rays are traced, with a device that only keeps account of them.
  */
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "device/wave_plan.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
+#include "unit_test.h"
 
 /* Every ray has `children` rays that go on, which a launch appends with those of its group: places
    of rays that do not live are filled too. */
@@ -111,8 +105,7 @@ static int64_t run(size_t bytes, const HdWaveRun *frame, int children, int64_t *
 }
 
 /* Whole groups on each level, since the account rounds up to them only where they are split. */
-static void all_rays_are_traced_in_any_memory(void **state) {
-    (void)state;
+TEST(all_rays_are_traced_in_any_memory) {
     static const size_t budgets[] = {1, 5000, 20000, 100000, 1 << 20, 1 << 28};
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 6; depth++)
@@ -125,8 +118,7 @@ static void all_rays_are_traced_in_any_memory(void **state) {
             }
 }
 
-static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
-    (void)state;
+TEST(groups_that_do_not_fit_evenly_never_overlap) {
     static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 5; depth++) {
@@ -136,7 +128,7 @@ static void groups_that_do_not_fit_evenly_never_overlap(void **state) {
         }
 }
 
-static void launches_of_any_size_trace_all_rays(void **state) {
+TEST(launches_of_any_size_trace_all_rays) {
     static const int sizes[] = {1, 5, 32, 40, 150};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         launch_rays = sizes[i];
@@ -146,8 +138,7 @@ static void launches_of_any_size_trace_all_rays(void **state) {
     launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
-static void launches_have_at_most_their_size(void **state) {
-    (void)state;
+TEST(launches_have_at_most_their_size) {
     HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     int64_t steps;
     launch_rays = 64;
@@ -156,8 +147,7 @@ static void launches_have_at_most_their_size(void **state) {
     launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
-static void enough_memory_takes_a_step_a_level(void **state) {
-    (void)state;
+TEST(enough_memory_takes_a_step_a_level) {
     HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     int64_t steps, few, many;
     run(1 << 24, &frame, 1, &steps);
@@ -168,23 +158,20 @@ static void enough_memory_takes_a_step_a_level(void **state) {
 }
 
 /* A level's rest would make all levels below it again. */
-static void levels_of_deep_trees_are_taken_whole(void **state) {
-    (void)state;
+TEST(levels_of_deep_trees_are_taken_whole) {
     HdWaveRun frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
     int64_t steps;
     run((1 << 25) / 13 * 12, &frame, -1, &steps);
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
 }
 
-static void the_least_queue_takes_a_bundle_at_a_time(void **state) {
-    (void)state;
+TEST(the_least_queue_takes_a_bundle_at_a_time) {
     for (int levels = 1; levels <= 40; levels++)
         assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
 }
 
 /* The places of a level that is done serve the next one. */
-static void rays_go_below_those_that_made_them(void **state) {
-    (void)state;
+TEST(rays_go_below_those_that_made_them) {
     WaveSegment stack[] = {{.level = 0},
                            {.level = 1, .first = 0, .waiting = 8},
                            {.level = 2, .first = 100, .waiting = 8}};
@@ -195,8 +182,7 @@ static void rays_go_below_those_that_made_them(void **state) {
     assert_int_equal(top, 1);
 }
 
-static void plans_keep_to_their_budget(void **state) {
-    (void)state;
+TEST(plans_keep_to_their_budget) {
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
         for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
             HdWaveNeeds needs = {.bytes = bytes,
@@ -219,8 +205,7 @@ static void plans_keep_to_their_budget(void **state) {
 }
 
 /* A device that refuses memory is asked for less, until it is as little as the least. */
-static void a_refused_queue_is_halved(void **state) {
-    (void)state;
+TEST(a_refused_queue_is_halved) {
     HdWaveNeeds needs = {
         .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
     size_t before = hd_wave_plan(&needs).bytes[0];
@@ -238,8 +223,7 @@ static void a_refused_queue_is_halved(void **state) {
     assert_int_equal(needs.bytes, 1);
 }
 
-static void a_cut_queue_is_told(void **state) {
-    (void)state;
+TEST(a_cut_queue_is_told) {
     char text[128];
     hd_wave_tell_cut(33554432, text, sizeof text);
     assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
@@ -247,8 +231,7 @@ static void a_cut_queue_is_told(void **state) {
     assert_string_equal(text, ", the q");
 }
 
-static void few_samples_take_no_more_room(void **state) {
-    (void)state;
+TEST(few_samples_take_no_more_room) {
     const HdWaveNeeds needs = {.bytes = 1 << 28,
                                .precision = HD_PRECISION_FLOAT,
                                .depth = 4,
@@ -258,8 +241,7 @@ static void few_samples_take_no_more_room(void **state) {
     assert_int_equal(hd_wave_plan(&needs).sum_stride, 1000);
 }
 
-static void launches_have_the_groups_that_they_need(void **state) {
-    (void)state;
+TEST(launches_have_the_groups_that_they_need) {
     HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
     assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
     assert_int_equal(hd_wave_groups(&plan, 128, 5), 5);
@@ -270,8 +252,7 @@ static void launches_have_the_groups_that_they_need(void **state) {
 }
 
 /* The last test: a signal is remembered. */
-static void a_signal_ends_the_frame(void **state) {
-    (void)state;
+TEST(a_signal_ends_the_frame) {
     HdError error;
     HdWavePlan plan = {.queue_stride = 64, .sum_stride = 64};
     HdWaveRun frame = {.plan = &plan, .items = 1, .samples_per_item = 1, .grain = 32};
@@ -279,24 +260,4 @@ static void a_signal_ends_the_frame(void **state) {
     hd_interrupt_install();
     raise(SIGTERM);
     assert_int_equal(hd_wave_next(&frame, 0, &size, &error), HD_INTERRUPTED);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_rays_are_traced_in_any_memory),
-        cmocka_unit_test(groups_that_do_not_fit_evenly_never_overlap),
-        cmocka_unit_test(launches_of_any_size_trace_all_rays),
-        cmocka_unit_test(launches_have_at_most_their_size),
-        cmocka_unit_test(enough_memory_takes_a_step_a_level),
-        cmocka_unit_test(levels_of_deep_trees_are_taken_whole),
-        cmocka_unit_test(the_least_queue_takes_a_bundle_at_a_time),
-        cmocka_unit_test(rays_go_below_those_that_made_them),
-        cmocka_unit_test(plans_keep_to_their_budget),
-        cmocka_unit_test(a_refused_queue_is_halved),
-        cmocka_unit_test(a_cut_queue_is_told),
-        cmocka_unit_test(few_samples_take_no_more_room),
-        cmocka_unit_test(launches_have_the_groups_that_they_need),
-        cmocka_unit_test(a_signal_ends_the_frame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "expect.h"
 #include "image/curve.h"
+#include "unit_test.h"
 
 static uint8_t encode8(HdCurve curve, float value) {
     uint8_t code;
@@ -29,8 +29,7 @@ static void find_neighbours(int code, int top, float *below, float *above) {
     *above = (double)nearest < threshold ? nextafterf(nearest, 2.0f) : nearest;
 }
 
-static void eight_bits_are_rounded_to_the_nearest(void **state) {
-    (void)state;
+TEST(eight_bits_are_rounded_to_the_nearest) {
     for (int code = 1; code < 256; code++) {
         float below, above;
         find_neighbours(code, 255, &below, &above);
@@ -39,8 +38,7 @@ static void eight_bits_are_rounded_to_the_nearest(void **state) {
     }
 }
 
-static void sixteen_bits_are_rounded_to_the_nearest(void **state) {
-    (void)state;
+TEST(sixteen_bits_are_rounded_to_the_nearest) {
     for (int code = 1; code < 65536; code++) {
         float below, above;
         find_neighbours(code, 65535, &below, &above);
@@ -49,8 +47,7 @@ static void sixteen_bits_are_rounded_to_the_nearest(void **state) {
     }
 }
 
-static void values_between_the_codes_keep_the_order(void **state) {
-    (void)state;
+TEST(values_between_the_codes_keep_the_order) {
     uint8_t last8 = 0;
     uint16_t last16 = 0;
     for (uint32_t bits = 0; bits <= 0x3f800000u; bits += 131) {
@@ -67,8 +64,7 @@ static void values_between_the_codes_keep_the_order(void **state) {
     assert_int_equal(last16, 65535);
 }
 
-static void values_outside_are_clamped(void **state) {
-    (void)state;
+TEST(values_outside_are_clamped) {
     const float nothing[] = {0.0f, -0.0f, -1e-30f, -1.0f, -INFINITY, NAN, -NAN, 1e-40f, 1e-7f};
     const float all[] = {1.0f, 1.0000001f, 2.0f, 1e30f, INFINITY};
     for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
@@ -83,8 +79,7 @@ static void values_outside_are_clamped(void **state) {
     }
 }
 
-static void linear_codes_are_rounded(void **state) {
-    (void)state;
+TEST(linear_codes_are_rounded) {
     for (int i = 0; i <= 1 << 20; i++) {
         const float value = (float)i / (float)(1 << 20);
         if (encode8(HD_CURVE_LINEAR, value) != (uint8_t)(value * 255.0f + 0.5f) ||
@@ -93,8 +88,7 @@ static void linear_codes_are_rounded(void **state) {
     }
 }
 
-static void many_values_are_as_single_ones(void **state) {
-    (void)state;
+TEST(many_values_are_as_single_ones) {
     enum { COUNT = 1000 };
     float values[COUNT];
     uint8_t codes8[COUNT];
@@ -118,8 +112,7 @@ static uint16_t *decode_all(HdCurve curve) {
     return values;
 }
 
-static void codes_are_decoded_to_the_nearest(void **state) {
-    (void)state;
+TEST(codes_are_decoded_to_the_nearest) {
     uint16_t *values = decode_all(HD_CURVE_SRGB);
     for (int code = 0; code < 65536; code++)
         if (values[code] != floor(to_linear(code / 65535.0) * 65535.0 + 0.5) ||
@@ -134,8 +127,7 @@ static void codes_are_decoded_to_the_nearest(void **state) {
     free(values);
 }
 
-static void bytes_come_back(void **state) {
-    (void)state;
+TEST(bytes_come_back) {
     for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++)
         for (int code = 0; code < 256; code++) {
             uint16_t value = (uint16_t)(code * 257);
@@ -170,8 +162,7 @@ static uint32_t find_threshold(int top, unsigned code) {
 }
 
 /* Another system's arithmetic must not give other pictures. */
-static void the_tables_are_the_same_everywhere(void **state) {
-    (void)state;
+TEST(the_tables_are_the_same_everywhere) {
     const int tops[] = {255, 65535};
     uint64_t hash = 14695981039346656037u;
     uint16_t *values = decode_all(HD_CURVE_SRGB);
@@ -185,8 +176,7 @@ static void the_tables_are_the_same_everywhere(void **state) {
         fail_msg("the tables have the hash %016llx", (unsigned long long)hash);
 }
 
-static void the_curve_is_that_of_the_standard(void **state) {
-    (void)state;
+TEST(the_curve_is_that_of_the_standard) {
     for (int i = 0; i <= 100000; i++) {
         const double value = i / 100000.0;
         const double power = 1.055 * pow(value, 1.0 / 2.4) - 0.055;
@@ -208,20 +198,4 @@ static void the_curve_is_that_of_the_standard(void **state) {
         assert_true(isnan(hd_curve_to_display((HdCurve)curve, (double)NAN)));
         assert_true(isnan(hd_curve_to_linear((HdCurve)curve, (double)NAN)));
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eight_bits_are_rounded_to_the_nearest),
-        cmocka_unit_test(sixteen_bits_are_rounded_to_the_nearest),
-        cmocka_unit_test(values_between_the_codes_keep_the_order),
-        cmocka_unit_test(values_outside_are_clamped),
-        cmocka_unit_test(linear_codes_are_rounded),
-        cmocka_unit_test(many_values_are_as_single_ones),
-        cmocka_unit_test(codes_are_decoded_to_the_nearest),
-        cmocka_unit_test(bytes_come_back),
-        cmocka_unit_test(the_tables_are_the_same_everywhere),
-        cmocka_unit_test(the_curve_is_that_of_the_standard),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

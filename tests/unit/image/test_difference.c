@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/quantile.h"
-#include "expect.h"
 #include "image/difference.h"
+#include "unit_test.h"
 
 /* A grey pixel whose display value is `steps` of 255 and whose light is `linear`. */
 #define GREY(steps, light)                                                                         \
@@ -25,8 +25,7 @@ static HdPictureFigures compare(const HdPictureValue *first, const HdPictureValu
 
 /* 2 x 2 pixels. Display errors by channel: 3 4 0, 0 0 0, 1 1 1, 0 12 0: their sum is 22, that of
    their squares 9 + 16 + 3 + 144 = 172. Linear ones: 0.25 in one channel. */
-static void figures_are_those_of_the_formulas(void **state) {
-    (void)state;
+TEST(figures_are_those_of_the_formulas) {
     const double s = HD_DISPLAY_STEP;
     const HdPictureValue first[] = {{0.5, 10 * s}, {0, 20 * s}, {0, 30 * s},  GREY(7, 1),
                                     GREY(100, 2),  {0, 0},      {0, 200 * s}, {0, 5 * s}};
@@ -55,8 +54,7 @@ static void figures_are_those_of_the_formulas(void **state) {
     assert_false(figures.identical);
 }
 
-static void the_first_of_equal_errors_is_named(void **state) {
-    (void)state;
+TEST(the_first_of_equal_errors_is_named) {
     const HdPictureValue first[] = {GREY(0, 0), GREY(0, 0), GREY(0, 0), GREY(0, 0)};
     const HdPictureValue second[] = {GREY(0, 0), GREY(2, 0.5), GREY(2, 0.5), GREY(2, 0.5)};
     const HdPictureFigures figures = compare(first, second, 2, 2, false, NULL);
@@ -67,8 +65,7 @@ static void the_first_of_equal_errors_is_named(void **state) {
     assert_int_equal(figures.linear.y, 0);
 }
 
-static void equal_pictures_are_identical(void **state) {
-    (void)state;
+TEST(equal_pictures_are_identical) {
     const HdPictureValue values[] = {GREY(0, 0), GREY(255, 1e30), GREY(3, -1)};
     const HdPictureFigures figures = compare(values, values, 3, 1, false, NULL);
     assert_true(figures.identical);
@@ -80,8 +77,7 @@ static void equal_pictures_are_identical(void **state) {
 }
 
 /* Alike on the screen, but not in light. */
-static void clamping_is_a_choice(void **state) {
-    (void)state;
+TEST(clamping_is_a_choice) {
     const HdPictureValue first[] = {GREY(255, 1), GREY(0, 0)};
     const HdPictureValue second[] = {GREY(255, 5), GREY(0, -2)};
     HdPictureFigures figures = compare(first, second, 2, 1, false, NULL);
@@ -93,8 +89,7 @@ static void clamping_is_a_choice(void **state) {
     assert_true(figures.identical);
 }
 
-static void values_that_are_no_numbers_are_counted_and_left_out(void **state) {
-    (void)state;
+TEST(values_that_are_no_numbers_are_counted_and_left_out) {
     const double nan = (double)NAN, infinite = (double)INFINITY;
     const HdPictureValue first[] = {
         {nan, nan}, {infinite, 65535.0}, {0, 0}, GREY(9, 1), GREY(1, 0)};
@@ -110,8 +105,7 @@ static void values_that_are_no_numbers_are_counted_and_left_out(void **state) {
     assert_true(isnan(errors[0]) && isnan(errors[1]) && errors[2] == 2.0);
 }
 
-static void without_a_finite_pixel_there_are_no_figures(void **state) {
-    (void)state;
+TEST(without_a_finite_pixel_there_are_no_figures) {
     const double nan = (double)NAN;
     const HdPictureValue values[] = {{0, 0}, {nan, nan}, {0, 0}};
     const HdPictureFigures figures = compare(values, values, 1, 1, false, NULL);
@@ -123,8 +117,7 @@ static void without_a_finite_pixel_there_are_no_figures(void **state) {
 }
 
 /* 16 bits have 257 values between those of 8 bits; exactly one step is not more than one. */
-static void one_step_is_exact_with_16_bits(void **state) {
-    (void)state;
+TEST(one_step_is_exact_with_16_bits) {
     for (int code = 0; code + 257 <= 65535; code++) {
         const HdPictureValue first[] = {{0, code}, {0, code}, {0, code}};
         const HdPictureValue second[] = {{0, code + 257}, {0, code}, {0, code}};
@@ -160,8 +153,7 @@ static double extreme(int i) {
     return values[i];
 }
 
-static void quantiles_leave_one_in_so_many_above(void **state) {
-    (void)state;
+TEST(quantiles_leave_one_in_so_many_above) {
     assert_true(quantile_of(1000, itself, 1000) == 998.0); /* 999 alone is above */
     assert_true(quantile_of(999, itself, 1000) == 998.0);  /* none may be above */
     assert_true(quantile_of(2000, itself, 1000) == 1997.0);
@@ -177,8 +169,7 @@ static void quantiles_leave_one_in_so_many_above(void **state) {
     assert_true(quantile_of(6, extreme, 2) == 1e-30);
 }
 
-static void further_channels_differ_by_their_values(void **state) {
-    (void)state;
+TEST(further_channels_differ_by_their_values) {
     HdChannelDifference difference = {0};
     hd_channel_difference_add(&difference, 5.0F, 5.0F, 1, 1);
     hd_channel_difference_add(&difference, INFINITY, INFINITY, 2, 1);
@@ -190,19 +181,4 @@ static void further_channels_differ_by_their_values(void **state) {
     hd_channel_difference_add(&difference, 1.0F, NAN, 6, 3);
     hd_channel_difference_add(&difference, INFINITY, 0.0F, 7, 3);
     assert_true(isinf(difference.largest) && difference.x == 6 && difference.y == 3);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_those_of_the_formulas),
-        cmocka_unit_test(the_first_of_equal_errors_is_named),
-        cmocka_unit_test(equal_pictures_are_identical),
-        cmocka_unit_test(clamping_is_a_choice),
-        cmocka_unit_test(values_that_are_no_numbers_are_counted_and_left_out),
-        cmocka_unit_test(without_a_finite_pixel_there_are_no_figures),
-        cmocka_unit_test(one_step_is_exact_with_16_bits),
-        cmocka_unit_test(further_channels_differ_by_their_values),
-        cmocka_unit_test(quantiles_leave_one_in_so_many_above),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

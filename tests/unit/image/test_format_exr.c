@@ -52,8 +52,7 @@ static HdStatus read_picture(const char *path, double values[VALUES], int bits) 
     return status;
 }
 
-static void floats_come_back(void **state) {
-    (void)state;
+TEST(floats_come_back) {
     float values[VALUES];
     double read[VALUES];
     for (int i = 0; i < VALUES; i++)
@@ -65,8 +64,7 @@ static void floats_come_back(void **state) {
         assert_true(read[i] == (double)values[i]);
 }
 
-static void halves_are_the_nearest(void **state) {
-    (void)state;
+TEST(halves_are_the_nearest) {
     static const struct {
         float value;
         double half;
@@ -172,8 +170,7 @@ static void expect_channels(const char *const *names, int count) {
     hd_picture_reader_close(reader);
 }
 
-static void layers_become_channels(void **state) {
-    (void)state;
+TEST(layers_become_channels) {
     static const char *const all[] = {"A",        "Z",        "bound",  "normal.X",
                                       "normal.Y", "normal.Z", "object", "samples"};
     static const char *const some[] = {"A", "object"};
@@ -208,8 +205,7 @@ static off_t end_capture(int old_descriptor) {
 }
 
 /* Whatever is wrong with a file, it is told by a status and a message alone. */
-static void damaged_files_are_refused_quietly(void **state) {
-    (void)state;
+TEST(damaged_files_are_refused_quietly) {
     static unsigned char bytes[65536];
     float values[VALUES];
     double read[VALUES];
@@ -260,8 +256,7 @@ static void expect_refused(const unsigned char *bytes, size_t size, const char *
     expect_contains(error.message, part);
 }
 
-static void other_kinds_are_refused(void **state) {
-    (void)state;
+TEST(other_kinds_are_refused) {
     static unsigned char bytes[65536];
     float values[VALUES] = {0.0f};
     write_picture(values, &HALF);
@@ -286,22 +281,4 @@ static void other_kinds_are_refused(void **state) {
     window[8 + 3] = 0;
     window[8 + 2] = 2;
     expect_refused(bytes, size, "cannot read bad.exr as OpenEXR");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(floats_come_back),
-        cmocka_unit_test(halves_are_the_nearest),
-        cmocka_unit_test(layers_become_channels),
-        cmocka_unit_test(damaged_files_are_refused_quietly),
-        cmocka_unit_test(other_kinds_are_refused),
-    };
-    if (make_test_folder(NULL) != 0)
-        return 1;
-    /* Built without OpenEXR, the program says so, and there is nothing to test. */
-    HdPictureReader *reader;
-    write_bytes("a.exr", "\x76\x2f\x31\x01", 4);
-    const bool is_missing = hd_picture_reader_open(&reader, "a.exr", &error) == HD_UNAVAILABLE;
-    const int failures = is_missing ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
-    return remove_test_folder(NULL) != 0 || failures != 0;
 }

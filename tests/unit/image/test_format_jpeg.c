@@ -7,12 +7,10 @@
 #include <jpeglib.h>
 
 #include "base/hash.h"
-#include "expect.h"
 #include "image/picture.h"
+#include "unit_test.h"
 
 enum { MAX_BYTES = 65536, SIDE = 24 };
-
-static const char *project;
 
 typedef struct Bytes {
     unsigned char *at; /* owned */
@@ -83,8 +81,7 @@ static void expect_flat(Bytes bytes, int red, int green, int blue) {
     free(bytes.at);
 }
 
-static void grey_and_colours_are_read(void **state) {
-    (void)state;
+TEST(grey_and_colours_are_read) {
     expect_flat(encode(JCS_GRAYSCALE, 1, true, false), 10, 10, 10);
     expect_flat(encode(JCS_RGB, 3, true, false), 10, 100, 200);
     expect_flat(encode(JCS_RGB, 3, true, true), 10, 100, 200);
@@ -98,8 +95,7 @@ static void check_refused(const unsigned char *bytes, size_t size, const char *p
     expect_contains(error.message, part);
 }
 
-static void print_colours_are_refused(void **state) {
-    (void)state;
+TEST(print_colours_are_refused) {
     Bytes bytes = encode(JCS_CMYK, 4, true, false);
     check_refused(bytes.at, bytes.size,
                   "is a JPEG of 4 colours (4 are those of print, CMYK), "
@@ -107,8 +103,7 @@ static void print_colours_are_refused(void **state) {
     free(bytes.at);
 }
 
-static void texels_come_off_the_curve(void **state) {
-    (void)state;
+TEST(texels_come_off_the_curve) {
     HdError error = {0};
     HdTexture linear, srgb;
     uint16_t decoded[256];
@@ -126,8 +121,7 @@ static void texels_come_off_the_curve(void **state) {
 }
 
 /* What `djpeg -nosmooth -dct int` makes of the files, times 257. */
-static void every_libjpeg_makes_the_same_texels(void **state) {
-    (void)state;
+TEST(every_libjpeg_makes_the_same_texels) {
     static const struct {
         const char *name;
         uint64_t hash;
@@ -144,7 +138,7 @@ static void every_libjpeg_makes_the_same_texels(void **state) {
         HdTexture texture;
         char path[4096];
         unsigned char bytes[MAX_BYTES];
-        snprintf(path, sizeof path, "%s/tests/fuzz/corpus/texture/%s", project, files[i].name);
+        snprintf(path, sizeof path, "%s/tests/fuzz/corpus/texture/%s", unit_project, files[i].name);
         FILE *file = fopen(path, "rb");
         assert_non_null(file);
         const size_t size = fread(bytes, 1, sizeof bytes, file);
@@ -160,8 +154,7 @@ static void every_libjpeg_makes_the_same_texels(void **state) {
     }
 }
 
-static void cut_files_are_refused(void **state) {
-    (void)state;
+TEST(cut_files_are_refused) {
     for (int progressive = 0; progressive < 2; progressive++) {
         HdError error = {0};
         HdTexture texture;
@@ -185,8 +178,7 @@ static unsigned char *find_frame(Bytes bytes) {
     return NULL;
 }
 
-static void hostile_files_are_refused(void **state) {
-    (void)state;
+TEST(hostile_files_are_refused) {
     Bytes bytes = encode(JCS_RGB, 3, false, false);
     unsigned char *frame = find_frame(bytes);
     frame[4] = 12;
@@ -205,8 +197,7 @@ static void hostile_files_are_refused(void **state) {
 
 /* The last scan of a progressive file over and over: each costs the time of the whole picture.
    Those that bring no bits of their own are errors without a limit. */
-static void endless_scans_are_refused(void **state) {
-    (void)state;
+TEST(endless_scans_are_refused) {
     Bytes bytes = encode(JCS_GRAYSCALE, 1, false, true);
     size_t last = bytes.size;
     while (bytes.at[last - 1] != 0xff || bytes.at[last] != 0xda)
@@ -222,18 +213,4 @@ static void endless_scans_are_refused(void **state) {
     check_refused(many, last + 100 * length + 2, "more than 64 scans");
     free(many);
     free(bytes.at);
-}
-
-int main(int argc, char **argv) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grey_and_colours_are_read),
-        cmocka_unit_test(print_colours_are_refused),
-        cmocka_unit_test(texels_come_off_the_curve),
-        cmocka_unit_test(every_libjpeg_makes_the_same_texels),
-        cmocka_unit_test(cut_files_are_refused),
-        cmocka_unit_test(hostile_files_are_refused),
-        cmocka_unit_test(endless_scans_are_refused),
-    };
-    project = argc > 1 ? argv[1] : ".";
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "expect.h"
 #include "image/formats.h"
+#include "unit_test.h"
 
-static void the_ending_tells_the_format(void **state) {
-    (void)state;
+TEST(the_ending_tells_the_format) {
     const struct {
         const char *path;
         const HdFormat *format;
@@ -51,8 +50,7 @@ static int count_formats(const char *list, bool are_films) {
 
 #define COUNTED(name) +1
 
-static void the_lists_name_every_format(void **state) {
-    (void)state;
+TEST(the_lists_name_every_format) {
     assert_string_equal(HD_FILM_ENDINGS, ".mp4, .mkv or .gif");
     assert_int_equal(count_formats(HD_FILM_ENDINGS, true),
                      HD_FILM_FORMATS(COUNTED, COUNTED, COUNTED));
@@ -69,8 +67,7 @@ static void expect_style(const char *path, HdCurve curve, int bits, const char *
         expect_contains(error.message, refusal);
 }
 
-static void what_a_format_cannot_say_is_refused(void **state) {
-    (void)state;
+TEST(what_a_format_cannot_say_is_refused) {
     expect_style("a.gif", HD_CURVE_SRGB, 8, NULL);
     expect_style("a.gif", HD_CURVE_LINEAR, 8, "a.gif cannot be linear, for a GIF");
     expect_style("a.mp4", HD_CURVE_LINEAR, 8, NULL);
@@ -79,13 +76,4 @@ static void what_a_format_cannot_say_is_refused(void **state) {
     expect_style("a.exr", HD_CURVE_LINEAR, 32, NULL);
     expect_style("a.mkv", HD_CURVE_SRGB, 32, NULL);
     expect_style("a.other", HD_CURVE_LINEAR, 32, NULL);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ending_tells_the_format),
-        cmocka_unit_test(the_lists_name_every_format),
-        cmocka_unit_test(what_a_format_cannot_say_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

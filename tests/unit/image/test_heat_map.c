@@ -13,8 +13,7 @@ static void check_colour(double error, int red, int green, int blue) {
     assert_int_equal(rgb[2], blue);
 }
 
-static void named_errors_have_named_colours(void **state) {
-    (void)state;
+TEST(named_errors_have_named_colours) {
     check_colour(0.0, 0, 0, 0);
     check_colour(0.2499, 0, 0, 0);
     check_colour(0.25, 53, 10, 90);
@@ -43,8 +42,7 @@ static double lightness(double error) {
                                        : luminance * 24389.0 / 27.0;
 }
 
-static void every_doubling_is_lighter_by_the_same(void **state) {
-    (void)state;
+TEST(every_doubling_is_lighter_by_the_same) {
     double last = 0.0;
     for (int i = 0; i <= 160; i++) {
         const double now = lightness(0.25 * exp2(i / 16.0));
@@ -55,8 +53,7 @@ static void every_doubling_is_lighter_by_the_same(void **state) {
     }
 }
 
-static void maps_are_pictures(void **state) {
-    (void)state;
+TEST(maps_are_pictures) {
     HdError error = {0};
     HdHeatMap *map;
     HdTexture texture;
@@ -76,8 +73,7 @@ static void maps_are_pictures(void **state) {
     assert_int_equal(count_entries("maps"), 1);
 }
 
-static void maps_that_fail_leave_nothing(void **state) {
-    (void)state;
+TEST(maps_that_fail_leave_nothing) {
     HdError error = {0};
     HdHeatMap *map;
     assert_int_equal(hd_heat_map_open(&map, "none/heat.png", 2, 2, &error), HD_OK);
@@ -88,14 +84,4 @@ static void maps_that_fail_leave_nothing(void **state) {
     write_bytes("file", "x", 1);
     assert_int_equal(hd_heat_map_open(&map, "file/heat.png", 2, 2, &error), HD_FAILED);
     expect_contains(error.message, "file/heat.png");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(named_errors_have_named_colours),
-        cmocka_unit_test(every_doubling_is_lighter_by_the_same),
-        cmocka_unit_test(maps_are_pictures),
-        cmocka_unit_test(maps_that_fail_leave_nothing),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -43,8 +43,7 @@ static void write_picture(const HdPictureLabel *label, int bits) {
     assert_int_equal(hd_file_read("a.png", "picture", 1 << 20, &bytes, &size, &error), HD_OK);
 }
 
-static void every_other_byte_is_noticed(void **state) {
-    (void)state;
+TEST(every_other_byte_is_noticed) {
     for (int bits = 8; bits <= 16; bits += 8) {
         write_picture(&MARKED, bits);
         assert_true(is_whole());
@@ -59,8 +58,7 @@ static void every_other_byte_is_noticed(void **state) {
     }
 }
 
-static void every_byte_less_or_more_is_noticed(void **state) {
-    (void)state;
+TEST(every_byte_less_or_more_is_noticed) {
     write_picture(&MARKED, 8);
     const size_t all = size;
     for (size = 0; size < all; size++)
@@ -74,15 +72,13 @@ static void every_byte_less_or_more_is_noticed(void **state) {
     assert_true(is_whole());
 }
 
-static void another_fingerprint_is_noticed(void **state) {
-    (void)state;
+TEST(another_fingerprint_is_noticed) {
     write_picture(&MARKED, 8);
     for (int bit = 0; bit < 64; bit++)
         assert_false(hd_picture_is_whole(bytes, size, FINGERPRINT ^ UINT64_C(1) << bit));
 }
 
-static void the_picture_is_the_same_with_and_without(void **state) {
-    (void)state;
+TEST(the_picture_is_the_same_with_and_without) {
     static const char text[] = "tEXthedron\0frame 123456789abcdef0 bytes ";
     HdTexture marked, plain;
     write_picture(&MARKED, 8);
@@ -113,12 +109,4 @@ static int end(void **state) {
     return remove_test_folder(state);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_other_byte_is_noticed),
-        cmocka_unit_test(every_byte_less_or_more_is_noticed),
-        cmocka_unit_test(another_fingerprint_is_noticed),
-        cmocka_unit_test(the_picture_is_the_same_with_and_without),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, end);
-}
+GROUP(make_test_folder, end)

@@ -57,8 +57,7 @@ static HdTexture pass_through(const HdFrame *frame, const HdPictureStyle *style,
     return texture;
 }
 
-static void sizes_are_checked(void **state) {
-    (void)state;
+TEST(sizes_are_checked) {
     const int wrong[][2] = {{0, 1}, {1, 0}, {-1, 1}, {65536, 1}, {1, 65536}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         HdError error = {0};
@@ -75,8 +74,7 @@ static void sizes_are_checked(void **state) {
     hd_frame_free(&frame);
 }
 
-static void frames_become_bytes(void **state) {
-    (void)state;
+TEST(frames_become_bytes) {
     HdError error = {0};
     HdFrame frame = make_frame(301, 3);
     assert_int_equal(hd_frame_add_rgba(&frame, &error), HD_OK);
@@ -92,8 +90,7 @@ static void frames_become_bytes(void **state) {
     hd_frame_free(&frame);
 }
 
-static void data_files_hold_the_bytes(void **state) {
-    (void)state;
+TEST(data_files_hold_the_bytes) {
     HdFrame frame = make_frame(259, 2);
     static unsigned char bytes[8 + 259 * 2 * 4 + 1];
     const unsigned char head[8] = {3, 1, 0, 0, 2, 0, 0, 0};
@@ -111,8 +108,7 @@ static void data_files_hold_the_bytes(void **state) {
     hd_frame_free(&frame);
 }
 
-static void png_files_hold_the_colours(void **state) {
-    (void)state;
+TEST(png_files_hold_the_colours) {
     HdFrame frame = make_frame(67, 35);
     unsigned char head[29];
     HdTexture texture = pass_through(&frame, &LINEAR_8, "colours/a.PNG");
@@ -133,8 +129,7 @@ static HdFrame make_fine_frame(void) {
     return frame;
 }
 
-static void png_files_may_have_16_bits(void **state) {
-    (void)state;
+TEST(png_files_may_have_16_bits) {
     HdError error = {0};
     HdFrame frame = make_fine_frame();
     uint16_t expected[13 * 7 * 3];
@@ -155,8 +150,7 @@ static void png_files_may_have_16_bits(void **state) {
 }
 
 /* Off the curve again, the values are those of the frame but for the rounding. */
-static void textures_come_off_the_curve(void **state) {
-    (void)state;
+TEST(textures_come_off_the_curve) {
     HdFrame frame = make_fine_frame();
     const struct {
         const char *path;
@@ -182,8 +176,7 @@ static bool has_chunk(const char *path, const char *chunk, size_t size) {
     return false;
 }
 
-static void png_files_name_the_curve(void **state) {
-    (void)state;
+TEST(png_files_name_the_curve) {
     HdError error = {0};
     HdFrame frame = make_frame(3, 2);
     const HdPictureStyle srgb = {HD_CURVE_SRGB, 8};
@@ -197,8 +190,7 @@ static void png_files_name_the_curve(void **state) {
 }
 
 /* Whatever the style, and what no other format can hold. */
-static void pfm_files_hold_the_values(void **state) {
-    (void)state;
+TEST(pfm_files_hold_the_values) {
     HdError error = {0};
     const HdPictureStyle srgb = {HD_CURVE_SRGB, 8};
     HdFrame frame = make_frame(2, 3);
@@ -216,8 +208,7 @@ static void pfm_files_hold_the_values(void **state) {
 }
 
 /* The classic mode's names need no ending. */
-static void other_endings_are_the_data_format(void **state) {
-    (void)state;
+TEST(other_endings_are_the_data_format) {
     HdFrame frame = make_frame(3, 2);
     const char *const names[] = {"none", "other.ppm", "png", "apng", "a.png.data"};
     unsigned char bytes[33];
@@ -230,8 +221,7 @@ static void other_endings_are_the_data_format(void **state) {
     hd_frame_free(&frame);
 }
 
-static void older_files_are_replaced(void **state) {
-    (void)state;
+TEST(older_files_are_replaced) {
     HdFrame frame = make_frame(3, 2);
     mkdir("older", 0777);
     write_bytes("older/a.data", "older", 5);
@@ -243,8 +233,7 @@ static void older_files_are_replaced(void **state) {
 }
 
 /* The temporary name of a process that died may be there already. */
-static void stale_temporary_files_do_no_harm(void **state) {
-    (void)state;
+TEST(stale_temporary_files_do_no_harm) {
     HdError error = {0};
     HdFrame frame = make_frame(3, 2);
     char stale[100];
@@ -256,8 +245,7 @@ static void stale_temporary_files_do_no_harm(void **state) {
     hd_frame_free(&frame);
 }
 
-static void long_names_can_be_written(void **state) {
-    (void)state;
+TEST(long_names_can_be_written) {
     HdError error = {0};
     HdFrame frame = make_frame(3, 2);
     char name[256] = "";
@@ -289,8 +277,7 @@ static void check_full_disk(const char *path, int width, int height, rlim_t room
     hd_frame_free(&frame);
 }
 
-static void full_disks_leave_older_files(void **state) {
-    (void)state;
+TEST(full_disks_leave_older_files) {
     mkdir("full", 0777);
     void (*old)(int) = signal(SIGXFSZ, SIG_IGN);
     check_full_disk("full/a.data", 2, 2, 4);
@@ -312,8 +299,7 @@ static void check_unwritable(const char *path, HdStatus status, const char *part
     hd_frame_free(&frame);
 }
 
-static void targets_that_are_no_files_are_refused(void **state) {
-    (void)state;
+TEST(targets_that_are_no_files_are_refused) {
     struct stat found;
     mkdir("targets", 0777);
     mkdir("targets/folder.png", 0777);
@@ -346,8 +332,7 @@ static void check_refused(const void *bytes, size_t size, const char *part) {
     expect_contains(error.message, part);
 }
 
-static void wrong_data_is_refused(void **state) {
-    (void)state;
+TEST(wrong_data_is_refused) {
     const struct {
         int64_t width, height;
         const char *part;
@@ -378,8 +363,7 @@ static void wrong_data_is_refused(void **state) {
     check_refused("MM\0*\0\0\0\x08", 8, "is a TIFF picture");
 }
 
-static void large_data_is_no_texture(void **state) {
-    (void)state;
+TEST(large_data_is_no_texture) {
     HdError error = {0};
     HdTexture texture;
     size_t size = 8 + 65536 * 4;
@@ -517,8 +501,7 @@ static void check_sample(const Sample *sample) {
     free(texture.texels);
 }
 
-static void every_kind_of_png_is_read(void **state) {
-    (void)state;
+TEST(every_kind_of_png_is_read) {
     const int kinds[][2] = {{PNG_COLOR_TYPE_GRAY, 1},        {PNG_COLOR_TYPE_GRAY, 2},
                             {PNG_COLOR_TYPE_GRAY, 4},        {PNG_COLOR_TYPE_GRAY, 8},
                             {PNG_COLOR_TYPE_GRAY, 16},       {PNG_COLOR_TYPE_RGB, 8},
@@ -571,8 +554,7 @@ static HdStatus decode_copy(const unsigned char *bytes, size_t size) {
     return status;
 }
 
-static void damaged_png_is_refused_quietly(void **state) {
-    (void)state;
+TEST(damaged_png_is_refused_quietly) {
     int old_descriptor;
     size_t accepted = 0;
     Sample *sample = make_sample(PNG_COLOR_TYPE_PALETTE, 4, PNG_INTERLACE_ADAM7, 13, 9, true);
@@ -590,8 +572,7 @@ static void damaged_png_is_refused_quietly(void **state) {
     free(sample);
 }
 
-static void messages_of_libpng_are_passed_on(void **state) {
-    (void)state;
+TEST(messages_of_libpng_are_passed_on) {
     Sample *sample = make_sample(PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_NONE, 13, 9, false);
     unsigned char *bytes = sample->file.bytes;
     check_refused(bytes, sample->file.size - 20, "the file ends too early");
@@ -620,8 +601,7 @@ static void check_unreadable(const char *path, const char *part) {
     expect_contains(error.message, part);
 }
 
-static void unreadable_textures_are_named(void **state) {
-    (void)state;
+TEST(unreadable_textures_are_named) {
     mkdir("textures", 0777);
     write_bytes("textures/empty", "", 0);
     assert_int_equal(mkfifo("textures/pipe", 0666), 0);
@@ -633,30 +613,4 @@ static void unreadable_textures_are_named(void **state) {
     write_bytes("textures/sparse", "", 0);
     assert_int_equal(truncate("textures/sparse", (off_t)5 << 30), 0);
     check_unreadable("textures/sparse", "5368709120 bytes, expected at most 4294967296");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_are_checked),
-        cmocka_unit_test(frames_become_bytes),
-        cmocka_unit_test(data_files_hold_the_bytes),
-        cmocka_unit_test(png_files_hold_the_colours),
-        cmocka_unit_test(png_files_may_have_16_bits),
-        cmocka_unit_test(textures_come_off_the_curve),
-        cmocka_unit_test(png_files_name_the_curve),
-        cmocka_unit_test(pfm_files_hold_the_values),
-        cmocka_unit_test(other_endings_are_the_data_format),
-        cmocka_unit_test(older_files_are_replaced),
-        cmocka_unit_test(stale_temporary_files_do_no_harm),
-        cmocka_unit_test(long_names_can_be_written),
-        cmocka_unit_test(full_disks_leave_older_files),
-        cmocka_unit_test(targets_that_are_no_files_are_refused),
-        cmocka_unit_test(wrong_data_is_refused),
-        cmocka_unit_test(large_data_is_no_texture),
-        cmocka_unit_test(every_kind_of_png_is_read),
-        cmocka_unit_test(damaged_png_is_refused_quietly),
-        cmocka_unit_test(messages_of_libpng_are_passed_on),
-        cmocka_unit_test(unreadable_textures_are_named),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -7,8 +7,8 @@
 
 #include <zlib.h>
 
-#include "expect.h"
 #include "image/png.h"
+#include "unit_test.h"
 
 enum { CHUNK = 1 << 20, MANY = 64 };
 
@@ -73,26 +73,16 @@ static void expect_not_read_on(bool before) {
     fclose(file);
 }
 
-static void a_file_without_end_is_not_read_to_it(void **state) {
-    (void)state;
+TEST(a_file_without_end_is_not_read_to_it) {
     expect_not_read_on(false);
     expect_not_read_on(true);
 }
 
-static void some_megabytes_besides_the_pixels_do(void **state) {
-    (void)state;
+TEST(some_megabytes_besides_the_pixels_do) {
     uint16_t codes[3] = {0};
     FILE *file = make_file(8, true);
     assert_int_equal(read_pixel(file, codes), HD_OK);
     assert_int_equal(codes[0], 65535);
     assert_int_equal(codes[2], 65535);
     fclose(file);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_file_without_end_is_not_read_to_it),
-        cmocka_unit_test(some_megabytes_besides_the_pixels_do),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,8 +30,7 @@ static HdPictureFacts read_picture(const char *path, HdCurve curve, HdPictureVal
     return facts;
 }
 
-static void png_has_the_codes_of_the_file(void **state) {
-    (void)state;
+TEST(png_has_the_codes_of_the_file) {
     HdError error = {0};
     HdFrame frame = make_frame();
     HdPictureValue values[VALUES];
@@ -58,8 +57,7 @@ static void png_has_the_codes_of_the_file(void **state) {
     hd_frame_free(&frame);
 }
 
-static void pfm_has_the_values_of_the_frame(void **state) {
-    (void)state;
+TEST(pfm_has_the_values_of_the_frame) {
     HdError error = {0};
     const HdPictureStyle style = {HD_CURVE_SRGB, 8};
     HdFrame frame = make_frame();
@@ -85,8 +83,7 @@ static void pfm_has_the_values_of_the_frame(void **state) {
     hd_frame_free(&frame);
 }
 
-static void pfm_may_be_big_endian(void **state) {
-    (void)state;
+TEST(pfm_may_be_big_endian) {
     const char bytes[] = "PF\n1 1\n1.0\n\x3f\x80\0\0\x3f\0\0\0\xc0\0\0\0";
     HdPictureValue values[3];
     write_bytes("big.pfm", bytes, sizeof bytes - 1);
@@ -108,8 +105,7 @@ static void check_refused_bytes(const char *bytes, size_t size, const char *part
     check_refused("wrong", part);
 }
 
-static void other_files_are_refused(void **state) {
-    (void)state;
+TEST(other_files_are_refused) {
     mkdir("folder", 0777);
     assert_int_equal(mkfifo("pipe", 0666), 0);
     check_refused("folder", "not a regular file");
@@ -142,8 +138,7 @@ static void other_files_are_refused(void **state) {
 }
 
 /* A PNG that is cut off is refused at the row where it ends, or after the last one. */
-static void cut_files_are_refused(void **state) {
-    (void)state;
+TEST(cut_files_are_refused) {
     HdError error = {0};
     const HdPictureStyle style = {HD_CURVE_SRGB, 8};
     HdFrame frame = make_frame();
@@ -165,15 +160,4 @@ static void cut_files_are_refused(void **state) {
         assert_int_equal(status, HD_BAD_INPUT);
         expect_contains(error.message, "cut.png");
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_has_the_codes_of_the_file),
-        cmocka_unit_test(pfm_has_the_values_of_the_frame),
-        cmocka_unit_test(pfm_may_be_big_endian),
-        cmocka_unit_test(other_files_are_refused),
-        cmocka_unit_test(cut_files_are_refused),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

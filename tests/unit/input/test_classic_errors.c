@@ -19,8 +19,7 @@ static void expect_token_rejected(int index, const char *replacement, const char
     free(text);
 }
 
-static void test_every_truncation(void **state) {
-    (void)state;
+TEST(test_every_truncation) {
     static HdError error;
     static HdSceneFile input;
     const Tokens tokens = official_tokens();
@@ -36,8 +35,7 @@ static void test_every_truncation(void **state) {
 }
 
 /* A number cut in two may still be one; nothing may be read behind the end. */
-static void test_every_byte_as_the_last(void **state) {
-    (void)state;
+TEST(test_every_byte_as_the_last) {
     static HdError error;
     static HdSceneFile input;
     for (size_t size = 0; size < sizeof official; size++) {
@@ -47,8 +45,7 @@ static void test_every_byte_as_the_last(void **state) {
     }
 }
 
-static void test_the_missing_field_is_named(void **state) {
-    (void)state;
+TEST(test_the_missing_field_is_named) {
     static HdError error;
     static HdSceneFile input;
     static const struct {
@@ -76,8 +73,7 @@ static void test_the_missing_field_is_named(void **state) {
     assert_int_equal(hd_classic_parse(&input, NULL, 0, "standard input", 4, &error), HD_BAD_INPUT);
 }
 
-static void test_a_word_in_place_of_every_number(void **state) {
-    (void)state;
+TEST(test_a_word_in_place_of_every_number) {
     const Tokens tokens = official_tokens();
     for (int i = 0; i < tokens.count; i++) {
         char start[64];
@@ -95,8 +91,7 @@ static void test_a_word_in_place_of_every_number(void **state) {
                           "standard input:7: solid 2: reflection is 'abc', expected a number");
 }
 
-static void test_what_is_no_number(void **state) {
-    (void)state;
+TEST(test_what_is_no_number) {
     static const char *const wrong[] = {
         "nan",   "NaN",  "inf",  "-inf", "infinity", "0x10",  "0x1p3",
         "1.5.2", "1,5",  "--1",  "+-1",  "1e",       "1e+",   ".",
@@ -111,8 +106,7 @@ static void test_what_is_no_number(void **state) {
     expect_token_rejected(FRAMES, "1e3", "is '1e3', expected a whole number");
 }
 
-static void test_counts_out_of_range(void **state) {
-    (void)state;
+TEST(test_counts_out_of_range) {
     expect_token_rejected(FRAMES, "0", "number of frames is '0', expected a whole number from 1");
     expect_token_rejected(FRAMES, "10000001", "number of frames is '10000001'");
     expect_token_rejected(FRAMES, "99999999999999999999", "number of frames is '9999");
@@ -130,8 +124,7 @@ static void test_counts_out_of_range(void **state) {
     expect_token_rejected(SAMPLES, "65", "square root of the number of rays per pixel is '65'");
 }
 
-static void test_values_that_the_scene_refuses(void **state) {
-    (void)state;
+TEST(test_values_that_the_scene_refuses) {
     expect_token_rejected(SOLID_1 + 3, "1.5",
                           "standard input:6: solid 1: colour's red is 1.5, expected a number from "
                           "0 to 1");
@@ -146,8 +139,7 @@ static void test_values_that_the_scene_refuses(void **state) {
     expect_token_rejected(LIGHT_COUNT + 4, "-1", "standard input: light 1: intensity's red is -1");
 }
 
-static void test_output_path(void **state) {
-    (void)state;
+TEST(test_output_path) {
     static HdSceneFile input;
     expect_token_rejected(OUTPUT, "img.data", "standard input:2: output path: ");
     expect_token_rejected(OUTPUT, "%d/%d.data", "standard input:2: output path: ");
@@ -158,8 +150,7 @@ static void test_output_path(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_long_tokens(void **state) {
-    (void)state;
+TEST(test_long_tokens) {
     static HdSceneFile input;
     static char token[HD_MAX_PATH + 1];
     memset(token, 'x', HD_MAX_PATH);
@@ -175,8 +166,7 @@ static void test_long_tokens(void **state) {
     expect_token_rejected(VIEW, token, "field of view has 4096 characters");
 }
 
-static void test_strange_bytes(void **state) {
-    (void)state;
+TEST(test_strange_bytes) {
     static HdError error;
     static HdSceneFile input;
     char text[sizeof official];
@@ -200,8 +190,7 @@ static void test_strange_bytes(void **state) {
     }
 }
 
-static void test_leftovers(void **state) {
-    (void)state;
+TEST(test_leftovers) {
     char text[sizeof official + 16];
     snprintf(text, sizeof text, "%s\n 17 18", official);
     expect_rejected(text, "standard input:15: what follows the last value is '17', expected the "
@@ -212,8 +201,7 @@ static void test_leftovers(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_no_such_variant(void **state) {
-    (void)state;
+TEST(test_no_such_variant) {
     static HdError error;
     static HdSceneFile input;
     const int wrong[4] = {0, 11, -1, 2147483647};
@@ -224,22 +212,4 @@ static void test_no_such_variant(void **state) {
         expect_contains(error.message, "expected 1 to 10");
         expect_empty(&input);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_truncation),
-        cmocka_unit_test(test_every_byte_as_the_last),
-        cmocka_unit_test(test_the_missing_field_is_named),
-        cmocka_unit_test(test_a_word_in_place_of_every_number),
-        cmocka_unit_test(test_what_is_no_number),
-        cmocka_unit_test(test_counts_out_of_range),
-        cmocka_unit_test(test_values_that_the_scene_refuses),
-        cmocka_unit_test(test_output_path),
-        cmocka_unit_test(test_long_tokens),
-        cmocka_unit_test(test_strange_bytes),
-        cmocka_unit_test(test_leftovers),
-        cmocka_unit_test(test_no_such_variant),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

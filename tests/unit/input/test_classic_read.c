@@ -16,8 +16,7 @@ static void expect_path(const HdCylinderPath *actual, const double expected[10])
         expect_near(values[i], expected[i], 0.0);
 }
 
-static void test_official_camera_and_picture(void **state) {
-    (void)state;
+TEST(test_official_camera_and_picture) {
     static HdSceneFile input;
     const double eye[10] = {7.0, 3.0, 0.0, 2.0, 1.0, 2.0, 6.0, 1.0, 0.0, 0.0};
     const double target[10] = {2.0, 0.0, 0.0, 0.5, 0.1, 1.0, 4.0, 1.0, 0.0, 0.0};
@@ -39,8 +38,7 @@ static void test_official_camera_and_picture(void **state) {
     expect_empty(&input);
 }
 
-static void test_official_solids(void **state) {
-    (void)state;
+TEST(test_official_solids) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     assert_int_equal(input.scene.solid_count, 3);
@@ -69,8 +67,7 @@ static void test_official_solids(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_official_floor_and_lights(void **state) {
-    (void)state;
+TEST(test_official_floor_and_lights) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     const HdFloor *floor = &input.scene.floor;
@@ -93,8 +90,7 @@ static void test_official_floor_and_lights(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_what_the_input_lacks(void **state) {
-    (void)state;
+TEST(test_what_the_input_lacks) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     for (int i = 0; i < 3; i++) {
@@ -132,8 +128,7 @@ static void test_what_the_input_lacks(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_no_light_and_no_edge_light(void **state) {
-    (void)state;
+TEST(test_no_light_and_no_edge_light) {
     static HdSceneFile input;
     expect_token_accepted(&input, SOLID_1 + 9, "0");
     expect_near(input.scene.solids[0].lights.intensity, 0.0, 0.0);
@@ -149,8 +144,7 @@ static void test_no_light_and_no_edge_light(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_any_white_space_separates(void **state) {
-    (void)state;
+TEST(test_any_white_space_separates) {
     static HdSceneFile input;
     static const char spaces[] = " \t\n\v\f\r";
     char text[sizeof official];
@@ -163,8 +157,7 @@ static void test_any_white_space_separates(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_what_is_a_number(void **state) {
-    (void)state;
+TEST(test_what_is_a_number) {
     static const struct {
         const char *text;
         double value;
@@ -181,8 +174,7 @@ static void test_what_is_a_number(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_variants(void **state) {
-    (void)state;
+TEST(test_variants) {
     static const char *const names[10] = {"TGO", "TGD", "TGI", "TOD", "TOI",
                                           "TDI", "GOD", "GOI", "GDI", "ODI"};
     static const char letters[] = "TGODI";
@@ -264,8 +256,7 @@ static void expect_round_trip(const HdSceneFile *input) {
     free(text);
 }
 
-static void test_round_trip(void **state) {
-    (void)state;
+TEST(test_round_trip) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     expect_round_trip(&input);
@@ -279,8 +270,7 @@ static void test_round_trip(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_printed_text_is_short_and_in_lines(void **state) {
-    (void)state;
+TEST(test_printed_text_is_short_and_in_lines) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     input.scene.eye.cylinder.z_phase = 0.1 + 0.2;
@@ -304,8 +294,7 @@ static void expect_not_printed(const HdSceneFile *input, const char *message) {
     fclose(file);
 }
 
-static void test_what_the_format_cannot_hold(void **state) {
-    (void)state;
+TEST(test_what_the_format_cannot_hold) {
     static HdSceneFile input;
     expect_parsed(&input, official, 4);
     input.scene.solid_count = 2;
@@ -326,8 +315,7 @@ static void test_what_the_format_cannot_hold(void **state) {
     hd_scene_file_free(&input);
 }
 
-static void test_a_full_disk(void **state) {
-    (void)state;
+TEST(test_a_full_disk) {
     static HdError error;
     static HdSceneFile input;
     FILE *full = fopen("/dev/full", "w");
@@ -338,22 +326,4 @@ static void test_a_full_disk(void **state) {
     expect_contains(error.message, "cannot write the configuration");
     fclose(full);
     hd_scene_file_free(&input);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_official_camera_and_picture),
-        cmocka_unit_test(test_official_solids),
-        cmocka_unit_test(test_official_floor_and_lights),
-        cmocka_unit_test(test_what_the_input_lacks),
-        cmocka_unit_test(test_no_light_and_no_edge_light),
-        cmocka_unit_test(test_any_white_space_separates),
-        cmocka_unit_test(test_what_is_a_number),
-        cmocka_unit_test(test_variants),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_printed_text_is_short_and_in_lines),
-        cmocka_unit_test(test_what_the_format_cannot_hold),
-        cmocka_unit_test(test_a_full_disk),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,8 +49,7 @@ static void expect_problems(const char *text, const char *expected) {
 
 /* ---- what entries say ---- */
 
-static void test_defaults(void **state) {
-    (void)state;
+TEST(test_defaults) {
     expect_scene(&file, SCENE("{\"file\": \"a.obj\"}"), NULL);
     const HdMeshEntry *entry = file.mesh_entries;
     assert_int_equal(file.mesh_entry_count, 1);
@@ -69,8 +68,7 @@ static void test_defaults(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_every_key(void **state) {
-    (void)state;
+TEST(test_every_key) {
     expect_scene(&file, rich_text, NULL);
     const HdMeshEntry *entry = file.mesh_entries;
     assert_int_equal(file.mesh_entry_count, 2);
@@ -88,8 +86,7 @@ static void test_every_key(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_wrong_values(void **state) {
-    (void)state;
+TEST(test_wrong_values) {
     static const char *const wrong[][2] = {
         {"meshes[0].scale=0", "meshes[0].scale is 0, expected a number from 1e-12 to 1e12"},
         {"meshes[0].scale=-1", "meshes[0].scale is -1, expected a number from 1e-12 to 1e12"},
@@ -124,8 +121,7 @@ static void test_wrong_values(void **state) {
         expect_refused(rich_text, wrong[i][0], wrong[i][1]);
 }
 
-static void test_too_many_entries(void **state) {
-    (void)state;
+TEST(test_too_many_entries) {
     const size_t count = HD_MAX_INSTANCES + 1;
     char *text = malloc(64 + count * 3);
     assert_non_null(text);
@@ -146,8 +142,7 @@ static void expect_file(const char *path, HdSceneChange change, const char *expe
     hd_scene_file_free(&file);
 }
 
-static void test_files_count_from_the_folder(void **state) {
-    (void)state;
+TEST(test_files_count_from_the_folder) {
     assert_int_equal(mkdir("folder", 0700), 0);
     write_text("a.json", rich_text);
     write_text("folder/a.json", rich_text);
@@ -169,8 +164,7 @@ static void test_files_count_from_the_folder(void **state) {
 static const char corner_text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nvn 0 0 1\n"
                                   "f 1//1 2//1 3//1\nf 1 4 2\nf 1 1 2\n";
 
-static void test_entries_share_meshes(void **state) {
-    (void)state;
+TEST(test_entries_share_meshes) {
     write_text("a.obj", corner_text);
     write_text("b.obj", corner_text);
     expect_loaded(SCENE("{\"file\": \"b.obj\"}, {\"file\": \"a.obj\", \"position\": [1, 2, 3]},\n"
@@ -205,8 +199,7 @@ static HdVec3 first_normal(const HdMesh *mesh) {
     return hd_normalize(mesh->normals[mesh->corner_normals[0][0]]);
 }
 
-static void test_normals(void **state) {
-    (void)state;
+TEST(test_normals) {
     write_text("a.obj", corner_text);
     expect_loaded(SCENE("{\"file\": \"a.obj\"}, {\"file\": \"a.obj\", \"normals\": \"flat\"},\n"
                         "{\"file\": \"a.obj\", \"normals\": \"smooth\"},\n"
@@ -223,8 +216,7 @@ static void test_normals(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_every_wrong_file_is_told(void **state) {
-    (void)state;
+TEST(test_every_wrong_file_is_told) {
     write_text("a.obj", corner_text);
     write_text("bad.obj", "v 0 0 0\nv 1 0 x\n");
     write_text("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
@@ -245,8 +237,7 @@ static void test_every_wrong_file_is_told(void **state) {
     expect_contains(error.message, "\n  meshes[1].file: cannot read the mesh no.obj: No such file");
 }
 
-static void test_sizes(void **state) {
-    (void)state;
+TEST(test_sizes) {
     write_text("small.obj", "v 0 0 0\nv 1e-3 0 0\nv 0 1e-3 0\nf 1 2 3\n");
     write_text("large.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nf 1 2 3\n");
     write_text("far.obj", "v 1e6 0 0\nv 1000100 0 0\nv 1e6 100 0\nf 1 2 3\n");
@@ -269,8 +260,7 @@ static const char textured_text[] = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 
 static const char library_text[] = "newmtl grey\nmap_Kd grey.data\nnewmtl too\nmap_Kd grey.data\n"
                                    "newmtl none\nKd 0.5 0.25 1\nmap_Kd none.png\nnewmtl plain\n";
 
-static void test_textures(void **state) {
-    (void)state;
+TEST(test_textures) {
     static const unsigned char grey[12] = {1, 0, 0, 0, 1, 0, 0, 0, 128, 128, 128, 255};
     assert_int_equal(mkdir("t", 0700), 0);
     write_text("t/t.obj", textured_text);
@@ -303,8 +293,7 @@ static void test_textures(void **state) {
 }
 
 /* A material that glows is light enough. */
-static void test_light_of_meshes(void **state) {
-    (void)state;
+TEST(test_light_of_meshes) {
     static const struct {
         const char *library, *entry;
         bool is_lit;
@@ -327,21 +316,4 @@ static void test_light_of_meshes(void **state) {
         assert_int_equal(strstr(notes.text, "every picture is black") == NULL, cases[i].is_lit);
         hd_scene_file_free(&file);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_every_key),
-        cmocka_unit_test(test_wrong_values),
-        cmocka_unit_test(test_too_many_entries),
-        cmocka_unit_test(test_files_count_from_the_folder),
-        cmocka_unit_test(test_entries_share_meshes),
-        cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_every_wrong_file_is_told),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_light_of_meshes),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

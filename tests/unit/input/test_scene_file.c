@@ -29,8 +29,7 @@ static void expect_default_material(const HdMaterial *material) {
     assert_false(material->lit_from_behind);
 }
 
-static void test_defaults_of_the_least_scene(void **state) {
-    (void)state;
+TEST(test_defaults_of_the_least_scene) {
     expect_scene(&file, least_text, NULL);
     const HdScene *scene = &file.scene;
     assert_int_equal(scene->width, 640);
@@ -57,8 +56,7 @@ static void test_defaults_of_the_least_scene(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_defaults_of_parts(void **state) {
-    (void)state;
+TEST(test_defaults_of_parts) {
     expect_scene(&file,
                  "{\"hedron\": 1, \"camera\": {\"eye\": {}, \"target\": [1, 0, 0]},\n"
                  " \"materials\": {\"m\": {}, \"n\": {\"diffuse\": 1}},\n"
@@ -94,8 +92,7 @@ static void test_defaults_of_parts(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_rich_picture_and_camera(void **state) {
-    (void)state;
+TEST(test_rich_picture_and_camera) {
     static const double eye[10] = {30.0, 1.0, 0.1, 0.2, 0.3, 2.0, 3.0, 4.0, 0.4, 0.5};
     expect_scene(&file, rich_text, NULL);
     const HdScene *scene = &file.scene;
@@ -121,8 +118,7 @@ static void test_rich_picture_and_camera(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_rich_material(void **state) {
-    (void)state;
+TEST(test_rich_material) {
     expect_scene(&file, rich_text, NULL);
     const HdMaterial *glass = &file.scene.solids[0].face;
     expect_vector(glass->colour, 0.9, 0.8, 0.7);
@@ -145,8 +141,7 @@ static void test_rich_material(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_one_inner_share_alone(void **state) {
-    (void)state;
+TEST(test_one_inner_share_alone) {
     expect_scene(&file, rich_text,
                  "materials.glass={\"reflection\": 0.25, \"transmission\": 0.5, "
                  "\"inner_reflection\": 0.125}");
@@ -163,8 +158,7 @@ static void test_one_inner_share_alone(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_rich_solids(void **state) {
-    (void)state;
+TEST(test_rich_solids) {
     expect_scene(&file, rich_text, NULL);
     assert_int_equal(file.scene.solid_count, 3);
     const HdSolid *solids = file.scene.solids;
@@ -192,8 +186,7 @@ static void test_rich_solids(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_rich_lights_and_floor(void **state) {
-    (void)state;
+TEST(test_rich_lights_and_floor) {
     expect_scene(&file, rich_text, NULL);
     assert_int_equal(file.scene.light_count, 2);
     const HdLight *lights = file.scene.lights;
@@ -210,8 +203,7 @@ static void test_rich_lights_and_floor(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_kinds(void **state) {
-    (void)state;
+TEST(test_kinds) {
     static const char *const names[] = {"tetrahedron", "cube", "octahedron", "dodecahedron",
                                         "icosahedron"};
     for (int kind = 0; kind < HD_SOLID_KIND_COUNT; kind++) {
@@ -312,8 +304,7 @@ static void expect_change_refused(const char *path, const char *value, const cha
     assert_string_equal(expect_refused(rich_text, change, message), message);
 }
 
-static void test_ranges(void **state) {
-    (void)state;
+TEST(test_ranges) {
     for (int i = 0; i < RANGE_COUNT; i++) {
         const Range *range = &ranges[i];
         expect_change_accepted(range->path, range->low);
@@ -323,8 +314,7 @@ static void test_ranges(void **state) {
     }
 }
 
-static void test_wrong_types_of_numbers(void **state) {
-    (void)state;
+TEST(test_wrong_types_of_numbers) {
     for (int i = 0; i < RANGE_COUNT; i++) {
         const Range *range = &ranges[i];
         expect_change_refused(range->path, "blue", "a string, \"blue\"", range->expected);
@@ -340,16 +330,14 @@ static void test_wrong_types_of_numbers(void **state) {
     }
 }
 
-static void test_integers_with_a_point(void **state) {
-    (void)state;
+TEST(test_integers_with_a_point) {
     expect_scene(&file, rich_text, "image.width=1e2");
     assert_int_equal(file.scene.width, 100);
     hd_scene_file_free(&file);
     expect_change_refused("image.width", "1e300", "1e300", "an integer from 1 to 65535");
 }
 
-static void test_wrong_types_of_other_fields(void **state) {
-    (void)state;
+TEST(test_wrong_types_of_other_fields) {
     static const char vector[] = "three numbers, each a number from -1e12 to 1e12";
     static const char path[] = "three numbers, [x, y, z], or an object with the path on a cylinder";
     static const char material[] = "the name of one of the materials";
@@ -381,8 +369,7 @@ static void test_wrong_types_of_other_fields(void **state) {
     expect_change_refused("materials", "3", "3", "an object with a material for each name");
 }
 
-static void test_numbers_of_elements(void **state) {
-    (void)state;
+TEST(test_numbers_of_elements) {
     static char change[1024] = "solids[1].edge_lights.colours=[[0,0,0]";
     expect_refused(rich_text, "solids[1].edge_lights.colours=[]",
                    "solids[1].edge_lights.colours has 0 elements, expected 1 to 30 elements");
@@ -400,8 +387,7 @@ static void test_numbers_of_elements(void **state) {
                    "floor.corners has 3 elements, expected 4 elements");
 }
 
-static void test_unknown_keys(void **state) {
-    (void)state;
+TEST(test_unknown_keys) {
     static const char *const objects[] = {
         "image",        "camera",    "camera.eye",    "output", "materials.glass",
         "solids[0]",    "lights[0]", "solids[1].rim", "floor",  "solids[1].edge_lights",
@@ -424,8 +410,7 @@ static void test_unknown_keys(void **state) {
                    "[\"a\\u001b.b\"] is an unknown key");
 }
 
-static void test_missing_keys(void **state) {
-    (void)state;
+TEST(test_missing_keys) {
     const char *message = expect_refused("{}", NULL, "hedron is missing, expected 1");
     expect_contains(message, "camera is missing, expected an object");
     expect_contains(message, "a.json: 2 problems");
@@ -441,16 +426,14 @@ static void test_missing_keys(void **state) {
     expect_refused(rich_text, "floor.texture={}", "floor.texture.file is missing, expected a");
 }
 
-static void test_two_falloffs(void **state) {
-    (void)state;
+TEST(test_two_falloffs) {
     expect_refused(rich_text, "lights[0].falloff_end=3",
                    "lights[0].falloff_end is given beside \"falloff_distance\", expected only one");
     expect_refused(rich_text, "solids[1].edge_lights.falloff_end=3",
                    "solids[1].edge_lights.falloff_end is given beside \"falloff_distance\"");
 }
 
-static void test_no_json(void **state) {
-    (void)state;
+TEST(test_no_json) {
     expect_refused("", NULL, "a.json is empty, expected a scene in JSON");
     expect_refused("hello", NULL, "a.json:1:");
     expect_refused("{\"hedron\": 1,\n \"hedron\": 1}", NULL, "a.json:2:9: duplicate object key");
@@ -467,16 +450,14 @@ static void test_no_json(void **state) {
     expect_refused("[]", NULL, "a.json: the scene is an array of 0 elements, expected an object");
 }
 
-static void test_zero_bytes(void **state) {
-    (void)state;
+TEST(test_zero_bytes) {
     static HdError error;
     static const char text[] = "{\n  \"hedron\": 1,\0}";
     assert_int_equal(parse_scene(&file, text, sizeof text - 1, NULL, 0, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "a.json:2:15: there is a zero byte, expected JSON text");
 }
 
-static void test_cut_at_every_byte(void **state) {
-    (void)state;
+TEST(test_cut_at_every_byte) {
     static HdError error;
     for (size_t size = 0; size < sizeof rich_text - 2; size++) {
         assert_int_equal(parse_scene(&file, rich_text, size, NULL, 0, &error), HD_BAD_INPUT);
@@ -485,8 +466,7 @@ static void test_cut_at_every_byte(void **state) {
     }
 }
 
-static void test_every_byte_spoiled(void **state) {
-    (void)state;
+TEST(test_every_byte_spoiled) {
     static HdError error;
     static const char spoilers[] = {'"', '[', '}', '9', '-', (char)0x80};
     static char text[sizeof rich_text];
@@ -500,8 +480,7 @@ static void test_every_byte_spoiled(void **state) {
         }
 }
 
-static void test_deep_nesting(void **state) {
-    (void)state;
+TEST(test_deep_nesting) {
     static char text[100000];
     memset(text, '[', sizeof text - 1);
     expect_refused(text, NULL, "there are too many arrays and objects in each other");
@@ -522,8 +501,7 @@ static void expect_too_many(const char *key, const char *element, int count, con
     free(text);
 }
 
-static void test_too_many_elements(void **state) {
-    (void)state;
+TEST(test_too_many_elements) {
     expect_too_many("solids", "{}", 100000,
                     "a.json: solids has 100000 elements, expected at most 256 elements");
     expect_too_many("solids", "{}", 257,
@@ -532,8 +510,7 @@ static void test_too_many_elements(void **state) {
                     "a.json: lights has 100001 elements, expected at most 100000 elements");
 }
 
-static void test_too_many_materials(void **state) {
-    (void)state;
+TEST(test_too_many_materials) {
     static char text[32768];
     size_t used = (size_t)snprintf(text, sizeof text, "materials={\"a\": {}");
     for (int i = 0; i < 1023; i++)
@@ -545,8 +522,7 @@ static void test_too_many_materials(void **state) {
     expect_refused(least_text, text, "materials has 1025 materials, expected at most 1024");
 }
 
-static void test_all_problems_at_once(void **state) {
-    (void)state;
+TEST(test_all_problems_at_once) {
     const char *message =
         expect_refused("{\"hedron\": 1, \"image\": {\"width\": 0, \"depth\": []},\n"
                        " \"camera\": {\"frames\": 1.5}, \"colour\": 3,\n"
@@ -564,8 +540,7 @@ static void test_all_problems_at_once(void **state) {
     expect_contains(message, "\n  colour is an unknown key, expected \"$schema\", \"hedron\", ");
 }
 
-static void test_checks_of_the_whole_scene(void **state) {
-    (void)state;
+TEST(test_checks_of_the_whole_scene) {
     expect_refused(rich_text, "materials.glass.transmission=0.99", "1.03");
     /* They are told along with what is wrong elsewhere. */
     const HdSceneChange changes[] = {"materials.glass.transmission=0.99", "image.width=0"};
@@ -578,8 +553,7 @@ static void test_checks_of_the_whole_scene(void **state) {
 }
 
 /* The sum of a material's shares is told once, with the material's name, however many wear it. */
-static void test_shares_of_a_material(void **state) {
-    (void)state;
+TEST(test_shares_of_a_material) {
     static const char text[] =
         "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
         " \"materials\": {\"blue glass\": {\"reflection\": 0.5}, \"m\": {\"reflection\": 0.5}},\n"
@@ -598,8 +572,7 @@ static void test_shares_of_a_material(void **state) {
 }
 
 /* A default that stands in for a wrong value makes nothing else look wrong. */
-static void test_one_problem_stays_one(void **state) {
-    (void)state;
+TEST(test_one_problem_stays_one) {
     static const char *const changes[] = {
         "camera.eye=3",
         "camera={}",
@@ -622,8 +595,7 @@ static void test_one_problem_stays_one(void **state) {
     }
 }
 
-static void test_changes(void **state) {
-    (void)state;
+TEST(test_changes) {
     static HdError error;
     const HdSceneChange changes[] = {
         "image.width=100",       "solids[1].circumradius=3.5",
@@ -650,8 +622,7 @@ static void test_changes(void **state) {
 }
 
 /* Messages spell a key in their own way, and name the change all the same. */
-static void test_changes_of_keys_with_quotes(void **state) {
-    (void)state;
+TEST(test_changes_of_keys_with_quotes) {
     static const char text[] = "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
                                " \"materials\": {\"blue glass\": {}, \"blue\": {}}}";
     static const char expected[] = "expected a number from 0 to 1";
@@ -672,8 +643,7 @@ static void test_changes_of_keys_with_quotes(void **state) {
     assert_string_equal(error.message, message);
 }
 
-static void test_changes_that_cannot_be_made(void **state) {
-    (void)state;
+TEST(test_changes_that_cannot_be_made) {
     expect_refused(rich_text, "camera.target.r0=3",
                    "a.json: --set camera.target.r0=3: camera.target is an array of 3 elements, "
                    "expected an object");
@@ -689,8 +659,7 @@ static void test_changes_that_cannot_be_made(void **state) {
     expect_refused("[]", "image.width=3", "the scene is an array of 0 elements, expected an obj");
 }
 
-static void test_changes_that_are_not_understood(void **state) {
-    (void)state;
+TEST(test_changes_that_are_not_understood) {
     static const char *const changes[] = {"=",
                                           "=3",
                                           ".image=3",
@@ -716,8 +685,7 @@ static void test_changes_that_are_not_understood(void **state) {
     }
 }
 
-static void test_files(void **state) {
-    (void)state;
+TEST(test_files) {
     static HdError error;
     assert_int_equal(hd_scene_file_read(&file, "missing.json", &plain, &error), HD_BAD_INPUT);
     expect_contains(error.message, "cannot read the scene missing.json: ");
@@ -743,8 +711,7 @@ static void expect_texture(const char *path, const char *change, const char *exp
     hd_scene_file_free(&file);
 }
 
-static void test_textures_count_from_the_folder(void **state) {
-    (void)state;
+TEST(test_textures_count_from_the_folder) {
     static HdError error;
     assert_int_equal(mkdir("folder", 0700), 0);
     write_bytes("a.json", rich_text, strlen(rich_text));
@@ -771,8 +738,7 @@ static void test_textures_count_from_the_folder(void **state) {
 }
 
 /* The reader passes the curve on: middle grey on it is darker in linear light. */
-static void test_curve_of_the_texture(void **state) {
-    (void)state;
+TEST(test_curve_of_the_texture) {
     static const unsigned char grey[12] = {1, 0, 0, 0, 1, 0, 0, 0, 128, 128, 128, 255};
     static HdError error;
     write_bytes("grey.data", grey, sizeof grey);
@@ -786,8 +752,7 @@ static void test_curve_of_the_texture(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_texture_is_loaded(void **state) {
-    (void)state;
+TEST(test_texture_is_loaded) {
     static HdError error;
     expect_scene(&file, rich_text, "floor.texture.file=builtin:floor");
     assert_int_equal(hd_scene_file_load_texture(&file, &error), HD_OK);
@@ -803,54 +768,11 @@ static void test_texture_is_loaded(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_relative_textures(void **state) {
-    (void)state;
+TEST(test_relative_textures) {
     static const char *const relative[] = {"a", "a/b", "./a", "~a", "~a/b", "a~/b"};
     static const char *const others[] = {"", "/a", "~", "~/a", HD_BUILTIN_TEXTURE};
     for (size_t i = 0; i < sizeof relative / sizeof *relative; i++)
         assert_true(hd_texture_path_is_relative(relative[i]));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         assert_false(hd_texture_path_is_relative(others[i]));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults_of_the_least_scene),
-        cmocka_unit_test(test_defaults_of_parts),
-        cmocka_unit_test(test_rich_picture_and_camera),
-        cmocka_unit_test(test_rich_material),
-        cmocka_unit_test(test_one_inner_share_alone),
-        cmocka_unit_test(test_rich_solids),
-        cmocka_unit_test(test_rich_lights_and_floor),
-        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_ranges),
-        cmocka_unit_test(test_wrong_types_of_numbers),
-        cmocka_unit_test(test_integers_with_a_point),
-        cmocka_unit_test(test_wrong_types_of_other_fields),
-        cmocka_unit_test(test_numbers_of_elements),
-        cmocka_unit_test(test_relative_textures),
-        cmocka_unit_test(test_unknown_keys),
-        cmocka_unit_test(test_missing_keys),
-        cmocka_unit_test(test_two_falloffs),
-        cmocka_unit_test(test_no_json),
-        cmocka_unit_test(test_zero_bytes),
-        cmocka_unit_test(test_cut_at_every_byte),
-        cmocka_unit_test(test_every_byte_spoiled),
-        cmocka_unit_test(test_deep_nesting),
-        cmocka_unit_test(test_too_many_elements),
-        cmocka_unit_test(test_too_many_materials),
-        cmocka_unit_test(test_all_problems_at_once),
-        cmocka_unit_test(test_checks_of_the_whole_scene),
-        cmocka_unit_test(test_shares_of_a_material),
-        cmocka_unit_test(test_one_problem_stays_one),
-        cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_changes_of_keys_with_quotes),
-        cmocka_unit_test(test_changes_that_cannot_be_made),
-        cmocka_unit_test(test_changes_that_are_not_understood),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_textures_count_from_the_folder),
-        cmocka_unit_test(test_texture_is_loaded),
-        cmocka_unit_test(test_curve_of_the_texture),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

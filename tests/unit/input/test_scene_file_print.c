@@ -12,7 +12,6 @@
 
 #define SCHEMA "scenes/schema/hedron-scene.schema.json"
 
-static const char *source_folder;
 static HdSceneFile first, second;
 
 /* Bit by bit: 0 and -0 differ. */
@@ -150,22 +149,19 @@ static void expect_round_trip(void) {
     free(text);
 }
 
-static void test_rich_scene(void **state) {
-    (void)state;
+TEST(test_rich_scene) {
     expect_scene(&first, rich_text, NULL);
     expect_round_trip();
     hd_scene_file_free(&first);
 }
 
-static void test_least_scene(void **state) {
-    (void)state;
+TEST(test_least_scene) {
     expect_scene(&first, least_text, NULL);
     expect_round_trip();
     hd_scene_file_free(&first);
 }
 
-static void test_values_that_are_hard_to_write(void **state) {
-    (void)state;
+TEST(test_values_that_are_hard_to_write) {
     static const char *const changes[] = {
         "camera.eye.r0=-0.0",
         "camera.eye.z0=0.1",
@@ -218,8 +214,7 @@ static double random_light(void) {
 }
 
 /* The product of colour and intensity must come out to the bit. */
-static void test_intensities_of_lights(void **state) {
-    (void)state;
+TEST(test_intensities_of_lights) {
     enum { COUNT = 20000 };
     expect_scene(&first, least_text, NULL);
     first.scene.lights = calloc(COUNT, sizeof *first.scene.lights);
@@ -231,8 +226,7 @@ static void test_intensities_of_lights(void **state) {
     hd_scene_file_free(&first);
 }
 
-static void test_classic_scenes(void **state) {
-    (void)state;
+TEST(test_classic_scenes) {
     for (int variant = 1; variant <= HD_CLASSIC_VARIANTS; variant++) {
         expect_parsed(&first, official, variant);
         assert_int_equal(first.output.style.frames_per_second, 30);
@@ -250,8 +244,7 @@ static void expect_printed(const char *part) {
     free(text);
 }
 
-static void test_layout(void **state) {
-    (void)state;
+TEST(test_layout) {
     expect_scene(&first, rich_text, "lights[0].colour=[0.5,0.25,0]");
     expect_printed("{\n  \"hedron\": 1,\n  \"image\": {\n    \"width\": 320,\n");
     expect_printed("\n    \"target\": [0.5, 0.25, 0.125]\n");
@@ -272,8 +265,7 @@ static void test_layout(void **state) {
     hd_scene_file_free(&first);
 }
 
-static void test_paths_that_are_not_utf8(void **state) {
-    (void)state;
+TEST(test_paths_that_are_not_utf8) {
     static HdError error;
     expect_scene(&first, least_text, NULL);
     strcpy(first.output.path, "\xff.png");
@@ -287,8 +279,7 @@ static void test_paths_that_are_not_utf8(void **state) {
     hd_scene_file_free(&first);
 }
 
-static void test_a_stream_that_fails(void **state) {
-    (void)state;
+TEST(test_a_stream_that_fails) {
     static HdError error;
     FILE *full = fopen("/dev/full", "w");
     if (full == NULL)
@@ -307,7 +298,7 @@ static char *read_schema(void) {
     char path[4096];
     char *text = calloc(1, 1 << 20);
     assert_non_null(text);
-    snprintf(path, sizeof path, "%s/%s", source_folder, SCHEMA);
+    snprintf(path, sizeof path, "%s/%s", unit_project, SCHEMA);
     FILE *file = fopen(path, "rb");
     if (file == NULL)
         fail_msg("cannot open %s", path);
@@ -316,8 +307,7 @@ static char *read_schema(void) {
     return text;
 }
 
-static void test_committed_schema(void **state) {
-    (void)state;
+TEST(test_committed_schema) {
     char *committed = read_schema();
     char *text = printed(hd_scene_schema_print);
     if (strcmp(committed, text) != 0)
@@ -363,8 +353,7 @@ static int expect_object_schema(const HdObjectType *type, const json_t *schema) 
     return count;
 }
 
-static void test_schema_has_every_field(void **state) {
-    (void)state;
+TEST(test_schema_has_every_field) {
     char *text = printed(hd_scene_schema_print);
     json_error_t error;
     json_t *schema = json_loads(text, JSON_REJECT_DUPLICATES, &error);
@@ -376,8 +365,7 @@ static void test_schema_has_every_field(void **state) {
 }
 
 /* The reader tells these pairs by their keys. */
-static void test_table_is_sound(void **state) {
-    (void)state;
+TEST(test_table_is_sound) {
     for (int i = 0; i < hd_scene_fields.field_count; i++) {
         const HdObjectType *type = hd_scene_fields.fields[i].object;
         for (int k = 0; type != NULL && k < type->field_count; k++) {
@@ -392,22 +380,4 @@ static void test_table_is_sound(void **state) {
         }
     }
     assert_null(hd_field(&hd_scene_fields, "Hedron"));
-}
-
-int main(int argc, char **argv) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rich_scene),
-        cmocka_unit_test(test_least_scene),
-        cmocka_unit_test(test_values_that_are_hard_to_write),
-        cmocka_unit_test(test_intensities_of_lights),
-        cmocka_unit_test(test_classic_scenes),
-        cmocka_unit_test(test_layout),
-        cmocka_unit_test(test_paths_that_are_not_utf8),
-        cmocka_unit_test(test_a_stream_that_fails),
-        cmocka_unit_test(test_committed_schema),
-        cmocka_unit_test(test_schema_has_every_field),
-        cmocka_unit_test(test_table_is_sound),
-    };
-    source_folder = argc > 1 ? argv[1] : ".";
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

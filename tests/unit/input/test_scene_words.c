@@ -5,8 +5,7 @@
 
 static HdSceneFile file;
 
-static void test_output_paths(void **state) {
-    (void)state;
+TEST(test_output_paths) {
     static const char *const wrong[] = {"film.avi", "x.jpg", "none", "film.mp4.old", ".png/x"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         char change[64], message[256];
@@ -32,8 +31,7 @@ static void test_output_paths(void **state) {
     }
 }
 
-static void test_numbers_by_value(void **state) {
-    (void)state;
+TEST(test_numbers_by_value) {
     expect_scene(&file, rich_text, "output.bits=16.0");
     assert_int_equal(file.output.style.picture.bits, 16);
     hd_scene_file_free(&file);
@@ -48,8 +46,7 @@ static void test_numbers_by_value(void **state) {
                    "double can hold");
 }
 
-static void test_control_characters(void **state) {
-    (void)state;
+TEST(test_control_characters) {
     expect_refused(rich_text, "floor.texture.file=\"a\\u001b[2J.png\"",
                    "floor.texture.file is a string, \"a\\u001b[2J.png\", expected a name without "
                    "control characters");
@@ -74,8 +71,7 @@ static void expect_meant(const char *object, const char *word, const char *meant
     assert_string_equal(expect_refused(rich_text, change, ""), message);
 }
 
-static void test_synonyms_of_keys(void **state) {
-    (void)state;
+TEST(test_synonyms_of_keys) {
     static const char *const words[][3] = {
         {"camera", "fov", "field_of_view"},
         {"camera", "position", "eye"},
@@ -107,8 +103,7 @@ static void test_synonyms_of_keys(void **state) {
                    "lights[0].radius is an unknown key, expected \"position\", ");
 }
 
-static void test_synonyms_of_kinds(void **state) {
-    (void)state;
+TEST(test_synonyms_of_kinds) {
     expect_refused(rich_text, "solids[0].kind=hexahedron",
                    "solids[0].kind is a string, \"hexahedron\"; did you mean \"cube\"?");
     expect_refused(rich_text, "solids[0].kind=Cube", "\"Cube\"; did you mean \"cube\"?");
@@ -117,8 +112,7 @@ static void test_synonyms_of_kinds(void **state) {
     expect_refused(rich_text, "solids[0].kind=ball", "\"ball\", expected \"tetrahedron\", ");
 }
 
-static void test_paths_of_changes(void **state) {
-    (void)state;
+TEST(test_paths_of_changes) {
     static const char dotted[] = "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]},\n"
                                  " \"materials\": {\"my.glass\": {}, \"a[0]=b\": {}}}";
     expect_refused(rich_text, "solids.0.centre=[1,2,3]",
@@ -139,8 +133,7 @@ static void test_paths_of_changes(void **state) {
     hd_scene_file_free(&file);
 }
 
-static void test_hints_for_json(void **state) {
-    (void)state;
+TEST(test_hints_for_json) {
     expect_refused("{\"hedron\": 1,\n }", NULL, "; JSON has no comma before '}'");
     expect_refused("{\"solids\": [1, ]}", NULL, "; JSON has no comma before ']'");
     expect_refused("{\"hedron\": 1 // one\n}", NULL, "a.json:1:14: ");
@@ -166,8 +159,7 @@ static void test_hints_for_json(void **state) {
                         "scene.json' makes a scene of");
 }
 
-static void test_scene_as_classic_input(void **state) {
-    (void)state;
+TEST(test_scene_as_classic_input) {
     static HdError error;
     static HdSceneFile input;
     static const char text[] = "\xef\xbb\xbf \n{\"hedron\": 1}";
@@ -176,8 +168,7 @@ static void test_scene_as_classic_input(void **state) {
                                        "FILE' renders");
 }
 
-static void test_textures(void **state) {
-    (void)state;
+TEST(test_textures) {
     static HdError error;
     static const HdSceneChange changes[] = {"floor.texture.file=no such.png", "image.width=0"};
     const HdSceneSource source = {
@@ -193,8 +184,7 @@ static void test_textures(void **state) {
                    "\"builtin:floor\" or a file");
 }
 
-static void test_too_many_edge_lights(void **state) {
-    (void)state;
+TEST(test_too_many_edge_lights) {
     assert_string_equal(
         expect_refused(rich_text, "solids[1].edge_lights.per_edge=3334", ""),
         "a.json: solids[1]: edge_lights.per_edge is 3334, which makes 100020 lights "
@@ -230,8 +220,7 @@ static const char quiet_text[] =
     "-1.25]],\n"
     "   \"material\": \"m\"}}";
 
-static void test_notes_on_contacts(void **state) {
-    (void)state;
+TEST(test_notes_on_contacts) {
     assert_string_equal(notes_on(quiet_text, "solids[0].centre=[0, 0, -0.25]"),
                         "solids[0] touches the floor: it is drawn smaller by a millionth or so, "
                         "lest rounding decide which is in front\n");
@@ -242,8 +231,7 @@ static void test_notes_on_contacts(void **state) {
                         "lest rounding decide which is in front\n");
 }
 
-static void test_notes(void **state) {
-    (void)state;
+TEST(test_notes) {
     static const char black[] = "every picture is black: there is no light, no ambient material, "
                                 "no disc of an edge light, and the background is black\n";
     assert_string_equal(notes_on(quiet_text, NULL), "");
@@ -269,17 +257,4 @@ static void test_notes(void **state) {
                     "disc_radius with a disc_radiance\n");
     assert_string_equal(notes_on(quiet_text, "solids[0].edge_lights.per_edge=0"), black);
     assert_null(strstr(notes_on(quiet_text, "materials.m.ambient=1"), "black"));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_output_paths),       cmocka_unit_test(test_numbers_by_value),
-        cmocka_unit_test(test_control_characters), cmocka_unit_test(test_synonyms_of_keys),
-        cmocka_unit_test(test_synonyms_of_kinds),  cmocka_unit_test(test_paths_of_changes),
-        cmocka_unit_test(test_hints_for_json),     cmocka_unit_test(test_scene_as_classic_input),
-        cmocka_unit_test(test_textures),           cmocka_unit_test(test_too_many_edge_lights),
-        cmocka_unit_test(test_notes_on_contacts),  cmocka_unit_test(test_notes),
-
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

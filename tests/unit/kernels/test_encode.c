@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels' conversion to 8 bits makes the bytes that the host's does. */
 #include "cpu/dialect.h"
-#include "expect.h"
 #include "image/curve.h"
 #include "kernels/common/encode.h"
+#include "unit_test.h"
 
 static int32_t thresholds[256];
 
@@ -23,8 +23,7 @@ static void expect_same(HdCurve curve, int bits) {
                  encode8(bits, thresholds), expected);
 }
 
-static void codes_begin_at_their_thresholds(void **state) {
-    (void)state;
+TEST(codes_begin_at_their_thresholds) {
     for (int curve = HD_CURVE_LINEAR; curve <= HD_CURVE_SRGB; curve++) {
         hd_curve_thresholds8((HdCurve)curve, thresholds);
         for (int code = 1; code < 256; code++) {
@@ -36,8 +35,7 @@ static void codes_begin_at_their_thresholds(void **state) {
     }
 }
 
-static void every_kind_of_number_has_the_code_of_the_host(void **state) {
-    (void)state;
+TEST(every_kind_of_number_has_the_code_of_the_host) {
     enum { STEP = 1009 };
     const float special[] = {0.0f,     -0.0f,    1e-45f,    -1e-45f, 1.0f,
                              65536.0f, INFINITY, -INFINITY, NAN,     -NAN};
@@ -52,8 +50,7 @@ static void every_kind_of_number_has_the_code_of_the_host(void **state) {
     }
 }
 
-static void pixels_become_bytes_in_order(void **state) {
-    (void)state;
+TEST(pixels_become_bytes_in_order) {
     enum { PIXELS = 7, WORKERS = 3 };
     float rgb[PIXELS * 3];
     int bits[PIXELS * 3];
@@ -71,13 +68,4 @@ static void pixels_become_bytes_in_order(void **state) {
         assert_memory_equal(bytes + 4 * i, expected + 3 * i, 3);
         assert_int_equal(bytes[4 * i + 3], 255);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(codes_begin_at_their_thresholds),
-        cmocka_unit_test(every_kind_of_number_has_the_code_of_the_host),
-        cmocka_unit_test(pixels_become_bytes_in_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,9 @@
 #include <signal.h>
 
 #include "box_scenes.h"
-#include "expect.h"
 #include "hierarchy_setup.h"
 #include "system/interrupt.h"
+#include "unit_test.h"
 
 static const HdHierarchyOptions usual = {1.0F, 4};
 
@@ -183,8 +183,7 @@ static void compare_rays(const HdHierarchy *hierarchy, const HdBox *boxes, int c
     free(met);
 }
 
-static void few_boxes(void **state) {
-    (void)state;
+TEST(few_boxes) {
     for (int count = 1; count <= 200; count++) {
         const HdHierarchyOptions options = {1.0F, 1 + count % HD_MAX_LEAF};
         HdBox *boxes = random_boxes(count, 0.5, 1.0, (uint64_t)count);
@@ -196,8 +195,7 @@ static void few_boxes(void **state) {
     }
 }
 
-static void many_boxes(void **state) {
-    (void)state;
+TEST(many_boxes) {
     enum { COUNT = 50000 };
     HdBox *boxes = random_boxes(COUNT, 0.05, 1.0, 3);
     HdHierarchy hierarchy = build(boxes, COUNT, &usual);
@@ -207,8 +205,7 @@ static void many_boxes(void **state) {
     free(boxes);
 }
 
-static void one_box_makes_a_root(void **state) {
-    (void)state;
+TEST(one_box_makes_a_root) {
     const HdBox box = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
     HdHierarchy hierarchy = build(&box, 1, &usual);
     assert_int_equal(hierarchy.node_count, 1);
@@ -222,8 +219,7 @@ static void one_box_makes_a_root(void **state) {
     hd_hierarchy_free(&hierarchy);
 }
 
-static void two_boxes_are_divided_where_it_pays(void **state) {
-    (void)state;
+TEST(two_boxes_are_divided_where_it_pays) {
     /* Apart on y most; the second one is lower. */
     const HdBox boxes[2] = {{{0, 5, 0}, {1, 6, 1}}, {{1, 0, 0}, {2, 1, 1}}};
     const HdHierarchyOptions cheap = {0.1F, 4}, dear = {2.0F, 4};
@@ -239,8 +235,7 @@ static void two_boxes_are_divided_where_it_pays(void **state) {
     hd_hierarchy_free(&hierarchy);
 }
 
-static void leaves_follow_the_costs(void **state) {
-    (void)state;
+TEST(leaves_follow_the_costs) {
     enum { COUNT = 6000 };
     HdBox *boxes = random_boxes(COUNT, 0.01, 1.0, 5);
     /* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. */
@@ -255,8 +250,7 @@ static void leaves_follow_the_costs(void **state) {
     free(boxes);
 }
 
-static void same_for_any_number_of_threads(void **state) {
-    (void)state;
+TEST(same_for_any_number_of_threads) {
     enum { COUNT = 60000 };
     HdBox *boxes = clustered_boxes(COUNT);
     HdHierarchy expected = build(boxes, COUNT, &usual);
@@ -280,8 +274,7 @@ static void same_for_any_number_of_threads(void **state) {
     free(boxes);
 }
 
-static void identical_boxes_are_halved(void **state) {
-    (void)state;
+TEST(identical_boxes_are_halved) {
     enum { COUNT = 20000 };
     HdBox *boxes = malloc(COUNT * sizeof *boxes);
     for (int i = 0; i < COUNT; i++)
@@ -294,8 +287,7 @@ static void identical_boxes_are_halved(void **state) {
 }
 
 /* Boxes without a volume, without an area, without anything. */
-static void flat_boxes(void **state) {
-    (void)state;
+TEST(flat_boxes) {
     enum { COUNT = 9000 };
     for (int flat_axes = 1; flat_axes <= 7; flat_axes++) {
         HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 11);
@@ -313,8 +305,7 @@ static void flat_boxes(void **state) {
 }
 
 /* No box has an area, nor has what holds them all, and still they are put in order. */
-static void points_in_a_line(void **state) {
-    (void)state;
+TEST(points_in_a_line) {
     enum { COUNT = 9000 };
     HdBox *boxes = malloc(COUNT * sizeof *boxes);
     for (int i = 0; i < COUNT; i++) {
@@ -332,8 +323,7 @@ static void points_in_a_line(void **state) {
 }
 
 /* The same boxes times a power of two have the same hierarchy, however large or small they are. */
-static void scale_does_not_matter(void **state) {
-    (void)state;
+TEST(scale_does_not_matter) {
     enum { COUNT = 9000 };
     static const double scales[] = {0x1p-100, 0x1p-40, 0x1p40, 0x1p100, 0x1p126};
     HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 13);
@@ -353,8 +343,7 @@ static void scale_does_not_matter(void **state) {
 }
 
 /* From the smallest to the largest floats there are, in one scene. */
-static void all_sizes_at_once(void **state) {
-    (void)state;
+TEST(all_sizes_at_once) {
     enum { COUNT = 9000 };
     HdBox *boxes = malloc(COUNT * sizeof *boxes);
     uint64_t seed = 17;
@@ -378,8 +367,7 @@ static void all_sizes_at_once(void **state) {
     free(boxes);
 }
 
-static void depth_is_bounded(void **state) {
-    (void)state;
+TEST(depth_is_bounded) {
     HdBox boxes[DEEP_BOXES];
     fill_deep(boxes);
     const HdHierarchyOptions options = {0.0F, 1};
@@ -432,8 +420,7 @@ static double median_cost(const HdBox *boxes, Key *keys, int count, HdBox *box) 
     return left + right + (double)usual.node_cost * half_area(box);
 }
 
-static void cheaper_than_medians(void **state) {
-    (void)state;
+TEST(cheaper_than_medians) {
     enum { COUNT = 20000 };
     HdBox *boxes = clustered_boxes(COUNT);
     Key *keys = malloc(COUNT * sizeof *keys);
@@ -454,8 +441,7 @@ static void cheaper_than_medians(void **state) {
     free(boxes);
 }
 
-static void tells_when_memory_runs_out(void **state) {
-    (void)state;
+TEST(tells_when_memory_runs_out) {
     enum { COUNT = 6000 };
     HdBox *boxes = random_boxes(COUNT, 0.1, 1.0, 19);
     int failures = 0;
@@ -481,8 +467,7 @@ static void tells_when_memory_runs_out(void **state) {
 }
 
 /* The last one: the signal stays. */
-static void can_be_interrupted(void **state) {
-    (void)state;
+TEST(can_be_interrupted) {
     HdBox *boxes = random_boxes(100, 0.1, 1.0, 29);
     hd_interrupt_install();
     raise(SIGTERM);
@@ -494,23 +479,4 @@ static void can_be_interrupted(void **state) {
     free(boxes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_boxes),
-        cmocka_unit_test(many_boxes),
-        cmocka_unit_test(one_box_makes_a_root),
-        cmocka_unit_test(two_boxes_are_divided_where_it_pays),
-        cmocka_unit_test(leaves_follow_the_costs),
-        cmocka_unit_test(same_for_any_number_of_threads),
-        cmocka_unit_test(identical_boxes_are_halved),
-        cmocka_unit_test(flat_boxes),
-        cmocka_unit_test(points_in_a_line),
-        cmocka_unit_test(scale_does_not_matter),
-        cmocka_unit_test(all_sizes_at_once),
-        cmocka_unit_test(depth_is_bounded),
-        cmocka_unit_test(cheaper_than_medians),
-        cmocka_unit_test(tells_when_memory_runs_out),
-        cmocka_unit_test(can_be_interrupted),
-    };
-    return cmocka_run_group_tests(tests, start_pool, end_pool);
-}
+GROUP(start_pool, end_pool)

@@ -2,8 +2,8 @@
 #include <stdio.h>
 
 #include "box_scenes.h"
-#include "expect.h"
 #include "hierarchy_setup.h"
+#include "unit_test.h"
 
 enum { MOST_WIDTH = 16, MOST_WAITING = (MOST_WIDTH - 1) * HD_MAX_HIERARCHY_DEPTH };
 
@@ -177,8 +177,7 @@ static void check_widths(const HdBox *boxes, int count, int rays) {
     hd_hierarchy_free(&hierarchy);
 }
 
-static void few_boxes(void **state) {
-    (void)state;
+TEST(few_boxes) {
     for (int count = 1; count <= 200; count++) {
         HdBox *boxes = random_boxes(count, 0.5, 1.0, (uint64_t)count);
         check_widths(boxes, count, 20);
@@ -186,23 +185,20 @@ static void few_boxes(void **state) {
     }
 }
 
-static void many_boxes(void **state) {
-    (void)state;
+TEST(many_boxes) {
     enum { COUNT = 10000 };
     HdBox *boxes = clustered_boxes(COUNT);
     check_widths(boxes, COUNT, 20);
     free(boxes);
 }
 
-static void deep_hierarchies(void **state) {
-    (void)state;
+TEST(deep_hierarchies) {
     HdBox boxes[DEEP_BOXES];
     fill_deep(boxes);
     check_widths(boxes, DEEP_BOXES, 20);
 }
 
-static void tells_when_memory_runs_out(void **state) {
-    (void)state;
+TEST(tells_when_memory_runs_out) {
     enum { COUNT = 3000 };
     HdBox *boxes = clustered_boxes(COUNT);
     HdHierarchy hierarchy = build(boxes, COUNT);
@@ -229,12 +225,4 @@ static void tells_when_memory_runs_out(void **state) {
     free(boxes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_boxes),
-        cmocka_unit_test(many_boxes),
-        cmocka_unit_test(deep_hierarchies),
-        cmocka_unit_test(tells_when_memory_runs_out),
-    };
-    return cmocka_run_group_tests(tests, start_pool, end_pool);
-}
+GROUP(start_pool, end_pool)

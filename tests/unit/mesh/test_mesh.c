@@ -5,8 +5,8 @@
 
 #include "base/hash.h"
 #include "base/trigonometry.h"
-#include "expect.h"
 #include "mesh/mesh.h"
+#include "unit_test.h"
 
 /* A copy that the mesh may free. */
 static void *copy(const void *bytes, size_t size) {
@@ -36,8 +36,7 @@ static bool has_area(HdVec3 a, HdVec3 b, HdVec3 c) {
     return result;
 }
 
-static void triangles_without_an_area_are_told(void **state) {
-    (void)state;
+TEST(triangles_without_an_area_are_told) {
     const HdVec3 o = {0.0, 0.0, 0.0}, x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0};
     assert_true(has_area(o, x, y));
     assert_false(has_area(o, x, x));
@@ -61,8 +60,7 @@ static void triangles_without_an_area_are_told(void **state) {
     assert_false(has_area(far, hd_add(far, x), hd_add(far, hd_scale(y, 1e-5))));
 }
 
-static void what_belongs_to_a_triangle_moves_with_it(void **state) {
-    (void)state;
+TEST(what_belongs_to_a_triangle_moves_with_it) {
     const HdVec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
     const int32_t corners[5][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {1, 3, 2}, {2, 2, 2}};
     const int32_t normals[5][3] = {{0, 1, 2}, {10, 11, 12}, {20, 21, 22}, {30, 31, 32}, {0, 0, 0}};
@@ -94,8 +92,7 @@ static void what_belongs_to_a_triangle_moves_with_it(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void the_box_holds_all_triangles(void **state) {
-    (void)state;
+TEST(the_box_holds_all_triangles) {
     const HdVec3 vertices[4] = {{100, 0, 0}, {1, -5, 3}, {4, 2, -6}, {-2, 0, 1}};
     const int32_t corners[1][3] = {{1, 2, 3}};
     HdVec3 lower = {9, 9, 9}, upper = {9, 9, 9};
@@ -110,8 +107,7 @@ static void the_box_holds_all_triangles(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void angles_are_right(void **state) {
-    (void)state;
+TEST(angles_are_right) {
     const HdVec3 x = {1.0, 0.0, 0.0};
     for (int i = 0; i <= 3600; i++) {
         const double angle = HD_PI * i / 3600.0;
@@ -165,8 +161,7 @@ static void smooth(HdMesh *mesh, double crease_degrees) {
     assert_int_equal(hd_mesh_smooth(mesh, crease_degrees, &error), HD_OK);
 }
 
-static void smoothing_weights_by_angle(void **state) {
-    (void)state;
+TEST(smoothing_weights_by_angle) {
     HdMesh mesh = make_cube();
     smooth(&mesh, 91.0);
     /* Three faces meet at a corner with a right angle each, however they are cut into triangles. */
@@ -178,8 +173,7 @@ static void smoothing_weights_by_angle(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void creases_stay(void **state) {
-    (void)state;
+TEST(creases_stay) {
     HdMesh mesh = make_cube();
     smooth(&mesh, 89.0);
     assert_int_equal(mesh.normal_count, 24);
@@ -195,8 +189,7 @@ static void creases_stay(void **state) {
 }
 
 /* A roof whose two sides meet at 60 degrees, and touch a third triangle in one point alone. */
-static void triangles_that_share_a_point_alone_are_apart(void **state) {
-    (void)state;
+TEST(triangles_that_share_a_point_alone_are_apart) {
     const HdVec3 vertices[6] = {
         {0, 0, 0},  {0, 2, 0},  {1, 1, -0.57735026918962584}, {-1, 1, -0.57735026918962584},
         {1, -1, 0}, {-1, -1, 0}};
@@ -213,8 +206,7 @@ static void triangles_that_share_a_point_alone_are_apart(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void odd_triangles_do_no_harm(void **state) {
-    (void)state;
+TEST(odd_triangles_do_no_harm) {
     /* 0 and -0 are one place; the second triangle has no area; 40 more lie on one edge. */
     HdVec3 vertices[46] = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {-0.0, -0.0, 0}, {0.5, -1, 0}};
     int32_t corners[43][3] = {{0, 1, 2}, {0, 1, 1}, {1, 3, 4}};
@@ -247,8 +239,7 @@ static void odd_triangles_do_no_harm(void **state) {
 }
 
 /* Known bytes: nothing of the system's mathematics library may get in. */
-static void normals_have_the_same_bytes_everywhere(void **state) {
-    (void)state;
+TEST(normals_have_the_same_bytes_everywhere) {
     const HdVec3 vertices[5] = {
         {0.1, 0.2, 1.3}, {1.7, 0.3, 0.1}, {0.2, 1.9, 0.4}, {-1.1, 0.6, 0.2}, {0.3, -1.2, 0.7}};
     const int32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
@@ -293,8 +284,7 @@ static void make_colliding(HdMesh *mesh, double scale) {
 }
 
 /* Twice as large it has the same normals, and other hashes. */
-static void vertices_that_collide_do_no_harm(void **state) {
-    (void)state;
+TEST(vertices_that_collide_do_no_harm) {
     HdMesh colliding, other;
     make_colliding(&colliding, 1.0);
     make_colliding(&other, 2.0);
@@ -308,20 +298,4 @@ static void vertices_that_collide_do_no_harm(void **state) {
                         (size_t)other.triangle_count * sizeof *other.corner_normals);
     hd_mesh_free(&colliding);
     hd_mesh_free(&other);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangles_without_an_area_are_told),
-        cmocka_unit_test(what_belongs_to_a_triangle_moves_with_it),
-        cmocka_unit_test(the_box_holds_all_triangles),
-        cmocka_unit_test(angles_are_right),
-        cmocka_unit_test(smoothing_weights_by_angle),
-        cmocka_unit_test(creases_stay),
-        cmocka_unit_test(triangles_that_share_a_point_alone_are_apart),
-        cmocka_unit_test(odd_triangles_do_no_harm),
-        cmocka_unit_test(normals_have_the_same_bytes_everywhere),
-        cmocka_unit_test(vertices_that_collide_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "expect.h"
 #include "mesh/polygon.h"
+#include "unit_test.h"
 
 enum { MOST = 4096 };
 
@@ -68,8 +68,7 @@ static void expect_cut(const double (*outline)[2], int count, double area) {
 #define expect_cut_of(outline, area)                                                               \
     expect_cut((const double(*)[2])(outline), (int)(sizeof(outline) / sizeof *(outline)), (area))
 
-static void convex_polygons_become_fans(void **state) {
-    (void)state;
+TEST(convex_polygons_become_fans) {
     const double square[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
     const double hexagon[6][2] = {{1, 0}, {3, 0}, {4, 2}, {3, 4}, {1, 4}, {0, 2}};
     expect_cut_of(square, 4.0);
@@ -83,14 +82,12 @@ static void convex_polygons_become_fans(void **state) {
     }
 }
 
-static void concave_quadrilaterals_are_cut_within(void **state) {
-    (void)state;
+TEST(concave_quadrilaterals_are_cut_within) {
     const double arrow[4][2] = {{0, 0}, {4, -2}, {1, 0}, {4, 2}};
     expect_cut_of(arrow, 2.0);
 }
 
-static void concave_polygons_lose_their_ears(void **state) {
-    (void)state;
+TEST(concave_polygons_lose_their_ears) {
     const double letter_u[8][2] = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
     const double spiral[16][2] = {{0, 0}, {7, 0}, {7, 7}, {0, 7}, {0, 6}, {6, 6}, {6, 1}, {1, 1},
                                   {1, 4}, {4, 4}, {4, 3}, {2, 3}, {2, 2}, {5, 2}, {5, 5}, {0, 5}};
@@ -130,8 +127,7 @@ static double make_star(int count, double (*outline)[2]) {
 }
 
 /* A band that winds outwards: hardly any corner is an ear at a time. */
-static void long_spirals_are_cut(void **state) {
-    (void)state;
+TEST(long_spirals_are_cut) {
     enum { STEPS = 120, COUNT = 2 * STEPS };
     double outline[COUNT][2], area = 0.0;
     for (int i = 0; i < STEPS; i++) {
@@ -148,8 +144,7 @@ static void long_spirals_are_cut(void **state) {
     expect_cut((const double(*)[2])outline, COUNT, area);
 }
 
-static void large_polygons_have_a_limit(void **state) {
-    (void)state;
+TEST(large_polygons_have_a_limit) {
     static double outline[MOST][2];
     for (int count = 10; count <= HD_MAX_CONCAVE_CORNERS; count += 169) {
         const int even = count - count % 2;
@@ -171,8 +166,7 @@ static void large_polygons_have_a_limit(void **state) {
 }
 
 /* Whatever the corners are, there are as many triangles, of corners that are there. */
-static void rubbish_is_cut_somehow(void **state) {
-    (void)state;
+TEST(rubbish_is_cut_somehow) {
     uint32_t seed = 1;
     for (int round = 0; round < 3000; round++) {
         const int count = 4 + round % 40, size = 2 + round % 7;
@@ -191,16 +185,4 @@ static void rubbish_is_cut_somehow(void **state) {
                 assert_in_range(triangles[i][k], 0, count - 1);
         assert_int_equal(triangles[count - 2][0], -1);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(convex_polygons_become_fans),
-        cmocka_unit_test(concave_quadrilaterals_are_cut_within),
-        cmocka_unit_test(concave_polygons_lose_their_ears),
-        cmocka_unit_test(long_spirals_are_cut),
-        cmocka_unit_test(large_polygons_have_a_limit),
-        cmocka_unit_test(rubbish_is_cut_somehow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,8 +68,7 @@ static void find(void) {
 
 /* ---- segments ---- */
 
-static void segments_are_of_whole_seconds(void **state) {
-    (void)state;
+TEST(segments_are_of_whole_seconds) {
     static const struct {
         int rate, frames, length, count;
     } cases[] = {{1, 25, 24, 2},  {1, 24, 24, 1},  {5, 60, 25, 3},
@@ -93,8 +92,7 @@ static void segments_are_of_whole_seconds(void **state) {
     }
 }
 
-static void what_is_not_kept_has_none(void **state) {
-    (void)state;
+TEST(what_is_not_kept_has_none) {
     const HdOutput picture = {.name = "out/a.png", .format = &hd_format_png};
     plan.keeps_films = false;
     find();
@@ -116,8 +114,7 @@ static void name_of(char path[HD_MAX_PATH]) {
     hd_segments_free(&segments);
 }
 
-static void names_tell_what_decides_the_bytes(void **state) {
-    (void)state;
+TEST(names_tell_what_decides_the_bytes) {
     char first[HD_MAX_PATH], other[HD_MAX_PATH];
     name_of(first);
     assert_memory_equal(first, "out/film.mkv.part-0001-", 23);
@@ -141,8 +138,7 @@ static void names_tell_what_decides_the_bytes(void **state) {
     assert_string_not_equal(first, other);
 }
 
-static void what_others_have_there_stays(void **state) {
-    (void)state;
+TEST(what_others_have_there_stays) {
     static const char *const others[] = {"film.mkv",
                                          "film.mkv.part-",
                                          "film.mkv.part-1-xyz",
@@ -179,8 +175,7 @@ static void what_others_have_there_stays(void **state) {
     assert_int_equal(chdir(".."), 0);
 }
 
-static void only_whole_files_are_taken_and_only_where_a_run_goes_on(void **state) {
-    (void)state;
+TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
     char path[HD_MAX_PATH];
     find();
     for (int i = 0; i < 3; i++) {
@@ -239,8 +234,7 @@ static void close_it(void) {
         assert_int_equal(bytes[4 * i], i);
 }
 
-static void segments_become_a_film(void **state) {
-    (void)state;
+TEST(segments_become_a_film) {
     open_it();
     assert_int_equal(add(0, FRAMES), HD_OK);
     for (int i = 0; i < 3; i++)
@@ -249,16 +243,14 @@ static void segments_become_a_film(void **state) {
     close_it();
 }
 
-static void without_segments_it_is_made_in_one_go(void **state) {
-    (void)state;
+TEST(without_segments_it_is_made_in_one_go) {
     plan.keeps_films = false;
     open_it();
     assert_int_equal(add(0, FRAMES), HD_OK);
     close_it();
 }
 
-static void a_run_goes_on_behind_whole_segments(void **state) {
-    (void)state;
+TEST(a_run_goes_on_behind_whole_segments) {
     open_it();
     assert_int_equal(add(0, 30), HD_OK);
     abort_it();
@@ -274,8 +266,7 @@ static void a_run_goes_on_behind_whole_segments(void **state) {
     close_it();
 }
 
-static void gaps_are_filled(void **state) {
-    (void)state;
+TEST(gaps_are_filled) {
     char path[HD_MAX_PATH];
     open_it();
     assert_int_equal(add(0, FRAMES), HD_OK);
@@ -290,8 +281,7 @@ static void gaps_are_filled(void **state) {
     close_it();
 }
 
-static void a_segment_that_fails_ends_it(void **state) {
-    (void)state;
+TEST(a_segment_that_fails_ends_it) {
     open_it();
     assert_int_equal(add(0, 24), HD_OK);
     assert_int_equal(add(24, 25), HD_OK);
@@ -307,8 +297,7 @@ static void a_segment_that_fails_ends_it(void **state) {
     assert_int_equal(count_entries("out"), 1);
 }
 
-static void what_cannot_be_joined_keeps_its_segments(void **state) {
-    (void)state;
+TEST(what_cannot_be_joined_keeps_its_segments) {
     open_it();
     assert_int_equal(add(0, FRAMES), HD_OK);
     write_counter(" - 1");
@@ -318,8 +307,7 @@ static void what_cannot_be_joined_keeps_its_segments(void **state) {
     assert_int_equal(count_entries("out"), 3);
 }
 
-static void names_that_are_too_long_are_refused(void **state) {
-    (void)state;
+TEST(names_that_are_too_long_are_refused) {
     static char name[HD_MAX_PATH];
     const HdOutput longest = {.name = name, .format = &hd_format_mkv, .is_film = true};
     memset(name, 'a', sizeof name - 1);
@@ -329,22 +317,5 @@ static void names_that_are_too_long_are_refused(void **state) {
     hd_segments_free(&segments);
 }
 
-#define TEST(function) cmocka_unit_test_setup(function, begin)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(segments_are_of_whole_seconds),
-        TEST(what_is_not_kept_has_none),
-        TEST(names_tell_what_decides_the_bytes),
-        TEST(what_others_have_there_stays),
-        TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on),
-        TEST(segments_become_a_film),
-        TEST(without_segments_it_is_made_in_one_go),
-        TEST(a_run_goes_on_behind_whole_segments),
-        TEST(gaps_are_filled),
-        TEST(a_segment_that_fails_ends_it),
-        TEST(what_cannot_be_joined_keeps_its_segments),
-        TEST(names_that_are_too_long_are_refused),
-    };
-    return cmocka_run_group_tests(tests, begin_group, remove_test_folder);
-}
+GROUP(begin_group, remove_test_folder)
+EACH(begin, NULL)

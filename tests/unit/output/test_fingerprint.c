@@ -192,16 +192,14 @@ static void expect_all_changed(const HdObjectType *type) {
     }
 }
 
-static void every_field_of_a_scene_changes_it(void **state) {
-    (void)state;
+TEST(every_field_of_a_scene_changes_it) {
     change_object(&hd_scene_fields, &file);
     expect_all_changed(&hd_scene_fields);
     assert_true(fingerprint() == usual);
 }
 
 /* As a file tells them, a colour and a factor, they may come back a rounding off. */
-static void the_last_digit_of_bright_lights_changes_it(void **state) {
-    (void)state;
+TEST(the_last_digit_of_bright_lights_changes_it) {
     HdVec3 *light = &file.scene.lights[0].intensity;
     const HdVec3 kept = *light;
     for (int i = 0; i < 1000; i++) {
@@ -213,8 +211,7 @@ static void the_last_digit_of_bright_lights_changes_it(void **state) {
     *light = kept;
 }
 
-static void what_becomes_of_the_frames_does_not(void **state) {
-    (void)state;
+TEST(what_becomes_of_the_frames_does_not) {
     file.output.style.frames_per_second++;
     expect_unseen("output.frames_per_second");
     file.output.style.frames_per_second--;
@@ -272,8 +269,7 @@ static void drop_content(HdScene *scene) {
     { #thing, &(thing), sizeof(thing) }
 
 /* Of each of these, one bit of the first byte and one of the last. */
-static void what_files_hold_changes_it(void **state) {
-    (void)state;
+TEST(what_files_hold_changes_it) {
     HdScene *scene = &file.scene;
     const struct {
         const char *what;
@@ -323,8 +319,7 @@ static void what_files_hold_changes_it(void **state) {
     assert_true(fingerprint() == usual);
 }
 
-static void arrays_that_are_missing_change_it(void **state) {
-    (void)state;
+TEST(arrays_that_are_missing_change_it) {
     mesh.normals = NULL;
     expect_seen("normals");
     mesh.normals = normals;
@@ -333,24 +328,21 @@ static void arrays_that_are_missing_change_it(void **state) {
     mesh.group_of = group_of;
 }
 
-static void names_in_files_do_not(void **state) {
-    (void)state;
+TEST(names_in_files_do_not) {
     char name[] = "name";
     materials[1].name = materials[1].texture = name;
     expect_unseen("the name of a material or of its texture");
     materials[1].name = materials[1].texture = NULL;
 }
 
-static void what_lies_beside_an_array_does_not(void **state) {
-    (void)state;
+TEST(what_lies_beside_an_array_does_not) {
     for (int i = 0; i < 3; i += 2) {
         materials[i].emission.x = materials[i].material.diffuse = 1.0;
         expect_unseen("what lies beside a mesh's materials");
     }
 }
 
-static void how_it_is_rendered_and_stored_changes_it(void **state) {
-    (void)state;
+TEST(how_it_is_rendered_and_stored_changes_it) {
     const HdPictureStyle linear = {.curve = HD_CURVE_LINEAR, .bits = 8};
     const HdPictureStyle deep = {.curve = HD_CURVE_SRGB, .bits = 16};
     assert_true(hd_run_fingerprint(&file, HD_PRECISION_DOUBLE, &style) != usual);
@@ -361,8 +353,7 @@ static void how_it_is_rendered_and_stored_changes_it(void **state) {
 }
 
 /* A scene file can tell of the first two alone. */
-static void every_sampling_has_its_own(void **state) {
-    (void)state;
+TEST(every_sampling_has_its_own) {
     const HdSampling was = file.scene.sampling;
     uint64_t marks[3];
     for (int i = 0; i < 3; i++) {
@@ -391,17 +382,4 @@ static int free_scene(void **state) {
     return 0;
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_field_of_a_scene_changes_it),
-        cmocka_unit_test(the_last_digit_of_bright_lights_changes_it),
-        cmocka_unit_test(what_becomes_of_the_frames_does_not),
-        cmocka_unit_test(what_files_hold_changes_it),
-        cmocka_unit_test(arrays_that_are_missing_change_it),
-        cmocka_unit_test(names_in_files_do_not),
-        cmocka_unit_test(what_lies_beside_an_array_does_not),
-        cmocka_unit_test(how_it_is_rendered_and_stored_changes_it),
-        cmocka_unit_test(every_sampling_has_its_own),
-    };
-    return cmocka_run_group_tests(tests, read_scene, free_scene);
-}
+GROUP(read_scene, free_scene)

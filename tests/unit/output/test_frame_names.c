@@ -2,8 +2,8 @@
 /* A name tells its frame exactly where the frame has that name. */
 #include <string.h>
 
-#include "expect.h"
 #include "output/frame_names.h"
+#include "unit_test.h"
 
 static HdError error;
 static int numbers[] = {0, 7, 10, 99, 100, 12345, 9999999};
@@ -25,8 +25,7 @@ static int cut_place(const char *begin) {
     return hd_frame_names_place(&names, begin, strlen(begin), true);
 }
 
-static void each_frame_is_known_by_its_name(void **state) {
-    (void)state;
+TEST(each_frame_is_known_by_its_name) {
     static const char *const patterns[] = {"a/%d.png",   "a/%04d.png",   "a/#.png", "a/##.png",
                                            "a/9%d9.png", "a/0%03d0.png", "%d.png",  "a/%%%d%%.png",
                                            "/x/1%d.png", "a/%09d1.png"};
@@ -42,8 +41,7 @@ static void each_frame_is_known_by_its_name(void **state) {
     }
 }
 
-static void other_names_are_nobodys(void **state) {
-    (void)state;
+TEST(other_names_are_nobodys) {
     static const char *const others[] = {"",
                                          "a.png",
                                          "a.pn",
@@ -71,8 +69,7 @@ static void other_names_are_nobodys(void **state) {
     assert_int_equal(place("a12345.png"), 5);
 }
 
-static void numbered_folders_are_told_from_files(void **state) {
-    (void)state;
+TEST(numbered_folders_are_told_from_files) {
     find("a/take %d of 9/x.png");
     assert_string_equal(names.folder, "a/");
     assert_string_equal(names.rest, "/x.png");
@@ -86,8 +83,7 @@ static void numbered_folders_are_told_from_files(void **state) {
     assert_int_equal(place("0film.mp4"), -1);
 }
 
-static void names_that_are_cut_are_known_by_their_begin(void **state) {
-    (void)state;
+TEST(names_that_are_cut_are_known_by_their_begin) {
     find("abc%04d.long.png");
     assert_int_equal(cut_place("abc0007.long.png"), 1);
     assert_int_equal(cut_place("abc0007.lo"), 1);
@@ -98,14 +94,4 @@ static void names_that_are_cut_are_known_by_their_begin(void **state) {
     assert_int_equal(cut_place("abc0x"), -1);
     assert_true(cut_place("ab") >= 0);
     assert_int_equal(cut_place("ac"), -1);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_frame_is_known_by_its_name),
-        cmocka_unit_test(other_names_are_nobodys),
-        cmocka_unit_test(numbered_folders_are_told_from_files),
-        cmocka_unit_test(names_that_are_cut_are_known_by_their_begin),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

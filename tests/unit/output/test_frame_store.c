@@ -9,7 +9,7 @@
 #include "system/machine.h"
 #include "test_folder.h"
 
-enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100, PATIENCE_SECONDS = 600 };
+enum { WIDTH = 40, HEIGHT = 30, FRAMES = 30, FIRST = 100 };
 
 static HdError error;
 
@@ -117,8 +117,7 @@ static int byte_of(int number) {
     return byte;
 }
 
-static void frames_are_stored_in_order(void **state) {
-    (void)state;
+TEST(frames_are_stored_in_order) {
     Listener listener = {.fails_at = -1};
     assert_int_equal(store_frames(&listener, "run/%d.png"), HD_OK);
     assert_int_equal(listener.stored, FRAMES);
@@ -151,8 +150,7 @@ static void check_frames_of_a_listener_that_failed(int count) {
     check_first_frames(named);
 }
 
-static void a_listener_that_fails_ends_it(void **state) {
-    (void)state;
+TEST(a_listener_that_fails_ends_it) {
     Listener listener = {.fails_at = 4};
     assert_int_equal(store_frames(&listener, NULL), HD_FAILED);
     assert_string_equal(error.message, "the listener failed");
@@ -161,8 +159,7 @@ static void a_listener_that_fails_ends_it(void **state) {
     check_frames_of_a_listener_that_failed(5);
 }
 
-static void a_picture_that_cannot_be_written_ends_it(void **state) {
-    (void)state;
+TEST(a_picture_that_cannot_be_written_ends_it) {
     Listener listener = {.fails_at = -1};
     mkdir("other", 0777);
     mkdir("other/107.data", 0777);
@@ -175,8 +172,7 @@ static void a_picture_that_cannot_be_written_ends_it(void **state) {
     assert_int_equal(remove_folder("other"), 0);
 }
 
-static void an_interruption_tells_how_far_it_came(void **state) {
-    (void)state;
+TEST(an_interruption_tells_how_far_it_came) {
     Listener listener = {.fails_at = -1};
     Setup setup;
     HdFrameStore *store;
@@ -198,8 +194,7 @@ static void wait_for_entries(const char *folder, int count) {
 }
 
 /* A frame is given, but not the one before it. */
-static void what_is_not_published_goes(void **state) {
-    (void)state;
+TEST(what_is_not_published_goes) {
     Listener listener = {.fails_at = -1};
     Setup setup;
     HdFrameStore *store;
@@ -220,8 +215,7 @@ static void what_is_not_published_goes(void **state) {
     assert_int_equal(count_entries("four"), 0);
 }
 
-static void what_cannot_be_begun_leaves_nothing(void **state) {
-    (void)state;
+TEST(what_cannot_be_begun_leaves_nothing) {
     Listener listener = {.fails_at = -1};
     Setup setup;
     HdFrameStore *store;
@@ -233,8 +227,7 @@ static void what_cannot_be_begun_leaves_nothing(void **state) {
 }
 
 /* Of a frame whose second picture cannot be written the first is not there either. */
-static void the_first_failure_ends_it(void **state) {
-    (void)state;
+TEST(the_first_failure_ends_it) {
     Listener listener = {.fails_at = -1};
     Setup setup;
     HdFrameStore *store;
@@ -272,8 +265,7 @@ static void check_order_in_film(const char *film) {
     fclose(file);
 }
 
-static void films_and_pictures_go_side_by_side(void **state) {
-    (void)state;
+TEST(films_and_pictures_go_side_by_side) {
     Listener listener = {.fails_at = -1};
     if (!has_ffmpeg())
         skip();
@@ -291,18 +283,4 @@ static void films_and_pictures_go_side_by_side(void **state) {
     check_frames_of_a_listener_that_failed(11);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_stored_in_order),
-        cmocka_unit_test(a_listener_that_fails_ends_it),
-        cmocka_unit_test(a_picture_that_cannot_be_written_ends_it),
-        cmocka_unit_test(an_interruption_tells_how_far_it_came),
-        cmocka_unit_test(what_is_not_published_goes),
-        cmocka_unit_test(what_cannot_be_begun_leaves_nothing),
-        cmocka_unit_test(the_first_failure_ends_it),
-        cmocka_unit_test(films_and_pictures_go_side_by_side),
-    };
-    hd_interrupt_install();
-    alarm(PATIENCE_SECONDS);
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+AT_START(hd_interrupt_install)

@@ -2,8 +2,8 @@
 #define _XOPEN_SOURCE 700
 #include <stdlib.h>
 
-#include "expect.h"
 #include "output/outputs.h"
+#include "unit_test.h"
 
 static HdError error;
 
@@ -26,8 +26,7 @@ static void check_refused(const char *first, const char *second, int frames, con
     expect_contains(error.message, part);
 }
 
-static void outputs_suit_the_number_of_frames(void **state) {
-    (void)state;
+TEST(outputs_suit_the_number_of_frames) {
     check_accepted("a.png", 1);
     check_accepted("a.mp4", 1);
     check_accepted("a.MKV", 7);
@@ -44,15 +43,13 @@ static void outputs_suit_the_number_of_frames(void **state) {
     check_refused("100%.png", NULL, 1, "100%.png");
 }
 
-static void every_output_is_checked(void **state) {
-    (void)state;
+TEST(every_output_is_checked) {
     check_refused("a.mp4", "b.png", 2, "'b.png'");
     check_refused("a.png", "b.mp4", 2, "'a.png'");
     check_refused("a.png", "a.png", 1, "twice");
 }
 
-static void layers_are_for_outputs_that_hold_them(void **state) {
-    (void)state;
+TEST(layers_are_for_outputs_that_hold_them) {
     const unsigned alpha = HD_LAYER_BIT(HD_LAYER_ALPHA), depth = HD_LAYER_BIT(HD_LAYER_DEPTH),
                    bound = HD_LAYER_BIT(HD_LAYER_BOUND);
     HdOutputPlan plan;
@@ -71,8 +68,7 @@ static void layers_are_for_outputs_that_hold_them(void **state) {
     assert_int_equal(plan.wish.layers, alpha | depth | bound);
 }
 
-static void names_tell_what_to_write(void **state) {
-    (void)state;
+TEST(names_tell_what_to_write) {
     static const char *const good[] = {"a.png", "a.DATA", "a.pfm", "a.mp4", "a.mkv", "a.gif"};
     static const char *const bad[] = {"", "a", "a.jpg", "png", "a.png/", "a.png.txt"};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++)
@@ -83,8 +79,7 @@ static void names_tell_what_to_write(void **state) {
     }
 }
 
-static void a_plan_says_what_frames_must_hold(void **state) {
-    (void)state;
+TEST(a_plan_says_what_frames_must_hold) {
     HdOutputPlan plan;
     assert_int_equal(settle(&plan, "a_%d.png", "b.MKV", 8, 2), HD_OK);
     assert_true(plan.list[0].is_numbered && !plan.list[0].is_film);
@@ -99,8 +94,7 @@ static void a_plan_says_what_frames_must_hold(void **state) {
     assert_true(plan.wish.radiance && !plan.can_resume && !plan.can_mark);
 }
 
-static void only_what_can_be_resumed_is(void **state) {
-    (void)state;
+TEST(only_what_can_be_resumed_is) {
     HdOutputPlan plan;
     assert_int_equal(settle(&plan, "a_%d.png", NULL, 8, 2), HD_OK);
     hd_outputs_mark(&plan, 5, false);
@@ -117,8 +111,7 @@ static void only_what_can_be_resumed_is(void **state) {
     assert_true(plan.can_resume && !plan.can_mark && !plan.keeps_films);
 }
 
-static void frames_have_files(void **state) {
-    (void)state;
+TEST(frames_have_files) {
     HdOutputPlan plan;
     char file[HD_MAX_PATH];
     assert_int_equal(settle(&plan, "~/a_###.png", "100%%.mp4", 8, 2), HD_OK);
@@ -130,17 +123,4 @@ static void frames_have_files(void **state) {
     assert_int_equal(settle(&plan, "100%%.png", NULL, 8, 1), HD_OK);
     assert_int_equal(hd_output_name(&plan.list[0], 7, file, &error), HD_OK);
     assert_string_equal(file, "100%.png");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(outputs_suit_the_number_of_frames),
-        cmocka_unit_test(every_output_is_checked),
-        cmocka_unit_test(layers_are_for_outputs_that_hold_them),
-        cmocka_unit_test(names_tell_what_to_write),
-        cmocka_unit_test(a_plan_says_what_frames_must_hold),
-        cmocka_unit_test(only_what_can_be_resumed_is),
-        cmocka_unit_test(frames_have_files),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <sys/syscall.h>
 
 #include "test_folder.h"
+#include "wrapped.h"
 
 enum { MOST = 3 };
 
@@ -27,7 +28,7 @@ static void note(const char *event) {
     snprintf(events + length, sizeof events - length, "%s%s", length > 0 ? " " : "", event);
 }
 
-int fsync(int descriptor) {
+static int note_sync(int descriptor) {
     char link[64], path[1000] = "", event[64];
     struct stat found;
     fstat(descriptor, &found);
@@ -45,7 +46,7 @@ int fsync(int descriptor) {
         errno = EIO;
         return -1;
     }
-    return (int)syscall(SYS_fsync, descriptor);
+    return real_fsync(descriptor);
 }
 
 static HdStatus tell(void *context, const HdStoredFrame *stored, HdError *failure) {
@@ -125,8 +126,7 @@ static void expect_there(const char *numbers) {
     assert_int_equal(count_entries("out"), strlen(numbers));
 }
 
-static void bytes_come_before_names_and_names_before_words(void **state) {
-    (void)state;
+TEST(bytes_come_before_names_and_names_before_words) {
     for (int i = 1; i <= 3; i++)
         assert_int_equal(add(i), HD_OK);
     assert_string_equal(events, "");
@@ -142,8 +142,7 @@ static void bytes_come_before_names_and_names_before_words(void **state) {
     assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3 F4 D T4");
 }
 
-static void as_many_wait_as_may(void **state) {
-    (void)state;
+TEST(as_many_wait_as_may) {
     for (int i = 1; i <= 4; i++)
         assert_int_equal(add(i), HD_OK);
     assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3");
@@ -152,8 +151,7 @@ static void as_many_wait_as_may(void **state) {
     expect_there("123"); /* the one that waited is gone */
 }
 
-static void without_durability_nothing_is_synced(void **state) {
-    (void)state;
+TEST(without_durability_nothing_is_synced) {
     plan.durability = HD_FLEETING;
     hd_publisher_free(publisher);
     assert_int_equal(hd_publisher_create(&publisher, &plan, &error), HD_OK);
@@ -163,8 +161,7 @@ static void without_durability_nothing_is_synced(void **state) {
     expect_there("1");
 }
 
-static void finished_frames_are_synced_by_name(void **state) {
-    (void)state;
+TEST(finished_frames_are_synced_by_name) {
     write_bytes("out/1.data", "x", 1);
     assert_int_equal(add_to("out", 1, true), HD_OK);
     assert_int_equal(add(2), HD_OK);
@@ -172,8 +169,7 @@ static void finished_frames_are_synced_by_name(void **state) {
     assert_string_equal(events, "F2 D U T1+ T2");
 }
 
-static void every_folder_is_synced(void **state) {
-    (void)state;
+TEST(every_folder_is_synced) {
     outputs.list[0].name = "out/in/%d.data";
     mkdir("out/in", 0777);
     assert_int_equal(add_to("out/in", 1, false), HD_OK);
@@ -181,8 +177,7 @@ static void every_folder_is_synced(void **state) {
     assert_string_equal(events, "F1 I D U T1");
 }
 
-static void a_disk_that_says_no_ends_it_at_that_frame(void **state) {
-    (void)state;
+TEST(a_disk_that_says_no_ends_it_at_that_frame) {
     for (int i = 1; i <= 3; i++)
         assert_int_equal(add(i), HD_OK);
     fails_at = 2;
@@ -192,8 +187,7 @@ static void a_disk_that_says_no_ends_it_at_that_frame(void **state) {
     expect_there("1");
 }
 
-static void names_that_are_not_on_the_disk_are_not_told(void **state) {
-    (void)state;
+TEST(names_that_are_not_on_the_disk_are_not_told) {
     assert_int_equal(add(1), HD_OK);
     assert_int_equal(add(2), HD_OK);
     fails_at = 3;
@@ -202,8 +196,7 @@ static void names_that_are_not_on_the_disk_are_not_told(void **state) {
     assert_string_equal(events, "F1 F2 D");
 }
 
-static void a_name_that_is_taken_ends_it_there(void **state) {
-    (void)state;
+TEST(a_name_that_is_taken_ends_it_there) {
     for (int i = 1; i <= 3; i++)
         assert_int_equal(add(i), HD_OK);
     mkdir("out/2.data", 0777);
@@ -213,8 +206,7 @@ static void a_name_that_is_taken_ends_it_there(void **state) {
     expect_there("12");
 }
 
-static void who_does_not_listen_ends_it_with_names_given(void **state) {
-    (void)state;
+TEST(who_does_not_listen_ends_it_with_names_given) {
     for (int i = 1; i <= 3; i++)
         assert_int_equal(add(i), HD_OK);
     tell_fails_at = 2;
@@ -224,8 +216,7 @@ static void who_does_not_listen_ends_it_with_names_given(void **state) {
     expect_there("123");
 }
 
-static void the_first_failure_counts(void **state) {
-    (void)state;
+TEST(the_first_failure_counts) {
     for (int i = 1; i <= 3; i++)
         assert_int_equal(add(i), HD_OK);
     fails_at = 3;
@@ -242,20 +233,5 @@ static void the_first_failure_counts(void **state) {
     expect_there("12456");
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(bytes_come_before_names_and_names_before_words),
-        TEST(as_many_wait_as_may),
-        TEST(without_durability_nothing_is_synced),
-        TEST(finished_frames_are_synced_by_name),
-        TEST(every_folder_is_synced),
-        TEST(a_disk_that_says_no_ends_it_at_that_frame),
-        TEST(names_that_are_not_on_the_disk_are_not_told),
-        TEST(a_name_that_is_taken_ends_it_there),
-        TEST(who_does_not_listen_ends_it_with_names_given),
-        TEST(the_first_failure_counts),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)
+REPLACE(fsync, note_sync)

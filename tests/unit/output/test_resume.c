@@ -75,8 +75,7 @@ static void expect_finished(const HdOutputPlan *plan, int expected) {
     hd_resume_free(&resume);
 }
 
-static void frames_with_the_right_mark_are_finished(void **state) {
-    (void)state;
+TEST(frames_with_the_right_mark_are_finished) {
     HdOutputPlan plan = plan_of("a/%d.png", NULL);
     expect_finished(&plan, 0);
     for (int i = 0; i < FRAMES; i++) {
@@ -92,8 +91,7 @@ static void frames_with_the_right_mark_are_finished(void **state) {
     expect_finished(&plan, FRAMES - 2);
 }
 
-static void files_of_other_kinds_are_not(void **state) {
-    (void)state;
+TEST(files_of_other_kinds_are_not) {
     HdOutputPlan plan = plan_of("b/%d.png", NULL);
     for (int i = 0; i < FRAMES; i++)
         write_frame(&plan, 0, numbers[i]);
@@ -105,8 +103,7 @@ static void files_of_other_kinds_are_not(void **state) {
     expect_finished(&plan, FRAMES - 3);
 }
 
-static void what_must_be_rendered_anyway_is_not(void **state) {
-    (void)state;
+TEST(what_must_be_rendered_anyway_is_not) {
     const HdOutputPlan marks = plan_of("c/%d.png", NULL);
     for (int i = 0; i < FRAMES; i++)
         write_frame(&marks, 0, numbers[i]);
@@ -130,8 +127,7 @@ static void what_must_be_rendered_anyway_is_not(void **state) {
     expect_finished(&plan, 0);
 }
 
-static void all_pictures_of_a_frame_must_be_there(void **state) {
-    (void)state;
+TEST(all_pictures_of_a_frame_must_be_there) {
     const HdOutputPlan plan = plan_of("d/%d.png", "e/%d.png");
     for (int i = 0; i < FRAMES; i++)
         write_frame(&plan, 0, numbers[i]);
@@ -140,8 +136,7 @@ static void all_pictures_of_a_frame_must_be_there(void **state) {
     expect_finished(&plan, 1);
 }
 
-static void a_frame_is_read_back_as_it_was_encoded(void **state) {
-    (void)state;
+TEST(a_frame_is_read_back_as_it_was_encoded) {
     const HdOutputPlan plan = plan_of("f/film.mkv", "f/%d.png");
     HdFrame made = make_frame(7), read = make_frame(0);
     write_frame(&plan, 1, 7);
@@ -158,8 +153,7 @@ static void a_frame_is_read_back_as_it_was_encoded(void **state) {
     hd_frame_free(&read);
 }
 
-static void films_before_the_pictures_are_passed_over(void **state) {
-    (void)state;
+TEST(films_before_the_pictures_are_passed_over) {
     const char *const names[] = {"g/a.mkv", "g/b.mkv", "g/%d.png"};
     const HdOutputPlan pictures = plan_of("g/%d.png", NULL);
     HdOutputPlan plan;
@@ -172,16 +166,4 @@ static void films_before_the_pictures_are_passed_over(void **state) {
     assert_int_equal(hd_frame_add_rgba(&read, &error), HD_OK);
     assert_int_equal(hd_resume_load(&plan, numbers[0], &read, &error), HD_OK);
     hd_frame_free(&read);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_with_the_right_mark_are_finished),
-        cmocka_unit_test(files_of_other_kinds_are_not),
-        cmocka_unit_test(what_must_be_rendered_anyway_is_not),
-        cmocka_unit_test(all_pictures_of_a_frame_must_be_there),
-        cmocka_unit_test(a_frame_is_read_back_as_it_was_encoded),
-        cmocka_unit_test(films_before_the_pictures_are_passed_over),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -7,11 +7,11 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "expect.h"
 #include "output/stages.h"
+#include "unit_test.h"
 
 /* A stage that waits for another one for ever fails by this. */
-enum { ITEMS = 200, ROOM = 7, PATIENCE_SECONDS = 600 };
+enum { ITEMS = 200, ROOM = 7 };
 
 typedef struct Probe {
     HdStages *stages;
@@ -124,15 +124,14 @@ static void run_all(int room) {
     }
 }
 
-static void every_item_goes_through_every_stage(void **state) {
-    (void)state;
+TEST(every_item_goes_through_every_stage) {
     run_all(ROOM);
     run_all(1);
     run_all(ITEMS);
 }
 
 /* Every third item, and many at the end, are there without anybody who makes them. */
-static void what_is_ready_needs_nobody(void **state) {
+TEST(what_is_ready_needs_nobody) {
     static Probe probes[4];
     static bool ready[ITEMS];
     HdStage list[4];
@@ -159,7 +158,7 @@ static void what_is_ready_needs_nobody(void **state) {
 }
 
 /* Nobody takes anything, for nothing is missing. */
-static void all_may_be_ready(void **state) {
+TEST(all_may_be_ready) {
     static Probe probes[4];
     static bool ready[ITEMS];
     HdStage list[4];
@@ -172,8 +171,7 @@ static void all_may_be_ready(void **state) {
     assert_int_equal(first_not_done(&probes[3]), ITEMS);
 }
 
-static void no_items_are_no_work(void **state) {
-    (void)state;
+TEST(no_items_are_no_work) {
     static Probe probes[4];
     HdStage list[4];
     HdStages *stages;
@@ -184,8 +182,7 @@ static void no_items_are_no_work(void **state) {
 }
 
 /* Whatever stage fails, the items before went through all of them, and none after did. */
-static void a_failure_leaves_the_items_before_it(void **state) {
-    (void)state;
+TEST(a_failure_leaves_the_items_before_it) {
     static Probe probes[4];
     static const int failing[] = {0, 1, 20};
     for (size_t i = 0; i < 3 * 4; i++) {
@@ -210,8 +207,7 @@ static void a_failure_leaves_the_items_before_it(void **state) {
 }
 
 /* An item that fails while an earlier one is still at work does not hide that one's failure. */
-static void the_first_item_that_failed_counts(void **state) {
-    (void)state;
+TEST(the_first_item_that_failed_counts) {
     static Probe probes[4];
     HdStage list[4];
     HdStages *stages;
@@ -238,8 +234,7 @@ static HdStatus gather(void *context, int item, HdError *failure) {
     return HD_OK;
 }
 
-static void threads_of_a_stage_work_side_by_side(void **state) {
-    (void)state;
+TEST(threads_of_a_stage_work_side_by_side) {
     const HdStage stage = {.work = gather, .threads = 3};
     HdStages *stages;
     assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, NULL, 3, &error), HD_OK);
@@ -260,8 +255,7 @@ static HdStatus lag_behind(void *context, int item, HdError *failure) {
     return HD_OK;
 }
 
-static void giving_overlaps_with_the_work(void **state) {
-    (void)state;
+TEST(giving_overlaps_with_the_work) {
     atomic_int given = 0;
     const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
     HdStages *stages;
@@ -291,8 +285,7 @@ static void take_in_order(HdStages *stages, int first, int count) {
 }
 
 /* The third stage has several threads and keeps no order: it does not wait for the first item. */
-static void items_are_given_in_any_order(void **state) {
-    (void)state;
+TEST(items_are_given_in_any_order) {
     static Probe probes[4];
     HdStages *stages = start_probes(probes, ROOM);
     take_in_order(stages, 0, 4);
@@ -310,8 +303,7 @@ static void items_are_given_in_any_order(void **state) {
     }
 }
 
-static void what_is_given_back_comes_first(void **state) {
-    (void)state;
+TEST(what_is_given_back_comes_first) {
     static Probe probes[4];
     HdStages *stages = start_probes(probes, ROOM);
     take_in_order(stages, 0, 5);
@@ -327,8 +319,7 @@ static void what_is_given_back_comes_first(void **state) {
     assert_int_equal(probes[3].ended, ITEMS);
 }
 
-static void nobody_takes_what_has_no_room(void **state) {
-    (void)state;
+TEST(nobody_takes_what_has_no_room) {
     static Probe probes[4];
     const HdTaker alone = {.ahead = 2};
     HdStages *stages = start_probes(probes, ROOM);
@@ -349,8 +340,7 @@ static bool likes_what_is_left(void *context, int left) {
     return left == *liked;
 }
 
-static void takers_choose_by_what_is_left(void **state) {
-    (void)state;
+TEST(takers_choose_by_what_is_left) {
     static Probe probes[4];
     int liked = ROOM;
     const HdTaker chooser = {.wants = likes_what_is_left, .context = &liked};
@@ -407,8 +397,7 @@ static void expect_waiting_gets(Waiting *waiting, int item) {
     assert_int_equal(waiting->item, item);
 }
 
-static void takers_that_wait_are_asked_again(void **state) {
-    (void)state;
+TEST(takers_that_wait_are_asked_again) {
     static Probe probes[4];
     Waiting waiting;
     HdStages *stages = start_probes(probes, ROOM);
@@ -431,8 +420,7 @@ static void takers_that_wait_are_asked_again(void **state) {
 }
 
 /* Items before the one that failed are still wanted, and nobody leaves before they are given. */
-static void what_comes_before_a_failure_is_wanted(void **state) {
-    (void)state;
+TEST(what_comes_before_a_failure_is_wanted) {
     static Probe probes[4];
     Waiting waiting;
     HdError failure;
@@ -459,8 +447,7 @@ static void what_comes_before_a_failure_is_wanted(void **state) {
     assert_int_equal(first_not_done(&probes[3]), 3);
 }
 
-static void a_gap_ends_it(void **state) {
-    (void)state;
+TEST(a_gap_ends_it) {
     static Probe probes[4];
     HdStages *stages = start_probes(probes, ROOM);
     take_in_order(stages, 0, 5);
@@ -470,26 +457,4 @@ static void a_gap_ends_it(void **state) {
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
     assert_int_equal(probes[3].ended, 2);
     assert_int_equal(probes[0].ended, 2);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_item_goes_through_every_stage),
-        cmocka_unit_test(what_is_ready_needs_nobody),
-        cmocka_unit_test(all_may_be_ready),
-        cmocka_unit_test(no_items_are_no_work),
-        cmocka_unit_test(a_failure_leaves_the_items_before_it),
-        cmocka_unit_test(the_first_item_that_failed_counts),
-        cmocka_unit_test(threads_of_a_stage_work_side_by_side),
-        cmocka_unit_test(giving_overlaps_with_the_work),
-        cmocka_unit_test(items_are_given_in_any_order),
-        cmocka_unit_test(what_is_given_back_comes_first),
-        cmocka_unit_test(nobody_takes_what_has_no_room),
-        cmocka_unit_test(takers_choose_by_what_is_left),
-        cmocka_unit_test(takers_that_wait_are_asked_again),
-        cmocka_unit_test(what_comes_before_a_failure_is_wanted),
-        cmocka_unit_test(a_gap_ends_it),
-    };
-    alarm(PATIENCE_SECONDS);
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

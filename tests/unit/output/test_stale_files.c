@@ -31,8 +31,7 @@ static void expect_there(const char *path, bool expected) {
         fail_msg("%s is %s", path, expected ? "gone" : "still there");
 }
 
-static void those_of_the_run_go(void **state) {
-    (void)state;
+TEST(those_of_the_run_go) {
     const char *const going[] = {"a/0001.png.tmp-4000000-0", "a/0012.png.tmp-1-17",
                                  "film.mp4.tmp-99-3"};
     const char *const staying[] = {"a/0002.png.tmp-4000000-0", /* another frame */
@@ -61,8 +60,7 @@ static void those_of_the_run_go(void **state) {
         expect_there(staying[i], true);
 }
 
-static void numbered_folders_are_looked_through(void **state) {
-    (void)state;
+TEST(numbered_folders_are_looked_through) {
     assert_int_equal(mkdir("take 1", 0777), 0);
     assert_int_equal(mkdir("take 2", 0777), 0);
     make_file("take 1/x.png.tmp-5-0");
@@ -72,8 +70,7 @@ static void numbered_folders_are_looked_through(void **state) {
     expect_there("take 2/x.png.tmp-5-0", true);
 }
 
-static void long_names_are_known_by_their_begin(void **state) {
-    (void)state;
+TEST(long_names_are_known_by_their_begin) {
     char name[240], temporary[HD_MAX_PATH];
     int descriptor;
     memset(name, 'n', sizeof name);
@@ -86,8 +83,7 @@ static void long_names_are_known_by_their_begin(void **state) {
 }
 
 /* The lock is the descriptor's, so that another look from this same process meets it too. */
-static void those_that_are_being_written_stay(void **state) {
-    (void)state;
+TEST(those_that_are_being_written_stay) {
     char temporary[HD_MAX_PATH];
     int descriptor;
     HdAtomicFile file;
@@ -106,8 +102,7 @@ static void those_that_are_being_written_stay(void **state) {
 }
 
 /* Left by a process of this number that was killed, or of another machine. */
-static void a_name_that_is_taken_is_left_alone(void **state) {
-    (void)state;
+TEST(a_name_that_is_taken_is_left_alone) {
     char taken[64];
     HdAtomicFile file;
     assert_int_equal(mkdir("e", 0777), 0);
@@ -122,8 +117,7 @@ static void a_name_that_is_taken_is_left_alone(void **state) {
     assert_int_equal(count_entries("e"), 2);
 }
 
-static void a_name_that_cannot_be_given_leaves_nothing(void **state) {
-    (void)state;
+TEST(a_name_that_cannot_be_given_leaves_nothing) {
     HdAtomicFile file;
     assert_int_equal(hd_atomic_file_open(&file, "f/0.png", &error), HD_OK);
     assert_int_equal(mkdir("f/0.png", 0777), 0);
@@ -132,8 +126,7 @@ static void a_name_that_cannot_be_given_leaves_nothing(void **state) {
     assert_int_equal(count_entries("f"), 1);
 }
 
-static void folders_of_such_names_stay(void **state) {
-    (void)state;
+TEST(folders_of_such_names_stay) {
     assert_int_equal(mkdir("d", 0777), 0);
     assert_int_equal(mkdir("d/0.png.tmp-1-0", 0777), 0);
     assert_int_equal(symlink("../a", "d/1.png.tmp-1-0"), 0);
@@ -141,23 +134,8 @@ static void folders_of_such_names_stay(void **state) {
     assert_int_equal(count_entries("d"), 2);
 }
 
-static void a_folder_that_is_missing_has_none(void **state) {
-    (void)state;
+TEST(a_folder_that_is_missing_has_none) {
     remove_stale("none/%d.png", "none/film.mkv");
     remove_stale("none/%d/x.png", "none/film.mkv");
     expect_there("none", false);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(those_of_the_run_go),
-        cmocka_unit_test(numbered_folders_are_looked_through),
-        cmocka_unit_test(long_names_are_known_by_their_begin),
-        cmocka_unit_test(those_that_are_being_written_stay),
-        cmocka_unit_test(a_name_that_is_taken_is_left_alone),
-        cmocka_unit_test(a_name_that_cannot_be_given_leaves_nothing),
-        cmocka_unit_test(folders_of_such_names_stay),
-        cmocka_unit_test(a_folder_that_is_missing_has_none),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -12,7 +12,6 @@
 #include "test_folder.h"
 
 static char *old_path;
-static char this_program[PATH_MAX];
 
 static int set_up_group(void **state) {
     const char *path = getenv("PATH");
@@ -135,8 +134,7 @@ static void check_output(const char *command, const char *expected) {
     assert_string_equal(text, expected);
 }
 
-static void films_have_all_frames(void **state) {
-    (void)state;
+TEST(films_have_all_frames) {
     HdError error = {0};
     need_ffmpeg();
     assert_int_equal(make_film("out/new/film.mp4", 64, 48, 7, &error), HD_OK);
@@ -147,8 +145,7 @@ static void films_have_all_frames(void **state) {
                  "h264\n64\n48\nyuv420p\ntv\nbt709\nbt709\nbt709\n25/1\n7\n");
 }
 
-static void odd_sizes_are_padded(void **state) {
-    (void)state;
+TEST(odd_sizes_are_padded) {
     HdError error = {0};
     need_ffmpeg();
     assert_int_equal(make_film("out/film.mp4", 33, 17, 2, &error), HD_OK);
@@ -204,8 +201,7 @@ static void film_colours(const char *path) {
 
 /* ITU-R BT.709 with luma from 16 to 235 and chroma from 16 to 240. BT.601 gives red a luma of 81
    instead of 63, and the full range gives white one of 255. */
-static void colours_follow_bt709(void **state) {
-    (void)state;
+TEST(colours_follow_bt709) {
     enum { FRAME = FLAT_PIXELS * 3 / 2, QUARTER = FLAT_PIXELS / 4 };
     static uint8_t planes[FLAT_COLOURS * FRAME];
     need_ffmpeg();
@@ -223,8 +219,7 @@ static void colours_follow_bt709(void **state) {
 }
 
 /* A player that heeds the tags shows what was given. */
-static void colours_come_back(void **state) {
-    (void)state;
+TEST(colours_come_back) {
     const char *const paths[] = {"out/film.mp4", "out/film.mkv", "out/film.gif"};
     const double tolerances[] = {4, 0, 2};
     static uint8_t rgb[FLAT_COLOURS * FLAT_PIXELS * 3];
@@ -256,8 +251,7 @@ static void free_frames(HdFrame frames[NOISE_FRAMES]) {
         hd_frame_free(&frames[i]);
 }
 
-static void mkv_files_are_tagged(void **state) {
-    (void)state;
+TEST(mkv_files_are_tagged) {
     HdError error = {0};
     need_ffmpeg();
     assert_int_equal(make_film("out/film.MKV", 33, 17, 7, &error), HD_OK);
@@ -267,8 +261,7 @@ static void mkv_files_are_tagged(void **state) {
                  "ffv1\n33\n17\npc\ngbr\niec61966-2-1\nbt709\n25/1\n7\n");
 }
 
-static void films_say_that_they_are_linear(void **state) {
-    (void)state;
+TEST(films_say_that_they_are_linear) {
     need_ffmpeg();
     HdFrame frame = make_frame(64, 64, RED);
     film_frames("out/film.mp4", &frame, 1, &LINEAR);
@@ -282,8 +275,7 @@ static void films_say_that_they_are_linear(void **state) {
     hd_frame_free(&frame);
 }
 
-static void mkv_loses_nothing(void **state) {
-    (void)state;
+TEST(mkv_loses_nothing) {
     const int sizes[][2] = {{1, 1}, {1, 100}, {4, 4}, {33, 17}, {63, 200}, {64, 64}, {101, 67}};
     static uint8_t rgba[NOISE_FRAMES * 63 * 200 * 4];
     need_ffmpeg();
@@ -299,8 +291,7 @@ static void mkv_loses_nothing(void **state) {
     }
 }
 
-static void gif_repeats_for_ever(void **state) {
-    (void)state;
+TEST(gif_repeats_for_ever) {
     unsigned char bytes[900];
     const char loop[] = "\x21\xff\x0bNETSCAPE2.0\x03\x01\0\0";
     HdError error = {0};
@@ -322,8 +313,7 @@ static void gif_repeats_for_ever(void **state) {
 }
 
 /* The format has centiseconds: the whole is as long as it should be, and no frame is lost. */
-static void gif_keeps_the_time(void **state) {
-    (void)state;
+TEST(gif_keeps_the_time) {
     const struct {
         int rate;
         const char *durations;
@@ -342,8 +332,7 @@ static void gif_keeps_the_time(void **state) {
 }
 
 /* A frame with more colours than a palette. */
-static void gif_is_close_to_the_frame(void **state) {
-    (void)state;
+TEST(gif_is_close_to_the_frame) {
     enum { SIDE = 128 };
     HdFrame frame = make_frame(SIDE, SIDE, RED);
     static uint8_t rgba[SIDE * SIDE * 4];
@@ -362,8 +351,7 @@ static void gif_is_close_to_the_frame(void **state) {
     hd_frame_free(&frame);
 }
 
-static void names_reach_ffmpeg_unchanged(void **state) {
-    (void)state;
+TEST(names_reach_ffmpeg_unchanged) {
     HdError error = {0};
     need_ffmpeg();
     assert_int_equal(make_film("out/a 'b' $c: %d; \"d\".mp4", 16, 16, 1, &error), HD_OK);
@@ -378,22 +366,19 @@ static void names_reach_ffmpeg_unchanged(void **state) {
 }
 
 /* Later ones would have to fit into the first ones' room if nobody read them. */
-static void large_films_pass_through(void **state) {
-    (void)state;
+TEST(large_films_pass_through) {
     HdError error = {0};
     need_ffmpeg();
     assert_int_equal(make_film("out/film.mp4", 640, 480, 30, &error), HD_OK);
     assert_int_equal(count_entries("out"), 1);
 }
 
-static void films_without_frames_fail(void **state) {
-    (void)state;
+TEST(films_without_frames_fail) {
     need_ffmpeg();
     check_failure(16, 16, 0, HD_FAILED, "no frames");
 }
 
-static void aborted_films_leave_nothing(void **state) {
-    (void)state;
+TEST(aborted_films_leave_nothing) {
     HdError error = {0};
     HdVideo *video;
     HdFrame frame = make_frame(640, 480, RED);
@@ -408,8 +393,7 @@ static void aborted_films_leave_nothing(void **state) {
     hd_frame_free(&frame);
 }
 
-static void frames_of_another_size_are_refused(void **state) {
-    (void)state;
+TEST(frames_of_another_size_are_refused) {
     HdError error = {0};
     HdVideo *video;
     HdFrame right = make_frame(32, 16, RED), wrong = make_frame(16, 32, RED);
@@ -423,8 +407,7 @@ static void frames_of_another_size_are_refused(void **state) {
     hd_frame_free(&wrong);
 }
 
-static void wrong_settings_are_refused(void **state) {
-    (void)state;
+TEST(wrong_settings_are_refused) {
     HdError error = {0};
     HdVideo *video;
     const HdOutputStyle none = {STYLE.picture, 0};
@@ -444,8 +427,7 @@ static void wrong_settings_are_refused(void **state) {
     expect_contains(error.message, "out/a.gif cannot be linear, for a GIF has no way to say so");
 }
 
-static void missing_programs_are_unavailable(void **state) {
-    (void)state;
+TEST(missing_programs_are_unavailable) {
     char only_bin[100];
     snprintf(only_bin, sizeof only_bin, "/nonexistent::%s/bin", test_folder);
     setenv("PATH", only_bin, 1);
@@ -470,8 +452,7 @@ static void missing_programs_are_unavailable(void **state) {
         check_failure(16, 16, 1, HD_UNAVAILABLE, "\"ffmpeg\"");
 }
 
-static void an_early_end_is_an_error_not_a_signal(void **state) {
-    (void)state;
+TEST(an_early_end_is_an_error_not_a_signal) {
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "echo first complaint >&2; echo last complaint >&2; exit 3");
     check_failure(640, 480, 10, HD_FAILED, "(exit code 3)");
@@ -484,8 +465,7 @@ static void an_early_end_is_an_error_not_a_signal(void **state) {
     check_failure(640, 480, 10, HD_FAILED, "frame 1 of out/film.mp4; it said: (nothing)");
 }
 
-static void failed_films_take_no_more_frames(void **state) {
-    (void)state;
+TEST(failed_films_take_no_more_frames) {
     HdError error = {0};
     HdVideo *video;
     HdFrame frame = make_frame(640, 480, RED);
@@ -500,8 +480,7 @@ static void failed_films_take_no_more_frames(void **state) {
     hd_frame_free(&frame);
 }
 
-static void wrong_exit_codes_are_errors(void **state) {
-    (void)state;
+TEST(wrong_exit_codes_are_errors) {
     fake("ffprobe", "echo 2");
     fake("ffmpeg", "cat >/dev/null; echo no room >&2; exit 1");
     check_failure(16, 16, 2, HD_FAILED, "(exit code 1); it said: no room");
@@ -509,16 +488,14 @@ static void wrong_exit_codes_are_errors(void **state) {
     check_failure(16, 16, 2, HD_FAILED, "(signal 11)");
 }
 
-static void much_output_blocks_nothing(void **state) {
-    (void)state;
+TEST(much_output_blocks_nothing) {
     fake("ffprobe", "echo 2");
     fake("ffmpeg", "yes something is wrong | head -n 50000 >&2; cat >/dev/null; "
                    "yes something is wrong | head -n 50000 >&2; echo the end >&2; exit 1");
     check_failure(640, 480, 2, HD_FAILED, "something is wrong\nthe end");
 }
 
-static void files_that_are_no_films_are_errors(void **state) {
-    (void)state;
+TEST(files_that_are_no_films_are_errors) {
     need_ffmpeg();
     fake("ffmpeg", "cat >/dev/null; exit 0");
     check_failure(16, 16, 2, HD_FAILED, "ffprobe could not count the frames of out/film.mp4");
@@ -537,8 +514,7 @@ static void files_that_are_no_films_are_errors(void **state) {
     check_failure(16, 16, 2, HD_UNAVAILABLE, "cannot start");
 }
 
-static void targets_in_the_way_are_errors(void **state) {
-    (void)state;
+TEST(targets_in_the_way_are_errors) {
     HdError error = {0};
     need_ffmpeg();
     mkdir("out/folder.mp4", 0777);
@@ -549,8 +525,7 @@ static void targets_in_the_way_are_errors(void **state) {
     assert_int_equal(count_entries("out/folder.mp4"), 0);
 }
 
-static void targets_that_come_in_the_way_are_errors(void **state) {
-    (void)state;
+TEST(targets_that_come_in_the_way_are_errors) {
     HdError error = {0};
     HdVideo *video;
     HdFrame frame = make_frame(16, 16, RED);
@@ -563,8 +538,7 @@ static void targets_that_come_in_the_way_are_errors(void **state) {
     hd_frame_free(&frame);
 }
 
-static void names_that_are_too_long_are_refused(void **state) {
-    (void)state;
+TEST(names_that_are_too_long_are_refused) {
     static char path[HD_MAX_PATH + 1];
     HdError error = {0};
     need_ffmpeg();
@@ -576,8 +550,7 @@ static void names_that_are_too_long_are_refused(void **state) {
 }
 
 /* Were they waited for, the test would run into its time limit. */
-static void programs_that_hang_are_stopped(void **state) {
-    (void)state;
+TEST(programs_that_hang_are_stopped) {
     HdVideo *video;
     fake("ffprobe", "exit 0");
     fake("ffmpeg", "sleep 600; exit 0");
@@ -598,11 +571,10 @@ static int play_ffmpeg(void) {
     return 1;
 }
 
-static void blocked_signals_do_not_reach_ffmpeg(void **state) {
-    (void)state;
+TEST(blocked_signals_do_not_reach_ffmpeg) {
     sigset_t blocked, old;
     fake("ffprobe", "exit 0");
-    assert_int_equal(symlink(this_program, "bin/ffmpeg"), 0);
+    assert_int_equal(symlink(unit_program, "bin/ffmpeg"), 0);
     sigfillset(&blocked);
     sigprocmask(SIG_BLOCK, &blocked, &old);
     check_failure(16, 16, 1, HD_FAILED, "SIGTERM is free");
@@ -610,8 +582,7 @@ static void blocked_signals_do_not_reach_ffmpeg(void **state) {
 }
 
 /* The standard streams' numbers then go to the video's own descriptors. */
-static void closed_standard_streams_do_no_harm(void **state) {
-    (void)state;
+TEST(closed_standard_streams_do_no_harm) {
     int status = 0;
     need_ffmpeg();
     pid_t child = fork();
@@ -627,46 +598,7 @@ static void closed_standard_streams_do_no_harm(void **state) {
     assert_int_equal(count_entries("out"), 1);
 }
 
-#define VIDEO_TEST(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+GROUP(set_up_group, tear_down_group)
+EACH(set_up, tear_down)
 
-int main(int argc, char **argv) {
-    const char *slash = argc > 0 ? strrchr(argv[0], '/') : NULL;
-    if (slash != NULL && strcmp(slash, "/ffmpeg") == 0)
-        return play_ffmpeg();
-    if (argc < 1 || realpath(argv[0], this_program) == NULL) {
-        fprintf(stderr, "expected to be started by a path\n");
-        return 1;
-    }
-
-    const struct CMUnitTest tests[] = {
-        VIDEO_TEST(films_have_all_frames),
-        VIDEO_TEST(odd_sizes_are_padded),
-        VIDEO_TEST(colours_follow_bt709),
-        VIDEO_TEST(colours_come_back),
-        VIDEO_TEST(mkv_files_are_tagged),
-        VIDEO_TEST(films_say_that_they_are_linear),
-        VIDEO_TEST(mkv_loses_nothing),
-        VIDEO_TEST(gif_repeats_for_ever),
-        VIDEO_TEST(gif_keeps_the_time),
-        VIDEO_TEST(gif_is_close_to_the_frame),
-        VIDEO_TEST(names_reach_ffmpeg_unchanged),
-        VIDEO_TEST(large_films_pass_through),
-        VIDEO_TEST(films_without_frames_fail),
-        VIDEO_TEST(aborted_films_leave_nothing),
-        VIDEO_TEST(frames_of_another_size_are_refused),
-        VIDEO_TEST(wrong_settings_are_refused),
-        VIDEO_TEST(missing_programs_are_unavailable),
-        VIDEO_TEST(an_early_end_is_an_error_not_a_signal),
-        VIDEO_TEST(failed_films_take_no_more_frames),
-        VIDEO_TEST(wrong_exit_codes_are_errors),
-        VIDEO_TEST(much_output_blocks_nothing),
-        VIDEO_TEST(files_that_are_no_films_are_errors),
-        VIDEO_TEST(targets_in_the_way_are_errors),
-        VIDEO_TEST(targets_that_come_in_the_way_are_errors),
-        VIDEO_TEST(names_that_are_too_long_are_refused),
-        VIDEO_TEST(programs_that_hang_are_stopped),
-        VIDEO_TEST(blocked_signals_do_not_reach_ffmpeg),
-        VIDEO_TEST(closed_standard_streams_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, set_up_group, tear_down_group);
-}
+INSTEAD_OF("ffmpeg", play_ffmpeg)

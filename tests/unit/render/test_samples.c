@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
-#include "expect.h"
 #include "render/samples.h"
+#include "unit_test.h"
 
 /* Of hd_sample_set_dense (samples.h). */
 #define REFERENCE_SAMPLE_ERROR 2.2
@@ -60,8 +60,7 @@ static double edge_error(const HdSampleSet *set, int angles) {
     return 255.0 * worst;
 }
 
-static void each_place_once(void **state) {
-    (void)state;
+TEST(each_place_once) {
     for (int side = 1; side <= 64; side++) {
         static unsigned char seen[64][64];
         HdSampleSet set;
@@ -81,8 +80,7 @@ static void each_place_once(void **state) {
 }
 
 /* The first 4^k samples of a grid: one in each cell of a grid of their own. */
-static void first_samples_are_spread(void **state) {
-    (void)state;
+TEST(first_samples_are_spread) {
     HdSampleSet set;
     HdError error;
     assert_int_equal(hd_sample_set_grid(&set, 16, &error), HD_OK);
@@ -97,8 +95,7 @@ static void first_samples_are_spread(void **state) {
     hd_sample_set_free(&set);
 }
 
-static void first_sample_is_next_to_the_middle(void **state) {
-    (void)state;
+TEST(first_sample_is_next_to_the_middle) {
     for (int side = 1; side <= 64; side++) {
         HdSampleSet set;
         HdError error;
@@ -110,8 +107,7 @@ static void first_sample_is_next_to_the_middle(void **state) {
 }
 
 /* An edge along a side of the pixel, seen by a grid: off by a whole row at most. */
-static void error_of_a_grid_is_known(void **state) {
-    (void)state;
+TEST(error_of_a_grid_is_known) {
     HdSampleSet set;
     HdError error;
     assert_int_equal(hd_sample_set_grid(&set, 4, &error), HD_OK);
@@ -120,8 +116,7 @@ static void error_of_a_grid_is_known(void **state) {
 }
 
 /* What docs/numerics.md says. */
-static void dense_sets_are_better_than_grids(void **state) {
-    (void)state;
+TEST(dense_sets_are_better_than_grids) {
     HdSampleSet dense, grid;
     HdError error;
     assert_int_equal(hd_sample_set_dense(&dense, 32, &error), HD_OK);
@@ -133,15 +128,4 @@ static void dense_sets_are_better_than_grids(void **state) {
     assert_true(of_grid > 1.2 * of_dense);
     hd_sample_set_free(&dense);
     hd_sample_set_free(&grid);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_place_once),
-        cmocka_unit_test(first_samples_are_spread),
-        cmocka_unit_test(first_sample_is_next_to_the_middle),
-        cmocka_unit_test(error_of_a_grid_is_known),
-        cmocka_unit_test(dense_sets_are_better_than_grids),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
 
-#include "expect.h"
 #include "render/survey.h"
+#include "unit_test.h"
 
 static double srgb(double v) {
     v = v < 0.0 ? 0.0 : v > 1.0 ? 1.0 : v;
@@ -14,8 +14,7 @@ static double linear(double v) {
 }
 
 /* Whatever is missing from a pixel within the budget does not show by more steps than that. */
-static void budget_is_kept(void **state) {
-    (void)state;
+TEST(budget_is_kept) {
     double (*const curves[])(double) = {[HD_CURVE_LINEAR] = linear, [HD_CURVE_SRGB] = srgb};
     for (int curve = 0; curve < 2; curve++) {
         HdErrorBudget budget = hd_error_budget((HdCurve)curve);
@@ -35,18 +34,9 @@ static void budget_is_kept(void **state) {
 }
 
 /* A mean of samples, each within its own budget, is within that of the mean. */
-static void budget_of_a_mean_is_the_mean(void **state) {
-    (void)state;
+TEST(budget_of_a_mean_is_the_mean) {
     HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB);
     double dark = hd_error_budget_radiance(&budget, 1.0, 0.0);
     double bright = hd_error_budget_radiance(&budget, 1.0, 3.0);
     expect_near(0.75 * dark + 0.25 * bright, hd_error_budget_radiance(&budget, 1.0, 0.75), 1e-12);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(budget_is_kept),
-        cmocka_unit_test(budget_of_a_mean_is_the_mean),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

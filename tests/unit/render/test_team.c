@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE
-#include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
 #include <signal.h>
@@ -12,8 +11,9 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "test_folder.h"
+#include "wrapped.h"
 
-enum { DEVICES = 3, FRAMES = 48, PATIENCE_SECONDS = 600, POINTS = 4, MOST_FAILURES = DEVICES };
+enum { DEVICES = 3, FRAMES = 48, POINTS = 4, MOST_FAILURES = DEVICES };
 
 /* What happened so far. Devices that must take part wait for each other here. */
 static struct {
@@ -210,8 +210,7 @@ static HdStatus meet(FakePoint point, int index, int count, HdError *failure) {
     return HD_OK;
 }
 
-static void devices_share_the_frames(void **state) {
-    (void)state;
+TEST(devices_share_the_frames) {
     script = meet;
     assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
     assert_int_equal(history.stored, FRAMES);
@@ -222,8 +221,7 @@ static void devices_share_the_frames(void **state) {
     expect_first_frames(FRAMES);
 }
 
-static void surveyed_frames_are_shared_too(void **state) {
-    (void)state;
+TEST(surveyed_frames_are_shared_too) {
     scene.sampling = HD_SAMPLING_ADAPTIVE;
     scene.max_error = 1.0;
     script = meet;
@@ -247,8 +245,7 @@ static HdStatus hold_first(FakePoint point, int index, int count, HdError *failu
     return HD_OK;
 }
 
-static void a_fast_device_does_not_wait_for_a_slow_one(void **state) {
-    (void)state;
+TEST(a_fast_device_does_not_wait_for_a_slow_one) {
     script = hold_first;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
     assert_true(count_made_by(0) > 0);
@@ -269,8 +266,7 @@ static HdStatus await_estimate(FakePoint point, int index, int count, HdError *f
     return HD_OK;
 }
 
-static void a_cpu_beside_gpus_estimates_its_pace(void **state) {
-    (void)state;
+TEST(a_cpu_beside_gpus_estimates_its_pace) {
     the_cpu = 1;
     script = await_estimate;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
@@ -297,8 +293,7 @@ static HdStatus fail_second(FakePoint point, int index, int count, HdError *fail
     return HD_OK;
 }
 
-static void others_trace_what_a_failed_device_had(void **state) {
-    (void)state;
+TEST(others_trace_what_a_failed_device_had) {
     const struct {
         FakePoint point;
         int count, most_made;
@@ -334,8 +329,7 @@ static HdStatus fail_at_last(FakePoint point, int index, int count, HdError *fai
     return index == 0 ? HD_OK : fail_here(failure);
 }
 
-static void a_device_that_has_done_its_part_is_still_there(void **state) {
-    (void)state;
+TEST(a_device_that_has_done_its_part_is_still_there) {
     frames.count = 8;
     script = fail_at_last;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
@@ -364,8 +358,7 @@ static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *f
 }
 
 /* A device must not hold a later frame that waits for the one that it is to make now. */
-static void a_failure_while_the_store_is_full_stops_nobody(void **state) {
-    (void)state;
+TEST(a_failure_while_the_store_is_full_stops_nobody) {
     script = fail_when_full;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
     assert_int_equal(history.stored, FRAMES);
@@ -383,8 +376,7 @@ static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *
     return fail_here(failure);
 }
 
-static void all_devices_failing_is_an_error(void **state) {
-    (void)state;
+TEST(all_devices_failing_is_an_error) {
     const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
     for (int i = 0; i < 3; i++) {
         end(NULL);
@@ -409,8 +401,7 @@ static HdStatus fail_at_once(FakePoint point, int index, int count, HdError *fai
 }
 
 /* Its own words, for there is nobody else. */
-static void a_device_alone_that_fails_is_an_error(void **state) {
-    (void)state;
+TEST(a_device_alone_that_fails_is_an_error) {
     const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
     for (int i = 0; i < 3; i++) {
         end(NULL);
@@ -444,8 +435,7 @@ static void expect_spoilt(int frame, int dropped) {
     assert_int_equal(count_entries("run"), frame);
 }
 
-static void a_frame_that_cannot_be_ends_it_for_all(void **state) {
-    (void)state;
+TEST(a_frame_that_cannot_be_ends_it_for_all) {
     for (int survey = 0; survey < 2; survey++) {
         end(NULL);
         begin(NULL);
@@ -470,16 +460,14 @@ static HdStatus fail_after_others(FakePoint point, int index, int count, HdError
     return index == 0 ? HD_OK : fail_here(failure);
 }
 
-static void frames_before_one_that_cannot_be_are_made(void **state) {
-    (void)state;
+TEST(frames_before_one_that_cannot_be_are_made) {
     spoil_frame(5);
     script = fail_after_others;
     assert_int_equal(render("run/%d.data", 2), HD_BAD_INPUT);
     expect_spoilt(5, 1);
 }
 
-static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
-    (void)state;
+TEST(a_picture_that_cannot_be_stored_ends_it_for_all) {
     mkdir("run", 0777);
     mkdir("run/5.data", 0777);
     script = meet;
@@ -490,34 +478,21 @@ static void a_picture_that_cannot_be_stored_ends_it_for_all(void **state) {
     assert_int_equal(count_entries("run"), 6);
 }
 
-/* The thread sanitizer needs its own pthread_create in the program. */
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define HAS_THREADS_OF_ITS_OWN 1
-#endif
-#endif
-#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
-
 /* ---- the system refuses threads ---- */
 
-/* In place of the system's. */
-int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
-                   void *argument) {
-    typedef int Create(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
-    Create *create;
-    void *symbol = dlsym(RTLD_NEXT, "pthread_create");
-    memcpy(&create, &symbol, sizeof create);
+static int create_few(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                      void *argument) {
     if (threads_allowed == 0)
         return EAGAIN;
     if (threads_allowed > 0)
         threads_allowed--;
-    return create(thread, attributes, start, argument);
+    return real_pthread_create(thread, attributes, run, argument);
 }
+REPLACE(pthread_create, create_few)
 
 /* With fewer and fewer threads: first devices are missed, then all of them; without any it is the
    store that cannot begin. */
-static void devices_without_a_thread_are_dropped(void **state) {
-    (void)state;
+TEST(devices_without_a_thread_are_dropped) {
     enum { ENOUGH = 1000 };
     threads_for_sequence = ENOUGH;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
@@ -541,8 +516,6 @@ static void devices_without_a_thread_are_dropped(void **state) {
     }
 }
 
-#endif
-
 /* ---- a signal, which the program remembers for ever ---- */
 
 static bool is_signalled(void) {
@@ -560,8 +533,7 @@ static HdStatus interrupt(FakePoint point, int index, int count, HdError *failur
     return HD_OK;
 }
 
-static void a_signal_ends_it_for_all(void **state) {
-    (void)state;
+TEST(a_signal_ends_it_for_all) {
     char expected[64];
     script = interrupt;
     assert_int_equal(render("run/%d.data", 2), HD_INTERRUPTED);
@@ -573,27 +545,6 @@ static void a_signal_ends_it_for_all(void **state) {
     assert_int_equal(count_entries("run"), history.stored);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(devices_share_the_frames, begin, end),
-        cmocka_unit_test_setup_teardown(surveyed_frames_are_shared_too, begin, end),
-        cmocka_unit_test_setup_teardown(a_fast_device_does_not_wait_for_a_slow_one, begin, end),
-        cmocka_unit_test_setup_teardown(a_cpu_beside_gpus_estimates_its_pace, begin, end),
-        cmocka_unit_test_setup_teardown(others_trace_what_a_failed_device_had, begin, end),
-        cmocka_unit_test_setup_teardown(a_device_that_has_done_its_part_is_still_there, begin, end),
-        cmocka_unit_test_setup_teardown(a_failure_while_the_store_is_full_stops_nobody, begin, end),
-        cmocka_unit_test_setup_teardown(all_devices_failing_is_an_error, begin, end),
-        cmocka_unit_test_setup_teardown(a_device_alone_that_fails_is_an_error, begin, end),
-        cmocka_unit_test_setup_teardown(a_frame_that_cannot_be_ends_it_for_all, begin, end),
-        cmocka_unit_test_setup_teardown(frames_before_one_that_cannot_be_are_made, begin, end),
-        cmocka_unit_test_setup_teardown(a_picture_that_cannot_be_stored_ends_it_for_all, begin,
-                                        end),
-#if !defined(HAS_THREADS_OF_ITS_OWN) && !defined(__SANITIZE_THREAD__)
-        cmocka_unit_test_setup_teardown(devices_without_a_thread_are_dropped, begin, end),
-#endif
-        cmocka_unit_test_setup_teardown(a_signal_ends_it_for_all, begin, end),
-    };
-    hd_interrupt_install();
-    alarm(PATIENCE_SECONDS);
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)
+
+AT_START(hd_interrupt_install)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "expect.h"
 #include "render/turns.h"
+#include "unit_test.h"
 
 static HdTurn gpu(double seconds) {
     return (HdTurn){.seconds = seconds};
@@ -28,8 +28,7 @@ static int wanting(HdTurns *turns, int left, double now) {
     return all;
 }
 
-static void alike_all_want_while_there_is_enough(void **state) {
-    (void)state;
+TEST(alike_all_want_while_there_is_enough) {
     HdTurns turns = turns_of_three(gpu(1.0), gpu(1.0), gpu(1.0));
     assert_int_equal(wanting(&turns, 3, 0.0), 7);
     assert_int_equal(wanting(&turns, 2, 0.0), 3);
@@ -37,8 +36,7 @@ static void alike_all_want_while_there_is_enough(void **state) {
 }
 
 /* A frame that takes 10 s is worth beginning if the others need as long for what is left. */
-static void slow_ones_leave_the_last_frames_to_others(void **state) {
-    (void)state;
+TEST(slow_ones_leave_the_last_frames_to_others) {
     HdTurns turns = turns_of(gpu(1.0), cpu(9.5));
     assert_int_equal(wanting(&turns, 10, 0.0), 3);
     assert_int_equal(wanting(&turns, 9, 0.0), 1);
@@ -50,16 +48,14 @@ static void slow_ones_leave_the_last_frames_to_others(void **state) {
     assert_int_equal(wanting(&turns, 5, 0.0), 1);
 }
 
-static void whoever_is_left_wants(void **state) {
-    (void)state;
+TEST(whoever_is_left_wants) {
     HdTurns turns = turns_of(gpu(1.0), cpu(1000.0));
     assert_int_equal(wanting(&turns, 1, 0.0), 1);
     hd_turns_leave(&turns, 0);
     assert_true(hd_turns_want(&turns, 1, 1, 0.0));
 }
 
-static void a_new_one_takes_one_frame(void **state) {
-    (void)state;
+TEST(a_new_one_takes_one_frame) {
     HdTurns turns = turns_of(gpu(1.0), gpu(0.0));
     assert_int_equal(wanting(&turns, 1, 0.0), 3);
     hd_turns_begun(&turns, 1, 0.0);
@@ -69,8 +65,7 @@ static void a_new_one_takes_one_frame(void **state) {
 }
 
 /* It begins frames before it is known how long they take. */
-static void one_alone_takes_what_it_gets(void **state) {
-    (void)state;
+TEST(one_alone_takes_what_it_gets) {
     HdTurns turns = turns_of(gpu(0.0), gpu(0.0));
     turns.count = 1;
     for (int i = 0; i < 3; i++) {
@@ -79,8 +74,7 @@ static void one_alone_takes_what_it_gets(void **state) {
     }
 }
 
-static void cpus_wait_for_gpus(void **state) {
-    (void)state;
+TEST(cpus_wait_for_gpus) {
     HdTurns turns = turns_of_three(gpu(1.0), gpu(0.0), cpu(1.0));
     assert_int_equal(wanting(&turns, 100, 0.0), 3);
     turns.list[2].seconds = 0.0;
@@ -94,8 +88,7 @@ static void cpus_wait_for_gpus(void **state) {
     assert_int_equal(wanting(&cpus, 100, 0.0), 3);
 }
 
-static void frames_under_way_count(void **state) {
-    (void)state;
+TEST(frames_under_way_count) {
     HdTurns turns = turns_of(gpu(4.0), gpu(4.0));
     const HdTurn *turn = &turns.list[0];
     hd_turns_begun(&turns, 0, 10.0);
@@ -110,17 +103,4 @@ static void frames_under_way_count(void **state) {
     hd_turns_given_back(&turns, 0, 13.0);
     expect_near(turn->busy_until, 13.0, 1e-12);
     assert_int_equal(turn->in_flight, 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(alike_all_want_while_there_is_enough),
-        cmocka_unit_test(slow_ones_leave_the_last_frames_to_others),
-        cmocka_unit_test(whoever_is_left_wants),
-        cmocka_unit_test(a_new_one_takes_one_frame),
-        cmocka_unit_test(one_alone_takes_what_it_gets),
-        cmocka_unit_test(cpus_wait_for_gpus),
-        cmocka_unit_test(frames_under_way_count),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,8 @@
 
 #include "certify/render_scene.h"
 #include "certify/scene_builder.h"
-#include "expect.h"
 #include "render/adaptive.h"
+#include "unit_test.h"
 
 typedef struct Setup {
     HdScene scene;
@@ -79,45 +79,31 @@ static void check(Setup *setup, HdStatus (*render)(Setup *setup)) {
     hd_scene_free(&setup->scene);
 }
 
-static void all_samples_are_told(void **state) {
-    (void)state;
+TEST(all_samples_are_told) {
     Setup setup;
     build(&setup);
     check(&setup, render_grid);
 }
 
-static void adaptive_passes_are_told(void **state) {
-    (void)state;
+TEST(adaptive_passes_are_told) {
     Setup setup;
     build(&setup);
     setup.scene.sampling = HD_SAMPLING_ADAPTIVE;
     check(&setup, refine);
 }
 
-static void passes_of_a_bound_are_told(void **state) {
-    (void)state;
+TEST(passes_of_a_bound_are_told) {
     Setup setup;
     build(&setup);
     setup.scene.max_error = 1.0;
     check(&setup, refine);
 }
 
-static void parts_come_to_the_whole(void **state) {
-    (void)state;
+TEST(parts_come_to_the_whole) {
     HdWatch watch = {0};
     const HdWatched watched = {&watch, 1000003};
     for (int i = 6; i >= 0; i--)
         hd_watched_add(&watched, i, i + 1, 7);
     assert_true(watch.done == 1000003);
     hd_watched_add(&(HdWatched){NULL, 5}, 0, 1, 1); /* nobody looks */
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_come_to_the_whole),
-        cmocka_unit_test(all_samples_are_told),
-        cmocka_unit_test(adaptive_passes_are_told),
-        cmocka_unit_test(passes_of_a_bound_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

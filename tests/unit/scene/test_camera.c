@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include <float.h>
 
-#include "expect.h"
 #include "scene/camera.h"
+#include "unit_test.h"
 
 static const double tolerance = 1e-14;
 
@@ -49,8 +49,7 @@ static void expect_vector(HdVec3 actual, double x, double y, double z, double of
     expect_near(actual.z, z, off);
 }
 
-static void test_known_positions(void **state) {
-    (void)state;
+TEST(test_known_positions) {
     const HdPath path = {.cylinder = {.r0 = 5.0,
                                       .z0 = 1.0,
                                       .phi0 = 0.0,
@@ -67,8 +66,7 @@ static void test_known_positions(void **state) {
     expect_vector(hd_path_point(&path, 1, 8), r * sqrt(0.5), r * sqrt(0.5), 1.5, tolerance);
 }
 
-static void test_phases_and_start(void **state) {
-    (void)state;
+TEST(test_phases_and_start) {
     const double quarter = acos(0.0);
     const HdPath path = {.cylinder = {.r0 = 5.0,
                                       .z0 = 1.0,
@@ -81,8 +79,7 @@ static void test_phases_and_start(void **state) {
     expect_vector(hd_path_point(&path, 2, 3), 0.0, 7.0, 0.5, tolerance);
 }
 
-static void test_every_frame_follows_the_formula(void **state) {
-    (void)state;
+TEST(test_every_frame_follows_the_formula) {
     const HdScene scene = example();
     for (int k = 0; k < 1024; k++) {
         const double t = 2.0 * acos(-1.0) * k / 1024.0;
@@ -92,8 +89,7 @@ static void test_every_frame_follows_the_formula(void **state) {
     }
 }
 
-static void test_the_loop_closes(void **state) {
-    (void)state;
+TEST(test_the_loop_closes) {
     const HdScene scene = example();
     const int counts[4] = {1, 7, 1024, 10000000};
     for (int i = 0; i < 4; i++) {
@@ -114,8 +110,7 @@ static void expect_orthonormal(const HdCamera *camera) {
     expect_vector(back, -camera->forward.x, -camera->forward.y, -camera->forward.z, tolerance);
 }
 
-static void test_the_basis_is_orthonormal_and_level(void **state) {
-    (void)state;
+TEST(test_the_basis_is_orthonormal_and_level) {
     const HdScene scene = example();
     for (int k = 0; k < 1024; k++) {
         const HdCamera camera = camera_of(&scene, k);
@@ -128,8 +123,7 @@ static void test_the_basis_is_orthonormal_and_level(void **state) {
     }
 }
 
-static void test_a_level_view(void **state) {
-    (void)state;
+TEST(test_a_level_view) {
     const HdScene scene = still((HdCylinderPath){.r0 = 4.0}, (HdCylinderPath){.r0 = 1.0});
     const HdCamera camera = camera_of(&scene, 0);
     expect_vector(camera.eye, 4.0, 0.0, 0.0, tolerance);
@@ -154,18 +148,15 @@ static void expect_vertical(double eye_z, double forward_z) {
     expect_vector(near.right, camera.right.x, camera.right.y, camera.right.z, 1e-6);
 }
 
-static void test_straight_down(void **state) {
-    (void)state;
+TEST(test_straight_down) {
     expect_vertical(5.0, -1.0);
 }
 
-static void test_straight_up(void **state) {
-    (void)state;
+TEST(test_straight_up) {
     expect_vertical(-5.0, 1.0);
 }
 
-static void test_on_the_axis(void **state) {
-    (void)state;
+TEST(test_on_the_axis) {
     HdScene scene =
         still((HdCylinderPath){.z0 = 5.0, .phi_frequency = 1.0}, (HdCylinderPath){.z0 = 0.0});
     scene.frame_count = 4;
@@ -186,8 +177,7 @@ static HdCamera fixed_camera(HdVec3 eye, HdVec3 target) {
     return camera_of(&scene, 0);
 }
 
-static void test_a_fixed_point_stays(void **state) {
-    (void)state;
+TEST(test_a_fixed_point_stays) {
     HdPath path = standing_at(0.1, -0.2, 0.3);
     path.cylinder = (HdCylinderPath){.r0 = 5.0, .z0 = 1.0, .phi_frequency = 1.0};
     for (int frame = 0; frame < 7; frame++)
@@ -196,8 +186,7 @@ static void test_a_fixed_point_stays(void **state) {
 
 /* The picture's up is the direction towards the z axis, or away from it, and that of a view that is
    tilted a little. */
-static void test_vertical_from_a_fixed_eye(void **state) {
-    (void)state;
+TEST(test_vertical_from_a_fixed_eye) {
     const HdVec3 places[4] = {
         {3.0, 4.0, 5.0}, {-3.0, 4.0, -5.0}, {-1e-3, -1e-3, 2.0}, {1e9, -2e9, 7e9}};
     for (int i = 0; i < 4; i++) {
@@ -219,8 +208,7 @@ static void test_vertical_from_a_fixed_eye(void **state) {
 }
 
 /* phi is 0 there. */
-static void test_vertical_from_a_fixed_eye_on_the_axis(void **state) {
-    (void)state;
+TEST(test_vertical_from_a_fixed_eye_on_the_axis) {
     const HdCamera down = fixed_camera(hd_vec3(0.0, 0.0, 5.0), hd_vec3(0.0, 0.0, 0.0));
     expect_orthonormal(&down);
     expect_vector(down.forward, 0.0, 0.0, -1.0, 0.0);
@@ -231,8 +219,7 @@ static void test_vertical_from_a_fixed_eye_on_the_axis(void **state) {
     expect_vector(up.up, 1.0, 0.0, 0.0, 0.0);
 }
 
-static void test_a_fixed_eye_follows_the_target(void **state) {
-    (void)state;
+TEST(test_a_fixed_eye_follows_the_target) {
     HdScene scene = example();
     scene.eye = standing_at(1.0, 2.0, 6.0);
     for (int k = 0; k < 1024; k++) {
@@ -246,8 +233,7 @@ static void test_a_fixed_eye_follows_the_target(void **state) {
     }
 }
 
-static void test_a_moving_eye_watches_a_fixed_target(void **state) {
-    (void)state;
+TEST(test_a_moving_eye_watches_a_fixed_target) {
     HdScene scene = example();
     scene.target = standing_at(0.0, 0.0, 1.0);
     for (int k = 0; k < 1024; k += 64) {
@@ -259,8 +245,7 @@ static void test_a_moving_eye_watches_a_fixed_target(void **state) {
     }
 }
 
-static void test_a_fixed_eye_at_the_target(void **state) {
-    (void)state;
+TEST(test_a_fixed_eye_at_the_target) {
     static HdError error;
     HdCamera camera;
     HdScene scene = example();
@@ -274,8 +259,7 @@ static void test_a_fixed_eye_at_the_target(void **state) {
     assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
 }
 
-static void test_very_far_and_very_near(void **state) {
-    (void)state;
+TEST(test_very_far_and_very_near) {
     const double sizes[4] = {1e-310, 1e-200, 1e200, 1e300};
     for (int i = 0; i < 4; i++) {
         const HdScene scene =
@@ -286,8 +270,7 @@ static void test_very_far_and_very_near(void **state) {
     }
 }
 
-static void test_the_eye_at_the_target(void **state) {
-    (void)state;
+TEST(test_the_eye_at_the_target) {
     static HdError error;
     HdCamera camera;
     const double quarter = acos(0.0);
@@ -304,8 +287,7 @@ static void test_the_eye_at_the_target(void **state) {
     assert_int_equal(hd_camera_at(&camera, &origin, 0, &error), HD_BAD_INPUT);
 }
 
-static void test_too_far_for_a_number(void **state) {
-    (void)state;
+TEST(test_too_far_for_a_number) {
     static HdError error;
     HdCamera camera;
     const HdScene scene = still((HdCylinderPath){.z0 = DBL_MAX}, (HdCylinderPath){.z0 = -DBL_MAX});
@@ -313,8 +295,7 @@ static void test_too_far_for_a_number(void **state) {
     expect_contains(error.message, "frame 0: the eye or the target is too far away");
 }
 
-static void test_field_of_view(void **state) {
-    (void)state;
+TEST(test_field_of_view) {
     const double views[4][2] = {
         {90.0, 1.0}, {120.0, sqrt(3.0)}, {60.0, 1.0 / sqrt(3.0)}, {45.0, sqrt(2.0) - 1.0}};
     HdScene scene = example();
@@ -324,29 +305,4 @@ static void test_field_of_view(void **state) {
     }
     scene.field_of_view_degrees = 179.0;
     expect_near(camera_of(&scene, 0).tangent_of_half_fov, 114.58865012930961, 1e-10);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_positions),
-        cmocka_unit_test(test_phases_and_start),
-        cmocka_unit_test(test_every_frame_follows_the_formula),
-        cmocka_unit_test(test_the_loop_closes),
-        cmocka_unit_test(test_the_basis_is_orthonormal_and_level),
-        cmocka_unit_test(test_a_level_view),
-        cmocka_unit_test(test_straight_down),
-        cmocka_unit_test(test_straight_up),
-        cmocka_unit_test(test_on_the_axis),
-        cmocka_unit_test(test_a_fixed_point_stays),
-        cmocka_unit_test(test_vertical_from_a_fixed_eye),
-        cmocka_unit_test(test_vertical_from_a_fixed_eye_on_the_axis),
-        cmocka_unit_test(test_a_fixed_eye_follows_the_target),
-        cmocka_unit_test(test_a_moving_eye_watches_a_fixed_target),
-        cmocka_unit_test(test_a_fixed_eye_at_the_target),
-        cmocka_unit_test(test_very_far_and_very_near),
-        cmocka_unit_test(test_the_eye_at_the_target),
-        cmocka_unit_test(test_too_far_for_a_number),
-        cmocka_unit_test(test_field_of_view),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "expect.h"
 #include "scene/contact.h"
 #include "scene/overlap.h"
+#include "unit_test.h"
 
 /* A cube with edges `edge` long. */
 static HdSolid cube_at(double x, double y, double z, double edge) {
@@ -21,8 +21,7 @@ static void expect_contact(HdSolid a, HdSolid b, HdContact contact) {
     assert_int_equal(hd_solids_contact(&b, &a), contact);
 }
 
-static void contacts_of_solids(void **state) {
-    (void)state;
+TEST(contacts_of_solids) {
     const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0);
     expect_contact(cube, cube_at(2.0, 0.0, 0.0, 2.0), HD_CONTACT_TOUCHES); /* a face */
     expect_contact(cube, cube_at(2.0, 2.0, 0.5, 2.0), HD_CONTACT_TOUCHES); /* an edge */
@@ -42,8 +41,7 @@ static void contacts_of_solids(void **state) {
     expect_contact(cube, turned, HD_CONTACT_OVERLAPS);
 }
 
-static void contacts_of_floors_and_lights(void **state) {
-    (void)state;
+TEST(contacts_of_floors_and_lights) {
     const HdSolid cube = cube_at(0.0, 0.0, 1.0, 2.0);
     const HdFloor below = floor_at(0.0), under = floor_at(-0.1), within = floor_at(0.5);
     assert_int_equal(hd_floor_contact(&cube, &below), HD_CONTACT_TOUCHES);
@@ -78,8 +76,7 @@ static void expect_parted(HdScene *scene) {
     }
 }
 
-static void everything_is_parted(void **state) {
-    (void)state;
+TEST(everything_is_parted) {
     HdSolid stack[] = {cube_at(0.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.25, 2.5, 1.0),
                        cube_at(2.0, 0.0, 1.0, 2.0),  cube_at(0.5, 0.0, 1.0, 1.0),
                        cube_at(-0.5, 0.0, 0.5, 1.0), cube_at(4.0, 0.0, 4.0, 0.5)};
@@ -98,8 +95,7 @@ static void everything_is_parted(void **state) {
     expect_parted(&scene);
 }
 
-static void what_lies_apart_stays(void **state) {
-    (void)state;
+TEST(what_lies_apart_stays) {
     HdSolid solids[] = {cube_at(0.0, 0.0, 1.5, 2.0), cube_at(0.5, 0.25, 2.75, 2.0)};
     const double radius = solids[0].circumradius;
     HdScene scene = {.solid_count = 2, .solids = solids, .floor = floor_at(0.0)};
@@ -112,8 +108,7 @@ static void what_lies_apart_stays(void **state) {
 
 /* Steps are as long as the greatest of the group, though two of it do not touch what that comes
    from. */
-static void what_touches_in_turn_is_parted_by_equal_steps(void **state) {
-    (void)state;
+TEST(what_touches_in_turn_is_parted_by_equal_steps) {
     HdSolid solids[] = {cube_at(0.0, 0.0, 4.0, 8.0), cube_at(4.5, 0.0, 4.0, 1.0),
                         cube_at(5.5, 0.0, 4.0, 1.0), cube_at(5.0, 0.0, 4.75, 0.5)};
     const double before = solids[1].circumradius, small = solids[3].circumradius;
@@ -123,15 +118,4 @@ static void what_touches_in_turn_is_parted_by_equal_steps(void **state) {
     assert_true(step > 0.0);
     assert_true(solids[2].circumradius == before);
     expect_near(small - solids[3].circumradius, 2.0 * step, 1e-3 * step);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contacts_of_solids),
-        cmocka_unit_test(contacts_of_floors_and_lights),
-        cmocka_unit_test(everything_is_parted),
-        cmocka_unit_test(what_lies_apart_stays),
-        cmocka_unit_test(what_touches_in_turn_is_parted_by_equal_steps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

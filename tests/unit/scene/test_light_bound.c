@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "expect.h"
 #include "scene/light_bound.h"
+#include "unit_test.h"
 
 static HdMaterial plain(void) {
     return (HdMaterial){.colour = {1.0, 0.5, 0.0},
@@ -9,8 +9,7 @@ static HdMaterial plain(void) {
                         .index_of_refraction = 1.0};
 }
 
-static void lights_add_up(void **state) {
-    (void)state;
+TEST(lights_add_up) {
     HdLight lights[2] = {{.intensity = {1.0, 2.0, 3.0}}, {.intensity = {0.5, 0.0, 0.25}}};
     HdSolid solid = {.kind = HD_HEXAHEDRON,
                      .lights = {.per_edge = 2,
@@ -29,8 +28,7 @@ static void lights_add_up(void **state) {
 }
 
 /* What a surface shows of itself, over what it does not send on. */
-static void mirrors_multiply(void **state) {
-    (void)state;
+TEST(mirrors_multiply) {
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 1.0};
     HdMaterial *material = &scene.floor.material;
     material->ambient = 0.2;
@@ -51,8 +49,7 @@ static void mirrors_multiply(void **state) {
 }
 
 /* Under total reflection the mirror, whose tint is white, takes over what would have passed. */
-static void total_reflection_counts(void **state) {
-    (void)state;
+TEST(total_reflection_counts) {
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 1.0};
     HdMaterial *material = &scene.floor.material;
     material->ambient = 0.1;
@@ -64,8 +61,7 @@ static void total_reflection_counts(void **state) {
     expect_near(hd_radiance_bound(&scene).x, 0.001 / (1.0 - 0.9), 3e-4);
 }
 
-static void the_brightest_counts(void **state) {
-    (void)state;
+TEST(the_brightest_counts) {
     HdSolid solid = {
         .kind = HD_TETRAHEDRON,
         .face = plain(),
@@ -90,8 +86,7 @@ static void two_solids(HdSolid solids[2], double apart) {
 }
 
 /* Within a room nothing is seen but the room, unless something reaches into it. */
-static void rays_see_what_is_there(void **state) {
-    (void)state;
+TEST(rays_see_what_is_there) {
     HdSolid solids[2];
     HdSeen seen[4];
     HdScene scene = {.solid_count = 2, .solids = solids, .background = {0.5, 0.0, 0.0}};
@@ -127,8 +122,7 @@ static void rays_see_what_is_there(void **state) {
 }
 
 /* What meshes show by themselves and send on, with their own materials and with a place's. */
-static void meshes_are_seen_from_all_sides(void **state) {
-    (void)state;
+TEST(meshes_are_seen_from_all_sides) {
     HdMeshMaterial materials[2] = {{.material = plain(), .emission = {0.5, 6.0, 0.0}},
                                    {.material = plain(), .emission = {2.0, 0.0, 0.0}}};
     HdMesh mesh = {.material_count = 2, .materials = materials};
@@ -156,8 +150,7 @@ static void meshes_are_seen_from_all_sides(void **state) {
     expect_near(seen[0].outside.y, 6.0 / (1.0 - 0.5), 0.3);
 }
 
-static void depth_follows_the_strongest_ray(void **state) {
-    (void)state;
+TEST(depth_follows_the_strongest_ray) {
     HdScene scene = {.floor = {.present = true, .material = plain()}, .exposure = 2.0};
     HdMaterial *material = &scene.floor.material;
     material->ambient = 0.5;
@@ -166,17 +159,4 @@ static void depth_follows_the_strongest_ray(void **state) {
     assert_int_equal(hd_depth_for_bound(&scene, 0.001), 11);
     material->reflection = 1.0;
     assert_int_equal(hd_depth_for_bound(&scene, 0.001), HD_MAX_DEPTH);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lights_add_up),
-        cmocka_unit_test(mirrors_multiply),
-        cmocka_unit_test(total_reflection_counts),
-        cmocka_unit_test(the_brightest_counts),
-        cmocka_unit_test(rays_see_what_is_there),
-        cmocka_unit_test(meshes_are_seen_from_all_sides),
-        cmocka_unit_test(depth_follows_the_strongest_ray),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

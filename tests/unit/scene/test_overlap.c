@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "expect.h"
 #include "scene/overlap.h"
+#include "unit_test.h"
 
 static HdSolid solid_at(HdSolidKind kind, double x, double y, double z, double circumradius) {
     return (HdSolid){.kind = kind, .centre = {x, y, z}, .circumradius = circumradius};
@@ -26,8 +26,7 @@ static void expect_floor_overlap(HdSolid solid, HdFloor floor, double depth) {
     expect_near(hd_floor_overlap(&solid, &floor), depth, 1e-14);
 }
 
-static void test_cubes(void **state) {
-    (void)state;
+TEST(test_cubes) {
     const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0);
     expect_overlap(cube, cube_at(1.5, 0.0, 0.0, 2.0), 0.5);
     expect_overlap(cube, cube_at(1.5, -1.75, 1.875, 2.0), 0.125);
@@ -40,8 +39,7 @@ static void test_cubes(void **state) {
     expect_overlap(cube, cube_at(0.25, 0.0, 0.0, 0.5), 1.0);
 }
 
-static void test_touching(void **state) {
-    (void)state;
+TEST(test_touching) {
     const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0);
     expect_overlap(cube, cube_at(2.0, 0.0, 0.0, 2.0), 0.0); /* a face */
     expect_overlap(cube, cube_at(2.0, 1.0, 0.5, 2.0), 0.0); /* part of a face */
@@ -56,8 +54,7 @@ static void test_touching(void **state) {
 }
 
 /* Edges that cross at a right angle: the axis that tells them apart is no face's normal. */
-static void test_crossed_edges(void **state) {
-    (void)state;
+TEST(test_crossed_edges) {
     HdSolid a = cube_at(0.0, 0.0, 0.0, 2.0), b = cube_at(2.0 * sqrt(2.0), 0.0, 0.0, 2.0);
     a.rotation_degrees.z = 45.0;
     b.rotation_degrees.y = 45.0;
@@ -68,8 +65,7 @@ static void test_crossed_edges(void **state) {
     expect_overlap(a, b, 0.0);
 }
 
-static void test_what_counts_as_touching(void **state) {
-    (void)state;
+TEST(test_what_counts_as_touching) {
     for (double size = 1e-12; size < 1e12; size *= 10.0) {
         const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0 * size);
         const HdSolid just = cube_at((2.0 - 1.7e-9) * size, 0.0, 0.0, 2.0 * size);
@@ -83,8 +79,7 @@ static void test_what_counts_as_touching(void **state) {
 }
 
 /* Decimal places far from the origin: their rounding alone makes neighbours overlap. */
-static void test_touching_far_away(void **state) {
-    (void)state;
+TEST(test_touching_far_away) {
     for (int i = 0; i < 1000; i++) {
         const double x = 1e9 + 0.1 * i, side = 0.002;
         const HdSolid a = cube_at(x, 0.1, 1e8, side), b = cube_at(x + side, 0.1, 1e8, side);
@@ -112,8 +107,7 @@ static void expect_standing(HdSolid solid, double lowest, double highest) {
     expect_floor_overlap(solid, floor, sunk);
 }
 
-static void test_standing_on_the_floor(void **state) {
-    (void)state;
+TEST(test_standing_on_the_floor) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++)
         for (int i = 0; i < ROTATIONS; i++)
             for (double radius = 1e-3; radius < 5.0; radius *= 7.0) {
@@ -131,8 +125,7 @@ static void test_standing_on_the_floor(void **state) {
             }
 }
 
-static void test_beside_the_floor(void **state) {
-    (void)state;
+TEST(test_beside_the_floor) {
     const HdFloor floor = floor_at(0.0, 5.0);
     expect_floor_overlap(cube_at(0.0, 0.0, 0.0, 2.0), floor, 1.0);
     expect_floor_overlap(cube_at(5.75, 0.0, 0.0, 2.0), floor, 0.25);
@@ -150,8 +143,7 @@ static void test_beside_the_floor(void **state) {
 }
 
 /* Opposite corners 1e-5 of the diagonal above the others: the plane passes half way between. */
-static void test_a_floor_that_is_not_quite_flat(void **state) {
-    (void)state;
+TEST(test_a_floor_that_is_not_quite_flat) {
     HdFloor floor = floor_at(0.0, 5.0);
     floor.corners[0].z = floor.corners[2].z = 1e-4;
     expect_floor_overlap(cube_at(0.0, 0.0, 1.00005, 2.0), floor, 0.0);
@@ -216,8 +208,7 @@ static void expect_samples_agree(double depth, bool found, int *deep, int *apart
     *apart += depth == 0.0;
 }
 
-static void test_solids_against_random_points(void **state) {
-    (void)state;
+TEST(test_solids_against_random_points) {
     int deep = 0, apart = 0;
     random_state = 1;
     for (int i = 0; i < PAIRS; i++) {
@@ -241,8 +232,7 @@ static HdVec3 random_point_on(const HdFloor *floor) {
     return hd_add(hd_scale(near, 1.0 - v), hd_scale(far, v));
 }
 
-static void test_floors_against_random_points(void **state) {
-    (void)state;
+TEST(test_floors_against_random_points) {
     HdFloor floor = floor_at(0.0, 1.5);
     int deep = 0, apart = 0;
     floor.corners[2] = hd_vec3(0.5, 0.75, 0.0);
@@ -262,8 +252,7 @@ static void test_floors_against_random_points(void **state) {
 
 /* The depth is the length of the shortest way out: no shorter move parts the two, and some move
    that is hardly longer does. */
-static void test_the_depth_is_the_shortest_way_out(void **state) {
-    (void)state;
+TEST(test_the_depth_is_the_shortest_way_out) {
     random_state = 3;
     for (int i = 0; i < 20; i++) {
         const HdSolid a = random_solid(0.5), b = random_solid(0.5);
@@ -280,21 +269,4 @@ static void test_the_depth_is_the_shortest_way_out(void **state) {
         }
         assert_true(depth == 0.0 || parted);
     }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cubes),
-        cmocka_unit_test(test_touching),
-        cmocka_unit_test(test_crossed_edges),
-        cmocka_unit_test(test_what_counts_as_touching),
-        cmocka_unit_test(test_touching_far_away),
-        cmocka_unit_test(test_standing_on_the_floor),
-        cmocka_unit_test(test_beside_the_floor),
-        cmocka_unit_test(test_a_floor_that_is_not_quite_flat),
-        cmocka_unit_test(test_solids_against_random_points),
-        cmocka_unit_test(test_floors_against_random_points),
-        cmocka_unit_test(test_the_depth_is_the_shortest_way_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "expect.h"
 #include "scene/platonic.h"
+#include "unit_test.h"
 
 static const double tolerance = 4e-15;
 
@@ -34,8 +34,7 @@ static Known known(HdSolidKind kind) {
     }
 }
 
-static void test_counts_and_euler(void **state) {
-    (void)state;
+TEST(test_counts_and_euler) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic solid;
         hd_platonic(kind, &solid);
@@ -47,8 +46,7 @@ static void test_counts_and_euler(void **state) {
     }
 }
 
-static void test_measures(void **state) {
-    (void)state;
+TEST(test_measures) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic solid;
         hd_platonic(kind, &solid);
@@ -60,8 +58,7 @@ static void test_measures(void **state) {
     }
 }
 
-static void test_vertices_lie_on_the_unit_sphere_about_the_origin(void **state) {
-    (void)state;
+TEST(test_vertices_lie_on_the_unit_sphere_about_the_origin) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic solid;
         hd_platonic(kind, &solid);
@@ -78,8 +75,7 @@ static void test_vertices_lie_on_the_unit_sphere_about_the_origin(void **state) 
 }
 
 /* Each face touches as many vertices as it has sides, and none lies above it. */
-static void test_faces(void **state) {
-    (void)state;
+TEST(test_faces) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic solid;
         hd_platonic(kind, &solid);
@@ -97,8 +93,7 @@ static void test_faces(void **state) {
 }
 
 /* Both ends of an edge lie on both of its faces, which meet at the dihedral angle. */
-static void test_edges(void **state) {
-    (void)state;
+TEST(test_edges) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic solid;
         hd_platonic(kind, &solid);
@@ -128,8 +123,7 @@ static int has_point(const HdVec3 *points, int count, HdVec3 wanted) {
     return 0;
 }
 
-static void test_orientations(void **state) {
-    (void)state;
+TEST(test_orientations) {
     const double c = 1.0 / sqrt(3.0);
     const double phi = (1.0 + sqrt(5.0)) / 2.0;
     const double length = sqrt(1.0 + phi * phi);
@@ -153,8 +147,7 @@ static void test_orientations(void **state) {
     assert_true(has_point(solid.vertex, 12, hd_vec3(1.0 / length, -phi / length, 0.0)));
 }
 
-static void test_the_same_every_time(void **state) {
-    (void)state;
+TEST(test_the_same_every_time) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdPlatonic first, second;
         memset(&first, 0xff, sizeof first);
@@ -179,8 +172,7 @@ static void expect_vector(HdVec3 actual, double x, double y, double z, double of
     expect_near(actual.z, z, off);
 }
 
-static void test_quarter_turns(void **state) {
-    (void)state;
+TEST(test_quarter_turns) {
     const HdVec3 x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0}, z = {0.0, 0.0, 1.0};
     const double off = 1e-15;
     expect_vector(turned(y, hd_vec3(90.0, 0.0, 0.0)), 0.0, 0.0, 1.0, off);
@@ -200,8 +192,7 @@ static const HdVec3 rotations[] = {{30.0, 0.0, 0.0},   {0.0, -75.0, 0.0},    {0.
                                    {10.0, 20.0, 30.0}, {-200.0, 400.0, 1e6}, {1e-7, 0.0, -1e-7}};
 enum { ROTATIONS = sizeof rotations / sizeof rotations[0] };
 
-static void test_rotations_keep_lengths_and_angles(void **state) {
-    (void)state;
+TEST(test_rotations_keep_lengths_and_angles) {
     for (int i = 0; i < ROTATIONS; i++) {
         const HdVec3 x = turned(hd_vec3(1.0, 0.0, 0.0), rotations[i]);
         const HdVec3 y = turned(hd_vec3(0.0, 1.0, 0.0), rotations[i]);
@@ -215,8 +206,7 @@ static void test_rotations_keep_lengths_and_angles(void **state) {
 }
 
 /* Against the matrices, multiplied out with the C library's sine and cosine. */
-static void test_rotations_follow_the_formula(void **state) {
-    (void)state;
+TEST(test_rotations_follow_the_formula) {
     const double degree = acos(-1.0) / 180.0;
     for (int i = 0; i < ROTATIONS; i++) {
         const double a = rotations[i].x * degree, b = rotations[i].y * degree;
@@ -229,8 +219,7 @@ static void test_rotations_follow_the_formula(void **state) {
     }
 }
 
-static void test_turned_by_nothing(void **state) {
-    (void)state;
+TEST(test_turned_by_nothing) {
     const HdVec3 nothing[2] = {{0.0, 0.0, 0.0}, {-0.0, 0.0, -0.0}};
     const HdVec3 point = turned(hd_vec3(-0.0, -0.0, -0.0), nothing[0]); /* signs are kept, too */
     assert_true(signbit(point.x) && signbit(point.y) && signbit(point.z));
@@ -253,8 +242,7 @@ static void expect_edges_on_their_faces(const HdPlatonic *solid) {
                         solid->inradius, tolerance);
 }
 
-static void test_turned_solids_hold_together(void **state) {
-    (void)state;
+TEST(test_turned_solids_hold_together) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++)
         for (int i = 0; i < ROTATIONS; i++) {
             HdPlatonic solid, plain;
@@ -268,22 +256,4 @@ static void test_turned_solids_hold_together(void **state) {
                 expect_vector(solid.vertex[v], vertex.x, vertex.y, vertex.z, 0.0);
             }
         }
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts_and_euler),
-        cmocka_unit_test(test_measures),
-        cmocka_unit_test(test_vertices_lie_on_the_unit_sphere_about_the_origin),
-        cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_edges),
-        cmocka_unit_test(test_orientations),
-        cmocka_unit_test(test_the_same_every_time),
-        cmocka_unit_test(test_quarter_turns),
-        cmocka_unit_test(test_rotations_keep_lengths_and_angles),
-        cmocka_unit_test(test_rotations_follow_the_formula),
-        cmocka_unit_test(test_turned_by_nothing),
-        cmocka_unit_test(test_turned_solids_hold_together),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 
-#include "expect.h"
 #include "input/check.h"
 #include "scene/scene.h"
+#include "unit_test.h"
 
 /* A valid scene; each test spoils one value of it. */
 typedef struct Fixture {
@@ -137,8 +137,7 @@ static void place_mesh(Fixture *f) {
 
 #define PLACED_WRONG(change, message) REJECTED((place_mesh(&f), change), "mesh 1: " message)
 
-static void test_instances(void **state) {
-    (void)state;
+TEST(test_instances) {
     ACCEPTED(place_mesh(&f));
     PLACED_WRONG(f.scene.instances->mesh = 1, "number of its mesh is 1, expected 0 to 0");
     PLACED_WRONG(f.scene.instances->mesh = -1, "number of its mesh is -1, expected 0 to 0");
@@ -161,14 +160,12 @@ static void test_instances(void **state) {
     REJECTED(f.scene.instance_count = -1, "number of meshes in their places is -1, expected 0 to");
 }
 
-static void test_a_good_scene(void **state) {
-    (void)state;
+TEST(test_a_good_scene) {
     ACCEPTED((void)0);
     ACCEPTED(f.scene.solid_count = 0; f.scene.light_count = 0; f.scene.floor.present = false);
 }
 
-static void test_picture(void **state) {
-    (void)state;
+TEST(test_picture) {
     REJECTED(f.scene.frame_count = 0, "frame count is 0, expected 1 to 10000000");
     REJECTED(f.scene.frame_count = 10000001, "frame count is 10000001");
     ACCEPTED(f.scene.frame_count = 10000000);
@@ -187,8 +184,7 @@ static void test_picture(void **state) {
     ACCEPTED(f.scene.depth = 1000);
 }
 
-static void test_view_cutoff_exposure_background(void **state) {
-    (void)state;
+TEST(test_view_cutoff_exposure_background) {
     REJECTED(f.scene.field_of_view_degrees = 0.0, "field of view is 0, expected more than 0");
     REJECTED(f.scene.field_of_view_degrees = 179.5, "field of view is 179.5");
     REJECTED(f.scene.field_of_view_degrees = not_a_number, "field of view is nan");
@@ -206,8 +202,7 @@ static void test_view_cutoff_exposure_background(void **state) {
     REJECTED(f.scene.background.z = infinite, "background's blue is inf");
 }
 
-static void test_paths(void **state) {
-    (void)state;
+TEST(test_paths) {
     REJECTED(f.scene.eye.cylinder.r0 = not_a_number, "eye: r0 is nan");
     REJECTED(f.scene.eye.cylinder.z0 = infinite, "eye: z0 is inf");
     REJECTED(f.scene.eye.cylinder.phi0 = -infinite, "eye: phi0 is -inf");
@@ -220,8 +215,7 @@ static void test_paths(void **state) {
     REJECTED(f.scene.target.cylinder.z_phase = infinite, "target: z phase is inf");
 }
 
-static void test_materials(void **state) {
-    (void)state;
+TEST(test_materials) {
     REJECTED(f.solids[1].face.colour.x = 1.5,
              "solid 2: colour's red is 1.5, expected a number from 0 to 1");
     REJECTED(f.solids[0].face.colour.y = -0.5, "solid 1: colour's green is -0.5");
@@ -240,8 +234,7 @@ static void test_materials(void **state) {
     ACCEPTED(f.solids[0].rim.shininess = 0; f.solids[0].rim_width = 0.0);
 }
 
-static void test_reflection_and_transmission(void **state) {
-    (void)state;
+TEST(test_reflection_and_transmission) {
     REJECTED(f.solids[1].face.transmission = 0.6,
              "solid 2: reflection + transmission is 1.3, expected at most 1");
     REJECTED(f.scene.floor.material.reflection = 0.8, "floor: reflection + transmission is 1.1");
@@ -257,8 +250,7 @@ static void test_reflection_and_transmission(void **state) {
     ACCEPTED(f.solids[0].face.reflection = 0.7 + 1e-10);
 }
 
-static void test_solids(void **state) {
-    (void)state;
+TEST(test_solids) {
     REJECTED(f.scene.solid_count = -1, "number of solids is -1, expected 0 to 256");
     REJECTED(f.scene.solid_count = 257, "number of solids is 257");
     REJECTED(f.solids[1].kind = HD_SOLID_KIND_COUNT, "solid 2: kind is 5, expected 0 to 4");
@@ -268,8 +260,7 @@ static void test_solids(void **state) {
     REJECTED(f.solids[0].circumradius = infinite, "solid 1: radius is inf");
 }
 
-static void test_rim(void **state) {
-    (void)state;
+TEST(test_rim) {
     /* The cube's face is a square with the side 2 R / sqrt(3). */
     const double cube = 2.0 / sqrt(3.0);
     REJECTED(f.solids[0].rim_width = -0.1, "solid 1: rim width is -0.1");
@@ -284,8 +275,7 @@ static void test_rim(void **state) {
     ACCEPTED(f.solids[1].rim_width = triangle - 1e-9);
 }
 
-static void test_edge_lights(void **state) {
-    (void)state;
+TEST(test_edge_lights) {
     REJECTED(f.solids[0].lights.per_edge = -1, "solid 1: number of lights per edge is -1");
     REJECTED(f.solids[0].lights.intensity = -1.0, "solid 1: edge lights' intensity is -1");
     REJECTED(f.solids[0].lights.falloff.distance = -1.0, "solid 1: falloff distance is -1");
@@ -296,8 +286,7 @@ static void test_edge_lights(void **state) {
              "solid 1: edge lights' disc radiance is nan");
 }
 
-static void test_lights(void **state) {
-    (void)state;
+TEST(test_lights) {
     REJECTED(f.scene.light_count = -1, "number of lights is -1");
     REJECTED(f.scene.light_count = 100001, "number of lights is 100001");
     REJECTED(f.lights[1].position.x = infinite, "light 2: position x is inf");
@@ -305,8 +294,7 @@ static void test_lights(void **state) {
     REJECTED(f.lights[0].falloff.distance = -1.0, "light 1: falloff distance is -1");
 }
 
-static void test_all_lights_together(void **state) {
-    (void)state;
+TEST(test_all_lights_together) {
     /* 12 and 30 edges, 2 other lights: 12 * 8331 + 30 * 0 + 2 = 99974. */
     ACCEPTED(f.solids[0].lights.per_edge = 8331; f.solids[1].lights.per_edge = 0);
     REJECTED(f.solids[0].lights.per_edge = 8331;
@@ -325,8 +313,7 @@ static void set_corner(Fixture *f, int i, double x, double y, double z) {
     f->scene.floor.corners[i] = hd_vec3(x, y, z);
 }
 
-static void test_floor(void **state) {
-    (void)state;
+TEST(test_floor) {
     REJECTED(set_corner(&f, 2, 5.0, infinite, -1.0), "floor: corner 3 y is inf");
     /* The diagonal is 14.1: 1e-5 of it is 1.4e-4. */
     ACCEPTED(set_corner(&f, 2, 5.0, 5.0, -1.0002));
@@ -348,14 +335,12 @@ static void test_floor(void **state) {
 }
 
 /* Crossed sides of unequal length leave an area, but no convex corner. */
-static void test_crossed_floor(void **state) {
-    (void)state;
+TEST(test_crossed_floor) {
     REJECTED(set_corner(&f, 1, 9.0, 5.0, -1.0);
              set_corner(&f, 2, -5.0, 5.0, -1.0), "is not a convex corner");
 }
 
-static void test_floor_both_ways_round_and_at_all_sizes(void **state) {
-    (void)state;
+TEST(test_floor_both_ways_round_and_at_all_sizes) {
     for (double size = 1e-9; size < 1e11; size *= 10.0) {
         Fixture f;
         make(&f);
@@ -369,8 +354,7 @@ static void test_floor_both_ways_round_and_at_all_sizes(void **state) {
     }
 }
 
-static void test_texture(void **state) {
-    (void)state;
+TEST(test_texture) {
     ACCEPTED(f.scene.floor.texture.width = 2; f.scene.floor.texture.height = 3);
     REJECTED(f.scene.floor.texture.width = -1, "floor: texture width is -1");
     REJECTED(f.scene.floor.texture.width = 2, "floor: texture height is 0");
@@ -378,8 +362,7 @@ static void test_texture(void **state) {
              f.scene.floor.texture.height = 1, "floor: texture width is 65536");
 }
 
-static void test_fixed_paths(void **state) {
-    (void)state;
+TEST(test_fixed_paths) {
     ACCEPTED(f.scene.eye.is_fixed = true; f.scene.eye.point = hd_vec3(-1e12, 1e12, 1e12));
     REJECTED(f.scene.eye.is_fixed = true;
              f.scene.eye.point.x = infinite, "eye: point x is inf, expected a number from -10000");
@@ -392,8 +375,7 @@ static void test_fixed_paths(void **state) {
     ACCEPTED(f.scene.eye.point.x = not_a_number);
 }
 
-static void test_inner_sides(void **state) {
-    (void)state;
+TEST(test_inner_sides) {
     REJECTED(f.scene.floor.material.has_inner_side = true, "floor: its material has an inner side");
     ACCEPTED(f.solids[0].face.has_inner_side = true; f.solids[0].face.inner_reflection = 0.25;
              f.solids[0].face.inner_transmission = 0.75);
@@ -412,8 +394,7 @@ static void test_inner_sides(void **state) {
     ACCEPTED(f.solids[0].face.inner_reflection = not_a_number);
 }
 
-static void test_refraction(void **state) {
-    (void)state;
+TEST(test_refraction) {
     const double good[4] = {0.1, 1.0, 1.5, 10.0};
     for (int i = 0; i < 4; i++)
         ACCEPTED(f.scene.solid_count = 1; f.scene.floor.present = false;
@@ -432,8 +413,7 @@ static void test_refraction(void **state) {
              "floor: index of refraction is nan");
 }
 
-static void test_rims_are_opaque_on_both_sides(void **state) {
-    (void)state;
+TEST(test_rims_are_opaque_on_both_sides) {
     REJECTED(f.solids[0].rim.has_inner_side = true;
              f.solids[0].rim.inner_transmission = 0.2,
              "solid 1: rim inner transmission is 0.2, expected 0, since rims are opaque");
@@ -441,8 +421,7 @@ static void test_rims_are_opaque_on_both_sides(void **state) {
     ACCEPTED(f.solids[0].rim.inner_transmission = 0.2);
 }
 
-static void test_falloff(void **state) {
-    (void)state;
+TEST(test_falloff) {
     const HdFalloff good[5] = {{0.0, 0.0}, {1e-12, 0.0}, {1e12, 0.0}, {0.0, 1e-12}, {0.0, 1e12}};
     for (int i = 0; i < 5; i++)
         ACCEPTED(f.lights[0].falloff = f.solids[0].lights.falloff = good[i]);
@@ -457,8 +436,7 @@ static void test_falloff(void **state) {
              "solid 2: falloff distance is 2 and falloff end is 3, expected one of them");
 }
 
-static void test_edge_colours(void **state) {
-    (void)state;
+TEST(test_edge_colours) {
     REJECTED(f.solids[1].lights.colour_count = 0,
              "solid 2: number of edge lights' colours is 0, expected 1 to 30");
     REJECTED(f.solids[1].lights.colour_count = 31, "number of edge lights' colours is 31");
@@ -473,8 +451,7 @@ static void test_edge_colours(void **state) {
     ACCEPTED(f.solids[0].lights.per_edge = 0; f.solids[0].lights.disc_radius = not_a_number);
 }
 
-static void test_rotation(void **state) {
-    (void)state;
+TEST(test_rotation) {
     ACCEPTED(f.solids[0].rotation_degrees = hd_vec3(1e6, -1e6, 0.5));
     REJECTED(f.solids[0].rotation_degrees.x = 1000001.0,
              "solid 1: rotation x is 1000001, expected a number from -1000000 to 1000000");
@@ -482,8 +459,7 @@ static void test_rotation(void **state) {
     REJECTED(f.solids[1].rotation_degrees.z = -infinite, "solid 2: rotation z is -inf");
 }
 
-static void test_every_problem_is_told(void **state) {
-    (void)state;
+TEST(test_every_problem_is_told) {
     IN_PROSE((void)0, "");
     IN_JSON((void)0, "");
     IN_PROSE(f.scene.width = 0; f.solids[1].circumradius = -1.0; f.solids[1].face.diffuse = -2.0;
@@ -499,8 +475,7 @@ static void test_every_problem_is_told(void **state) {
              "floor: specular is -5, expected a number from 0 to 1000000\n");
 }
 
-static void test_names_as_in_json(void **state) {
-    (void)state;
+TEST(test_names_as_in_json) {
     IN_JSON(f.scene.field_of_view_degrees = 0.0; f.scene.eye.is_fixed = true;
             f.scene.eye.point.z = 2e12; f.scene.target.cylinder.r_phase = 2e12;
             f.lights[0].intensity.y = -1.0; f.solids[0].rim.reflection = -1.0;
@@ -519,8 +494,7 @@ static void test_names_as_in_json(void **state) {
 }
 
 /* One mistake makes one line, also where other checks need the value. */
-static void test_no_problem_follows_from_another(void **state) {
-    (void)state;
+TEST(test_no_problem_follows_from_another) {
     IN_PROSE(f.solids[1].kind = HD_SOLID_KIND_COUNT; f.solids[1].face.index_of_refraction = 1.5;
              f.solids[1].rim_width = 100.0, "solid 2: kind is 5, expected 0 to 4\n");
     IN_PROSE(f.solids[1].centre.x = not_a_number;
@@ -548,8 +522,7 @@ static HdPath standing_at(double x, double y, double z) {
     return (HdPath){.is_fixed = true, .point = hd_vec3(x, y, z)};
 }
 
-static void test_the_eye_never_at_the_target(void **state) {
-    (void)state;
+TEST(test_the_eye_never_at_the_target) {
     IN_PROSE(f.scene.target = f.scene.eye, "frame 0: the eye is at the target (7, 0, 0), expected "
                                            "two different points\n");
     IN_JSON(f.scene.eye = f.scene.target = standing_at(1.0, 2.0, 3.0),
@@ -582,8 +555,7 @@ static void set_cubes(Fixture *f, double apart, double height) {
     place(&f->solids[1], HD_HEXAHEDRON, apart, 0.0, height);
 }
 
-static void test_refracting_solids_overlap_nothing(void **state) {
-    (void)state;
+TEST(test_refracting_solids_overlap_nothing) {
     ACCEPTED(set_cubes(&f, 1.5, -0.5));
     ACCEPTED(set_cubes(&f, 2.0, 0.0); f.solids[0].face.index_of_refraction = 1.5);
     IN_PROSE(set_cubes(&f, 1.5, 0.0);
@@ -615,8 +587,7 @@ static void test_refracting_solids_overlap_nothing(void **state) {
              "solid 2 (cube): it refracts and overlaps solid 1 (cube), 0.414 deep; move");
 }
 
-static void test_free_clears(void **state) {
-    (void)state;
+TEST(test_free_clears) {
     HdScene scene = {.solid_count = 1, .light_count = 1};
     scene.solids = calloc(1, sizeof *scene.solids);
     scene.lights = calloc(1, sizeof *scene.lights);
@@ -629,8 +600,7 @@ static void test_free_clears(void **state) {
     hd_scene_free(&scene);
 }
 
-static void test_deep_trees(void **state) {
-    (void)state;
+TEST(test_deep_trees) {
     HdScene scene = {.depth = 400, .cutoff = 0.01};
     assert_false(hd_scene_has_deep_trees(&scene)); /* the cut-off ends them */
     scene.cutoff = 0.0;
@@ -646,8 +616,7 @@ static void test_deep_trees(void **state) {
 }
 
 /* What is wrong in one place, or was before, keeps no other check from being made. */
-static void test_no_problem_hides_another(void **state) {
-    (void)state;
+TEST(test_no_problem_hides_another) {
     static HdProblems problems;
     Fixture f;
     make(&f);
@@ -669,8 +638,7 @@ static void test_no_problem_hides_another(void **state) {
         "it index_of_refraction 1\n");
 }
 
-static void test_counts_of_lights(void **state) {
-    (void)state;
+TEST(test_counts_of_lights) {
     Fixture fixture;
     HdScene *scene = &fixture.scene;
     make(&fixture);
@@ -691,8 +659,7 @@ static void test_counts_of_lights(void **state) {
     assert_int_equal(hd_scene_endless_light_count(scene), 1);
 }
 
-static void test_where_and_how_it_is_looked_at(void **state) {
-    (void)state;
+TEST(test_where_and_how_it_is_looked_at) {
     const HdFloor floor = {
         .corners = {{1.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, 8.0}}};
     const HdVec3 centre = hd_floor_centre(&floor);
@@ -705,43 +672,4 @@ static void test_where_and_how_it_is_looked_at(void **state) {
     scene.meshes = meshes;
     scene.mesh_count = 2;
     assert_int_equal(hd_scene_triangle_count(&scene), 7);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_good_scene),
-        cmocka_unit_test(test_picture),
-        cmocka_unit_test(test_view_cutoff_exposure_background),
-        cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_reflection_and_transmission),
-        cmocka_unit_test(test_solids),
-        cmocka_unit_test(test_rim),
-        cmocka_unit_test(test_edge_lights),
-        cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_all_lights_together),
-        cmocka_unit_test(test_floor),
-        cmocka_unit_test(test_crossed_floor),
-        cmocka_unit_test(test_floor_both_ways_round_and_at_all_sizes),
-        cmocka_unit_test(test_texture),
-        cmocka_unit_test(test_fixed_paths),
-        cmocka_unit_test(test_inner_sides),
-        cmocka_unit_test(test_refraction),
-        cmocka_unit_test(test_rims_are_opaque_on_both_sides),
-        cmocka_unit_test(test_falloff),
-        cmocka_unit_test(test_edge_colours),
-        cmocka_unit_test(test_instances),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_every_problem_is_told),
-        cmocka_unit_test(test_names_as_in_json),
-        cmocka_unit_test(test_no_problem_follows_from_another),
-        cmocka_unit_test(test_the_eye_never_at_the_target),
-        cmocka_unit_test(test_refracting_solids_overlap_nothing),
-        cmocka_unit_test(test_deep_trees),
-        cmocka_unit_test(test_no_problem_hides_another),
-        cmocka_unit_test(test_free_clears),
-        cmocka_unit_test(test_counts_of_lights),
-        cmocka_unit_test(test_where_and_how_it_is_looked_at),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

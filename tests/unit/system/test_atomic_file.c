@@ -5,36 +5,34 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 
 #include "system/atomic_file.h"
 #include "test_folder.h"
+#include "wrapped.h"
 
 static HdError error;
 static const char *comes_between; /* is moved to `to`, or where that is NULL removed */
 static const char *to;
 static int glances, holder = -1; /* the lock's, closed after so many */
 
-/* In place of the C library's, as the next. */
 static int syncs;
-int fsync(int descriptor) {
+static int count_sync(int descriptor) {
     syncs++;
-    return (int)syscall(SYS_fsync, descriptor);
+    return real_fsync(descriptor);
 }
 
-int flock(int descriptor, int operation) {
+static int lock_late(int descriptor, int operation) {
     if (glances > 0 && --glances == 0)
         close(holder);
     if (comes_between != NULL)
         assert_int_equal(to != NULL ? rename(comes_between, to) : unlink(comes_between), 0);
     comes_between = NULL;
-    return (int)syscall(SYS_flock, descriptor, operation);
+    return real_flock(descriptor, operation);
 }
 
 /* Another run took it for a stale one before it was locked. */
-static void one_that_was_removed_before_its_lock_is_not_written_to(void **state) {
-    (void)state;
+TEST(one_that_was_removed_before_its_lock_is_not_written_to) {
     HdAtomicFile file;
     char first[64];
     snprintf(first, sizeof first, "0.png.tmp-%ld-0", (long)getpid());
@@ -48,8 +46,7 @@ static void one_that_was_removed_before_its_lock_is_not_written_to(void **state)
 }
 
 /* Another run removed the stale one and gave its name to a file of its own. */
-static void one_that_took_the_name_of_a_stale_one_stays(void **state) {
-    (void)state;
+TEST(one_that_took_the_name_of_a_stale_one_stays) {
     write_bytes("1.png.tmp-1-0", "stale", 5);
     write_bytes("other", "fresh", 5);
     comes_between = "other";
@@ -68,8 +65,7 @@ static void make_locked(const char *path) {
 }
 
 /* What it had started still writes. */
-static void that_of_a_process_that_is_gone_is_waited_for(void **state) {
-    (void)state;
+TEST(that_of_a_process_that_is_gone_is_waited_for) {
     char path[64];
     const pid_t gone = fork();
     if (gone == 0)
@@ -83,8 +79,7 @@ static void that_of_a_process_that_is_gone_is_waited_for(void **state) {
     assert_int_equal(access(path, F_OK), -1);
 }
 
-static void that_of_a_living_process_is_not(void **state) {
-    (void)state;
+TEST(that_of_a_living_process_is_not) {
     char path[64];
     snprintf(path, sizeof path, "3.mkv.tmp-%ld-0", (long)getpid());
     make_locked(path);
@@ -101,8 +96,7 @@ static void open_for(HdAtomicFile *file, const char *path) {
     fputs("new", file->stream);
 }
 
-static void only_what_is_to_last_is_synced(void **state) {
-    (void)state;
+TEST(only_what_is_to_last_is_synced) {
     HdAtomicFile file;
     open_for(&file, "fleeting");
     assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
@@ -118,8 +112,7 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
     hd_atomic_file_discard(file);
 }
 
-static void a_write_that_failed_leaves_the_old_file(void **state) {
-    (void)state;
+TEST(a_write_that_failed_leaves_the_old_file) {
     HdAtomicFile file;
     struct stat found;
     assert_int_equal(mkdir("old", 0777), 0);
@@ -136,8 +129,7 @@ static void a_write_that_failed_leaves_the_old_file(void **state) {
     assert_int_equal(count_entries("old"), 1);
 }
 
-static void what_goes_away_meanwhile_is_named(void **state) {
-    (void)state;
+TEST(what_goes_away_meanwhile_is_named) {
     HdAtomicFile file;
     char message[HD_MAX_PATH + 64];
     open_for(&file, "going/file");
@@ -152,8 +144,7 @@ static void what_goes_away_meanwhile_is_named(void **state) {
     expect_contains(error.message, "its folder going/ is gone");
 }
 
-static void names_that_do_not_fit_are_refused(void **state) {
-    (void)state;
+TEST(names_that_do_not_fit_are_refused) {
     HdAtomicFile file;
     char name[300];
     memset(name, 'n', sizeof name);
@@ -168,16 +159,5 @@ static void names_that_do_not_fit_are_refused(void **state) {
     assert_int_equal(hd_atomic_file_open(&file, ".", &error), HD_BAD_INPUT);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_that_was_removed_before_its_lock_is_not_written_to),
-        cmocka_unit_test(one_that_took_the_name_of_a_stale_one_stays),
-        cmocka_unit_test(that_of_a_process_that_is_gone_is_waited_for),
-        cmocka_unit_test(that_of_a_living_process_is_not),
-        cmocka_unit_test(only_what_is_to_last_is_synced),
-        cmocka_unit_test(a_write_that_failed_leaves_the_old_file),
-        cmocka_unit_test(what_goes_away_meanwhile_is_named),
-        cmocka_unit_test(names_that_do_not_fit_are_refused),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+REPLACE(fsync, count_sync)
+REPLACE(flock, lock_late)

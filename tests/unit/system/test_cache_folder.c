@@ -14,6 +14,7 @@
 
 #include "system/atomic_file.h"
 #include "test_folder.h"
+#include "wrapped.h"
 
 static HdError error;
 static const char payload[] = "machine code\0with a NUL";
@@ -62,8 +63,7 @@ static HdStatus get(const char *key) {
     return status;
 }
 
-static void what_is_put_is_got(void **state) {
-    (void)state;
+TEST(what_is_put_is_got) {
     assert_int_equal(get("a"), HD_UNAVAILABLE);
     put("a");
     assert_int_equal(get("a"), HD_OK);
@@ -75,8 +75,7 @@ static void what_is_put_is_got(void **state) {
     assert_int_equal(count_entries("cache"), 3); /* with the key */
 }
 
-static void files_are_for_the_user_alone(void **state) {
-    (void)state;
+TEST(files_are_for_the_user_alone) {
     struct stat found;
     setenv("HEDRON_CACHE", "cache/deep/er", 1);
     put("a");
@@ -94,8 +93,7 @@ static void files_are_for_the_user_alone(void **state) {
     closedir(entries);
 }
 
-static void files_are_private_from_the_first_instant(void **state) {
-    (void)state;
+TEST(files_are_private_from_the_first_instant) {
     struct stat found;
     HdAtomicFile file;
     put("a");
@@ -107,8 +105,7 @@ static void files_are_private_from_the_first_instant(void **state) {
     hd_atomic_file_discard(&file);
 }
 
-static void texts_are_kept(void **state) {
-    (void)state;
+TEST(texts_are_kept) {
     char text[8];
     assert_int_equal(hd_cache_put_text("test", "block", "128", &error), HD_OK);
     assert_int_equal(hd_cache_get_text("test", "block", text, sizeof text, &error), HD_OK);
@@ -141,8 +138,7 @@ static void expect_untrusted(const char *reason) {
     expect_contains(error.message, reason);
 }
 
-static void every_damaged_byte_is_noticed(void **state) {
-    (void)state;
+TEST(every_damaged_byte_is_noticed) {
     unsigned char bytes[512];
     put("a");
     size_t size = load(bytes, sizeof bytes);
@@ -156,8 +152,7 @@ static void every_damaged_byte_is_noticed(void **state) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-static void each_fault_has_its_reason(void **state) {
-    (void)state;
+TEST(each_fault_has_its_reason) {
     unsigned char bytes[512];
     put("a");
     size_t size = load(bytes, sizeof bytes);
@@ -181,8 +176,7 @@ static void each_fault_has_its_reason(void **state) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-static void entries_cut_short_are_noticed(void **state) {
-    (void)state;
+TEST(entries_cut_short_are_noticed) {
     unsigned char bytes[512];
     put("a");
     size_t size = load(bytes, sizeof bytes);
@@ -193,8 +187,7 @@ static void entries_cut_short_are_noticed(void **state) {
 }
 
 /* A whole entry under the name of another key's. */
-static void entries_of_another_key_are_noticed(void **state) {
-    (void)state;
+TEST(entries_of_another_key_are_noticed) {
     unsigned char bytes[512];
     char path[sizeof entry_file];
     put("a");
@@ -206,8 +199,7 @@ static void entries_of_another_key_are_noticed(void **state) {
     assert_true(load(bytes, sizeof bytes) > 0);
 }
 
-static void entries_that_others_may_write_are_not_trusted(void **state) {
-    (void)state;
+TEST(entries_that_others_may_write_are_not_trusted) {
     put("a");
     assert_int_equal(chmod(find_entry(), 0620), 0);
     expect_untrusted("other users");
@@ -221,8 +213,7 @@ static void entries_that_others_may_write_are_not_trusted(void **state) {
     }
 }
 
-static void what_is_no_file_is_not_read(void **state) {
-    (void)state;
+TEST(what_is_no_file_is_not_read) {
     put("a");
     assert_int_equal(rename(find_entry(), "elsewhere"), 0);
     assert_int_equal(symlink("../elsewhere", entry_file), 0);
@@ -237,8 +228,7 @@ static void what_is_no_file_is_not_read(void **state) {
     assert_int_equal(remove("elsewhere"), 0);
 }
 
-static void folders_that_others_may_write_are_not_used(void **state) {
-    (void)state;
+TEST(folders_that_others_may_write_are_not_used) {
     static const mode_t modes[] = {0720, 0702, 01777};
     put("a");
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
@@ -257,8 +247,7 @@ static void folders_that_others_may_write_are_not_used(void **state) {
 }
 
 /* As by somebody who knows the format, but not the key. */
-static void entries_of_another_users_key_are_noticed(void **state) {
-    (void)state;
+TEST(entries_of_another_users_key_are_noticed) {
     unsigned char bytes[512];
     put("a");
     const size_t size = load(bytes, sizeof bytes);
@@ -271,8 +260,7 @@ static void entries_of_another_users_key_are_noticed(void **state) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-static void keys_that_others_know_are_made_anew(void **state) {
-    (void)state;
+TEST(keys_that_others_know_are_made_anew) {
     static const struct {
         mode_t mode;
         off_t size;
@@ -306,15 +294,13 @@ static HdStatus put_without_descriptors(void) {
     return status;
 }
 
-static void without_random_bytes_there_is_no_key(void **state) {
-    (void)state;
+TEST(without_random_bytes_there_is_no_key) {
     assert_int_equal(put_without_descriptors(), HD_FAILED);
     expect_contains(error.message, "no random bytes");
     assert_int_equal(count_entries("cache"), 0);
 }
 
-static void a_key_that_cannot_be_opened_for_now_is_kept(void **state) {
-    (void)state;
+TEST(a_key_that_cannot_be_opened_for_now_is_kept) {
     unsigned char *bytes;
     size_t size;
     assert_int_equal(hd_cache_put("test", "a", payload, sizeof payload, &error), HD_OK);
@@ -333,8 +319,7 @@ static void expect_folder(const char *expected) {
         assert_string_equal(folder, expected);
 }
 
-static void the_folder_is_found_in_order(void **state) {
-    (void)state;
+TEST(the_folder_is_found_in_order) {
     char below_home[100];
     setenv("XDG_CACHE_HOME", "/xdg", 1);
     setenv("HOME", test_folder, 1);
@@ -361,8 +346,7 @@ static void the_folder_is_found_in_order(void **state) {
     expect_contains(error.message, "HEDRON_CACHE is off");
 }
 
-static void a_folder_that_cannot_be_made_is_told(void **state) {
-    (void)state;
+TEST(a_folder_that_cannot_be_made_is_told) {
     write_bytes("file", "x", 1);
     setenv("HEDRON_CACHE", "file/cache", 1);
     assert_int_equal(get("a"), HD_UNAVAILABLE);
@@ -379,8 +363,7 @@ static void a_folder_that_cannot_be_made_is_told(void **state) {
 }
 
 /* As on a full disk: nothing is left behind, and what was there stays. */
-static void a_write_that_fails_leaves_nothing(void **state) {
-    (void)state;
+TEST(a_write_that_fails_leaves_nothing) {
     static const char large[1 << 14];
     struct rlimit before, limit;
     put("a");
@@ -396,8 +379,7 @@ static void a_write_that_fails_leaves_nothing(void **state) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-static void too_large_an_entry_is_refused(void **state) {
-    (void)state;
+TEST(too_large_an_entry_is_refused) {
     assert_int_equal(hd_cache_put("test", "a", payload, HD_CACHE_MAX_ENTRY_BYTES, &error),
                      HD_FAILED);
     expect_contains(error.message, "too large");
@@ -427,8 +409,7 @@ static void write_and_read(unsigned char fill, const int start[2]) {
 }
 
 /* Nor their keys: each round begins without one. */
-static void several_writers_do_not_mix(void **state) {
-    (void)state;
+TEST(several_writers_do_not_mix) {
     enum { ROUNDS = 20, WRITERS = 4 };
     for (int round = 0; round < ROUNDS; round++) {
         pid_t children[WRITERS];
@@ -470,8 +451,7 @@ static bool exists(const char *name) {
     return access(path, F_OK) == 0;
 }
 
-static void the_longest_unused_go_first(void **state) {
-    (void)state;
+TEST(the_longest_unused_go_first) {
     assert_int_equal(mkdir("cache", 0700), 0);
     make_file("key", 16, 5000);
     make_file("key.tmp-3-0", 16, 4000);
@@ -495,8 +475,7 @@ static void the_longest_unused_go_first(void **state) {
 }
 
 /* In whatever order they are seen, and however long their names are. */
-static void names_of_any_length_can_be_the_oldest(void **state) {
-    (void)state;
+TEST(names_of_any_length_can_be_the_oldest) {
     char name[16];
     assert_int_equal(mkdir("cache", 0700), 0);
     for (int length = 8; length > 0; length--) {
@@ -511,16 +490,15 @@ static void names_of_any_length_can_be_the_oldest(void **state) {
 static const char *stuck; /* cannot be removed */
 
 /* In place of the C library's. */
-int unlinkat(int folder, const char *name, int flags) {
+static int unlink_but_stuck(int folder, const char *name, int flags) {
     if (stuck != NULL && strcmp(name, stuck) == 0) {
         errno = EACCES;
         return -1;
     }
-    return (int)syscall(SYS_unlinkat, folder, name, flags);
+    return real_unlinkat(folder, name, flags);
 }
 
-static void one_that_cannot_be_removed_is_passed_over(void **state) {
-    (void)state;
+TEST(one_that_cannot_be_removed_is_passed_over) {
     assert_int_equal(mkdir("cache", 0700), 0);
     make_file("stuck.entry", 100, 300);
     make_file("old.entry", 100, 200);
@@ -532,8 +510,7 @@ static void one_that_cannot_be_removed_is_passed_over(void **state) {
     assert_false(exists("old.entry"));
 }
 
-static void use_keeps_an_entry_young(void **state) {
-    (void)state;
+TEST(use_keeps_an_entry_young) {
     struct stat found;
     const struct timespec old[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
     put("a");
@@ -544,8 +521,7 @@ static void use_keeps_an_entry_young(void **state) {
 }
 
 /* Files without contents, for it is their size that counts. */
-static void a_put_keeps_to_the_limit(void **state) {
-    (void)state;
+TEST(a_put_keeps_to_the_limit) {
     enum { COUNT = 4 };
     assert_int_equal(mkdir("cache", 0700), 0);
     for (int i = 0; i < COUNT; i++) {
@@ -562,35 +538,5 @@ static void a_put_keeps_to_the_limit(void **state) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(what_is_put_is_got),
-        TEST(files_are_for_the_user_alone),
-        TEST(texts_are_kept),
-        TEST(every_damaged_byte_is_noticed),
-        TEST(each_fault_has_its_reason),
-        TEST(entries_cut_short_are_noticed),
-        TEST(entries_of_another_key_are_noticed),
-        TEST(entries_that_others_may_write_are_not_trusted),
-        TEST(what_is_no_file_is_not_read),
-        TEST(folders_that_others_may_write_are_not_used),
-        TEST(entries_of_another_users_key_are_noticed),
-        TEST(keys_that_others_know_are_made_anew),
-        TEST(without_random_bytes_there_is_no_key),
-        TEST(a_key_that_cannot_be_opened_for_now_is_kept),
-        TEST(files_are_private_from_the_first_instant),
-        TEST(the_folder_is_found_in_order),
-        TEST(a_folder_that_cannot_be_made_is_told),
-        TEST(a_write_that_fails_leaves_nothing),
-        TEST(too_large_an_entry_is_refused),
-        TEST(several_writers_do_not_mix),
-        TEST(the_longest_unused_go_first),
-        TEST(names_of_any_length_can_be_the_oldest),
-        TEST(one_that_cannot_be_removed_is_passed_over),
-        TEST(use_keeps_an_entry_young),
-        TEST(a_put_keeps_to_the_limit),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)
+REPLACE(unlinkat, unlink_but_stuck)

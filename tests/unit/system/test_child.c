@@ -40,8 +40,7 @@ static void expect_end(bool is_good, const char *words) {
     assert_int_equal(errno, ECHILD);
 }
 
-static void it_tells_how_it_ended(void **state) {
-    (void)state;
+TEST(it_tells_how_it_ended) {
     run("exit 0");
     expect_end(true, "exit code 0");
     run("exit 3");
@@ -52,7 +51,7 @@ static void it_tells_how_it_ended(void **state) {
     expect_end(false, "exit code 4");
 }
 
-static void what_is_sent_comes_back(void **state) {
+TEST(what_is_sent_comes_back) {
     enum { SIZE = 3 << 20 };
     (void)state;
     uint8_t *bytes = malloc(SIZE);
@@ -71,8 +70,7 @@ static void what_is_sent_comes_back(void **state) {
     free(bytes);
 }
 
-static void words_end_without_line_breaks(void **state) {
-    (void)state;
+TEST(words_end_without_line_breaks) {
     run("printf ' a\\nb \\r\\n\\n'");
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), " a\nb");
@@ -81,8 +79,7 @@ static void words_end_without_line_breaks(void **state) {
     assert_string_equal(hd_child_said(&child), "(nothing)");
 }
 
-static void one_that_does_not_read_is_noticed(void **state) {
-    (void)state;
+TEST(one_that_does_not_read_is_noticed) {
     static const uint8_t bytes[1 << 20];
     run("exec <&-; echo gone");
     assert_false(hd_child_send(&child, bytes, sizeof bytes));
@@ -91,8 +88,7 @@ static void one_that_does_not_read_is_noticed(void **state) {
 }
 
 /* Silence, or that it stands still, in seconds. */
-static void one_that_hangs_is_killed(void **state) {
-    (void)state;
+TEST(one_that_hangs_is_killed) {
     static const uint8_t bytes[1 << 20];
     setenv("HEDRON_FFMPEG_PATIENCE", "1", 1);
     run("sleep 1000");
@@ -112,8 +108,7 @@ static void one_that_hangs_is_killed(void **state) {
 }
 
 /* Each for longer than the patience, but with shorter rests. */
-static void one_that_works_is_waited_for(void **state) {
-    (void)state;
+TEST(one_that_works_is_waited_for) {
     setenv("HEDRON_FFMPEG_PATIENCE", "2", 1);
     run("for i in 1 2 3 4 5; do for k in 1 2 3 4 5; do sleep 0.1; echo; done; done; echo end");
     assert_true(hd_child_end(&child, HD_CHILD_WHILE_IT_WORKS, how));
@@ -127,8 +122,7 @@ static void one_that_works_is_waited_for(void **state) {
     assert_false(child.is_stuck);
 }
 
-static void a_lock_and_three_streams_are_all_it_has(void **state) {
-    (void)state;
+TEST(a_lock_and_three_streams_are_all_it_has) {
     const int lock = open("lock", O_RDWR | O_CREAT, 0600), other = dup(lock);
     assert_true(lock > 2 && other > 2);
     assert_int_equal(fcntl(lock, F_SETFD, FD_CLOEXEC), 0);
@@ -149,8 +143,7 @@ static void a_lock_and_three_streams_are_all_it_has(void **state) {
 }
 
 /* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
-static void signals_are_as_usual(void **state) {
-    (void)state;
+TEST(signals_are_as_usual) {
     signal(SIGPIPE, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
     run("kill -HUP $$; echo here; kill -PIPE $$; echo there");
@@ -160,8 +153,7 @@ static void signals_are_as_usual(void **state) {
     signal(SIGHUP, SIG_DFL);
 }
 
-static void the_whole_group_is_stopped(void **state) {
-    (void)state;
+TEST(the_whole_group_is_stopped) {
     int ends[2];
     char byte;
     assert_int_equal(pipe(ends), 0);
@@ -184,8 +176,7 @@ static void expect_no_start(const char *path, HdStatus status, const char *reaso
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
 }
 
-static void one_that_cannot_start_is_told(void **state) {
-    (void)state;
+TEST(one_that_cannot_start_is_told) {
     write_bytes("text", "no program", 10);
     expect_no_start("./none", HD_UNAVAILABLE, "cannot start ./none: No such file");
     expect_no_start("./text", HD_UNAVAILABLE, "Permission denied");
@@ -195,8 +186,7 @@ static void one_that_cannot_start_is_told(void **state) {
     expect_no_start("./loop", HD_FAILED, "Too many levels");
 }
 
-static void the_patience_is_whole_seconds(void **state) {
-    (void)state;
+TEST(the_patience_is_whole_seconds) {
     static const char *const wrong[] = {"0", "-1", "86401", "1.5", "1s", "x"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
@@ -215,8 +205,7 @@ static void the_patience_is_whole_seconds(void **state) {
     }
 }
 
-static void programs_are_found_in_order(void **state) {
-    (void)state;
+TEST(programs_are_found_in_order) {
     char path[HD_MAX_PATH], old[HD_MAX_PATH];
     snprintf(old, sizeof old, "%s", getenv("PATH"));
     assert_true(mkdir("x", 0700) == 0 && mkdir("y", 0700) == 0 && mkdir("z", 0700) == 0);
@@ -241,22 +230,4 @@ static void programs_are_found_in_order(void **state) {
     setenv("PATH", old, 1);
 }
 
-#define TEST(function) cmocka_unit_test_setup(function, begin)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(it_tells_how_it_ended),
-        TEST(what_is_sent_comes_back),
-        TEST(words_end_without_line_breaks),
-        TEST(one_that_does_not_read_is_noticed),
-        TEST(one_that_hangs_is_killed),
-        TEST(one_that_works_is_waited_for),
-        TEST(a_lock_and_three_streams_are_all_it_has),
-        TEST(signals_are_as_usual),
-        TEST(the_whole_group_is_stopped),
-        TEST(one_that_cannot_start_is_told),
-        TEST(the_patience_is_whole_seconds),
-        TEST(programs_are_found_in_order),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, NULL)

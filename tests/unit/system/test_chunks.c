@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Work in chunks: each item once, and choices as one call for all items makes them. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdatomic.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "system/chunks.h"
+#include "unit_test.h"
 
 enum { THREADS = 4 };
 
@@ -38,8 +33,7 @@ static void count_items(void *context, int first, int end) {
         atomic_fetch_add(&visits[i], 1);
 }
 
-static void each_item_is_worked_on_once(void **state) {
-    (void)state;
+TEST(each_item_is_worked_on_once) {
     for (int c = 0; c < COUNTS; c++) {
         atomic_int *visits = calloc((size_t)counts[c] + 1, sizeof *visits);
         assert_non_null(visits);
@@ -77,8 +71,7 @@ static void expect_choice(int count, const int *chosen, int chosen_count) {
     assert_int_equal(chosen_count, expected);
 }
 
-static void choices_keep_the_order(void **state) {
-    (void)state;
+TEST(choices_keep_the_order) {
     for (int c = 0; c < COUNTS; c++) {
         int *chosen = calloc((size_t)counts[c] + 1, sizeof *chosen);
         assert_non_null(chosen);
@@ -87,7 +80,7 @@ static void choices_keep_the_order(void **state) {
     }
 }
 
-static void choices_can_be_made_in_place(void **state) {
+TEST(choices_can_be_made_in_place) {
     enum { COUNT = 300000 };
     (void)state;
     int *numbers = calloc(COUNT, sizeof *numbers);
@@ -98,11 +91,4 @@ static void choices_can_be_made_in_place(void **state) {
     free(numbers);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_item_is_worked_on_once),
-        cmocka_unit_test(choices_keep_the_order),
-        cmocka_unit_test(choices_can_be_made_in_place),
-    };
-    return cmocka_run_group_tests(tests, start_threads, end_threads);
-}
+GROUP(start_threads, end_threads)

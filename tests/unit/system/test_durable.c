@@ -8,6 +8,7 @@
 #include <fcntl.h>
 
 #include "test_folder.h"
+#include "wrapped.h"
 
 static HdError error;
 static int answers[4]; /* to the next syncs, as errno has them; 0: done */
@@ -25,8 +26,7 @@ static void tell_name(int descriptor) {
     strcat(strcat(synced_names, *rest == '\0' ? "." : rest), " ");
 }
 
-/* In place of the C library's. */
-int fsync(int descriptor) {
+static int answer_sync(int descriptor) {
     tell_name(descriptor);
     errno = calls < 4 ? answers[calls] : 0;
     calls++;
@@ -53,8 +53,7 @@ static void expect_synced(HdFolderSet *synced, const char *path, const char *nam
     assert_string_equal(synced_names, names);
 }
 
-static void folders_are_synced_up_to_one_that_was(void **state) {
-    (void)state;
+TEST(folders_are_synced_up_to_one_that_was) {
     HdFolderSet synced = {0};
     expect_synced(&synced, "a/b/1.png", "/a/b /a . ");
     expect_synced(&synced, "a/b/2.png", "/a/b ");
@@ -65,15 +64,13 @@ static void folders_are_synced_up_to_one_that_was(void **state) {
     expect_synced(&(HdFolderSet){0}, "//tmp/1.png", "/tmp / ");
 }
 
-static void a_sync_that_a_signal_ends_is_begun_again(void **state) {
-    (void)state;
+TEST(a_sync_that_a_signal_ends_is_begun_again) {
     answers[0] = answers[1] = EINTR;
     assert_int_equal(hd_sync_file(STDIN_FILENO, "x", &error), HD_OK);
     assert_int_equal(calls, 3);
 }
 
-static void what_has_no_disk_needs_no_sync(void **state) {
-    (void)state;
+TEST(what_has_no_disk_needs_no_sync) {
     static const int reasons[] = {EINVAL, ENOTSUP, ENOSYS, EROFS};
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++) {
         calls = 0;
@@ -82,8 +79,7 @@ static void what_has_no_disk_needs_no_sync(void **state) {
     }
 }
 
-static void a_disk_that_fails_is_told(void **state) {
-    (void)state;
+TEST(a_disk_that_fails_is_told) {
     HdFolderSet synced = {0};
     answers[0] = EDQUOT;
     answers[2] = EIO;
@@ -98,8 +94,7 @@ static void a_disk_that_fails_is_told(void **state) {
                         "cannot write a/none to the disk: No such file or directory");
 }
 
-static void a_folder_that_may_not_be_read_is_left_out(void **state) {
-    (void)state;
+TEST(a_folder_that_may_not_be_read_is_left_out) {
     const uid_t user = geteuid();
     assert_int_equal(chmod("a/b", 0300), 0);
     if (user == 0)
@@ -111,15 +106,5 @@ static void a_folder_that_may_not_be_read_is_left_out(void **state) {
     assert_int_equal(chmod("a/b", 0700), 0);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(folders_are_synced_up_to_one_that_was),
-        TEST(a_sync_that_a_signal_ends_is_begun_again),
-        TEST(what_has_no_disk_needs_no_sync),
-        TEST(a_disk_that_fails_is_told),
-        TEST(a_folder_that_may_not_be_read_is_left_out),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)
+REPLACE(fsync, answer_sync)

@@ -6,8 +6,8 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include "expect.h"
 #include "system/path.h"
+#include "unit_test.h"
 
 static const char symbol[] = "_assert_true";
 
@@ -43,8 +43,7 @@ static int leave_library(void **state) {
     return 0;
 }
 
-static void functions_are_found_or_named(void **state) {
-    (void)state;
+TEST(functions_are_found_or_named) {
     Functions functions = {0};
     assert_null(hd_library_load(library, symbols, 2, &functions));
     assert_true(functions.fail == _fail && functions.skip == _skip);
@@ -55,8 +54,7 @@ static void functions_are_found_or_named(void **state) {
     assert_null(functions.unused);
 }
 
-static void its_file_is_told_where_there_is_room(void **state) {
-    (void)state;
+TEST(its_file_is_told_where_there_is_room) {
     char found[HD_MAX_PATH];
     const size_t length = strlen(path);
     assert_true(hd_library_path(library, symbol, found, length + 1));
@@ -65,8 +63,7 @@ static void its_file_is_told_where_there_is_room(void **state) {
     assert_false(hd_library_path(library, "_no_such", found, sizeof found));
 }
 
-static void what_lies_beside_it_is_opened(void **state) {
-    (void)state;
+TEST(what_lies_beside_it_is_opened) {
     const char *name = strrchr(path, '/');
     assert_non_null(name);
     void *again = hd_library_open_beside(library, symbol, name + 1);
@@ -78,8 +75,7 @@ static void what_lies_beside_it_is_opened(void **state) {
 }
 
 /* Cut, it would be that of the library. */
-static void a_name_that_is_too_long_opens_nothing(void **state) {
-    (void)state;
+TEST(a_name_that_is_too_long_opens_nothing) {
     char name[HD_MAX_PATH + 2] = "";
     const char *end = strrchr(path, '/');
     assert_non_null(end);
@@ -94,12 +90,4 @@ static void a_name_that_is_too_long_opens_nothing(void **state) {
     assert_null(hd_library_open_beside(library, symbol, name));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_are_found_or_named),
-        cmocka_unit_test(its_file_is_told_where_there_is_room),
-        cmocka_unit_test(what_lies_beside_it_is_opened),
-        cmocka_unit_test(a_name_that_is_too_long_opens_nothing),
-    };
-    return cmocka_run_group_tests(tests, find_library, leave_library);
-}
+GROUP(find_library, leave_library)

@@ -16,8 +16,7 @@ static void feed(int unused) {
 }
 
 /* The signal comes while there is nothing to read yet, and ends the call. */
-static void a_signal_does_not_end_a_read(void **state) {
-    (void)state;
+TEST(a_signal_does_not_end_a_read) {
     const struct sigaction action = {.sa_handler = feed};
     const struct itimerval soon = {.it_value.tv_usec = 20000};
     char bytes[4] = "";
@@ -41,8 +40,7 @@ static void expect_refused(const char *path, const char *reason) {
     expect_contains(error.message, reason);
 }
 
-static void files_are_read_up_to_a_size(void **state) {
-    (void)state;
+TEST(files_are_read_up_to_a_size) {
     HdError error;
     unsigned char *bytes;
     size_t size;
@@ -67,8 +65,7 @@ static void files_are_read_up_to_a_size(void **state) {
 }
 
 /* As what a system tells of itself: no size, or more than there is. */
-static void a_file_that_ends_early_is_told(void **state) {
-    (void)state;
+TEST(a_file_that_ends_early_is_told) {
     HdError error;
     unsigned char *bytes;
     size_t size;
@@ -79,13 +76,4 @@ static void a_file_that_ends_early_is_told(void **state) {
     assert_null(bytes);
     expect_contains(error.message, "it ended after ");
     expect_contains(error.message, " of 4096 bytes");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_signal_does_not_end_a_read),
-        cmocka_unit_test(files_are_read_up_to_a_size),
-        cmocka_unit_test(a_file_that_ends_early_is_told),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -83,8 +83,7 @@ static void tell_it(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void the_first_signal_is_remembered_and_announced(void **state) {
-    (void)state;
+TEST(the_first_signal_is_remembered_and_announced) {
     static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     for (int i = 0; i < 3; i++) {
         number = numbers[i];
@@ -101,8 +100,7 @@ static void tell_nothing(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void nothing_is_announced_where_nothing_is_to_be(void **state) {
-    (void)state;
+TEST(nothing_is_announced_where_nothing_is_to_be) {
     assert_int_equal(outcome_of(tell_nothing), SIGTERM);
     assert_string_equal(said, "");
 }
@@ -114,8 +112,7 @@ static void take_it_twice(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void two_at_once_are_the_same_wish(void **state) {
-    (void)state;
+TEST(two_at_once_are_the_same_wish) {
     assert_int_equal(outcome_of(take_it_twice), SIGINT);
     assert_string_equal(said, "stopping\n");
 }
@@ -135,8 +132,7 @@ static void wait_deaf(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void another_thread_takes_it_where_the_main_thread_is_stuck(void **state) {
-    (void)state;
+TEST(another_thread_takes_it_where_the_main_thread_is_stuck) {
     assert_int_equal(outcome_of(wait_deaf), SIGTERM);
 }
 
@@ -156,8 +152,7 @@ static void look_at_others(void) {
     _exit(good && hd_interrupt_signal() == 0 ? 0 : 1);
 }
 
-static void what_the_parent_ignored_stays_ignored_but_for_children(void **state) {
-    (void)state;
+TEST(what_the_parent_ignored_stays_ignored_but_for_children) {
     signal(SIGHUP, SIG_IGN);
     assert_int_equal(outcome_of(look_at_others), 0);
     signal(SIGHUP, SIG_DFL);
@@ -177,8 +172,7 @@ static void take_a_second_one(void) {
     raise(SIGINT);
 }
 
-static void a_second_one_later_ends_it_at_once(void **state) {
-    (void)state;
+TEST(a_second_one_later_ends_it_at_once) {
     setenv("HEDRON_STOP_PATIENCE", "100", 1);
     assert_int_equal(outcome_of(take_a_second_one), -SIGINT);
     assert_string_equal(said, "");
@@ -198,8 +192,7 @@ static void hang_deaf(void) {
     hang();
 }
 
-static void who_does_not_end_in_time_is_ended(void **state) {
-    (void)state;
+TEST(who_does_not_end_in_time_is_ended) {
     static void (*const acts[])(void) = {hang_with_a_file, hang_deaf};
     setenv("HEDRON_STOP_PATIENCE", "0.1", 1);
     for (int i = 0; i < 2; i++) {
@@ -216,8 +209,7 @@ static void do_not_end(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void nothing_ends_it_without_a_signal(void **state) {
-    (void)state;
+TEST(nothing_ends_it_without_a_signal) {
     setenv("HEDRON_STOP_PATIENCE", "0.1", 1);
     assert_int_equal(outcome_of(do_not_end), 0);
 }
@@ -228,8 +220,7 @@ static void be_woken(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void it_may_last_as_long_as_patience(void **state) {
-    (void)state;
+TEST(it_may_last_as_long_as_patience) {
     static const char *const patience[] = {"10", "86400"};
     for (int i = 0; i < 2; i++) {
         setenv("HEDRON_STOP_PATIENCE", patience[i], 1);
@@ -238,8 +229,7 @@ static void it_may_last_as_long_as_patience(void **state) {
     }
 }
 
-static void the_patience_is_a_time(void **state) {
-    (void)state;
+TEST(the_patience_is_a_time) {
     static const char *const good[] = {"", "0.1", "86400", "2"};
     static const char *const bad[] = {"0.0999", "86401", "1s", "x", "nan", "-1"};
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
@@ -280,8 +270,7 @@ static void wait_to_write(void) {
     _exit(hd_wait_to_write(ends[1]) ? 96 : hd_interrupt_signal());
 }
 
-static void a_writer_waits_for_room_or_an_interrupt(void **state) {
-    (void)state;
+TEST(a_writer_waits_for_room_or_an_interrupt) {
     fill_pipe();
     assert_int_equal(outcome_of(wait_to_write), SIGINT);
     close(ends[0]);
@@ -303,21 +292,4 @@ static int begin(void **state) {
     return 0;
 }
 
-#define TEST(function) cmocka_unit_test_setup(function, begin)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(the_first_signal_is_remembered_and_announced),
-        TEST(nothing_is_announced_where_nothing_is_to_be),
-        TEST(two_at_once_are_the_same_wish),
-        TEST(another_thread_takes_it_where_the_main_thread_is_stuck),
-        TEST(what_the_parent_ignored_stays_ignored_but_for_children),
-        TEST(a_second_one_later_ends_it_at_once),
-        TEST(who_does_not_end_in_time_is_ended),
-        TEST(nothing_ends_it_without_a_signal),
-        TEST(it_may_last_as_long_as_patience),
-        TEST(the_patience_is_a_time),
-        TEST(a_writer_waits_for_room_or_an_interrupt),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, NULL)

@@ -20,8 +20,7 @@ static void add(int i) {
     hd_leftovers_add_file(path);
 }
 
-static void all_others_are_removed_once(void **state) {
-    (void)state;
+TEST(all_others_are_removed_once) {
     for (int i = 0; i < FILES; i++)
         add(i);
     assert_int_equal(count_entries("."), FILES);
@@ -41,8 +40,7 @@ static void all_others_are_removed_once(void **state) {
     assert_int_equal(access("0.tmp", F_OK), 0);
 }
 
-static void names_without_room_are_not_remembered(void **state) {
-    (void)state;
+TEST(names_without_room_are_not_remembered) {
     char path[HD_MAX_PATH + 1];
     memset(path, '/', sizeof path);
     memcpy(path, ".", 1);
@@ -75,8 +73,7 @@ static void expect_killed(pid_t child) {
     assert_int_equal(WTERMSIG(status), SIGKILL);
 }
 
-static void groups_are_killed_unless_they_are_forgotten(void **state) {
-    (void)state;
+TEST(groups_are_killed_unless_they_are_forgotten) {
     pid_t groups[GROUPS];
     alarm(60); /* where nothing is killed */
     for (int i = 0; i < GROUPS; i++) {
@@ -94,13 +91,4 @@ static void groups_are_killed_unless_they_are_forgotten(void **state) {
         expect_killed(groups[i]);
     }
     alarm(0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groups_are_killed_unless_they_are_forgotten),
-        cmocka_unit_test(names_without_room_are_not_remembered),
-        cmocka_unit_test(all_others_are_removed_once),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

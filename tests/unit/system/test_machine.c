@@ -22,8 +22,7 @@ static int end(void **state) {
     return remove_folder("card0-HDMI-A-1") != 0 || remove_folder("card0-DP-1") != 0;
 }
 
-static void a_desktop_has_one(void **state) {
-    (void)state;
+TEST(a_desktop_has_one) {
     assert_false(hd_display_may_be_there("."));
     setenv("DISPLAY", "", 1);
     assert_false(hd_display_may_be_there("."));
@@ -34,8 +33,7 @@ static void a_desktop_has_one(void **state) {
     assert_true(hd_display_may_be_there("."));
 }
 
-static void one_that_is_plugged_in_is_seen(void **state) {
-    (void)state;
+TEST(one_that_is_plugged_in_is_seen) {
     write_bytes("card0-HDMI-A-1/status", "disconnected\n", 13);
     assert_false(hd_display_may_be_there("."));
     write_bytes("card0-DP-1/status", "connected\n", 10);
@@ -43,8 +41,7 @@ static void one_that_is_plugged_in_is_seen(void **state) {
     assert_false(hd_display_may_be_there("/no/such/folder"));
 }
 
-static void processors_are_those_it_may_run_on(void **state) {
-    (void)state;
+TEST(processors_are_those_it_may_run_on) {
     cpu_set_t all, first;
     assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
     assert_int_equal(hd_processor_count(), CPU_COUNT(&all));
@@ -57,8 +54,7 @@ static void processors_are_those_it_may_run_on(void **state) {
     assert_int_equal(sched_setaffinity(0, sizeof all, &all), 0);
 }
 
-static void memory_and_time_are_the_systems(void **state) {
-    (void)state;
+TEST(memory_and_time_are_the_systems) {
     double kib = 0.0;
     char line[100];
     struct timespec now;
@@ -76,8 +72,7 @@ static void memory_and_time_are_the_systems(void **state) {
     assert_true(told <= (double)now.tv_sec + 1e-9 * (double)now.tv_nsec);
 }
 
-static void free_descriptors_are_counted(void **state) {
-    (void)state;
+TEST(free_descriptors_are_counted) {
     struct rlimit before, limit;
     assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
     limit = before;
@@ -93,8 +88,7 @@ static void free_descriptors_are_counted(void **state) {
     close(lowest);
 }
 
-static void memory_is_aligned(void **state) {
-    (void)state;
+TEST(memory_is_aligned) {
     static const size_t sizes[] = {0, 1, 64, 65, (2 << 20) - 1, 2 << 20, (2 << 20) + 1};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         unsigned char *memory = hd_large_allocate(sizes[i]);
@@ -107,16 +101,4 @@ static void memory_is_aligned(void **state) {
     assert_null(hd_large_allocate(SIZE_MAX - (2 << 20) + 1));
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(a_desktop_has_one),
-        TEST(one_that_is_plugged_in_is_seen),
-        TEST(processors_are_those_it_may_run_on),
-        TEST(memory_and_time_are_the_systems),
-        TEST(free_descriptors_are_counted),
-        TEST(memory_is_aligned),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, end)

@@ -11,8 +11,7 @@ static void check_expanded(const char *path, const char *expected) {
     assert_string_equal(out, expected);
 }
 
-static void home_is_expanded_at_the_start_only(void **state) {
-    (void)state;
+TEST(home_is_expanded_at_the_start_only) {
     setenv("HOME", "/home/somebody", 1);
     check_expanded("~", "/home/somebody");
     check_expanded("~/", "/home/somebody/");
@@ -23,8 +22,7 @@ static void home_is_expanded_at_the_start_only(void **state) {
     check_expanded("", "");
 }
 
-static void home_comes_from_the_database_without_the_variable(void **state) {
-    (void)state;
+TEST(home_comes_from_the_database_without_the_variable) {
     HdError error = {0};
     char unset[HD_MAX_PATH], empty[HD_MAX_PATH];
     unsetenv("HOME");
@@ -36,8 +34,7 @@ static void home_comes_from_the_database_without_the_variable(void **state) {
     assert_string_equal(unset, empty);
 }
 
-static void long_names_are_refused(void **state) {
-    (void)state;
+TEST(long_names_are_refused) {
     HdError error = {0};
     char path[HD_MAX_PATH + 1], out[HD_MAX_PATH];
     setenv("HOME", "/home", 1);
@@ -66,8 +63,7 @@ static bool is_folder(const char *path) {
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-static void parents_are_made(void **state) {
-    (void)state;
+TEST(parents_are_made) {
     HdError error = {0};
     char absolute[HD_MAX_PATH];
     assert_int_equal(hd_path_make_parents("one/two//three/file", &error), HD_OK);
@@ -85,8 +81,7 @@ static void parents_are_made(void **state) {
     assert_int_equal(error.status, HD_OK);
 }
 
-static void files_in_the_way_are_named(void **state) {
-    (void)state;
+TEST(files_in_the_way_are_named) {
     HdError error = {0};
     write_bytes("block", "", 0);
     assert_int_equal(hd_path_make_parents("block/file", &error), HD_FAILED);
@@ -95,8 +90,7 @@ static void files_in_the_way_are_named(void **state) {
     expect_contains(error.message, "folder block for block/deep/file: a file has that name");
 }
 
-static void numbers_are_found(void **state) {
-    (void)state;
+TEST(numbers_are_found) {
     const char *const with[] = {"%d",   "a%d.png", "%01d", "%09d", "%%%d",        "%x%d",
                                 "%d%d", "%5%d",    "#",    "a#/b", "#########.x", "##########%d"};
     const char *const without[] = {"",     "a.png", "%",  "%%d",  "%%%%d", "%5d",       "%0d",
@@ -107,8 +101,7 @@ static void numbers_are_found(void **state) {
         assert_false(hd_pattern_has_number(without[i]));
 }
 
-static void wrong_patterns_are_refused(void **state) {
-    (void)state;
+TEST(wrong_patterns_are_refused) {
     const char *const wrong[] = {"",     "a.png", "%%d",     "%d%d",  "%d-%03d",   "%s",
                                  "%d%s", "%d%",   "%n%d",    "%5d",   "%0d",       "%010d",
                                  "%ld",  "%-3d",  "%d 50%x", "%d%d#", "#%d#%d",    "#/#",
@@ -130,8 +123,7 @@ static void check_formatted(const char *pattern, int frame, const char *expected
     assert_string_equal(out, expected);
 }
 
-static void frames_are_named(void **state) {
-    (void)state;
+TEST(frames_are_named) {
     HdError error = {0};
     char out[HD_MAX_PATH];
     check_formatted("%d", 0, "0");
@@ -160,8 +152,7 @@ static void expect_same(const char *first, const char *second, bool expected) {
         fail_msg("%s and %s are %s file", first, second, expected ? "not one" : "one");
 }
 
-static void one_file_has_many_names(void **state) {
-    (void)state;
+TEST(one_file_has_many_names) {
     char absolute[HD_MAX_PATH];
     assert_int_equal(mkdir("same", 0777), 0);
     write_bytes("same/a", "", 0);
@@ -183,19 +174,4 @@ static void one_file_has_many_names(void **state) {
     expect_same("same/x", "same/y", false);
     expect_same("same/-", "same/+", false);
     expect_same("/", "/..", true);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(home_is_expanded_at_the_start_only),
-        cmocka_unit_test(home_comes_from_the_database_without_the_variable),
-        cmocka_unit_test(long_names_are_refused),
-        cmocka_unit_test(parents_are_made),
-        cmocka_unit_test(files_in_the_way_are_named),
-        cmocka_unit_test(numbers_are_found),
-        cmocka_unit_test(wrong_patterns_are_refused),
-        cmocka_unit_test(frames_are_named),
-        cmocka_unit_test(one_file_has_many_names),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

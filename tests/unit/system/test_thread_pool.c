@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE /* RTLD_NEXT */
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fenv.h>
 #include <stdatomic.h>
@@ -10,9 +9,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "expect.h"
 #include "system/thread_pool.h"
 #include "system/warnings.h"
+#include "unit_test.h"
+#include "wrapped.h"
 
 enum { THREADS = 3, ITEMS = 1000 };
 
@@ -37,8 +37,7 @@ static void work(void *context, int thread, int item) {
 }
 
 /* Threads inherit how their maker rounds. */
-static void each_item_is_done_once_and_rounds_as_usual(void **state) {
-    (void)state;
+TEST(each_item_is_done_once_and_rounds_as_usual) {
     HdThreadPool *pool;
     assert_int_equal(fesetround(FE_UPWARD), 0);
     const HdStatus status = hd_thread_pool_create(&pool, THREADS, &error);
@@ -61,18 +60,15 @@ static void each_item_is_done_once_and_rounds_as_usual(void **state) {
 
 static int threads_left = -1; /* until it refuses some; -1: it does not */
 
-/* In place of the C library's. */
-int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*begin)(void *),
-                   void *argument) {
-    int (*original)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
-    void *found = dlsym(RTLD_NEXT, "pthread_create");
-    memcpy(&original, &found, sizeof found);
+static int create_few(pthread_t *thread, const pthread_attr_t *attributes, void *(*begin)(void *),
+                      void *argument) {
     if (threads_left == 0)
         return EAGAIN;
     if (threads_left > 0)
         threads_left--;
-    return original(thread, attributes, begin, argument);
+    return real_pthread_create(thread, attributes, begin, argument);
 }
+REPLACE(pthread_create, create_few)
 
 static HdStatus create_with(HdThreadPool **pool, int threads) {
     threads_left = threads;
@@ -81,8 +77,7 @@ static HdStatus create_with(HdThreadPool **pool, int threads) {
     return status;
 }
 
-static void those_that_start_do_the_work(void **state) {
-    (void)state;
+TEST(those_that_start_do_the_work) {
     HdThreadPool *pool;
     char note[HD_FALLBACK_LENGTH];
     assert_int_equal(create_with(&pool, 2), HD_OK);
@@ -118,20 +113,10 @@ static void check_stack(rlim_t soft_kib, rlim_t hard_kib, rlim_t expected_kib) {
     assert_int_equal(code, 0);
 }
 
-static void a_small_stack_is_made_larger(void **state) {
-    (void)state;
+TEST(a_small_stack_is_made_larger) {
     check_stack(256, 8192, 1024);
     check_stack(256, 1024, 1024);
     check_stack(1024, 8192, 1024);
     check_stack(1025, 8192, 1025);
     check_stack(256, 1023, 0);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_item_is_done_once_and_rounds_as_usual),
-        cmocka_unit_test(those_that_start_do_the_work),
-        cmocka_unit_test(a_small_stack_is_made_larger),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

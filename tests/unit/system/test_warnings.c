@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "system/warnings.h"
 
-#include "expect.h"
+#include "unit_test.h"
 
-static void sentences_come_once_and_in_their_order(void **state) {
-    (void)state;
+TEST(sentences_come_once_and_in_their_order) {
     char text[HD_FALLBACK_LENGTH];
     assert_false(hd_fallback_take(text));
     hd_fallback_note("%d of %d", 1, 2);
@@ -23,8 +22,7 @@ static void sentences_come_once_and_in_their_order(void **state) {
     assert_false(hd_fallback_take(text));
 }
 
-static void what_finds_no_room_is_dropped(void **state) {
-    (void)state;
+TEST(what_finds_no_room_is_dropped) {
     char text[HD_FALLBACK_LENGTH];
     for (int i = 0; i < 10; i++)
         hd_fallback_note("%-600d", i);
@@ -34,12 +32,4 @@ static void what_finds_no_room_is_dropped(void **state) {
         assert_int_equal(text[0], '0' + i);
     }
     assert_false(hd_fallback_take(text));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sentences_come_once_and_in_their_order),
-        cmocka_unit_test(what_finds_no_room_is_dropped),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,8 +118,7 @@ static bool is_beside(int from, int light, int object) {
     return ways[from * (tables.light_count + 1) + 1 + light] >> object & 1;
 }
 
-static void segments_miss_what_is_beside(void **state) {
-    (void)state;
+TEST(segments_miss_what_is_beside) {
     int beside = 0, others = 0, crossed = 0;
     for (int from = 0; from < OBJECTS; from++)
         for (int light = 0; light < tables.light_count; light++)
@@ -141,8 +140,7 @@ static void segments_miss_what_is_beside(void **state) {
     assert_true(2 * crossed > others);
 }
 
-static void a_solid_is_left_only_towards_lights_outside(void **state) {
-    (void)state;
+TEST(a_solid_is_left_only_towards_lights_outside) {
     int inside = 0;
     for (int solid = 0; solid < SOLIDS; solid++)
         for (int light = 0; light < tables.light_count; light++) {
@@ -162,8 +160,7 @@ static void a_solid_is_left_only_towards_lights_outside(void **state) {
         assert_true(is_beside(FLOOR, light, FLOOR));
 }
 
-static void the_first_number_is_of_all_lights(void **state) {
-    (void)state;
+TEST(the_first_number_is_of_all_lights) {
     for (int from = 0; from < OBJECTS; from++)
         for (int object = 0; object < OBJECTS; object++) {
             bool all = true;
@@ -174,8 +171,7 @@ static void the_first_number_is_of_all_lights(void **state) {
 }
 
 /* The dodecahedron and the cube overlap, the icosahedron is in the floor. */
-static void solids_that_others_reach_into_are_not_apart(void **state) {
-    (void)state;
+TEST(solids_that_others_reach_into_are_not_apart) {
     static const int apart[OBJECTS] = {1, 1, 0, 0, 0, 0};
     for (int i = 0; i < OBJECTS; i++)
         assert_int_equal(objects[i].apart, apart[i]);
@@ -183,8 +179,7 @@ static void solids_that_others_reach_into_are_not_apart(void **state) {
 
 /* Where rays come from far away rounding puts points off the solids, so that nothing is known: the
    eye is 10^7 radii away, which a float tells by about one. */
-static void nothing_is_known_where_points_are_off(void **state) {
-    (void)state;
+TEST(nothing_is_known_where_points_are_off) {
     file.scene.eye.point.x = 1e7;
     compile();
     for (int from = 0; from < SOLIDS; from++) {
@@ -195,13 +190,4 @@ static void nothing_is_known_where_points_are_off(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(segments_miss_what_is_beside),
-        cmocka_unit_test(a_solid_is_left_only_towards_lights_outside),
-        cmocka_unit_test(the_first_number_is_of_all_lights),
-        cmocka_unit_test(solids_that_others_reach_into_are_not_apart),
-        cmocka_unit_test(nothing_is_known_where_points_are_off),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+GROUP(begin, end)

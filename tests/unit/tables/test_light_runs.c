@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "device/self_test_scenes.h"
-#include "expect.h"
 #include "kernels/host/shared.h"
 #include "tables/tables.h"
+#include "unit_test.h"
 
 static HdError error;
 static HdScene scene;
@@ -40,8 +40,7 @@ static void expect_within(int light, int run) {
     }
 }
 
-static void runs_are_of_one_group_and_within_their_sphere(void **state) {
-    (void)state;
+TEST(runs_are_of_one_group_and_within_their_sphere) {
     const Light *lights = compile(1);
     int longest = 0;
     for (int i = 0; i < tables.light_count; i++) {
@@ -58,8 +57,7 @@ static void runs_are_of_one_group_and_within_their_sphere(void **state) {
 }
 
 /* All lights are in runs, which are as long as they can be and are not judged by themselves. */
-static void bundles_of_several_lanes_skip_by_all_runs(void **state) {
-    (void)state;
+TEST(bundles_of_several_lanes_skip_by_all_runs) {
     const Light *lights = compile(8);
     for (int i = 0, run; i < tables.light_count; i += run) {
         run = lights[i].run;
@@ -75,8 +73,7 @@ static void bundles_of_several_lanes_skip_by_all_runs(void **state) {
     assert_false(tables.many_lights);
 }
 
-static void where_no_light_ends_one_lane_has_none(void **state) {
-    (void)state;
+TEST(where_no_light_ends_one_lane_has_none) {
     for (int i = 0; i < scene.light_count; i++)
         scene.lights[i].falloff = (HdFalloff){0};
     const Light *lights = compile(1);
@@ -85,13 +82,4 @@ static void where_no_light_ends_one_lane_has_none(void **state) {
     assert_true(tables.many_lights);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(runs_are_of_one_group_and_within_their_sphere),
-        TEST(bundles_of_several_lanes_skip_by_all_runs),
-        TEST(where_no_light_ends_one_lane_has_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(begin, end)

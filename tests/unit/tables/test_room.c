@@ -9,9 +9,9 @@
 
 #include "device/renderer.h"
 #include "device/self_test_scenes.h"
-#include "expect.h"
 #include "kernels/host/shared.h"
 #include "tables/tables.h"
+#include "unit_test.h"
 
 /* Sanitizers take more of the address space than this test leaves. gcc tells of them by macros,
    clang by features. */
@@ -37,8 +37,7 @@ static HdSceneTables tables_of(size_t triangles, size_t nodes) {
     return tables;
 }
 
-static void bytes_are_told_shortly(void **state) {
-    (void)state;
+TEST(bytes_are_told_shortly) {
     static const struct {
         double bytes;
         const char *text;
@@ -52,8 +51,7 @@ static void bytes_are_told_shortly(void **state) {
     }
 }
 
-static void what_fits_passes(void **state) {
-    (void)state;
+TEST(what_fits_passes) {
     HdSceneTables tables = tables_of(1000000000, 1000000000);
     const HdRoom unknown = {.name = "Device", .advice = ""};
     assert_int_equal(hd_check_room(&tables, &device, &error), HD_OK);
@@ -61,8 +59,7 @@ static void what_fits_passes(void **state) {
     assert_int_equal(hd_check_room(&tables, &unknown, &error), HD_OK);
 }
 
-static void a_table_may_be_too_large(void **state) {
-    (void)state;
+TEST(a_table_may_be_too_large) {
     HdSceneTables tables = tables_of(900000000, 1000000001);
     assert_int_equal(hd_check_room(&tables, &device, &error), HD_UNAVAILABLE);
     assert_string_equal(error.message,
@@ -70,8 +67,7 @@ static void a_table_may_be_too_large(void **state) {
                         "allows 1.00 GB of its 4.00 GB; do this");
 }
 
-static void all_tables_may_be_too_large(void **state) {
-    (void)state;
+TEST(all_tables_may_be_too_large) {
     HdSceneTables tables = tables_of(2500000000, 1500000001);
     assert_int_equal(hd_check_room(&tables, &device, &error), HD_UNAVAILABLE);
     assert_string_equal(error.message,
@@ -79,8 +75,7 @@ static void all_tables_may_be_too_large(void **state) {
                         "Device has 4.00 GB; do this");
 }
 
-static void every_table_has_a_name(void **state) {
-    (void)state;
+TEST(every_table_has_a_name) {
     for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
         assert_non_null(hd_scene_table_content(i));
         for (int k = 0; k < i; k++)
@@ -97,8 +92,7 @@ static HdScene scene_with_meshes(void) {
 }
 
 /* What the meshes claim to have is never read. */
-static void a_scene_may_be_too_large_for_the_machine(void **state) {
-    (void)state;
+TEST(a_scene_may_be_too_large_for_the_machine) {
     enum { MANY = 1000 };
     HdScene scene = scene_with_meshes();
     HdSceneTables tables;
@@ -124,8 +118,7 @@ static void a_scene_may_be_too_large_for_the_machine(void **state) {
 }
 
 /* The rest of what the process may have is less than the table. */
-static void memory_may_be_taken(void **state) {
-    (void)state;
+TEST(memory_may_be_taken) {
     HdScene scene = scene_with_meshes();
     HdSceneTables tables;
     struct rlimit old, small;
@@ -148,8 +141,7 @@ static void memory_may_be_taken(void **state) {
 }
 
 /* PoCL tells of as little memory as it is asked to, and allows a quarter of it at once. */
-static void opencl_tells_what_is_too_large(void **state) {
-    (void)state;
+TEST(opencl_tells_what_is_too_large) {
     HdDevice devices[HD_MAX_DEVICES];
     HdRenderOptions options = {.lanes = 1};
     HdRenderer *renderer;
@@ -178,8 +170,7 @@ static void opencl_tells_what_is_too_large(void **state) {
     expect_contains(error.message, " allows 268 MB of its 1.07 GB; fewer triangles, ");
 }
 
-static void textures_end_where_kernels_count_no_further(void **state) {
-    (void)state;
+TEST(textures_end_where_kernels_count_no_further) {
     HdPicture pictures[] = {{.texture = {.width = 1 << 15, .height = 1 << 14}},
                             {.texture = {.width = 1 << 15, .height = 1 << 14}}};
     HdScene scene = {.picture_count = 2, .pictures = pictures};
@@ -191,8 +182,7 @@ static void textures_end_where_kernels_count_no_further(void **state) {
 }
 
 /* Each level of a ray's tree adds what lights shine on a surface, and the exposure scales all. */
-static void deeper_trees_leave_out_more(void **state) {
-    (void)state;
+TEST(deeper_trees_leave_out_more) {
     HdScene scene = scene_with_meshes();
     scene.exposure = 1.0;
     scene.depth = 0;
@@ -206,20 +196,4 @@ static void deeper_trees_leave_out_more(void **state) {
     scene.exposure = 4.0;
     expect_near(hd_most_left_out(&scene), 4.0 * (flat + 10.0 * level), 1e-9 * flat);
     hd_scene_free(&scene);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(textures_end_where_kernels_count_no_further),
-        cmocka_unit_test(bytes_are_told_shortly),
-        cmocka_unit_test(what_fits_passes),
-        cmocka_unit_test(a_table_may_be_too_large),
-        cmocka_unit_test(all_tables_may_be_too_large),
-        cmocka_unit_test(every_table_has_a_name),
-        cmocka_unit_test(a_scene_may_be_too_large_for_the_machine),
-        cmocka_unit_test(memory_may_be_taken),
-        cmocka_unit_test(opencl_tells_what_is_too_large),
-        cmocka_unit_test(deeper_trees_leave_out_more),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "view/pace.h"
 
-#include "expect.h"
+#include "unit_test.h"
 
 static const HdDetail full = {640, 360, 4, 14};
 
@@ -19,8 +19,7 @@ static HdDetail settled(HdPace *pace, double each) {
     return detail;
 }
 
-static void pictures_are_made_in_time(void **state) {
-    (void)state;
+TEST(pictures_are_made_in_time) {
     for (double each = 1e-9; each < 2e-6; each *= 1.7) {
         HdPace pace = {0};
         const HdDetail detail = settled(&pace, each);
@@ -28,16 +27,14 @@ static void pictures_are_made_in_time(void **state) {
     }
 }
 
-static void a_fast_device_makes_all_of_it(void **state) {
-    (void)state;
+TEST(a_fast_device_makes_all_of_it) {
     HdPace pace = {0};
     const HdDetail detail = settled(&pace, 1e-10);
     assert_memory_equal(&detail, &full, sizeof detail);
 }
 
 /* All pixels come before more samples, and a picture is no smaller than it must be. */
-static void pixels_come_before_samples(void **state) {
-    (void)state;
+TEST(pixels_come_before_samples) {
     for (double each = 1e-9; each < 2e-6; each *= 1.7) {
         HdPace pace = {0};
         const HdDetail detail = settled(&pace, each);
@@ -52,8 +49,7 @@ static void pixels_come_before_samples(void **state) {
     }
 }
 
-static void pictures_keep_their_shape(void **state) {
-    (void)state;
+TEST(pictures_keep_their_shape) {
     HdPace pace = {0};
     const HdDetail detail = settled(&pace, 6e-7);
     assert_true(detail.width < full.width && detail.width > 128);
@@ -62,8 +58,7 @@ static void pictures_keep_their_shape(void **state) {
 
 /* Pictures do not become stamps: their rays go less deep instead, and come back once there is time.
  */
-static void depth_is_given_up_last(void **state) {
-    (void)state;
+TEST(depth_is_given_up_last) {
     HdPace pace = {0};
     HdDetail detail = settled(&pace, 1e-4);
     assert_int_equal(detail.width, 128);
@@ -73,8 +68,7 @@ static void depth_is_given_up_last(void **state) {
     assert_int_equal(detail.depth, full.depth);
 }
 
-static void small_scenes_stay_whole(void **state) {
-    (void)state;
+TEST(small_scenes_stay_whole) {
     HdPace pace = {0};
     const HdDetail small = {64, 48, 1, 3};
     const HdDetail detail = {64, 48, 1, 3};
@@ -85,25 +79,11 @@ static void small_scenes_stay_whole(void **state) {
 }
 
 /* One that took too long counts at once, a quick one by and by. */
-static void slow_pictures_count_more(void **state) {
-    (void)state;
+TEST(slow_pictures_count_more) {
     HdPace slower = {1e-6, 0}, faster = {1e-6, 0};
     const HdDetail detail = {100, 100, 1, 14};
     hd_pace_note(&slower, &detail, 2e-2);
     hd_pace_note(&faster, &detail, 5e-3);
     assert_true(slower.seconds_per_sample > 1.5e-6);
     assert_true(faster.seconds_per_sample > 0.85e-6 && faster.seconds_per_sample < 1e-6);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_are_made_in_time),
-        cmocka_unit_test(a_fast_device_makes_all_of_it),
-        cmocka_unit_test(pixels_come_before_samples),
-        cmocka_unit_test(pictures_keep_their_shape),
-        cmocka_unit_test(depth_is_given_up_last),
-        cmocka_unit_test(small_scenes_stay_whole),
-        cmocka_unit_test(slow_pictures_count_more),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

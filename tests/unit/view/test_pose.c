@@ -6,7 +6,7 @@
 
 #include "base/trigonometry.h"
 #include "base/vector.h"
-#include "expect.h"
+#include "unit_test.h"
 
 static const HdPose start = {{3.0, -4.0, 2.0}, {1.0, 0.0, 0.5}};
 
@@ -20,8 +20,7 @@ static void expect_point(HdVec3 actual, HdVec3 expected) {
     expect_near(actual.z, expected.z, 1e-12);
 }
 
-static void orbits_keep_target_and_distance(void **state) {
-    (void)state;
+TEST(orbits_keep_target_and_distance) {
     HdPose pose = start;
     hd_pose_orbit(&pose, 0.7, 0.3);
     expect_point(pose.target, start.target);
@@ -32,8 +31,7 @@ static void orbits_keep_target_and_distance(void **state) {
     expect_point(pose.eye, hd_vec3(5.0, 2.0, 2.0)); /* a quarter turn of (2, -4) is (4, 2) */
 }
 
-static void orbits_go_over_no_pole(void **state) {
-    (void)state;
+TEST(orbits_go_over_no_pole) {
     for (int sign = -1; sign <= 1; sign += 2) {
         HdPose pose = start;
         for (int i = 0; i < 50; i++)
@@ -46,8 +44,7 @@ static void orbits_go_over_no_pole(void **state) {
     }
 }
 
-static void pans_move_eye_and_target_alike(void **state) {
-    (void)state;
+TEST(pans_move_eye_and_target_alike) {
     HdPose pose = {{0.0, -2.0, 0.0}, {0.0, 0.0, 0.0}};
     hd_pose_pan(&pose, 0.5, 0.25); /* of a distance of 2 */
     expect_point(pose.eye, hd_vec3(1.0, -2.0, 0.5));
@@ -58,8 +55,7 @@ static void pans_move_eye_and_target_alike(void **state) {
     expect_near(distance(&down), 2.0, 1e-12);
 }
 
-static void dollies_end_far_and_near(void **state) {
-    (void)state;
+TEST(dollies_end_far_and_near) {
     HdPose pose = start;
     hd_pose_dolly(&pose, 0.5);
     expect_point(pose.eye, hd_vec3(2.0, -2.0, 1.25));
@@ -72,8 +68,7 @@ static void dollies_end_far_and_near(void **state) {
     expect_point(pose.target, start.target);
 }
 
-static void an_applied_pose_is_the_only_view(void **state) {
-    (void)state;
+TEST(an_applied_pose_is_the_only_view) {
     HdScene scene = {.frame_count = 240};
     hd_pose_apply(&start, &scene);
     assert_int_equal(scene.frame_count, 1);
@@ -81,8 +76,7 @@ static void an_applied_pose_is_the_only_view(void **state) {
     assert_memory_equal(&back, &start, sizeof back);
 }
 
-static void printed_cameras_read_back(void **state) {
-    (void)state;
+TEST(printed_cameras_read_back) {
     const HdPose pose = {{0.1, -1.0 / 3.0, 1e-9}, {2.0, 0.0, -0.25}};
     char text[512] = "";
     HdPose back;
@@ -99,16 +93,4 @@ static void printed_cameras_read_back(void **state) {
                      7);
     assert_true(angle == 62.5);
     assert_memory_equal(&back, &pose, sizeof back);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orbits_keep_target_and_distance),
-        cmocka_unit_test(orbits_go_over_no_pole),
-        cmocka_unit_test(pans_move_eye_and_target_alike),
-        cmocka_unit_test(dollies_end_far_and_near),
-        cmocka_unit_test(an_applied_pose_is_the_only_view),
-        cmocka_unit_test(printed_cameras_read_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@
 
 static HdError error;
 static HdCudaDriver driver;
-static char program[4096], said[4096];
+static char said[4096];
 
 /* ---- loading ---- */
 
@@ -30,8 +30,10 @@ static int load(void) {
 }
 
 static void expect_loading(const char *folder, HdStatus expected, const char *message) {
+    char command[4096];
+    snprintf(command, sizeof command, "'%s' load_cuda_driver", unit_program);
     setenv("LD_LIBRARY_PATH", folder, 1);
-    FILE *output = popen(program, "r");
+    FILE *output = popen(command, "r");
     assert_non_null(output);
     said[fread(said, 1, sizeof said - 1, output)] = '\0';
     const int status = pclose(output);
@@ -41,8 +43,7 @@ static void expect_loading(const char *folder, HdStatus expected, const char *me
     assert_int_equal(WEXITSTATUS(status), expected);
 }
 
-static void a_driver_is_loaded_or_told_to_be_missing_or_old(void **state) {
-    (void)state;
+TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
     setenv("FAKE_CUDA_DRIVER", "13010", 1);
     expect_loading(FAKE_CUDA, HD_OK, "CUDA_ERROR_OUT_OF_MEMORY, sm_61, driver for CUDA 13.1");
     assert_int_equal(symlink(STUB_NVRTC, "libcuda.so.1"), 0);
@@ -67,8 +68,7 @@ static void expect_no_start(const char *code, const char *version, HdStatus stat
     unsetenv("FAKE_CUDA_FAILS");
 }
 
-static void what_may_help_a_driver_to_start_is_told(void **state) {
-    (void)state;
+TEST(what_may_help_a_driver_to_start_is_told) {
     expect_no_start("999", "13010", HD_FAILED,
                     "CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: sudo rmmod "
                     "nvidia_uvm && sudo modprobe nvidia_uvm, or a restart");
@@ -101,8 +101,7 @@ static void expect_failure(const char *function, HdCuResult code, bool is_loss,
     expect_contains(error.message, message);
 }
 
-static void errors_have_their_words(void **state) {
-    (void)state;
+TEST(errors_have_their_words) {
     driver = (HdCudaDriver){.cuGetErrorName = tell, .cuGetErrorString = tell};
     outcome = HD_CU_SUCCESS;
     word = "WORD";
@@ -116,8 +115,7 @@ static void errors_have_their_words(void **state) {
                    "cuMemAlloc failed with an unknown error (2: no description)");
 }
 
-static void what_a_device_does_not_survive_is_a_loss(void **state) {
-    (void)state;
+TEST(what_a_device_does_not_survive_is_a_loss) {
     static const HdCuResult losses[] = {46, 214, 220, 700, 702, 709, 714, 715, 716, 717, 718, 719};
     for (HdCuResult code = 1; code < 1000; code++) {
         bool is_loss = false;
@@ -130,18 +128,4 @@ static void what_a_device_does_not_survive_is_a_loss(void **state) {
     expect_failure("cuDevicePrimaryCtxRetain", 700, true, "cuDevicePrimaryCtxRetain failed");
 }
 
-int main(int count, char **arguments) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_driver_is_loaded_or_told_to_be_missing_or_old),
-        cmocka_unit_test(what_may_help_a_driver_to_start_is_told),
-        cmocka_unit_test(errors_have_their_words),
-        cmocka_unit_test(what_a_device_does_not_survive_is_a_loss),
-    };
-    char own[2048];
-    if (count > 1 && strcmp(arguments[1], "load") == 0)
-        return load();
-    if (realpath(arguments[0], own) == NULL)
-        return 1;
-    snprintf(program, sizeof program, "'%s' load", own);
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+INSTEAD_OF("load_cuda_driver", load)

@@ -30,8 +30,7 @@ static int end(void **state) {
 }
 
 /* The library is no library, so that it cannot have been loaded. */
-static void what_is_remembered_is_not_loaded(void **state) {
-    (void)state;
+TEST_WITH(what_is_remembered_is_not_loaded, begin, end) {
     assert_int_equal(check(61, 12), HD_UNAVAILABLE);
     hd_nvrtc_remember(library, 61, 12);
     assert_int_equal(check(61, 12), HD_OK);
@@ -41,8 +40,7 @@ static void what_is_remembered_is_not_loaded(void **state) {
     assert_int_equal(check(61, 12), HD_UNAVAILABLE);
 }
 
-static void a_library_that_changed_is_looked_at(void **state) {
-    (void)state;
+TEST_WITH(a_library_that_changed_is_looked_at, begin, end) {
     const struct timespec other[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
     hd_nvrtc_remember(library, 61, 12);
     write_bytes(library, "longer than before", 18);
@@ -57,8 +55,7 @@ static void a_library_that_changed_is_looked_at(void **state) {
     expect_contains(error.message, "/no/such/library.so");
 }
 
-static void without_a_cache_it_is_loaded_each_time(void **state) {
-    (void)state;
+TEST_WITH(without_a_cache_it_is_loaded_each_time, begin, end) {
     setenv("HEDRON_CACHE", "off", 1);
     hd_nvrtc_remember(library, 61, 12);
     assert_int_equal(check(61, 12), HD_UNAVAILABLE);
@@ -108,8 +105,7 @@ static void expect_none(const char *path, const char *message) {
     expect_contains(error.message, message);
 }
 
-static void the_newest_that_suits_the_driver_is_taken(void **state) {
-    (void)state;
+TEST(the_newest_that_suits_the_driver_is_taken) {
     setenv("CUDA_HOME", "there", 1);
     put("lib64", "libnvrtc.so.12.3");
     put("lib64", "libnvrtc.so.12.8");
@@ -125,8 +121,7 @@ static void the_newest_that_suits_the_driver_is_taken(void **state) {
     expect_version(130, 12, NULL, 13, 0);
 }
 
-static void it_is_looked_for_where_people_put_it(void **state) {
-    (void)state;
+TEST(it_is_looked_for_where_people_put_it) {
     static const char packages[] = "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib";
     static const struct {
         const char *variable, *below;
@@ -160,8 +155,7 @@ static void it_is_looked_for_where_people_put_it(void **state) {
                       "driver's branch 470 is the last for this card; found: ");
 }
 
-static void one_that_is_named_is_the_only_one(void **state) {
-    (void)state;
+TEST(one_that_is_named_is_the_only_one) {
     char named[600];
     setenv("CUDA_HOME", "there", 1);
     put("lib64", "libnvrtc.so.13.0");
@@ -188,8 +182,7 @@ static void one_that_is_named_is_the_only_one(void **state) {
     assert_false(hd_nvrtc_is_named());
 }
 
-static void what_is_found_and_does_not_fit_is_told_once(void **state) {
-    (void)state;
+TEST(what_is_found_and_does_not_fit_is_told_once) {
     setenv("CUDA_HOME", "there", 1);
     setenv("CUDA_PATH", "there", 1);
     put("lib64", "libnvrtc.so.12.3");
@@ -202,8 +195,7 @@ static void what_is_found_and_does_not_fit_is_told_once(void **state) {
     assert_null(strstr(first + 1, "NVRTC 12.3"));
 }
 
-static void packages_suit_card_and_driver(void **state) {
-    (void)state;
+TEST(packages_suit_card_and_driver) {
     static const struct {
         int arch, driver_major;
         const char *package;
@@ -219,8 +211,7 @@ static void packages_suit_card_and_driver(void **state) {
                             cases[i].package);
 }
 
-static void a_library_that_compiles_is_remembered(void **state) {
-    (void)state;
+TEST(a_library_that_compiles_is_remembered) {
     char named[600];
     setenv("HEDRON_CACHE", "there/cache", 1);
     put("lib64", "libnvrtc.so.12.5");
@@ -232,20 +223,4 @@ static void a_library_that_compiles_is_remembered(void **state) {
     expect_contains(error.message, "found: NVRTC 12.5 for sm_7 to sm_120");
 }
 
-#define TEST(function)   cmocka_unit_test_setup_teardown(function, begin, end)
-#define SEARCH(function) cmocka_unit_test_setup_teardown(function, begin_search, end_search)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(what_is_remembered_is_not_loaded),
-        TEST(a_library_that_changed_is_looked_at),
-        TEST(without_a_cache_it_is_loaded_each_time),
-        SEARCH(the_newest_that_suits_the_driver_is_taken),
-        SEARCH(it_is_looked_for_where_people_put_it),
-        SEARCH(one_that_is_named_is_the_only_one),
-        SEARCH(what_is_found_and_does_not_fit_is_told_once),
-        SEARCH(packages_suit_card_and_driver),
-        SEARCH(a_library_that_compiles_is_remembered),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin_search, end_search)

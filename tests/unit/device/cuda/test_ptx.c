@@ -2,12 +2,16 @@
 /* Which of the program's PTX does what kernels of a shape would. */
 #include "device/cuda/ptx.h"
 
-#include "expect.h"
+#include "unit_test.h"
 
 #define BOUNDS                                                                                     \
     { .plane_bound = 128, .depth_bound = 64, .node_stack_bound = 32 }
 
-/* In place of the program's. */
+/* In place of the program's (--wrap). */
+#define hd_cuda_ptx       __wrap_hd_cuda_ptx
+#define hd_cuda_ptx_count __wrap_hd_cuda_ptx_count
+extern const HdCudaPtx hd_cuda_ptx[];
+extern const int hd_cuda_ptx_count;
 const HdCudaPtx hd_cuda_ptx[] = {
     {.shape = {.group_size = 128, .is_probe = true}},
     {.shape = {.group_size = 128, .needs = BOUNDS}},
@@ -21,8 +25,7 @@ static int find(const HdKernelShape *shape) {
     return found != NULL ? (int)(found - hd_cuda_ptx) : -1;
 }
 
-static void what_does_all_is_found(void **state) {
-    (void)state;
+TEST(what_does_all_is_found) {
     const HdKernelShape probe = {.group_size = 128, .is_probe = true};
     const HdKernelShape largest = {.group_size = 128, .needs = BOUNDS};
     const HdKernelShape small = {.group_size = 64, .needs.plane_bound = 8};
@@ -35,8 +38,7 @@ static void what_does_all_is_found(void **state) {
     assert_int_equal(find(&first_hits), 2);
 }
 
-static void what_does_less_is_not(void **state) {
-    (void)state;
+TEST(what_does_less_is_not) {
     const HdKernelShape others[] = {
         {.group_size = 129},
         {.first_hits = true},
@@ -53,20 +55,10 @@ static void what_does_less_is_not(void **state) {
         assert_int_equal(find(&others[i]), -1);
 }
 
-static void older_devices_cannot_run_it(void **state) {
-    (void)state;
+TEST(older_devices_cannot_run_it) {
     const HdKernelShape any = {.group_size = 1};
     assert_non_null(hd_cuda_ptx_find(&any, 90));
     assert_null(hd_cuda_ptx_find(&any, 60));
     assert_true(hd_cuda_ptx_suits(61) && hd_cuda_ptx_suits(90));
     assert_false(hd_cuda_ptx_suits(60));
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_does_all_is_found),
-        cmocka_unit_test(what_does_less_is_not),
-        cmocka_unit_test(older_devices_cannot_run_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,8 +20,7 @@ static HdStatus reserve(HdGpuMemory *memory, HdGpuPlace place, size_t bytes) {
     return hd_gpu_reserve(&gpu, memory, place, bytes, "pixels", &error);
 }
 
-static void memory_is_kept_while_it_is_enough(void **state) {
-    (void)state;
+TEST(memory_is_kept_while_it_is_enough) {
     HdGpuMemory memory = {0};
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 100), HD_OK);
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 100), HD_OK);
@@ -37,8 +36,7 @@ static void memory_is_kept_while_it_is_enough(void **state) {
     assert_int_equal(gpu_state.living, 0);
 }
 
-static void tables_are_written_and_empty_ones_have_room(void **state) {
-    (void)state;
+TEST(tables_are_written_and_empty_ones_have_room) {
     HdGpuMemory memory = {0}, empty = {0};
     assert_int_equal(hd_gpu_write_table(&gpu, &memory, "solids", 6, "solids", &error), HD_OK);
     assert_memory_equal(memory.handle, "solids", 6);
@@ -48,8 +46,7 @@ static void tables_are_written_and_empty_ones_have_room(void **state) {
     hd_gpu_release(&gpu, &empty);
 }
 
-static void too_large_a_buffer_is_refused(void **state) {
-    (void)state;
+TEST(too_large_a_buffer_is_refused) {
     HdGpuMemory memory = {0};
     gpu.facts.at_once = 2000;
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 2000), HD_OK);
@@ -60,8 +57,7 @@ static void too_large_a_buffer_is_refused(void **state) {
     hd_gpu_release(&gpu, &memory);
 }
 
-static void a_lack_of_memory_is_told(void **state) {
-    (void)state;
+TEST(a_lack_of_memory_is_told) {
     HdGpuMemory memory = {0};
     gpu_state.room = 1000;
     assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 1001), HD_FAILED);
@@ -94,8 +90,7 @@ static void expect_room(const HdGpuWaveQueue *queue, size_t workers) {
         assert_int_equal(queue->buffers[i].bytes, queue->plan.bytes[i] * workers);
 }
 
-static void a_queue_has_room_for_each_worker(void **state) {
-    (void)state;
+TEST(a_queue_has_room_for_each_worker) {
     HdGpuWaveQueue queue = {0};
     HdWaveNeeds needs = queue_needs();
     unsigned taken = 1;
@@ -110,8 +105,7 @@ static void a_queue_has_room_for_each_worker(void **state) {
     assert_int_equal(gpu_state.living, 0);
 }
 
-static void a_queue_is_cut_to_what_there_is(void **state) {
-    (void)state;
+TEST(a_queue_is_cut_to_what_there_is) {
     HdGpuWaveQueue queue = {0};
     HdWaveNeeds needs = queue_needs();
     gpu_state.room = 5 * HD_WAVE_LEAST_BYTES;
@@ -123,8 +117,7 @@ static void a_queue_is_cut_to_what_there_is(void **state) {
     assert_int_equal(gpu_state.living, 0);
 }
 
-static void a_queue_that_cannot_be_is_told(void **state) {
-    (void)state;
+TEST(a_queue_that_cannot_be_is_told) {
     HdGpuWaveQueue queue = {0};
     HdWaveNeeds needs = queue_needs();
     gpu_state.room = HD_WAVE_LEAST_BYTES;
@@ -139,14 +132,4 @@ static void a_queue_that_cannot_be_is_told(void **state) {
     assert_string_equal(error.message, "it is broken");
 }
 
-#define TEST(function) cmocka_unit_test_setup(function, begin)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(memory_is_kept_while_it_is_enough), TEST(tables_are_written_and_empty_ones_have_room),
-        TEST(too_large_a_buffer_is_refused),     TEST(a_lack_of_memory_is_told),
-        TEST(a_queue_has_room_for_each_worker),  TEST(a_queue_is_cut_to_what_there_is),
-        TEST(a_queue_that_cannot_be_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(begin, NULL)

@@ -23,8 +23,7 @@ static HdStatus build(int planes) {
     return hd_gpu_build(&program, &fake_gpu, &needs, &error);
 }
 
-static void kernels_are_built_for_other_needs_only(void **state) {
-    (void)state;
+TEST(kernels_are_built_for_other_needs_only) {
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(gpu_state.compiled, 1);
@@ -33,8 +32,7 @@ static void kernels_are_built_for_other_needs_only(void **state) {
     assert_int_equal(program.cache.shape.needs.plane_bound, 16);
 }
 
-static void the_probe_takes_the_place_of_the_kernels(void **state) {
-    (void)state;
+TEST(the_probe_takes_the_place_of_the_kernels) {
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
     assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
@@ -48,8 +46,7 @@ static void the_probe_takes_the_place_of_the_kernels(void **state) {
     assert_false(program.cache.shape.is_probe);
 }
 
-static void groups_are_as_large_as_the_kernels_allow(void **state) {
-    (void)state;
+TEST(groups_are_as_large_as_the_kernels_allow) {
     static const struct {
         size_t most;
         int group_size;
@@ -64,8 +61,7 @@ static void groups_are_as_large_as_the_kernels_allow(void **state) {
     assert_int_equal(program.group_size, 64);
 }
 
-static void threads_that_do_not_share_items_have_no_groups(void **state) {
-    (void)state;
+TEST(threads_that_do_not_share_items_have_no_groups) {
     program.cache.shape.group_size = 0;
     program.group_size = program.block = 1;
     gpu_state.most = 0;
@@ -73,8 +69,7 @@ static void threads_that_do_not_share_items_have_no_groups(void **state) {
     assert_int_equal(program.group_size, 1);
 }
 
-static void groups_that_were_asked_for_are_not_made_smaller(void **state) {
-    (void)state;
+TEST(groups_that_were_asked_for_are_not_made_smaller) {
     program.block = 128;
     gpu_state.most = 128;
     assert_int_equal(build(8), HD_OK);
@@ -87,8 +82,7 @@ static void groups_that_were_asked_for_are_not_made_smaller(void **state) {
     assert_false(program.is_built || gpu_state.has_kernels);
 }
 
-static void what_fails_is_tried_again(void **state) {
-    (void)state;
+TEST(what_fails_is_tried_again) {
     gpu_state.breaks = true;
     assert_int_equal(build(8), HD_UNAVAILABLE);
     assert_int_equal(build(8), HD_UNAVAILABLE);
@@ -99,8 +93,7 @@ static void what_fails_is_tried_again(void **state) {
     assert_int_equal(build(8), HD_OK);
 }
 
-static void kernels_come_from_the_cache(void **state) {
-    (void)state;
+TEST(kernels_come_from_the_cache) {
     setenv("HEDRON_CACHE", "cache", 1);
     assert_int_equal(build(8), HD_OK);
     expect_contains(program.cache.note, "by somebody");
@@ -117,8 +110,7 @@ static void kernels_come_from_the_cache(void **state) {
     expect_contains(program.cache.note, "it is too old");
 }
 
-static void the_probes_key_tells_what_it_is_compiled_from(void **state) {
-    (void)state;
+TEST(the_probes_key_tells_what_it_is_compiled_from) {
     char key[HD_KERNEL_KEY_LENGTH];
     program.cache.shape.needs.plane_bound = 8;
     hd_gpu_probe_key(&program, &fake_gpu, key, sizeof key);
@@ -127,18 +119,4 @@ static void the_probes_key_tells_what_it_is_compiled_from(void **state) {
     assert_false(program.cache.shape.is_probe);
 }
 
-#define TEST(function) cmocka_unit_test_setup(function, begin)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(kernels_are_built_for_other_needs_only),
-        TEST(the_probe_takes_the_place_of_the_kernels),
-        TEST(groups_are_as_large_as_the_kernels_allow),
-        TEST(threads_that_do_not_share_items_have_no_groups),
-        TEST(groups_that_were_asked_for_are_not_made_smaller),
-        TEST(what_fails_is_tried_again),
-        TEST(kernels_come_from_the_cache),
-        TEST(the_probes_key_tells_what_it_is_compiled_from),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
-}
+EACH(begin, NULL)

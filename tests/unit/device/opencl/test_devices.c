@@ -5,7 +5,8 @@
 
 #include <stdlib.h>
 
-#include "expect.h"
+#include "unit_test.h"
+#include "wrapped.h"
 
 enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001, TIMEOUT = 0x4005 };
 
@@ -27,17 +28,17 @@ static const Said said[] = {
 };
 enum { COUNT = sizeof said / sizeof *said };
 
-/* In place of the library's. */
+/* ---- in place of the library's ---- */
 
-cl_int clGetPlatformIDs(cl_uint capacity, cl_platform_id *platforms, cl_uint *count) {
+static cl_int list_platforms(cl_uint capacity, cl_platform_id *platforms, cl_uint *count) {
     assert_true(capacity >= 2);
     platforms[0] = platforms[1] = (cl_platform_id)said;
     *count = 2;
     return CL_SUCCESS;
 }
 
-cl_int clGetPlatformInfo(cl_platform_id platform, cl_platform_info what, size_t size, void *value,
-                         size_t *needed) {
+static cl_int name_platform(cl_platform_id platform, cl_platform_info what, size_t size,
+                            void *value, size_t *needed) {
     (void)platform;
     assert_int_equal(what, CL_PLATFORM_NAME);
     if (needed != NULL)
@@ -48,8 +49,8 @@ cl_int clGetPlatformInfo(cl_platform_id platform, cl_platform_info what, size_t 
 }
 
 /* The second platform has none. */
-cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type types, cl_uint capacity,
-                      cl_device_id *devices, cl_uint *count) {
+static cl_int list_devices(cl_platform_id platform, cl_device_type types, cl_uint capacity,
+                           cl_device_id *devices, cl_uint *count) {
     static int calls;
     (void)platform, (void)types;
     if (calls++ % 2 == 1)
@@ -71,7 +72,7 @@ static cl_int answer(const void *from, size_t bytes, size_t size, void *value, s
     return CL_SUCCESS;
 }
 
-cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value,
+static cl_int describe(cl_device_id device, cl_device_info what, size_t size, void *value,
                        size_t *needed) {
     const Said *is = (const Said *)device;
     const char *text = NULL;
@@ -124,8 +125,16 @@ cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, vo
                         : answer(&number, sizeof number, size, value, needed);
 }
 
-static void devices_are_described(void **state) {
-    (void)state;
+REPLACE(clGetPlatformIDs, list_platforms)
+REPLACE(clGetPlatformInfo, name_platform)
+REPLACE(clGetDeviceIDs, list_devices)
+REPLACE(clGetDeviceInfo, describe)
+
+static void hide_displays(void) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+}
+TEST(devices_are_described) {
     HdDevice devices[HD_MAX_DEVICES];
     HdError error;
     int count;
@@ -143,8 +152,7 @@ static void devices_are_described(void **state) {
     assert_int_equal(count, 2);
 }
 
-static void obstacles_are_told(void **state) {
-    (void)state;
+TEST(obstacles_are_told) {
     HdDevice devices[HD_MAX_DEVICES];
     HdError error;
     int count;
@@ -158,8 +166,7 @@ static void obstacles_are_told(void **state) {
                         "1.2, it is not little-endian");
 }
 
-static void devices_are_found_by_number(void **state) {
-    (void)state;
+TEST(devices_are_found_by_number) {
     cl_device_id device;
     HdGpuFacts facts;
     HdError error;
@@ -172,13 +179,4 @@ static void devices_are_found_by_number(void **state) {
     assert_int_equal(hd_opencl_find(&device, -1, &facts, &error), HD_UNAVAILABLE);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(devices_are_described),
-        cmocka_unit_test(obstacles_are_told),
-        cmocka_unit_test(devices_are_found_by_number),
-    };
-    unsetenv("DISPLAY");
-    unsetenv("WAYLAND_DISPLAY");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AT_START(hide_displays)

@@ -29,8 +29,7 @@ static void expect_fails(const char *text, const char *message) {
     assert_string_equal(error.message, message);
 }
 
-static void test_values(void **state) {
-    (void)state;
+TEST(test_values) {
     /* The array, its first element, and one behind each comma. */
     char *most = repeat("[{}", ",[]", (HD_MAX_JSON_VALUES - 3) / 2, "]");
     char *more = repeat("[{},\n0,0", ",[]", (HD_MAX_JSON_VALUES - 3) / 2, "]");
@@ -40,8 +39,7 @@ static void test_values(void **state) {
     free(more);
 }
 
-static void test_depth(void **state) {
-    (void)state;
+TEST(test_depth) {
     char *most = repeat("", "[", HD_MAX_JSON_DEPTH, "");
     char *more = repeat("", "{", HD_MAX_JSON_DEPTH + 1, "");
     char *beside = repeat("", "[{}]", 2 * HD_MAX_JSON_DEPTH, "]");
@@ -54,8 +52,7 @@ static void test_depth(void **state) {
     free(beside);
 }
 
-static void test_strings_do_not_count(void **state) {
-    (void)state;
+TEST(test_strings_do_not_count) {
     char *text = repeat("\"\\\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "\"");
     char *after = repeat("\"\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "");
     expect_passes(text);
@@ -65,16 +62,14 @@ static void test_strings_do_not_count(void **state) {
     free(after);
 }
 
-static void test_scenes(void **state) {
-    (void)state;
+TEST(test_scenes) {
     char *deep = repeat("{\"hedron\": ", "[", HD_MAX_JSON_DEPTH, "");
     expect_refused(deep, NULL, "a.json:1:43: there are too many arrays and objects in each other");
     free(deep);
 }
 
 /* What is wrong is told from the begin on, and counted to the end. */
-static void test_many_problems(void **state) {
-    (void)state;
+TEST(test_many_problems) {
     char text[100000];
     size_t used =
         (size_t)snprintf(text, sizeof text, "{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 0]}");
@@ -94,8 +89,7 @@ static void expect_hint(const char *text, const char *hint) {
         expect_contains(found != NULL ? found : "(none)", hint);
 }
 
-static void test_hints(void **state) {
-    (void)state;
+TEST(test_hints) {
     static const char number[] = "a number in JSON", word[] = "true, false or null";
     expect_hint("", NULL);
     expect_hint("[1, \t\n]", "no comma before ']'");
@@ -113,16 +107,4 @@ static void test_hints(void **state) {
     expect_hint("{\"a\": nil", word);
     expect_hint("truely", NULL);
     expect_hint("[\"", NULL);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_depth),
-        cmocka_unit_test(test_strings_do_not_count),
-        cmocka_unit_test(test_scenes),
-        cmocka_unit_test(test_many_problems),
-        cmocka_unit_test(test_hints),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "expect.h"
 #include "mesh/mesh.h"
+#include "unit_test.h"
 
 static HdObjMemory memory;
 static HdNameTable table;
@@ -26,8 +26,7 @@ static int add(const char *name) {
     return hd_name_table_add(&table, span(name), &memory);
 }
 
-static void test_names_have_numbers(void **state) {
-    (void)state;
+TEST(test_names_have_numbers) {
     assert_int_equal(hd_name_table_find(&table, span("a")), -1);
     assert_int_equal(add("a"), 0);
     assert_int_equal(add("ab"), 1);
@@ -52,8 +51,7 @@ static void next_colliding(int *number, int width, uint64_t slot, char name[16])
     }
 }
 
-static void test_names_that_collide(void **state) {
-    (void)state;
+TEST(test_names_that_collide) {
     enum { OF_EACH = 8 };
     char names[2 * OF_EACH][16];
     int number = 0;
@@ -67,8 +65,7 @@ static void test_names_that_collide(void **state) {
     }
 }
 
-static void test_beginnings_that_collide(void **state) {
-    (void)state;
+TEST(test_beginnings_that_collide) {
     char name[16] = "a";
     const uint64_t slots = 4 * HD_MAX_MESH_MATERIALS;
     const uint64_t slot = hd_hash_bytes(HD_HASH_START, "a", 1) % slots;
@@ -80,8 +77,7 @@ static void test_beginnings_that_collide(void **state) {
 }
 
 /* Only names made to collide come so far; each look-up would take longer and longer. */
-static void test_too_many_that_collide(void **state) {
-    (void)state;
+TEST_WITH(test_too_many_that_collide, clear, clear) {
     char name[16];
     int number = 0, result = 0;
     for (int i = 0; i < 257; i++) {
@@ -91,12 +87,4 @@ static void test_too_many_that_collide(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_names_have_numbers, clear),
-        cmocka_unit_test_setup(test_names_that_collide, clear),
-        cmocka_unit_test_setup(test_beginnings_that_collide, clear),
-        cmocka_unit_test_setup_teardown(test_too_many_that_collide, clear, clear),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(clear, NULL)

@@ -65,8 +65,7 @@ static void expect_corners(const HdMesh *mesh, int triangle, int a, int b, int c
     assert_int_equal(mesh->corners[triangle][2], c);
 }
 
-static void everything_of_a_face_is_read(void **state) {
-    (void)state;
+TEST(everything_of_a_face_is_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
                             "f 1/1/1 2/2/1 3//2\nf 3 2/1 1//1\nf -3/-1/-2 -2/ -1//\n");
@@ -101,8 +100,7 @@ static void everything_of_a_face_is_read(void **state) {
 }
 
 /* Each is the same triangle. */
-static void lines_come_in_many_forms(void **state) {
-    (void)state;
+TEST(lines_come_in_many_forms) {
     static const char *const texts[] = {
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
         "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
@@ -130,8 +128,7 @@ static void lines_come_in_many_forms(void **state) {
 }
 
 /* Comments and lines around the sizes of all buffers. */
-static void long_lines_and_comments_pass(void **state) {
-    (void)state;
+TEST(long_lines_and_comments_pass) {
     static char text[600000];
     const size_t lengths[] = {HD_OBJ_MOST_LINE - 1,
                               HD_OBJ_MOST_LINE,
@@ -187,8 +184,7 @@ static void long_lines_and_comments_pass(void **state) {
         "a.obj: line 11001: with those that continue it, it is longer than 65000 bytes");
 }
 
-static void files_that_cannot_be_read_are_told_apart(void **state) {
-    (void)state;
+TEST(files_that_cannot_be_read_are_told_apart) {
     HdMesh mesh;
     assert_int_equal(read_file(&mesh, "missing.obj", much), HD_BAD_INPUT);
     assert_string_equal(error.message,
@@ -221,8 +217,7 @@ static void files_that_cannot_be_read_are_told_apart(void **state) {
                    "a.obj: line 2: it begins with byte 0x1b, so this is no OBJ file");
 }
 
-static void wrong_numbers_are_told(void **state) {
-    (void)state;
+TEST(wrong_numbers_are_told) {
     static const struct {
         const char *number, *expected;
     } wrong[] = {
@@ -270,8 +265,7 @@ static void wrong_numbers_are_told(void **state) {
                            "decimal number");
 }
 
-static void the_largest_numbers_are_read(void **state) {
-    (void)state;
+TEST(the_largest_numbers_are_read) {
     HdMesh mesh = read_text("v 1e12 -1000000000000 0\nv 12345678.9e-3 1E+2 0\nv 0 0 0.1e-11\n"
                             "f 1 2 3");
     assert_true(mesh.vertices[0].x == (double)1e12f && mesh.vertices[0].y == (double)-1e12f);
@@ -280,8 +274,7 @@ static void the_largest_numbers_are_read(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void wrong_faces_are_told(void **state) {
-    (void)state;
+TEST(wrong_faces_are_told) {
     static const struct {
         const char *face, *problem;
     } wrong[] = {
@@ -324,8 +317,7 @@ static void wrong_faces_are_told(void **state) {
     expect_refused(TRIANGLE "f 1 2 2\nf 1 1 1\n", "a.obj: none of its 2 triangles has an area");
 }
 
-static void polygons_become_triangles(void **state) {
-    (void)state;
+TEST(polygons_become_triangles) {
     HdMesh mesh =
         read_text("v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nusemtl a\nf 1 2 3 4\n"
                   "usemtl b\nf 4 3 2\nv 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf -4 -3 -2 -1\n");
@@ -356,8 +348,7 @@ static void polygons_become_triangles(void **state) {
                          "a.obj: face 2 is not convex and has 1026 corners, expected at most 1024");
 }
 
-static void degenerate_triangles_are_counted(void **state) {
-    (void)state;
+TEST(degenerate_triangles_are_counted) {
     HdMesh mesh = read_text(TRIANGLE "v 2 0 0\nf 1 2 4\nusemtl x\nf 1 2 3\nf 1 1 2\n");
     assert_int_equal(mesh.triangle_count, 1);
     assert_int_equal(mesh.degenerate_count, 2);
@@ -391,8 +382,7 @@ static void expect_colour(HdVec3 colour, double red, double green, double blue) 
     expect_near(colour.z, blue, 1e-7);
 }
 
-static void a_material_without_parameters_is_white(void **state) {
-    (void)state;
+TEST(a_material_without_parameters_is_white) {
     const HdMaterial m = read_material("newmtl m\n").material;
     assert_int_equal(notes.count, 0);
     expect_colour(m.colour, 1, 1, 1);
@@ -406,8 +396,7 @@ static void a_material_without_parameters_is_white(void **state) {
                                     "taken: white, opaque\n");
 }
 
-static void parameters_are_mapped(void **state) {
-    (void)state;
+TEST(parameters_are_mapped) {
     HdMeshMaterial material =
         read_material("newmtl m\nKa 0.1 0.2 0.6\nKd 0.5 0.25 0.125\nKs 0.2 0.4 0.6\nKe 3 2 1\n"
                       "Ns 96.6\nNi 1.5\n");
@@ -437,8 +426,7 @@ static void parameters_are_mapped(void **state) {
     }
 }
 
-static void what_passes_is_mapped(void **state) {
-    (void)state;
+TEST(what_passes_is_mapped) {
     HdMaterial m = read_material("newmtl m\nKd 0.5 0.5 1\nd 0.25\nNi 1.5\n").material;
     assert_true(m.transmission == 0.75 && m.diffuse == 0.25);
     assert_true(m.index_of_refraction == 1.5);
@@ -480,8 +468,7 @@ static HdMeshMaterial expect_note(const char *statement, const char *note) {
     return material;
 }
 
-static void values_are_made_legal(void **state) {
-    (void)state;
+TEST(values_are_made_legal) {
     HdMeshMaterial m;
     m = expect_note("Kd 2 1 0", "a.obj: material 'm': Kd is 2, expected 0 to 1, and becomes 1");
     expect_colour(m.material.colour, 1, 1, 0);
@@ -516,8 +503,7 @@ static void values_are_made_legal(void **state) {
     assert_int_equal(notes.count, 0);
 }
 
-static void what_is_not_used_is_noted(void **state) {
-    (void)state;
+TEST(what_is_not_used_is_noted) {
     expect_note("map_Ks a.png\nmap_Ks b.png\nmap_Bump c.png",
                 "a.mtl: line 3: map_Ks is not used\na.mtl: line 5: map_Bump is not used");
     expect_note("map_K\nmap_N\nd\n", "a.mtl: line 3: map_K is not used\n"
@@ -550,8 +536,7 @@ static void what_is_not_used_is_noted(void **state) {
 }
 
 /* The first library that defines a material counts; order and repetition do not matter. */
-static void materials_are_found_by_name(void **state) {
-    (void)state;
+TEST(materials_are_found_by_name) {
     write_text("a.mtl", "newmtl white wood \r\nKd 0.5 0 0\r\nnewmtl b\rKd 0 0.5 0\r"
                         "newmtl b\nKd 0 0 1\nnewmtl unused\n");
     write_text("my lib.mtl", "newmtl b\nKd 0 1 1\nnewmtl c\nKd 0 0.25 0");
@@ -579,8 +564,7 @@ static void materials_are_found_by_name(void **state) {
     expect_refused("mtllib \n", "a.obj: line 1: the name of a material library, expected a name");
 }
 
-static void too_many_materials_are_refused(void **state) {
-    (void)state;
+TEST(too_many_materials_are_refused) {
     FILE *file = fopen("many.obj", "wb");
     HdMesh mesh;
     assert_non_null(file);
@@ -611,8 +595,7 @@ static void expect_library_note(const char *name, const char *note) {
     hd_mesh_free(&mesh);
 }
 
-static void libraries_stay_in_the_folder(void **state) {
-    (void)state;
+TEST(libraries_stay_in_the_folder) {
     char above[256];
     assert_int_equal(mkdir("sub", 0700), 0);
     assert_int_equal(mkdir("sub/deeper", 0700), 0);
@@ -684,8 +667,7 @@ static void expect_texture_note(const char *name, const char *expected) {
     hd_mesh_free(&mesh);
 }
 
-static void textures_stay_in_the_folder(void **state) {
-    (void)state;
+TEST(textures_stay_in_the_folder) {
     expect_texture_note("/etc/passwd", "a name that counts from this file's folder");
     expect_texture_note("\\\\host\\a.png", "a name that counts from this file's folder");
     expect_texture_note("../a.png", "a name in this file's folder or below it");
@@ -714,8 +696,7 @@ static void textures_stay_in_the_folder(void **state) {
     hd_mesh_free(&mesh);
 }
 
-static void files_are_closed(void **state) {
-    (void)state;
+TEST(files_are_closed) {
     const int before = dup(0);
     close(before);
     write_text("a.mtl", "newmtl m\n");
@@ -728,8 +709,7 @@ static void files_are_closed(void **state) {
 }
 
 /* Every limit ends in the error or in a mesh, and there is one from which on there is a mesh. */
-static void memory_is_limited(void **state) {
-    (void)state;
+TEST(memory_is_limited) {
     write_text("a.mtl", "newmtl m\nmap_Kd a.png\nKd 1 1 1\nnewmtl n\nKd 1 1 1\n");
     FILE *file = fopen("big.obj", "wb");
     size_t least = 0;
@@ -833,8 +813,7 @@ static void check_mesh(const HdMesh *mesh) {
     }
 }
 
-static void hostile_files_do_no_harm(void **state) {
-    (void)state;
+TEST(hostile_files_do_no_harm) {
     const char *asked = getenv("HD_TEST_MUTATIONS");
     const int count = asked != NULL ? atoi(asked) : 2000;
     int read = 0;
@@ -860,8 +839,7 @@ static void hostile_files_do_no_harm(void **state) {
 }
 
 /* Of those that are OBJ files neither by their names nor by what they say first. */
-static void words_of_other_files_are_not_told(void **state) {
-    (void)state;
+TEST(words_of_other_files_are_not_told) {
     HdMesh mesh;
     write_text("secret", "root:x:0 hidden\nf password\n");
     assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
@@ -876,32 +854,4 @@ static void words_of_other_files_are_not_told(void **state) {
     write_text("secret", "v 0 0 0\nf 1 1 x\n");
     assert_int_equal(read_file(&mesh, "secret", much), HD_BAD_INPUT);
     expect_contains(error.message, "corner 'x' of a face");
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everything_of_a_face_is_read),
-        cmocka_unit_test(lines_come_in_many_forms),
-        cmocka_unit_test(long_lines_and_comments_pass),
-        cmocka_unit_test(files_that_cannot_be_read_are_told_apart),
-        cmocka_unit_test(words_of_other_files_are_not_told),
-        cmocka_unit_test(wrong_numbers_are_told),
-        cmocka_unit_test(the_largest_numbers_are_read),
-        cmocka_unit_test(wrong_faces_are_told),
-        cmocka_unit_test(polygons_become_triangles),
-        cmocka_unit_test(degenerate_triangles_are_counted),
-        cmocka_unit_test(a_material_without_parameters_is_white),
-        cmocka_unit_test(parameters_are_mapped),
-        cmocka_unit_test(what_passes_is_mapped),
-        cmocka_unit_test(values_are_made_legal),
-        cmocka_unit_test(what_is_not_used_is_noted),
-        cmocka_unit_test(materials_are_found_by_name),
-        cmocka_unit_test(too_many_materials_are_refused),
-        cmocka_unit_test(libraries_stay_in_the_folder),
-        cmocka_unit_test(textures_stay_in_the_folder),
-        cmocka_unit_test(files_are_closed),
-        cmocka_unit_test(memory_is_limited),
-        cmocka_unit_test(hostile_files_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

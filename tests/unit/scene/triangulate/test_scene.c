@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "expect.h"
 #include "scene/triangulate/solid.h"
+#include "unit_test.h"
 
 static HdError error;
 static HdScene scene;
@@ -92,16 +92,14 @@ static void expect_solids(void) {
     }
 }
 
-static void solids_come_before_what_was_there(void **state) {
-    (void)state;
+TEST(solids_come_before_what_was_there) {
     assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
     expect_solids();
     expect_own(2);
     assert_int_equal(scene.picture_count, 2);
 }
 
-static void a_floor_brings_its_picture(void **state) {
-    (void)state;
+TEST(a_floor_brings_its_picture) {
     add_floor();
     assert_int_equal(hd_scene_triangulate(&scene, 8, 2, &error), HD_OK);
     expect_own(3);
@@ -119,8 +117,7 @@ static void a_floor_brings_its_picture(void **state) {
     assert_ptr_not_equal(scene.pictures[2].texture.texels, scene.floor.texture.texels);
 }
 
-static void a_bare_floor_has_none(void **state) {
-    (void)state;
+TEST(a_bare_floor_has_none) {
     add_floor();
     hd_texture_clear(&scene.floor.texture);
     assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
@@ -130,8 +127,7 @@ static void a_bare_floor_has_none(void **state) {
     assert_int_equal(scene.meshes[2].materials[0].picture, -1);
 }
 
-static void a_failure_leaves_it_as_it_was(void **state) {
-    (void)state;
+TEST(a_failure_leaves_it_as_it_was) {
     add_floor();
     assert_int_equal(hd_scene_triangulate(&scene, 8, 8000, &error), HD_BAD_INPUT);
     expect_own(0);
@@ -139,14 +135,4 @@ static void a_failure_leaves_it_as_it_was(void **state) {
     assert_int_equal(scene.geometry, HD_GEOMETRY_SOLIDS);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, begin, end)
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(solids_come_before_what_was_there),
-        TEST(a_floor_brings_its_picture),
-        TEST(a_bare_floor_has_none),
-        TEST(a_failure_leaves_it_as_it_was),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+EACH(begin, end)

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "expect.h"
 #include "scene/triangulate/solid.h"
+#include "unit_test.h"
 
 static const char *const kind_names[] = {"tetrahedron", "hexahedron", "octahedron", "dodecahedron",
                                          "icosahedron"};
@@ -353,8 +353,7 @@ static void expect_sound(const HdSolid *solid, const Pattern *pattern) {
     hd_mesh_free(&mesh);
 }
 
-static void test_closed_and_as_large_as_the_solid(void **state) {
-    (void)state;
+TEST(test_closed_and_as_large_as_the_solid) {
     for_every_solid(expect_sound);
 }
 
@@ -368,14 +367,12 @@ static void expect_material_of_points(const HdSolid *solid, const Pattern *patte
     hd_mesh_free(&mesh);
 }
 
-static void test_materials_follow_the_rule_of_the_kernels(void **state) {
-    (void)state;
+TEST(test_materials_follow_the_rule_of_the_kernels) {
     for_every_solid(expect_material_of_points);
 }
 
 /* Whatever the lengths are; discs of up to a third of an edge among them. */
-static void test_any_lengths(void **state) {
-    (void)state;
+TEST(test_any_lengths) {
     for (int i = 0; i < 200; i++) {
         Pattern pattern = {0.3 * random_share() * random_share(),
                            1e-7 + 0.5 * pow(random_share(), 3.0), (int)(1.0 + 7.0 * random_share()),
@@ -392,8 +389,7 @@ static void test_any_lengths(void **state) {
 }
 
 /* Triangles between them are long and thin. */
-static void test_tiny_discs(void **state) {
-    (void)state;
+TEST(test_tiny_discs) {
     for (int i = 0; i < 20 * HD_SOLID_KIND_COUNT; i++) {
         Pattern pattern = {0.02, pow(10.0, -7.0 + 0.1 * (i % 20)), 6, 1};
         HdSolid solid = solid_with((HdSolidKind)(i / 20), &pattern);
@@ -406,8 +402,7 @@ static void test_tiny_discs(void **state) {
 }
 
 /* As wide as the circle in a face, up to rounding and by a little more or less. */
-static void test_rims_that_leave_next_to_nothing(void **state) {
-    (void)state;
+TEST(test_rims_that_leave_next_to_nothing) {
     for (int i = 0; i < 5 * HD_SOLID_KIND_COUNT; i++) {
         static const double differences[] = {0.0, 1e-16, -1e-16, 1e-10, -1e-10};
         HdPlatonic shape;
@@ -423,8 +418,7 @@ static void test_rims_that_leave_next_to_nothing(void **state) {
     }
 }
 
-static void test_bare_faces_have_no_needless_triangles(void **state) {
-    (void)state;
+TEST(test_bare_faces_have_no_needless_triangles) {
     static const int expected[] = {4, 12, 8, 36, 20};
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdSolid solid = solid_with(kind, &patterns[0]);
@@ -435,8 +429,7 @@ static void test_bare_faces_have_no_needless_triangles(void **state) {
 }
 
 /* A half disc of n sides has n / 2 + 1 corners, those on the edge among them; a rim p inside. */
-static void test_no_more_vertices_than_borders_have(void **state) {
-    (void)state;
+TEST(test_no_more_vertices_than_borders_have) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdSolid solid = solid_with(kind, &patterns[3]);
         HdPlatonic shape;
@@ -450,8 +443,7 @@ static void test_no_more_vertices_than_borders_have(void **state) {
 }
 
 /* Discs of lights so near to each other are cut off half way to the next light. */
-static void test_discs_that_overlap_cost_no_more(void **state) {
-    (void)state;
+TEST(test_discs_that_overlap_cost_no_more) {
     const Pattern apart = {0.04, 0.009, 50, 3}, overlapping = {0.04, 0.05, 50, 3};
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdSolid first = solid_with(kind, &apart), second = solid_with(kind, &overlapping);
@@ -462,8 +454,7 @@ static void test_discs_that_overlap_cost_no_more(void **state) {
     }
 }
 
-static void test_divisions(void **state) {
-    (void)state;
+TEST(test_divisions) {
     for (HdSolidKind kind = HD_TETRAHEDRON; kind < HD_SOLID_KIND_COUNT; kind++) {
         HdSolid solid = solid_with(kind, &patterns[4]);
         HdMesh coarse = triangulate(&solid, 8, 1);
@@ -492,8 +483,7 @@ static void test_divisions(void **state) {
     }
 }
 
-static void test_the_same_every_time(void **state) {
-    (void)state;
+TEST(test_the_same_every_time) {
     HdSolid solid = solid_with(HD_DODECAHEDRON, &patterns[11]);
     HdMesh a = triangulate(&solid, 16, 2), b = triangulate(&solid, 16, 2);
     assert_int_equal(a.vertex_count, b.vertex_count);
@@ -515,8 +505,7 @@ static void expect_refused(int disc_sides, int divisions, const char *message) {
     assert_null(mesh.materials);
 }
 
-static void test_bad_numbers(void **state) {
-    (void)state;
+TEST(test_bad_numbers) {
     expect_refused(15, 1, "discs have 15 sides, expected an even number from 8 to 256");
     expect_refused(6, 1, "discs have 6 sides, expected an even number from 8 to 256");
     expect_refused(258, 1, "discs have 258 sides, expected an even number from 8 to 256");
@@ -580,8 +569,7 @@ static void expect_floor(const HdFloor *floor, int divisions, double area) {
     hd_mesh_free(&mesh);
 }
 
-static void test_floor(void **state) {
-    (void)state;
+TEST(test_floor) {
     HdFloor square = floor_with(hd_vec3(-1.0, 3.0, -1.0), hd_vec3(3.0, 3.0, -1.0),
                                 hd_vec3(3.0, -1.0, -1.0), hd_vec3(-1.0, -1.0, -1.0));
     HdFloor uneven = floor_with(hd_vec3(0.0, 0.0, 2.0), hd_vec3(4.0, 0.0, 2.0),
@@ -595,22 +583,4 @@ static void test_floor(void **state) {
     assert_int_equal(hd_triangulate_floor(&mesh, &square, 0, &error), HD_BAD_INPUT);
     assert_int_equal(hd_triangulate_floor(&mesh, &square, 8000, &error), HD_BAD_INPUT);
     assert_null(mesh.materials);
-}
-
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed_and_as_large_as_the_solid),
-        cmocka_unit_test(test_materials_follow_the_rule_of_the_kernels),
-        cmocka_unit_test(test_any_lengths),
-        cmocka_unit_test(test_tiny_discs),
-        cmocka_unit_test(test_rims_that_leave_next_to_nothing),
-        cmocka_unit_test(test_bare_faces_have_no_needless_triangles),
-        cmocka_unit_test(test_no_more_vertices_than_borders_have),
-        cmocka_unit_test(test_discs_that_overlap_cost_no_more),
-        cmocka_unit_test(test_divisions),
-        cmocka_unit_test(test_the_same_every_time),
-        cmocka_unit_test(test_bad_numbers),
-        cmocka_unit_test(test_floor),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

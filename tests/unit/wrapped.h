@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* Functions and tables that tests may replace: the linker sends calls to wrapped.c (--wrap), and
+   these go on to the replacement, or where it is NULL to the original. The original is
+   real_FUNCTION. */
+#ifndef HD_WRAPPED_H
+#define HD_WRAPPED_H
+
+#include <pthread.h>
+#include <stddef.h>
+
+#include "device/backend.h"
+#include "device/opencl/devices.h"
+
+/* X(type, name, parameters, arguments). CMakeLists.txt names the same. */
+#define HD_WRAPPED(X)                                                                              \
+    X(int, fsync, (int descriptor), (descriptor))                                                  \
+    X(int, flock, (int descriptor, int operation), (descriptor, operation))                        \
+    X(int, unlinkat, (int folder, const char *name, int flags), (folder, name, flags))             \
+    X(int, pthread_create,                                                                         \
+      (pthread_t * thread, const pthread_attr_t *attributes, void *(*begin)(void *),               \
+       void *context),                                                                             \
+      (thread, attributes, begin, context))                                                        \
+    X(void *, hd_large_allocate, (size_t bytes), (bytes))                                          \
+    X(const HdBackend *, hd_backend_find, (const char *name), (name))                              \
+    X(const HdBackend *, hd_backend_always_there, (void), ())                                      \
+    X(cl_int, clGetPlatformIDs, (cl_uint capacity, cl_platform_id * platforms, cl_uint * count),   \
+      (capacity, platforms, count))                                                                \
+    X(cl_int, clGetPlatformInfo,                                                                   \
+      (cl_platform_id platform, cl_platform_info what, size_t size, void *value, size_t *needed),  \
+      (platform, what, size, value, needed))                                                       \
+    X(cl_int, clGetDeviceIDs,                                                                      \
+      (cl_platform_id platform, cl_device_type types, cl_uint capacity, cl_device_id * devices,    \
+       cl_uint * count),                                                                           \
+      (platform, types, capacity, devices, count))                                                 \
+    X(cl_int, clGetDeviceInfo,                                                                     \
+      (cl_device_id device, cl_device_info what, size_t size, void *value, size_t *needed),        \
+      (device, what, size, value, needed))
+
+#define HD_DECLARE_WRAPPED(type, name, parameters, arguments)                                      \
+    extern type(*replaced_##name) parameters;                                                      \
+    type real_##name parameters;
+HD_WRAPPED(HD_DECLARE_WRAPPED)
+
+/* What the program has as hd_backends. */
+extern const HdBackend *replaced_hd_backends[HD_BACKEND_COUNT] __asm__("__wrap_hd_backends");
+
+#endif
