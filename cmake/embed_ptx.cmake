@@ -5,25 +5,7 @@ set(HEDRON_NVRTC12 ${PROJECT_SOURCE_DIR}/build/nvrtc12/nvidia/cuda_nvrtc/lib/lib
     CACHE FILEPATH "NVRTC 12 for the PTX that is embedded and for the compile tests")
 
 # What compiles the kernels, apart from the rest of the program, which PTX becomes a part of.
-add_library(hedron_cuda_compiler STATIC
-    src/base/error.c
-    src/base/hash.c
-    src/base/keyed_hash.c
-    src/base/text.c
-    src/device/cuda/compile.c
-    src/device/cuda/nvrtc.c
-    src/device/kernel_source.c
-    src/system/atomic_file.c
-    src/system/cache_folder.c
-    src/system/cache_trust.c
-    src/system/durable.c
-    src/system/dynamic_library.c
-    src/system/file_bytes.c
-    src/base/folder_set.c
-    src/system/interrupt.c
-    src/system/leftovers.c
-    src/system/path.c
-    ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)
+add_library(hedron_cuda_compiler STATIC ${PROJECT_BINARY_DIR}/embedded/hd_cuda_source.c)
 target_compile_definitions(hedron_cuda_compiler PRIVATE HD_VERSION="${PROJECT_VERSION}")
 target_link_libraries(hedron_cuda_compiler PUBLIC Threads::Threads ${CMAKE_DL_LIBS})
 hedron_compile_options(hedron_cuda_compiler)

@@ -1,4 +1,27 @@
 # SPDX-License-Identifier: MIT
+# What is installed beside the programs. Documents and scenes keep their places to each other, so that links lead
+# somewhere.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES bench/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench)
+install(DIRECTORY docs scenes DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN models EXCLUDE PATTERN *.py EXCLUDE)
+install(PROGRAMS farm/slurm/hedron-report farm/slurm/hedron-submit farm/slurm/hedron-task
+        DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES completions/hedron.bash RENAME hedron
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
+install(FILES completions/hedron.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d)
+# The zsh of Debian looks elsewhere for what comes by packages.
+install(CODE "
+    set(data \"${CMAKE_INSTALL_DATAROOTDIR}\")
+    if(NOT IS_ABSOLUTE \"\${data}\")
+        set(data \"\${CMAKE_INSTALL_PREFIX}/\${data}\")
+    endif()
+    set(folder site-functions)
+    if(CMAKE_INSTALL_PREFIX MATCHES \"/usr/?$\" AND EXISTS /etc/debian_version)
+        set(folder vendor-completions)
+    endif()
+    file(INSTALL \"${PROJECT_SOURCE_DIR}/completions/hedron.zsh\" RENAME _hedron
+         DESTINATION \"\${data}/zsh/\${folder}\")")
+
 # Debian packages of what is installed, the window by itself, for it needs SDL: ./dev package.
 set(CPACK_GENERATOR DEB)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # nobody who wants a package waits for tests and benches
