@@ -18,7 +18,6 @@
 
 #include "base/hash.h"
 #include "system/atomic_file.h"
-#include "system/cache_trust.h"
 #include "system/file_bytes.h"
 
 /* Then follow the key and the payload. Folders are not shared among machines of different byte
@@ -28,17 +27,14 @@ typedef struct Header {
     uint32_t version;
     uint32_t key_bytes;
     uint64_t payload_bytes;
-    uint64_t checksum; /* keyed: of the header with this field 0, the key and the payload */
+    uint64_t checksum; /* of the header with this field 0, the key and the payload */
 } Header;
 
-enum { VERSION = 2 };
+enum { VERSION = 3 };
 static const uint64_t magic = UINT64_C(0x0a68636163446865);
 
 /* Entries' names end so. */
 #define ENDING ".entry"
-
-/* What a key's temporary file begins with. */
-#define KEY_LEFTOVER HD_CACHE_KEY_NAME ".tmp-"
 
 /* ---- names ---- */
 
@@ -86,16 +82,37 @@ static HdStatus entry_path(char path[HD_MAX_PATH], char folder[HD_MAX_PATH], con
 /* ---- reading ---- */
 
 /* Of a whole entry, whose field for it becomes 0. */
-static uint64_t checksum(const unsigned char secret[HD_HASH_KEY_BYTES], unsigned char *file,
-                         size_t size) {
+static uint64_t checksum(unsigned char *file, size_t size) {
     memset(file + offsetof(Header, checksum), 0, sizeof(uint64_t));
-    return hd_keyed_hash(secret, file, size);
+    return hd_hash_bytes(HD_HASH_START, file, size);
+}
+
+/* Why a file or folder is not this user's alone to write, in words that follow its name; NULL: it
+ * is. */
+static const char *find_owner_fault(const struct stat *found) {
+    if (found->st_uid != geteuid())
+        return "it belongs to another user";
+    if ((found->st_mode & (S_IWGRP | S_IWOTH)) != 0)
+        return "other users may write to it";
+    return NULL;
+}
+
+/* HD_UNAVAILABLE where there is no such folder, HD_FAILED and the reason where others may write to
+ * it. */
+static HdStatus check_folder(const char *folder, HdError *error) {
+    struct stat found;
+    if (stat(folder, &found) != 0)
+        return hd_fail(error, errno == ENOENT || errno == ENOTDIR ? HD_UNAVAILABLE : HD_FAILED,
+                       "cannot use the folder %s: %s", folder, strerror(errno));
+    const char *fault = S_ISDIR(found.st_mode) ? find_owner_fault(&found) : "it is not a folder";
+    return fault == NULL ? HD_OK
+                         : hd_fail(error, HD_FAILED, "cannot use the folder %s: %s", folder, fault);
 }
 
 static const char *find_stat_fault(const struct stat *found) {
     if (!S_ISREG(found->st_mode))
         return "it is not a regular file";
-    const char *fault = hd_cache_find_fault(found);
+    const char *fault = find_owner_fault(found);
     if (fault != NULL)
         return fault;
     if (found->st_size < (off_t)sizeof(Header) || found->st_size > HD_CACHE_MAX_ENTRY_BYTES)
@@ -119,8 +136,7 @@ static const char *read_file(int descriptor, unsigned char **file, size_t *size)
     return done == (ssize_t)*size ? NULL : "it cannot be read";
 }
 
-static const char *find_fault(const unsigned char secret[HD_HASH_KEY_BYTES], unsigned char *file,
-                              size_t whole_size, const char *key) {
+static const char *find_fault(unsigned char *file, size_t whole_size, const char *key) {
     Header header;
     const size_t size = whole_size - sizeof header;
     memcpy(&header, file, sizeof header);
@@ -131,7 +147,7 @@ static const char *find_fault(const unsigned char secret[HD_HASH_KEY_BYTES], uns
     if (header.key_bytes > size || header.payload_bytes != size - header.key_bytes)
         return "it is cut short or too long";
     const unsigned char *stored = file + sizeof header;
-    if (header.checksum != checksum(secret, file, whole_size))
+    if (header.checksum != checksum(file, whole_size))
         return "its checksum is wrong";
     if (header.key_bytes != strlen(key) || memcmp(stored, key, header.key_bytes) != 0)
         return "it is of another key";
@@ -152,7 +168,7 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
     *size = 0;
     HdStatus status = entry_path(path, folder, kind, key, error);
     if (status == HD_OK)
-        status = hd_cache_check_folder(folder, error);
+        status = check_folder(folder, error);
     if (status != HD_OK)
         return status;
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
@@ -160,13 +176,9 @@ HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, 
         return hd_fail(error, HD_UNAVAILABLE, "%s has no entry for it", folder);
     if (descriptor < 0)
         return hd_fail(error, HD_FAILED, "%s cannot be used: %s", path, strerror(errno));
-    unsigned char secret[HD_HASH_KEY_BYTES];
-    HdError no_secret;
     const char *fault = read_file(descriptor, bytes, size);
-    if (fault == NULL && hd_cache_key(folder, false, secret, &no_secret) != HD_OK)
-        fault = no_secret.message;
     if (fault == NULL)
-        fault = find_fault(secret, *bytes, *size, key);
+        fault = find_fault(*bytes, *size, key);
     if (fault == NULL) {
         keep_payload(*bytes, size, key);
         futimens(descriptor, NULL); /* it was used just now */
@@ -218,8 +230,7 @@ static void look_at(Usage *usage, int folder, const char *name) {
         return;
     if (ends_in(name, ENDING))
         add_entry(usage, name, &found);
-    else if ((strstr(name, ENDING ".tmp-") != NULL ||
-              strncmp(name, KEY_LEFTOVER, strlen(KEY_LEFTOVER)) == 0) &&
+    else if (strstr(name, ENDING ".tmp-") != NULL &&
              time(NULL) - found.st_mtim.tv_sec > STALE_SECONDS)
         unlinkat(folder, name, 0);
 }
@@ -261,8 +272,8 @@ static HdStatus make_folder(const char *folder, HdError *error) {
 }
 
 /* All of an entry's file; free() it. */
-static unsigned char *make_entry(const unsigned char secret[HD_HASH_KEY_BYTES], const char *key,
-                                 const void *bytes, size_t size, size_t *whole_size) {
+static unsigned char *make_entry(const char *key, const void *bytes, size_t size,
+                                 size_t *whole_size) {
     Header header = {.magic = magic,
                      .version = VERSION,
                      .key_bytes = (uint32_t)strlen(key),
@@ -274,7 +285,7 @@ static unsigned char *make_entry(const unsigned char secret[HD_HASH_KEY_BYTES], 
     memcpy(file, &header, sizeof header);
     memcpy(file + sizeof header, key, header.key_bytes);
     memcpy(file + sizeof header + header.key_bytes, bytes, size);
-    header.checksum = checksum(secret, file, *whole_size);
+    header.checksum = checksum(file, *whole_size);
     memcpy(file, &header, sizeof header);
     return file;
 }
@@ -289,16 +300,13 @@ static HdStatus write_entry(const char *path, const unsigned char *entry, size_t
     return hd_atomic_file_commit(&file, HD_FLEETING, error);
 }
 
-static HdStatus put_entry(const char *folder, const char *path, const char *key, const void *bytes,
-                          size_t size, HdError *error) {
-    unsigned char secret[HD_HASH_KEY_BYTES];
-    HdStatus status = hd_cache_key(folder, true, secret, error);
-    if (status != HD_OK)
-        return status;
+static HdStatus put_entry(const char *path, const char *key, const void *bytes, size_t size,
+                          HdError *error) {
     size_t whole_size;
-    unsigned char *entry = make_entry(secret, key, bytes, size, &whole_size);
-    status = entry != NULL ? write_entry(path, entry, whole_size, error)
-                           : hd_fail(error, HD_FAILED, "out of memory: no room for an entry");
+    unsigned char *entry = make_entry(key, bytes, size, &whole_size);
+    HdStatus status = entry != NULL
+                          ? write_entry(path, entry, whole_size, error)
+                          : hd_fail(error, HD_FAILED, "out of memory: no room for an entry");
     free(entry);
     return status;
 }
@@ -314,9 +322,9 @@ HdStatus hd_cache_put(const char *kind, const char *key, const void *bytes, size
                        size, (int)HD_CACHE_MAX_ENTRY_BYTES);
     status = make_folder(folder, error);
     if (status == HD_OK)
-        status = hd_cache_check_folder(folder, error);
+        status = check_folder(folder, error);
     if (status == HD_OK)
-        status = put_entry(folder, path, key, bytes, size, error);
+        status = put_entry(path, key, bytes, size, error);
     if (status == HD_OK)
         hd_cache_limit(folder, HD_CACHE_MAX_BYTES);
     return status;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A folder that outlives the program, for what takes long to make: compiled kernels, measurements.
-   Nothing in it is needed. An entry is trusted only where nobody but this user may write to it or
-   to the folder and every byte of it is in order, by a hash with a random key that is kept in the
-   folder (cache_trust.h); whatever is wrong with the folder, the program goes on without. Entries
+   Nothing in it is needed. An entry is trusted only if nobody but this user may write to it or
+   to the folder and its checksum is right; whatever is wrong with the folder, the program goes on
+   without. Entries
    are found by a key of another kind, a text of everything they depend on, which is stored whole
    and compared.
 
@@ -29,7 +29,7 @@ HdStatus hd_cache_folder(char folder[HD_MAX_PATH], HdError *error);
 
 /* The entry of this kind ("cuda": lower-case letters) and key. `*bytes` is the caller's to free,
    and NULL on failure. HD_UNAVAILABLE where there is none or no folder; HD_FAILED where there is
-   one that cannot be trusted: damaged, cut short, of another key or user. The message says which,
+   one that cannot be trusted: damaged, cut short, of another key or owner. The message says which,
    and to put the entry anew repairs it. */
 HdStatus hd_cache_get(const char *kind, const char *key, unsigned char **bytes, size_t *size,
                       HdError *error);
