@@ -5,13 +5,12 @@
 
 #include "cli/commands.h"
 #include "cli/load_scene.h"
-#include "input/scene_paths.h"
+#include "input/fields.h"
 
 /* A command line up to the word that is being typed. */
 typedef struct Line {
     const HdCommandSpec *command;
     const HdOptionSpec *option; /* whose value is being typed; NULL: none's */
-    const char *operand;        /* the first one before it; NULL: there is none */
     const char *kept, *typed;   /* of the word: "--name=", or "", and the rest */
     int kept_length;
     bool is_first;      /* a command may stand there */
@@ -40,10 +39,8 @@ static void read_word(Line *line, const char *word) {
     line->option = NULL;
     if (is_value)
         return;
-    if (line->only_operands || word[0] != '-' || word[1] == '\0') {
-        line->operand = line->operand == NULL ? word : line->operand;
+    if (line->only_operands || word[0] != '-' || word[1] == '\0')
         return;
-    }
     line->only_operands = strcmp(word, "--") == 0;
     const HdOptionSpec *spec = find_option(line->command, word, strlen(word));
     if (spec != NULL && spec->value != NULL)
@@ -131,10 +128,39 @@ static void offer_choices(const Line *line) {
         offer(&last, *choice, "");
 }
 
+/* "image.aa=", and behind the sign the words that the value may be. */
+static void offer_path(const Line *line, const char *object, const HdField *field) {
+    char text[256];
+    if (field->type == HD_FIELD_LIST || field->type == HD_FIELD_MATERIALS ||
+        field->type == HD_FIELD_OBJECT || field->key[0] == '$')
+        return;
+    const int length = snprintf(text, sizeof text, "%s%s=", object, field->key);
+    if (field->choices == NULL || strchr(line->typed, '=') == NULL) {
+        offer(line, text, field->about);
+        return;
+    }
+    for (const HdChoice *choice = field->choices; choice->word != NULL; choice++) {
+        snprintf(text + length, sizeof text - (size_t)length, "%s", choice->word);
+        offer(line, text, "");
+    }
+}
+
+/* Paths of values that are not in lists, whatever the scene. */
+static void offer_paths(const Line *line) {
+    for (int i = 0; i < hd_scene_fields.field_count; i++) {
+        const HdField *field = &hd_scene_fields.fields[i];
+        char object[64];
+        snprintf(object, sizeof object, "%s.", field->key);
+        offer_path(line, "", field);
+        for (int k = 0; field->type == HD_FIELD_OBJECT && k < field->object->field_count; k++)
+            offer_path(line, object, &field->object->fields[k]);
+    }
+}
+
 static void offer_value(const Line *line) {
     const HdOptionSpec *spec = line->option;
     if (spec->type == HD_OPTION_CHANGES)
-        hd_offer_scene_paths(line->operand, line->typed, offer, line);
+        offer_paths(line);
     else if (spec->choices != NULL)
         offer_choices(line);
     else if (spec->takes_file)
