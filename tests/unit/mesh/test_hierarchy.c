@@ -166,33 +166,17 @@ TEST(two_boxes_are_divided_where_it_pays) {
     hd_hierarchy_free(&hierarchy);
 }
 
-TEST(leaves_follow_the_costs) {
-    enum { COUNT = 6000 };
-    HdBox *boxes = random_boxes(COUNT, 0.01, 1.0, 5);
-    /* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. */
-    const HdHierarchyOptions none = {0.0F, 15}, huge = {1000.0F, 15};
-    HdHierarchy hierarchy = build(boxes, COUNT, &none);
-    assert_int_equal(hierarchy.node_count, COUNT - 1);
-    hd_hierarchy_free(&hierarchy);
-    hierarchy = build(boxes, COUNT, &huge);
-    assert_true(hierarchy.node_count < COUNT / 7);
-    check_all(&hierarchy, boxes, COUNT, &huge, true);
-    hd_hierarchy_free(&hierarchy);
-    free(boxes);
-}
-
 TEST(same_for_any_number_of_threads) {
-    enum { COUNT = 60000 };
+    enum { MANY = 60000 };
     static const int thread_counts[] = {1, 3, 8};
-    HdBox *boxes = clustered_boxes(COUNT);
-    HdHierarchy expected = build(boxes, COUNT, &usual);
+    HdBox *boxes = clustered_boxes(MANY);
+    HdHierarchy expected = build(boxes, MANY, &usual);
     for (int i = 0; i < 3; i++) {
         HdThreadPool *other;
         HdHierarchy hierarchy;
         assert_int_equal(hd_thread_pool_create(&other, thread_counts[i], &error), HD_OK);
-        assert_int_equal(hd_hierarchy_build(&hierarchy, boxes, COUNT, &usual, other, &error),
-                         HD_OK);
-        expect_same(&hierarchy, &expected, COUNT);
+        assert_int_equal(hd_hierarchy_build(&hierarchy, boxes, MANY, &usual, other, &error), HD_OK);
+        expect_same(&hierarchy, &expected, MANY);
         assert_memory_equal(hierarchy.nodes, expected.nodes,
                             (size_t)expected.node_count * sizeof *expected.nodes);
         hd_hierarchy_free(&hierarchy);
@@ -202,20 +186,70 @@ TEST(same_for_any_number_of_threads) {
     free(boxes);
 }
 
-TEST(identical_boxes_are_halved) {
-    enum { COUNT = 20000 };
+/* ---- boxes of many kinds: what the box `i` of COUNT is ---- */
+
+enum { COUNT = 9000 };
+
+static void small(HdBox *box, int i) {
+    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
+    for (int axis = 0; axis < 3; axis++) {
+        box->lower[axis] = (float)(next_number(&seed) - next_number(&seed));
+        box->upper[axis] = box->lower[axis] + 0.01F * (float)next_number(&seed);
+    }
+}
+
+static void identical(HdBox *box, int i) {
+    (void)i;
+    *box = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
+}
+
+/* Neither a box has an area, nor what holds them all. */
+static void points_in_a_line(HdBox *box, int i) {
+    const float y = (float)(i * 7919 % COUNT);
+    *box = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
+}
+
+/* From the smallest to the largest floats there are. */
+static void of_all_sizes(HdBox *box, int i) {
+    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
+    for (int axis = 0; axis < 3; axis++) {
+        const double size = ldexp(1.0, (int)(277.0 * next_number(&seed)) - 149);
+        box->lower[axis] = i == 1  ? FLT_MAX
+                           : i < 3 ? -FLT_MAX
+                                   : (float)(size * -next_number(&seed));
+        box->upper[axis] = i == 2 ? -FLT_MAX : i < 3 ? FLT_MAX : (float)(size * next_number(&seed));
+    }
+}
+
+/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. */
+TEST(boxes_of_every_kind_are_divided) {
+    static const struct {
+        void (*fill)(HdBox *box, int i);
+        HdHierarchyOptions options;
+        bool sorted;
+        int least_nodes, most_nodes, most_depth;
+    } kinds[] = {
+        {small, {0.0F, 15}, true, COUNT - 1, COUNT - 1, 30},
+        {small, {1000.0F, 15}, true, 1, COUNT / 7, 30},
+        {identical, {1.0F, 4}, true, 1, COUNT, 13},
+        {points_in_a_line, {0.0F, 4}, true, COUNT - 1, COUNT - 1, 30},
+        {of_all_sizes, {1.0F, 4}, false, 1, COUNT, HD_MAX_HIERARCHY_DEPTH},
+    };
     HdBox *boxes = malloc(COUNT * sizeof *boxes);
-    for (int i = 0; i < COUNT; i++)
-        boxes[i] = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
-    HdHierarchy hierarchy = build_usual(boxes, COUNT);
-    assert_in_range(hierarchy.depth, 13, 14);
-    hd_hierarchy_free(&hierarchy);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        for (int i = 0; i < COUNT; i++)
+            kinds[k].fill(&boxes[i], i);
+        HdHierarchy hierarchy = build(boxes, COUNT, &kinds[k].options);
+        check_all(&hierarchy, boxes, COUNT, &kinds[k].options, kinds[k].sorted);
+        assert_in_range(hierarchy.node_count, kinds[k].least_nodes, kinds[k].most_nodes);
+        assert_in_range(hierarchy.depth, 1, kinds[k].most_depth);
+        hd_hierarchy_free(&hierarchy);
+    }
     free(boxes);
 }
 
 /* Boxes without a volume, without an area, without anything. */
 TEST(flat_boxes) {
-    enum { COUNT = 9000 };
     for (int flat_axes = 1; flat_axes <= 7; flat_axes++) {
         HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 11);
         for (int i = 0; i < COUNT; i++)
@@ -229,27 +263,8 @@ TEST(flat_boxes) {
     }
 }
 
-/* No box has an area, nor has what holds them all, and still they are put in order. */
-TEST(points_in_a_line) {
-    enum { COUNT = 9000 };
-    HdBox *boxes = malloc(COUNT * sizeof *boxes);
-    for (int i = 0; i < COUNT; i++) {
-        const float y = (float)(i * 7919 % COUNT);
-        boxes[i] = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
-    }
-    const HdHierarchyOptions options = {0.0F, 4};
-    HdHierarchy hierarchy = build(boxes, COUNT, &options);
-    check_all(&hierarchy, boxes, COUNT, &options, true);
-    assert_int_equal(hierarchy.node_count, COUNT - 1);
-    for (int i = 0; i < COUNT; i++)
-        assert_true(boxes[hierarchy.order[i]].lower[1] == (float)i);
-    hd_hierarchy_free(&hierarchy);
-    free(boxes);
-}
-
 /* The same boxes times a power of two have the same hierarchy, however large or small they are. */
 TEST(scale_does_not_matter) {
-    enum { COUNT = 9000 };
     static const double scales[] = {1.0, 0x1p-100, 0x1p-40, 0x1p40, 0x1p100, 0x1p126};
     HdHierarchy expected = {0};
     for (int i = 0; i < (int)(sizeof scales / sizeof *scales); i++) {
@@ -266,29 +281,6 @@ TEST(scale_does_not_matter) {
     hd_hierarchy_free(&expected);
 }
 
-/* From the smallest to the largest floats there are, in one scene. */
-TEST(all_sizes_at_once) {
-    enum { COUNT = 9000 };
-    HdBox *boxes = malloc(COUNT * sizeof *boxes);
-    uint64_t seed = 17;
-    for (int i = 0; i < COUNT; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            const double size = ldexp(1.0, (int)(277.0 * next_number(&seed)) - 149);
-            boxes[i].lower[axis] = (float)(size * -next_number(&seed));
-            boxes[i].upper[axis] = (float)(size * next_number(&seed));
-        }
-    for (int axis = 0; axis < 3; axis++) {
-        boxes[0].lower[axis] = -FLT_MAX;
-        boxes[0].upper[axis] = FLT_MAX;
-        boxes[1].lower[axis] = boxes[1].upper[axis] = FLT_MAX;
-        boxes[2].lower[axis] = boxes[2].upper[axis] = -FLT_MAX;
-    }
-    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
-    check_all(&hierarchy, boxes, COUNT, &usual, false);
-    hd_hierarchy_free(&hierarchy);
-    free(boxes);
-}
-
 TEST(depth_is_bounded) {
     HdBox boxes[DEEP_BOXES];
     fill_deep(boxes);
@@ -301,16 +293,14 @@ TEST(depth_is_bounded) {
 
 /* For a ray that meets them; as tried out. */
 TEST(splits_are_cheap) {
-    enum { COUNT = 20000 };
     HdBox *boxes = clustered_boxes(COUNT);
     HdHierarchy hierarchy = build(boxes, COUNT, &usual);
-    assert_true(check_all(&hierarchy, boxes, COUNT, &usual, true) < 16.6);
+    assert_true(check_all(&hierarchy, boxes, COUNT, &usual, true) < 11.84);
     hd_hierarchy_free(&hierarchy);
     free(boxes);
 }
 
 TEST(tells_when_memory_runs_out) {
-    enum { COUNT = 6000 };
     HdBox *boxes = random_boxes(COUNT, 0.1, 1.0, 19);
     int failures = 0;
     for (bool built = false; !built; failures++) {
@@ -323,7 +313,7 @@ TEST(tells_when_memory_runs_out) {
         if (!built) {
             assert_int_equal(status, HD_FAILED);
             expect_contains(error.message,
-                            "out of memory: no room for a hierarchy over 6000 boxes");
+                            "out of memory: no room for a hierarchy over 9000 boxes");
             assert_null(hierarchy.nodes);
             assert_null(hierarchy.order);
         }
