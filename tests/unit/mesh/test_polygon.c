@@ -76,65 +76,35 @@ static void expect_cut(const double (*outline)[2], int count) {
         expect_cut_from(outline, count, first, area);
 }
 
-/* The first two are convex. */
-static const struct {
-    int count;
-    double outline[16][2];
-} polygons[] = {
-    {4, {{0, 0}, {2, 0}, {2, 2}, {0, 2}}},
-    {6, {{1, 0}, {3, 0}, {4, 2}, {3, 4}, {1, 4}, {0, 2}}},
+/* x and y of each corner; the first two are convex. */
+static const char *const outlines[] = {
+    "0 0  2 0  2 2  0 2",
+    "1 0  3 0  4 2  3 4  1 4  0 2",
     /* An arrow, a U, a spiral. */
-    {4, {{0, 0}, {4, -2}, {1, 0}, {4, 2}}},
-    {8, {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}},
-    {16,
-     {{0, 0},
-      {7, 0},
-      {7, 7},
-      {0, 7},
-      {0, 6},
-      {6, 6},
-      {6, 1},
-      {1, 1},
-      {1, 4},
-      {4, 4},
-      {4, 3},
-      {2, 3},
-      {2, 2},
-      {5, 2},
-      {5, 5},
-      {0, 5}}},
+    "0 0  4 -2  1 0  4 2",
+    "0 0  3 0  3 3  2 3  2 1  1 1  1 3  0 3",
+    "0 0  7 0  7 7  0 7  0 6  6 6  6 1  1 1  1 4  4 4  4 3  2 3  2 2  5 2  5 5  0 5",
     /* A square with a square hole, to which a bridge leads: two places come up twice. */
-    {10, {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}},
+    "0 0  4 0  4 4  0 4  0 0  1 1  1 3  3 3  3 1  1 1",
     /* A bridge whose ends bend inwards. */
-    {13,
-     {{0, 0},
-      {2, 24},
-      {19, 5},
-      {20, 1},
-      {18, 11},
-      {10, 17},
-      {3, 25},
-      {6, 22},
-      {10, 17},
-      {18, 11},
-      {30, 0},
-      {0, 30},
-      {1, 14}}},
+    "0 0  2 24  19 5  20 1  18 11  10 17  3 25  6 22  10 17  18 11  30 0  0 30  1 14",
     /* A corner in the middle of a side: no triangle may be flat. */
-    {5, {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}},
-    {9, {{0, 0}, {1.5, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}},
+    "0 0  1 0  2 0  2 2  0 2",
+    "0 0  1.5 0  3 0  3 3  2 3  2 1  1 1  1 3  0 3",
 };
 
-TEST(polygons_are_cut) {
-    for (size_t i = 0; i < sizeof polygons / sizeof *polygons; i++)
-        expect_cut(polygons[i].outline, polygons[i].count);
-}
-
-TEST(convex_polygons_become_fans) {
-    for (int i = 0; i < 2; i++) {
-        set_outline(polygons[i].outline, polygons[i].count, 0, false);
-        assert_true(hd_polygon_cut(corners, polygons[i].count, triangles));
-        for (int k = 0; k < polygons[i].count - 2; k++) {
+TEST(polygons_are_cut_and_convex_ones_become_fans) {
+    for (size_t i = 0; i < sizeof outlines / sizeof *outlines; i++) {
+        double outline[16][2];
+        int count = 0;
+        for (char *at = (char *)outlines[i]; *at != '\0'; count++) {
+            outline[count][0] = strtod(at, &at);
+            outline[count][1] = strtod(at, &at);
+        }
+        expect_cut((const double(*)[2])outline, count);
+        set_outline((const double(*)[2])outline, count, 0, false);
+        assert_true(hd_polygon_cut(corners, count, triangles));
+        for (int k = 0; k < count - 2 && i < 2; k++) {
             const int32_t expected[3] = {0, k + 1, k + 2};
             assert_memory_equal(triangles[k], expected, sizeof expected);
         }
