@@ -169,20 +169,6 @@ TEST(entries_of_another_key_are_noticed) {
     expect_untrusted("another key");
 }
 
-TEST(entries_that_others_may_write_are_not_trusted) {
-    put("a");
-    assert_int_equal(chmod(find_entry(), 0620), 0);
-    expect_untrusted("other users");
-    assert_int_equal(chmod(entry_file, 0602), 0);
-    expect_untrusted("other users");
-    assert_int_equal(chmod(entry_file, 0600), 0);
-    assert_int_equal(get("a"), HD_OK);
-    if (geteuid() == 0) {
-        assert_int_equal(chown(entry_file, 12345, 12345), 0);
-        expect_untrusted("another user");
-    }
-}
-
 TEST(what_is_no_file_is_not_read) {
     put("a");
     assert_int_equal(rename(find_entry(), "elsewhere"), 0);
@@ -196,24 +182,6 @@ TEST(what_is_no_file_is_not_read) {
     expect_untrusted("not a regular file");
     assert_int_equal(hd_cache_put("test", "a", payload, sizeof payload, &error), HD_BAD_INPUT);
     assert_int_equal(remove("elsewhere"), 0);
-}
-
-TEST(folders_that_others_may_write_are_not_used) {
-    static const mode_t modes[] = {0720, 0702, 01777};
-    put("a");
-    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
-        assert_int_equal(chmod("cache", modes[i]), 0);
-        expect_untrusted("cannot use the folder cache: other users may write to it");
-        assert_int_equal(hd_cache_put("test", "b", payload, sizeof payload, &error), HD_FAILED);
-        expect_contains(error.message, "other users may write to it");
-    }
-    assert_int_equal(chmod("cache", 0700), 0);
-    assert_int_equal(get("b"), HD_UNAVAILABLE);
-    assert_int_equal(get("a"), HD_OK);
-    if (geteuid() == 0) {
-        assert_int_equal(chown("cache", 12345, 12345), 0);
-        expect_untrusted("another user");
-    }
 }
 
 /* As by somebody who knows the format, but not the key. */
@@ -230,23 +198,42 @@ TEST(entries_of_another_users_key_are_noticed) {
     assert_int_equal(get("a"), HD_OK);
 }
 
-TEST(keys_that_others_know_are_made_anew) {
+/* Of the entry (""), the folder or the key; only an entry and a key are made anew. */
+TEST(what_is_open_to_others_is_not_used) {
     static const struct {
+        const char *path;
         mode_t mode;
         off_t size;
         const char *reason;
-    } cases[] = {{0640, 16, "other users may read it"},
-                 {0604, 16, "other users may read it"},
-                 {0620, 16, "other users may write to it"},
-                 {0600, 15, "its size is wrong"},
-                 {0600, 17, "its size is wrong"}};
+    } cases[] = {{"", 0620, 0, "other users may write to it"},
+                 {"", 0602, 0, "other users may write to it"},
+                 {"cache", 0720, 0, "cannot use the folder cache: other users may write to it"},
+                 {"cache", 0702, 0, "cannot use the folder cache: other users may write to it"},
+                 {"cache", 01777, 0, "cannot use the folder cache: other users may write to it"},
+                 {"cache/key", 0640, 0, "other users may read it"},
+                 {"cache/key", 0604, 0, "other users may read it"},
+                 {"cache/key", 0620, 0, "other users may write to it"},
+                 {"cache/key", 0600, 15, "its size is wrong"},
+                 {"cache/key", 0600, 17, "its size is wrong"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         put("a");
-        assert_int_equal(chmod("cache/key", cases[i].mode), 0);
-        assert_int_equal(truncate("cache/key", cases[i].size), 0);
+        const char *path = cases[i].path[0] != '\0' ? cases[i].path : find_entry();
+        assert_int_equal(chmod(path, cases[i].mode), 0);
+        assert_true(cases[i].size == 0 || truncate(path, cases[i].size) == 0);
         expect_untrusted(cases[i].reason);
+        if (strcmp(path, "cache") == 0) {
+            assert_int_equal(hd_cache_put("test", "b", payload, sizeof payload, &error), HD_FAILED);
+            expect_contains(error.message, cases[i].reason);
+            assert_int_equal(chmod("cache", 0700), 0);
+            assert_int_equal(get("b"), HD_UNAVAILABLE);
+        }
         put("a");
         assert_int_equal(get("a"), HD_OK);
+        if (geteuid() == 0) {
+            assert_int_equal(chown(path, 12345, 12345), 0);
+            expect_untrusted("another user");
+            assert_int_equal(chown(path, 0, 0), 0);
+        }
     }
 }
 
@@ -405,10 +392,17 @@ static void make_file(const char *name, off_t size, int seconds_ago) {
     assert_int_equal(utimensat(AT_FDCWD, path, (const struct timespec[2]){then, then}, 0), 0);
 }
 
-static bool exists(const char *name) {
+/* The only files of the cache have the names, each with a space behind it. */
+static void expect_left(const char *names) {
     char path[256];
-    snprintf(path, sizeof path, "cache/%s", name);
-    return access(path, F_OK) == 0;
+    int count = 0, length;
+    for (const char *at = names; *at != '\0'; at += length + 1, count++) {
+        length = (int)strcspn(at, " ");
+        snprintf(path, sizeof path, "cache/%.*s", length, at);
+        if (access(path, F_OK) != 0)
+            fail_msg("%s is gone", path);
+    }
+    assert_int_equal(count_entries("cache"), count);
 }
 
 TEST(the_longest_unused_go_first) {
@@ -421,28 +415,21 @@ TEST(the_longest_unused_go_first) {
     make_file("fresh.entry.tmp-1-0", 100, 10);
     make_file("stale.entry.tmp-2-0", 100, 4000);
     hd_cache_limit("cache", 1200);
-    assert_true(exists("old.entry") && exists("middle.entry") && exists("new.entry"));
+    expect_left("key foreign fresh.entry.tmp-1-0 old.entry middle.entry new.entry ");
     hd_cache_limit("cache", 1199);
-    assert_false(exists("old.entry"));
-    assert_true(exists("middle.entry") && exists("new.entry"));
+    expect_left("key foreign fresh.entry.tmp-1-0 middle.entry new.entry ");
     hd_cache_limit("cache", 400);
-    assert_false(exists("middle.entry"));
-    assert_true(exists("new.entry") && exists("foreign") && exists("fresh.entry.tmp-1-0"));
-    assert_false(exists("stale.entry.tmp-2-0") || exists("key.tmp-3-0"));
-    assert_true(exists("key"));
+    expect_left("key foreign fresh.entry.tmp-1-0 new.entry ");
     hd_cache_limit("nowhere", 0);
 }
 
 /* In whatever order they are seen, and however long their names are. */
 TEST(names_of_any_length_can_be_the_oldest) {
-    char name[16];
-    for (int length = 8; length > 0; length--) {
-        snprintf(name, sizeof name, "%.*s.entry", length, "abcdefgh");
-        make_file(name, 100, 1000 - 100 * length);
-    }
-    hd_cache_limit("cache", 700);
-    assert_false(exists("a.entry"));
-    assert_int_equal(count_entries("cache"), 7);
+    static const char *const names[] = {"abcd.entry", "abc.entry", "ab.entry", "a.entry"};
+    for (int i = 0; i < 4; i++)
+        make_file(names[i], 100, 100 * (i + 1));
+    hd_cache_limit("cache", 300);
+    expect_left("abcd.entry abc.entry ab.entry ");
 }
 
 static const char *stuck; /* cannot be removed */
@@ -463,8 +450,7 @@ TEST(one_that_cannot_be_removed_is_passed_over) {
     stuck = "stuck.entry";
     hd_cache_limit("cache", 200);
     stuck = NULL;
-    assert_true(exists("stuck.entry") && exists("new.entry"));
-    assert_false(exists("old.entry"));
+    expect_left("stuck.entry new.entry ");
 }
 
 TEST(use_keeps_an_entry_young) {
@@ -483,8 +469,8 @@ TEST(a_put_keeps_to_the_limit) {
     for (int i = 0; i < 4; i++)
         make_file(names[i], HD_CACHE_MAX_BYTES / 4, 100 - i);
     put("a");
-    for (int i = 0; i < 4; i++)
-        assert_int_equal(exists(names[i]), i > 0);
+    assert_int_equal(access("cache/0.entry", F_OK), -1);
+    assert_int_equal(count_entries("cache"), 5); /* with the key and the new one */
     assert_int_equal(get("a"), HD_OK);
 }
 
