@@ -316,25 +316,24 @@ static vmask end_rays_of(Ends *ends, int level, int channel) {
 }
 
 /* By the greatest radiance that is seen from where a ray leaves, times the exposure; a bound that
-   is the limit is not below it. */
+   is the limit is not below it. At the scene's depth all end, and those of a weight below 0.5. */
 TEST(rays_that_end_are_bounded) {
-    for (int channel = 0; channel < CHANNELS; channel++) {
-        double each = 0.5 * (double)channel_bounds[channel], bounds[HD_LANES];
-        for (int lane = 0; lane < HD_LANES; lane++)
-            bounds[lane] = each * (lane + 1) * seen_times[lane % WAYS];
-        Ends ends = ends_below((real)(12.0 * each));
-        vmask going_on = end_rays_of(&ends, 2, channel);
-        for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, bounds[lane], bounds[lane] < 12.0 * each);
-        ends = ends_below((real)each);
-        going_on = end_rays_of(&ends, ends.view.depth, channel);
-        for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, bounds[lane], true);
-        ends = ends_below(R(0.0));
-        ends.view.cutoff = R(0.5);
-        going_on = end_rays_of(&ends, 2, channel);
-        for (int lane = 0; lane < HD_LANES; lane++)
-            expect_end(&ends, going_on, lane, bounds[lane], lane == 0);
+    static const struct {
+        double limit;
+        int level;
+        real cutoff;
+    } cases[] = {{12.0, 2, R(0.0)}, {1.0, 5, R(0.0)}, {0.0, 2, R(0.5)}};
+    for (int i = 0; i < CHANNELS * 3; i++) {
+        int channel = i / 3, k = i % 3;
+        double each = 0.5 * (double)channel_bounds[channel];
+        Ends ends = ends_below((real)(cases[k].limit * each));
+        ends.view.cutoff = cases[k].cutoff;
+        vmask going_on = end_rays_of(&ends, cases[k].level, channel);
+        for (int lane = 0; lane < HD_LANES; lane++) {
+            double bound = each * (lane + 1) * seen_times[lane % WAYS];
+            bool is_over = k == 0 ? bound < 12.0 * each : k == 1 || lane == 0;
+            expect_end(&ends, going_on, lane, bound, is_over);
+        }
     }
 }
 
