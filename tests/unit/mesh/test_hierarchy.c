@@ -221,24 +221,32 @@ static void of_all_sizes(HdBox *box, int i) {
     }
 }
 
-/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. */
+/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. Flat
+   boxes are without a volume, without an area, without anything. */
 TEST(boxes_of_every_kind_are_divided) {
     static const struct {
         void (*fill)(HdBox *box, int i);
         HdHierarchyOptions options;
         bool sorted;
-        int least_nodes, most_nodes, most_depth;
+        int flat_axes, least_nodes, most_nodes, most_depth;
     } kinds[] = {
-        {small, {0.0F, 15}, true, COUNT - 1, COUNT - 1, 30},
-        {small, {1000.0F, 15}, true, 1, COUNT / 7, 30},
-        {identical, {1.0F, 4}, true, 1, COUNT, 13},
-        {points_in_a_line, {0.0F, 4}, true, COUNT - 1, COUNT - 1, 30},
-        {of_all_sizes, {1.0F, 4}, false, 1, COUNT, HD_MAX_HIERARCHY_DEPTH},
+        {small, {0.0F, 15}, true, 0, COUNT - 1, COUNT - 1, 30},
+        {small, {1.0F, 4}, true, 1, 1, COUNT, 30},
+        {small, {1.0F, 4}, true, 6, 1, COUNT, 30},
+        {small, {1.0F, 4}, true, 7, 1, COUNT, 30},
+        {small, {1000.0F, 15}, true, 0, 1, COUNT / 7, 30},
+        {identical, {1.0F, 4}, true, 0, 1, COUNT, 13},
+        {points_in_a_line, {0.0F, 4}, true, 0, COUNT - 1, COUNT - 1, 30},
+        {of_all_sizes, {1.0F, 4}, false, 0, 1, COUNT, HD_MAX_HIERARCHY_DEPTH},
     };
     HdBox *boxes = malloc(COUNT * sizeof *boxes);
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        for (int i = 0; i < COUNT; i++)
+        for (int i = 0; i < COUNT; i++) {
             kinds[k].fill(&boxes[i], i);
+            for (int axis = 0; axis < 3; axis++)
+                if (kinds[k].flat_axes >> axis & 1)
+                    boxes[i].upper[axis] = boxes[i].lower[axis];
+        }
         HdHierarchy hierarchy = build(boxes, COUNT, &kinds[k].options);
         check_all(&hierarchy, boxes, COUNT, &kinds[k].options, kinds[k].sorted);
         assert_in_range(hierarchy.node_count, kinds[k].least_nodes, kinds[k].most_nodes);
@@ -246,21 +254,6 @@ TEST(boxes_of_every_kind_are_divided) {
         hd_hierarchy_free(&hierarchy);
     }
     free(boxes);
-}
-
-/* Boxes without a volume, without an area, without anything. */
-TEST(flat_boxes) {
-    for (int flat_axes = 1; flat_axes <= 7; flat_axes++) {
-        HdBox *boxes = random_boxes(COUNT, 0.03, 1.0, 11);
-        for (int i = 0; i < COUNT; i++)
-            for (int axis = 0; axis < 3; axis++)
-                if (flat_axes >> axis & 1)
-                    boxes[i].upper[axis] = boxes[i].lower[axis];
-        HdHierarchy hierarchy = build_usual(boxes, COUNT);
-        assert_true(hierarchy.depth < 30);
-        hd_hierarchy_free(&hierarchy);
-        free(boxes);
-    }
 }
 
 /* The same boxes times a power of two have the same hierarchy, however large or small they are. */
