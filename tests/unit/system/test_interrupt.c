@@ -66,22 +66,14 @@ static void pass(double seconds) {
 
 /* ---- what they do ---- */
 
-static void tell(int number) {
+static int number;
+
+static void take_it(void) {
     hd_interrupt_announce("stopping\n");
     errno = EDOM;
     if (hd_interrupt_signal() != 0 || raise(number) != 0 || errno != EDOM)
         _exit(97);
     _exit(hd_interrupt_signal());
-}
-
-static void take_sigint(void) {
-    tell(SIGINT);
-}
-static void take_sigterm(void) {
-    tell(SIGTERM);
-}
-static void take_sighup(void) {
-    tell(SIGHUP);
 }
 
 static void announce_nothing(void) {
@@ -128,17 +120,14 @@ static void take_a_second_one(void) {
 
 static void hang(void) {
     leave_a_file();
-    raise(SIGTERM);
+    kill(getpid(), SIGTERM);
     for (;;)
         pause();
 }
 
 static void hang_deaf(void) {
-    leave_a_file();
     be_deaf();
-    kill(getpid(), SIGTERM);
-    for (;;)
-        pause();
+    hang();
 }
 
 static void last_without_a_signal(void) {
@@ -175,9 +164,9 @@ static const struct {
     int outcome;
     const char *said;
 } cases[] = {
-    {"SIGINT is announced", take_sigint, "", SIGINT, "stopping\n"},
-    {"SIGTERM is announced", take_sigterm, "", SIGTERM, "stopping\n"},
-    {"SIGHUP is announced", take_sighup, "", SIGHUP, "stopping\n"},
+    {"it is announced", take_it, "", SIGINT, "stopping\n"},
+    {"it is announced", take_it, "", SIGTERM, "stopping\n"},
+    {"it is announced", take_it, "", SIGHUP, "stopping\n"},
     {"nothing is to be announced", announce_nothing, "", SIGTERM, ""},
     {"two at once are the same wish", take_two_at_once, "", SIGINT, "stopping\n"},
     {"another thread takes it where the main thread is stuck", wait_deaf, "", SIGTERM, ""},
@@ -192,6 +181,7 @@ static const struct {
 TEST(signals_end_it_as_they_should) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         setenv("HEDRON_STOP_PATIENCE", cases[i].patience, 1);
+        number = cases[i].outcome;
         const int outcome = outcome_of(cases[i].act);
         if (outcome != cases[i].outcome || strcmp(said, cases[i].said) != 0 ||
             access("left", F_OK) == 0 || (cases[i].said == too_late && took < 0.1))
