@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE   700
-#define _DEFAULT_SOURCE /* syscall */
+#define _XOPEN_SOURCE 700
 #include "system/cache_folder.h"
 
 #include <errno.h>
@@ -8,7 +7,6 @@
 #include <signal.h>
 #include <stdbool.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 
