@@ -25,6 +25,23 @@ static void *allocate_or_fail(size_t bytes) {
 }
 REPLACE(hd_large_allocate, allocate_or_fail)
 
+/* Lets each allocation fail in turn, until all are made; returns how many those are. */
+static int fail_each(HdStatus (*attempt)(void)) {
+    int failing = 0;
+    for (HdStatus status = HD_FAILED; status != HD_OK;) {
+        allocations = 0;
+        failing_allocation = failing++;
+        status = attempt();
+        failing_allocation = -1;
+        if (status != HD_OK) {
+            assert_int_equal(status, HD_FAILED);
+            expect_contains(error.message, "out of memory: no room for ");
+        }
+    }
+    assert_int_equal(failing - 1, allocations);
+    return allocations;
+}
+
 static int start_pool(void **state) {
     (void)state;
     return hd_thread_pool_create(&pool, 2, &error) != HD_OK;

@@ -102,29 +102,24 @@ TEST(children_are_those_of_merged_nodes) {
     check_widths(deep, DEEP_BOXES);
 }
 
+static HdHierarchy clustered;
+
+static HdStatus widen(void) {
+    HdWideHierarchy wide;
+    const HdStatus status = hd_hierarchy_widen(&wide, &clustered, 8, &error);
+    assert_int_equal(wide.bounds != NULL && wide.child != NULL && wide.root_of != NULL,
+                     status == HD_OK);
+    assert_int_equal(wide.bounds == NULL && wide.child == NULL && wide.root_of == NULL,
+                     status != HD_OK);
+    hd_wide_hierarchy_free(&wide);
+    return status;
+}
+
+/* Two at the start, one for the boxes, and at least once it has to grow. */
 TEST(tells_when_memory_runs_out) {
-    enum { COUNT = 3000 };
-    HdBox *boxes = clustered_boxes(COUNT);
-    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
-    int failures = 0;
-    for (bool widened = false; !widened; failures++) {
-        HdWideHierarchy wide;
-        allocations = 0;
-        failing_allocation = failures;
-        const HdStatus status = hd_hierarchy_widen(&wide, &hierarchy, 8, &error);
-        failing_allocation = -1;
-        widened = status == HD_OK;
-        if (!widened) {
-            assert_int_equal(status, HD_FAILED);
-            expect_contains(error.message, "out of memory");
-            assert_null(wide.bounds);
-            assert_null(wide.child);
-            assert_null(wide.root_of);
-        }
-        hd_wide_hierarchy_free(&wide);
-    }
-    /* Two at the start, one for the boxes, and at least once it had to grow. */
-    assert_true(failures - 1 >= 4);
-    hd_hierarchy_free(&hierarchy);
+    HdBox *boxes = clustered_boxes(3000);
+    clustered = build(boxes, 3000, &usual);
+    assert_true(fail_each(widen) >= 4);
+    hd_hierarchy_free(&clustered);
     free(boxes);
 }
