@@ -1,31 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include <stdio.h>
-
-#include "box_scenes.h"
 #include "hierarchy_setup.h"
-#include "unit_test.h"
-
-enum { MOST_WIDTH = 16, MOST_WAITING = (MOST_WIDTH - 1) * HD_MAX_HIERARCHY_DEPTH };
-
-static const HdHierarchyOptions usual = {1.0F, 4};
-static const int widths[] = {2, 4, 8, 16};
-enum { WIDTH_COUNT = sizeof widths / sizeof *widths };
-
-static HdHierarchy build(const HdBox *boxes, int count) {
-    HdHierarchy hierarchy;
-    if (hd_hierarchy_build(&hierarchy, boxes, count, &usual, pool, &error) != HD_OK)
-        fail_msg("%s", error.message);
-    return hierarchy;
-}
-
-static HdWideHierarchy widen(const HdHierarchy *hierarchy, int width) {
-    HdWideHierarchy wide;
-    if (hd_hierarchy_widen(&wide, hierarchy, width, &error) != HD_OK)
-        fail_msg("%s", error.message);
-    assert_int_equal(wide.width, width);
-    assert_int_equal((uintptr_t)wide.bounds % 64, 0);
-    return wide;
-}
 
 static HdBox box_of(const HdWideHierarchy *wide, int node, int child) {
     HdBox box;
@@ -37,192 +11,115 @@ static HdBox box_of(const HdWideHierarchy *wide, int node, int child) {
     return box;
 }
 
-static double half_area(const HdBox *box) {
-    const double x = (double)box->upper[0] - (double)box->lower[0];
-    const double y = (double)box->upper[1] - (double)box->lower[1];
-    const double z = (double)box->upper[2] - (double)box->lower[2];
-    return x * (y + z) + y * z;
-}
-
-/* Compares a wide node with the binary node that it comes from. */
 typedef struct Check {
     const HdHierarchy *hierarchy;
     const HdWideHierarchy *wide;
-    int next_node;
-    int matched; /* nodes of the binary hierarchy with a wide one */
-    /* Of the wide node at hand: */
-    int number, next_child;
-    double least_opened, largest_left; /* areas */
+    int next_node, depth;
 } Check;
 
+/* What a wide node merged. */
+typedef struct Merged {
+    int number, count, binary[16];     /* the binary nodes that its children come from */
+    double least_opened, largest_left; /* areas */
+} Merged;
+
 /* Goes through the binary nodes that were merged, in the order of their items. */
-static void check_merged(Check *check, int node) {
+static void check_merged(const Check *check, int node, Merged *merged) {
     const HdBuildNode *binary = &check->hierarchy->nodes[node];
+    const HdWideHierarchy *wide = check->wide;
     for (int side = 0; side < 2; side++) {
         const int32_t child = binary->child[side];
         if (child == ~0)
             continue;
         const double area = half_area(&binary->box[side]);
-        if (child >= 0 && check->wide->root_of[child] < 0) {
-            check->least_opened = fmin(check->least_opened, area);
-            check_merged(check, child);
+        if (child >= 0 && wide->root_of[child] < 0) {
+            merged->least_opened = fmin(merged->least_opened, area);
+            check_merged(check, child, merged);
             continue;
         }
-        assert_true(check->next_child < check->wide->width);
-        const HdBox box = box_of(check->wide, check->number, check->next_child);
+        assert_true(merged->count < wide->width);
+        const HdBox box = box_of(wide, merged->number, merged->count);
         assert_memory_equal(&box, &binary->box[side], sizeof box);
-        const int32_t got =
-            check->wide->child[check->number * check->wide->width + check->next_child++];
-        assert_int_equal(got, child < 0 ? child : check->wide->root_of[child]);
+        assert_int_equal(wide->child[merged->number * wide->width + merged->count],
+                         child < 0 ? child : wide->root_of[child]);
+        merged->binary[merged->count++] = child;
         if (child >= 0)
-            check->largest_left = fmax(check->largest_left, area);
+            merged->largest_left = fmax(merged->largest_left, area);
     }
 }
 
-/* Returns the depth below, this node counted. */
-static int check_node(Check *check, int node) {
-    const int width = check->wide->width;
-    const int number = check->wide->root_of[node];
-    assert_int_equal(number, check->next_node);
-    check->next_node++;
-    check->matched++;
-    check->number = number;
-    check->next_child = 0;
-    check->least_opened = HUGE_VAL;
-    check->largest_left = -1.0;
-    check_merged(check, node);
+/* Compares the wide node of a binary one with what it comes from, and all below. */
+static void check_node(Check *check, int node, int depth) {
+    const HdWideHierarchy *wide = check->wide;
+    Merged merged = {.number = wide->root_of[node], .least_opened = HUGE_VAL, .largest_left = -1.0};
+    assert_int_equal(merged.number, check->next_node++);
+    check->depth = depth > check->depth ? depth : check->depth;
+    check_merged(check, node, &merged);
     /* The largest were opened, as long as there was room. */
-    assert_true(check->least_opened >= check->largest_left);
-    assert_true(check->next_child == width || check->largest_left < 0.0);
-    for (int i = check->next_child; i < width; i++) {
-        const HdBox box = box_of(check->wide, number, i);
-        assert_int_equal(check->wide->child[number * width + i], ~0);
+    assert_true(merged.least_opened >= merged.largest_left);
+    assert_true(merged.count == wide->width || merged.largest_left < 0.0);
+    for (int i = merged.count; i < wide->width; i++) {
+        const HdBox box = box_of(wide, merged.number, i);
+        assert_int_equal(wide->child[merged.number * wide->width + i], ~0);
         for (int axis = 0; axis < 3; axis++)
             assert_true(box.lower[axis] > box.upper[axis]);
     }
-    /* Below; the binary nodes are those that the children came from. */
-    int depth = 0;
-    for (int i = 0; i < width; i++) {
-        const int32_t child = check->wide->child[number * width + i];
-        if (child < 0)
-            continue;
-        assert_true(child > number);
-        int below = 0;
-        while (check->wide->root_of[below] != child)
-            below++;
-        const int found = check_node(check, below);
-        depth = found > depth ? found : depth;
-    }
-    return depth + 1;
+    for (int i = 0; i < merged.count; i++)
+        if (merged.binary[i] >= 0)
+            check_node(check, merged.binary[i], depth + 1);
 }
 
-static void check_all(const HdHierarchy *hierarchy, const HdWideHierarchy *wide) {
-    Check check = {.hierarchy = hierarchy, .wide = wide};
-    const int depth = check_node(&check, 0);
-    assert_int_equal(depth, wide->depth);
-    assert_int_equal(check.next_node, wide->node_count);
-    int matched = 0;
-    for (int i = 0; i < hierarchy->node_count; i++)
-        matched += wide->root_of[i] >= 0;
-    assert_int_equal(matched, check.matched);
-}
-
-static void walk(const HdWideHierarchy *wide, const HdHierarchy *hierarchy, const HdBox *boxes,
-                 const TestRay *ray, unsigned char *met) {
-    static int32_t waiting[MOST_WAITING + MOST_WIDTH];
-    int waiting_count = 0;
-    int32_t at = 0;
-    for (;;) {
-        if (at < 0) {
-            for (int i = ~at >> HD_LEAF_SHIFT, n = ~at & HD_MAX_LEAF; n > 0; i++, n--) {
-                const int item = hierarchy->order[i];
-                met[item] = ray_meets(ray, boxes[item].lower, boxes[item].upper);
-            }
-        }
-        for (int i = 0; at >= 0 && i < wide->width; i++) {
-            const HdBox box = box_of(wide, at, i);
-            if (ray_meets(ray, box.lower, box.upper))
-                waiting[waiting_count++] = wide->child[at * wide->width + i];
-        }
-        if (waiting_count == 0)
-            return;
-        at = waiting[--waiting_count];
-        assert_true(waiting_count <= (wide->width - 1) * wide->depth);
-    }
-}
-
-static void compare_rays(const HdWideHierarchy *wide, const HdHierarchy *hierarchy,
-                         const HdBox *boxes, int count, int rays) {
-    uint64_t seed = (uint64_t)count;
-    unsigned char *met = malloc((size_t)count);
-    for (int i = 0; i < rays; i++) {
-        const TestRay ray = random_ray(1.0, &seed);
-        memset(met, 0, (size_t)count);
-        walk(wide, hierarchy, boxes, &ray, met);
-        for (int item = 0; item < count; item++)
-            if (met[item] != ray_meets(&ray, boxes[item].lower, boxes[item].upper))
-                fail_msg("width %d, ray %d, box %d of %d", wide->width, i, item, count);
-    }
-    free(met);
-}
-
-static void check_widths(const HdBox *boxes, int count, int rays) {
-    HdHierarchy hierarchy = build(boxes, count);
-    for (int i = 0; i < WIDTH_COUNT; i++) {
-        HdWideHierarchy wide = widen(&hierarchy, widths[i]);
-        check_all(&hierarchy, &wide);
-        compare_rays(&wide, &hierarchy, boxes, count, rays);
+static void check_widths(const HdBox *boxes, int count) {
+    HdHierarchy hierarchy = build(boxes, count, &usual);
+    for (int width = 2; width <= 16; width *= 2) {
+        HdWideHierarchy wide;
+        assert_int_equal(hd_hierarchy_widen(&wide, &hierarchy, width, &error), HD_OK);
+        assert_int_equal(wide.width, width);
+        assert_int_equal((uintptr_t)wide.bounds % 64, 0);
+        Check check = {.hierarchy = &hierarchy, .wide = &wide};
+        check_node(&check, 0, 1);
+        assert_int_equal(check.depth, wide.depth);
+        assert_int_equal(check.next_node, wide.node_count);
+        for (int i = 0; i < hierarchy.node_count; i++)
+            check.next_node -= wide.root_of[i] >= 0;
+        assert_int_equal(check.next_node, 0);
         hd_wide_hierarchy_free(&wide);
     }
     hd_hierarchy_free(&hierarchy);
 }
 
-TEST(few_boxes) {
+TEST(children_are_those_of_merged_nodes) {
     for (int count = 1; count <= 200; count++) {
         HdBox *boxes = random_boxes(count, 0.5, 1.0, (uint64_t)count);
-        check_widths(boxes, count, 20);
+        check_widths(boxes, count);
         free(boxes);
     }
-}
-
-TEST(many_boxes) {
-    enum { COUNT = 10000 };
-    HdBox *boxes = clustered_boxes(COUNT);
-    check_widths(boxes, COUNT, 20);
+    HdBox *boxes = clustered_boxes(10000);
+    check_widths(boxes, 10000);
     free(boxes);
+    HdBox deep[DEEP_BOXES];
+    fill_deep(deep);
+    check_widths(deep, DEEP_BOXES);
 }
 
-TEST(deep_hierarchies) {
-    HdBox boxes[DEEP_BOXES];
-    fill_deep(boxes);
-    check_widths(boxes, DEEP_BOXES, 20);
+static HdHierarchy clustered;
+
+static HdStatus widen(void) {
+    HdWideHierarchy wide;
+    const HdStatus status = hd_hierarchy_widen(&wide, &clustered, 8, &error);
+    assert_int_equal(wide.bounds != NULL && wide.child != NULL && wide.root_of != NULL,
+                     status == HD_OK);
+    assert_int_equal(wide.bounds == NULL && wide.child == NULL && wide.root_of == NULL,
+                     status != HD_OK);
+    hd_wide_hierarchy_free(&wide);
+    return status;
 }
 
+/* Two at the start, one for the boxes, and at least once it has to grow. */
 TEST(tells_when_memory_runs_out) {
-    enum { COUNT = 3000 };
-    HdBox *boxes = clustered_boxes(COUNT);
-    HdHierarchy hierarchy = build(boxes, COUNT);
-    int failures = 0;
-    for (bool widened = false; !widened; failures++) {
-        HdWideHierarchy wide;
-        allocations = 0;
-        failing_allocation = failures;
-        const HdStatus status = hd_hierarchy_widen(&wide, &hierarchy, 8, &error);
-        failing_allocation = -1;
-        widened = status == HD_OK;
-        if (!widened) {
-            assert_int_equal(status, HD_FAILED);
-            expect_contains(error.message, "out of memory");
-            assert_null(wide.bounds);
-            assert_null(wide.child);
-            assert_null(wide.root_of);
-        }
-        hd_wide_hierarchy_free(&wide);
-    }
-    /* Two at the start, one for the boxes, and at least once it had to grow. */
-    assert_true(failures - 1 >= 4);
-    hd_hierarchy_free(&hierarchy);
+    HdBox *boxes = clustered_boxes(3000);
+    clustered = build(boxes, 3000, &usual);
+    assert_true(fail_each(widen) >= 4);
+    hd_hierarchy_free(&clustered);
     free(boxes);
 }
-
-GROUP(start_pool, end_pool)

@@ -7,6 +7,7 @@
 #include "system/file_bytes.h"
 #include "test_folder.h"
 
+static HdError error;
 static int ends[2];
 
 static void feed(int unused) {
@@ -32,7 +33,6 @@ TEST(a_signal_does_not_end_a_read) {
 }
 
 static void expect_refused(const char *path, const char *reason) {
-    HdError error;
     unsigned char *bytes = (unsigned char *)"";
     size_t size;
     assert_int_equal(hd_file_read(path, "scene", 5, &bytes, &size, &error), HD_BAD_INPUT);
@@ -41,7 +41,6 @@ static void expect_refused(const char *path, const char *reason) {
 }
 
 TEST(files_are_read_up_to_a_size) {
-    HdError error;
     unsigned char *bytes;
     size_t size;
     const int open_before = count_entries("/proc/self/fd");
@@ -66,7 +65,6 @@ TEST(files_are_read_up_to_a_size) {
 
 /* As what a system tells of itself: no size, or more than there is. */
 TEST(a_file_that_ends_early_is_told) {
-    HdError error;
     unsigned char *bytes;
     size_t size;
     assert_int_equal(access("/sys/kernel/uevent_seqnum", R_OK), 0);

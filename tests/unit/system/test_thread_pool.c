@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE /* RTLD_NEXT */
+#define _GNU_SOURCE
 
 #include <errno.h>
 #include <fenv.h>

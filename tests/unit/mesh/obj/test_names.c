@@ -26,7 +26,7 @@ static int add(const char *name) {
     return hd_name_table_add(&table, span(name), &memory);
 }
 
-TEST(test_names_have_numbers) {
+TEST(names_have_numbers) {
     assert_int_equal(hd_name_table_find(&table, span("a")), -1);
     assert_int_equal(add("a"), 0);
     assert_int_equal(add("ab"), 1);
@@ -51,7 +51,7 @@ static void next_colliding(int *number, int width, uint64_t slot, char name[16])
     }
 }
 
-TEST(test_names_that_collide) {
+TEST(names_that_collide) {
     enum { OF_EACH = 8 };
     char names[2 * OF_EACH][16];
     int number = 0;
@@ -65,7 +65,7 @@ TEST(test_names_that_collide) {
     }
 }
 
-TEST(test_beginnings_that_collide) {
+TEST(beginnings_that_collide) {
     char name[16] = "a";
     const uint64_t slots = 4 * HD_MAX_MESH_MATERIALS;
     const uint64_t slot = hd_hash_bytes(HD_HASH_START, "a", 1) % slots;
@@ -77,7 +77,7 @@ TEST(test_beginnings_that_collide) {
 }
 
 /* Only names made to collide come so far; each look-up would take longer and longer. */
-TEST_WITH(test_too_many_that_collide, clear, clear) {
+TEST_WITH(too_many_that_collide, clear, clear) {
     char name[16];
     int number = 0, result = 0;
     for (int i = 0; i < 257; i++) {
