@@ -5,8 +5,8 @@
 #include "choice/record.h"
 #include "device/self_test_scenes.h"
 #include "fake_backend.h"
-#include "system/cache_folder.h"
 #include "test_folder.h"
+#include "wrapped.h"
 
 static HdError error;
 static HdRenderOptions options;
@@ -15,13 +15,32 @@ static HdJob job;
 static HdDevice device;
 static HdTuning tuning;
 
+/* The time goes on only while a picture is rendered. */
+static double now, picture_seconds;
+
+static double read_clock(void) {
+    return now;
+}
+REPLACE(hd_monotonic_seconds, read_clock)
+
+static HdStatus take_time(FakePoint point, int index, HdError *failure) {
+    (void)index, (void)failure;
+    now += point == FAKE_COLLECT ? picture_seconds : 0.0;
+    return HD_OK;
+}
+
+/* The arithmetic is fast, so that the kernels do not test themselves first. */
 static int begin(void **state) {
     (void)state;
     memset(&fake, 0, sizeof fake);
+    fake.event = take_time;
+    picture_seconds = 0.3;
     setenv("HEDRON_CACHE", "cache", 1);
-    options = (HdRenderOptions){.threads = 1};
+    options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
     if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
         return 1;
+    scene.width = scene.height = 4;
+    scene.samples_per_side = 1;
     job = (HdJob){.scene = &scene, .frame_count = 1};
     device = fake_device();
     device.has_wide_atomics = true;
@@ -55,11 +74,13 @@ static double picky(const HdRenderOptions *asked) {
     return seconds * (asked->grid == 320 ? 0.9 : 1.0);
 }
 
-static void expect_candidate(int index, const char *text) {
+static void expect_candidates(const char *const *texts, int count) {
     char described[128];
-    assert_true(index < tuning.count);
-    hd_launch_describe(&tuning.candidates[index].launch, described, sizeof described);
-    assert_string_equal(described, text);
+    assert_int_equal(tuning.count, count);
+    for (int i = 0; i < count; i++) {
+        hd_launch_describe(&tuning.candidates[i].launch, described, sizeof described);
+        assert_string_equal(described, texts[i]);
+    }
 }
 
 TEST(a_gpu_has_its_candidates) {
@@ -83,9 +104,7 @@ TEST(a_gpu_has_its_candidates) {
         "wavefront, groups of 256, at most 80 groups, at most 96 registers",
         "wavefront, groups of 256, at most 320 groups, at most 96 registers",
     };
-    assert_int_equal(tuning.count, 15);
-    for (int i = 0; i < 15; i++)
-        expect_candidate(i, candidates[i]);
+    expect_candidates(candidates, 15);
     assert_int_equal(tuning.best, 14);
     assert_true(tuning.candidates[0].seconds == 1.2);
 }
@@ -104,9 +123,7 @@ TEST(a_cpu_has_pipelines_and_lanes) {
     static const char *const candidates[] = {
         "mega", "wavefront", "wavefront, 4 lanes", "wavefront, 8 lanes", "wavefront, 16 lanes",
     };
-    assert_int_equal(tuning.count, 5);
-    for (int i = 0; i < 5; i++)
-        expect_candidate(i, candidates[i]);
+    expect_candidates(candidates, 5);
     assert_int_equal(tuning.best, 1);
 }
 
@@ -154,6 +171,9 @@ TEST(what_cannot_be_used_is_told) {
     device.has_wide_atomics = false;
     tune();
     expect_contains(tuning.candidates[1].failure, "64-bit integer atomics");
+    fake.is_missing = true;
+    assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_UNAVAILABLE);
+    expect_contains(error.message, "fake: it is missing");
 }
 
 static double likes_mega(const HdRenderOptions *asked) {
@@ -174,12 +194,6 @@ TEST(a_display_is_not_kept_by_deep_trees) {
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
 }
 
-TEST(a_device_that_fails_is_an_error) {
-    fake.is_missing = true;
-    assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_UNAVAILABLE);
-    expect_contains(error.message, "fake: it is missing");
-}
-
 /* The first time that it is measured, somebody else uses the machine. */
 static double unlucky_once(const HdRenderOptions *asked) {
     if (asked->pipeline != HD_PIPELINE_WAVEFRONT)
@@ -192,8 +206,29 @@ TEST(what_was_unlucky_is_measured_again) {
     tune();
     assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
     assert_int_equal(best().block, 0);
-    assert_int_equal(tuning.width, scene.width);
-    assert_int_equal(tuning.height, scene.height);
+}
+
+/* Of one candidate, which is measured once, and twice more after each of three stages. */
+TEST(pictures_are_as_large_as_time_allows) {
+    static const struct {
+        double seconds;
+        int side, found_in, times;
+    } cases[] = {{0.3, 8, 2, 2}, {0.06, 8, 2, 8}, {0.04, 16, 4, 12}, {0.001, 16, 4, 40}};
+    options.pipeline = HD_PIPELINE_MEGA;
+    options.block = 64;
+    options.grid = 1;
+    scene.solid_count = 0;
+    scene.width = scene.height = 16;
+    scene.samples_per_side = 8;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        picture_seconds = cases[i].seconds;
+        fake.rendered = 0;
+        tune();
+        assert_int_equal(tuning.count, 1);
+        assert_int_equal(tuning.width, cases[i].side);
+        assert_int_equal(tuning.height, cases[i].side);
+        assert_int_equal(fake.rendered, cases[i].found_in + 7 * cases[i].times);
+    }
 }
 
 /* ---- remembering ---- */
@@ -234,33 +269,16 @@ TEST(a_choice_is_remembered) {
 
 TEST(another_job_or_device_is_not_meant) {
     remember();
-    scene.exposure = 2.0;
     device.index = 3;
     assert_true(is_recalled());
     scene.width *= 4;
     assert_false(is_recalled());
     scene.width /= 4;
-    HdMesh mesh = {.triangle_count = 1000};
-    scene.meshes = &mesh;
-    scene.mesh_count = 1;
-    assert_false(is_recalled());
-    remember();
-    mesh.triangle_count = 600; /* as many, to a power of two */
-    assert_true(is_recalled());
-    mesh.triangle_count = 3000;
-    assert_false(is_recalled());
-    scene.meshes = NULL;
-    scene.mesh_count = 0;
-    scene.instance_count = 9;
-    assert_false(is_recalled());
-    scene.instance_count = 0;
-    options.precision = HD_PRECISION_DOUBLE;
-    assert_false(is_recalled());
-    options.precision = HD_PRECISION_FLOAT;
     snprintf(device.driver, sizeof device.driver, "driver 8");
     assert_false(is_recalled());
-    snprintf(device.driver, sizeof device.driver, "driver 7");
-    assert_true(is_recalled());
+    device = fake_device();
+    snprintf(device.name, sizeof device.name, "Fake 2000");
+    assert_false(is_recalled());
 }
 
 TEST(options_of_a_run_win) {
@@ -329,14 +347,6 @@ TEST(other_texts_are_ignored) {
     }
 }
 
-TEST(deep_trees_are_another_kind_of_job) {
-    remember();
-    options.has_deep_trees = true;
-    assert_false(is_recalled());
-    remember();
-    assert_true(is_recalled());
-}
-
 TEST(without_a_folder_nothing_is_remembered) {
     setenv("HEDRON_CACHE", "off", 1);
     assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error),
@@ -372,82 +382,6 @@ TEST(what_is_remembered_is_opened) {
     assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
 }
 
-/* ---- what makes jobs alike ---- */
-
-static void expect_alike(bool is_alike) {
-    char text[16];
-    assert_int_equal(hd_record_get("test", &scene, &options, "", text, sizeof text), is_alike);
-}
-
-/* Remembered under the number `from`, recalled under others: the powers of two that they are
-   rounded up to decide. */
-static void expect_rounded(int *number) {
-    const int kept = *number;
-    static const struct {
-        int from, alike, other;
-    } cases[] = {{5, 8, 9}, {5, 6, 4}, {1, 1, 2}, {0, 0, 2}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        *number = cases[i].from;
-        assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
-        expect_alike(true);
-        *number = cases[i].alike;
-        expect_alike(true);
-        *number = cases[i].other;
-        expect_alike(false);
-        *number = kept;
-        remove_folder("cache");
-    }
-}
-
-TEST(jobs_alike_serve_each_other) {
-    scene.width = scene.height = 4;
-    scene.samples_per_side = 1;
-    expect_rounded(&scene.width);
-    expect_rounded(&scene.height);
-    expect_rounded(&scene.depth);
-    expect_rounded(&scene.instance_count);
-    scene.instance_count = 0;
-    assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
-    scene.instance_count = 1; /* as good as none */
-    expect_alike(true);
-    scene.instance_count = 0;
-    remove_folder("cache");
-    const HdSolidKind kinds[] = {HD_TETRAHEDRON, HD_HEXAHEDRON, HD_OCTAHEDRON, HD_DODECAHEDRON};
-    scene.solid_count = 1;
-    scene.solids[0].lights.per_edge = 0; /* which would tell them apart */
-    for (int i = 0; i < 4; i++) {        /* 4, 6, 8, 12 planes */
-        scene.solids[0].kind = kinds[i];
-        assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
-        for (int k = 0; k < 4; k++) {
-            scene.solids[0].kind = kinds[k];
-            const bool both_are_of_8 = (i == 1 || i == 2) && (k == 1 || k == 2);
-            expect_alike(i == k || both_are_of_8);
-        }
-        remove_folder("cache");
-    }
-}
-
-TEST(samples_are_squares) {
-    scene.width = scene.height = 16;
-    scene.samples_per_side = 4;
-    assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
-    scene.samples_per_side = 2;
-    expect_alike(false);
-    scene.width = 64;
-    expect_alike(true);
-}
-
-TEST(devices_and_kinds_are_told_apart) {
-    char text[16], lines[3000];
-    memset(lines, 'a', sizeof lines);
-    lines[sizeof lines - 1] = '\0';
-    assert_int_equal(hd_record_put("test", &scene, &options, lines, "x", &error), HD_OK);
-    assert_true(hd_record_get("test", &scene, &options, lines, text, sizeof text));
-    assert_false(hd_record_get("tests", &scene, &options, lines, text, sizeof text));
-    lines[sizeof lines - 2] = 'b';
-    assert_false(hd_record_get("test", &scene, &options, lines, text, sizeof text));
-}
-
 /* ---- trials ---- */
 
 static int measured;
@@ -464,7 +398,6 @@ TEST(the_least_of_several_counts) {
     fake.trace_seconds = fall;
     scene.width = 64;
     scene.height = 32;
-    options.math = HD_MATH_FAST; /* no self-test */
     assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
     assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
                      HD_OK);
@@ -473,7 +406,7 @@ TEST(the_least_of_several_counts) {
     assert_int_equal(time.width, 32);
     assert_int_equal(time.height, 16);
     assert_true(time.share == 0.25);
-    assert_true(time.seconds > 0.0 && time.seconds < 3600.0);
+    expect_near(time.seconds, picture_seconds, 1e-9);
     measured = -100; /* rising */
     assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 1e-9, 1, &time, &error),
                      HD_OK);

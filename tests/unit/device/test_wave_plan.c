@@ -105,7 +105,7 @@ static int64_t run(size_t bytes, const HdWaveRun *frame, int children, int64_t *
 }
 
 /* Whole groups on each level, since the account rounds up to them only where they are split. */
-TEST(all_rays_are_traced_in_any_memory) {
+static void trace_even_groups(void) {
     static const size_t budgets[] = {1, 5000, 20000, 100000, 1 << 20, 1 << 28};
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 6; depth++)
@@ -118,7 +118,8 @@ TEST(all_rays_are_traced_in_any_memory) {
             }
 }
 
-TEST(groups_that_do_not_fit_evenly_never_overlap) {
+/* The account tells rays that overlap. */
+static void trace_uneven_groups(void) {
     static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
     for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
         for (int depth = 0; depth <= 5; depth++) {
@@ -128,26 +129,17 @@ TEST(groups_that_do_not_fit_evenly_never_overlap) {
         }
 }
 
-TEST(launches_of_any_size_trace_all_rays) {
-    static const int sizes[] = {1, 5, 32, 40, 150};
+TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
+    static const int sizes[] = {1, 5, 32, 40, 150, HD_MOST_LAUNCH_WORK};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         launch_rays = sizes[i];
-        all_rays_are_traced_in_any_memory(state);
-        groups_that_do_not_fit_evenly_never_overlap(state);
+        trace_even_groups();
+        trace_uneven_groups();
     }
-    launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
-TEST(launches_have_at_most_their_size) {
-    HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
-    int64_t steps;
-    launch_rays = 64;
-    run(1 << 24, &frame, 1, &steps);
-    assert_int_equal(steps, 4 * 6);
-    launch_rays = HD_MOST_LAUNCH_WORK;
-}
-
-TEST(enough_memory_takes_a_step_a_level) {
+/* In launches of at most their size, and enough memory, each level is a step for each. */
+TEST(room_decides_how_many_steps_there_are) {
     HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
     int64_t steps, few, many;
     run(1 << 24, &frame, 1, &steps);
@@ -155,6 +147,10 @@ TEST(enough_memory_takes_a_step_a_level) {
     run(20000, &frame, 1, &few);
     run(1, &frame, 1, &many);
     assert_true(few > steps && many > few);
+    launch_rays = 64;
+    run(1 << 24, &frame, 1, &steps);
+    assert_int_equal(steps, 4 * 6);
+    launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
 /* A level's rest would make all levels below it again. */
@@ -232,12 +228,8 @@ TEST(a_cut_queue_is_told) {
 }
 
 TEST(few_samples_take_no_more_room) {
-    const HdWaveNeeds needs = {.bytes = 1 << 28,
-                               .precision = HD_PRECISION_FLOAT,
-                               .depth = 4,
-                               .grain = 32,
-                               .samples = 1000,
-                               .samples_at_once = 10};
+    const HdWaveNeeds needs = {
+        .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
     assert_int_equal(hd_wave_plan(&needs).sum_stride, 1000);
 }
 
