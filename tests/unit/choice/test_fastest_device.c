@@ -82,14 +82,36 @@ static void expect_chosen(const HdBackend *backend, const char *reason) {
     expect_contains(candidates.why, reason);
 }
 
-TEST(the_fastest_is_taken_and_remembered) {
+/* `opened`: how many times the fake device is opened for it. */
+static void expect_fastest(const char *when, int opened) {
+    fake.opened = 0;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
-    expect_contains(candidates.why, ", 3 ms against 403 ms (fake 0)");
+    expect_contains(candidates.why, when);
+    assert_int_equal(fake.opened, opened);
+}
+
+static const char now_measured[] = "scene, 3 ms against 403 ms (fake 0)";
+static const char earlier[] = "measured earlier, 3 ms against 403 ms (fake 0)";
+
+TEST(the_fastest_is_taken_and_remembered) {
+    expect_fastest(now_measured, 1);
     assert_int_equal(fake.rendered, 2);
-    fake.opened = fake.rendered = 0;
-    expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, measured earlier, ");
-    assert_int_equal(fake.opened + fake.rendered, 0);
+    expect_fastest(earlier, 0);
+    assert_int_equal(fake.rendered, 2);
     assert_string_equal(candidates.note, "");
+    scene.width *= 4;
+    expect_fastest(now_measured, 1);
+    options.precision = HD_PRECISION_DOUBLE;
+    expect_fastest(now_measured, 1);
+    snprintf(candidates.list[FAKE].device.driver, 16, "driver 8");
+    expect_fastest(now_measured, 1);
+    expect_fastest(earlier, 0);
+}
+
+TEST(without_a_folder_it_is_measured_each_time) {
+    setenv("HEDRON_CACHE", "off", 1);
+    expect_fastest(now_measured, 1);
+    expect_fastest(now_measured, 1);
 }
 
 TEST(order_decides_nothing) {
@@ -100,27 +122,6 @@ TEST(order_decides_nothing) {
         assert_int_equal(chosen.index, 1 - slow_index);
         remove_folder("cache");
     }
-}
-
-static void expect_measured(bool is_measured) {
-    fake.opened = 0;
-    assert_int_equal(open_it(), HD_OK);
-    assert_int_equal(fake.opened, is_measured);
-}
-
-TEST(scenes_and_devices_of_another_kind_are_measured) {
-    HdDevice *device = &candidates.list[FAKE].device;
-    expect_measured(true);
-    expect_measured(false);
-    scene.width *= 4;
-    expect_measured(true);
-    options.precision = HD_PRECISION_DOUBLE;
-    expect_measured(true);
-    snprintf(device->driver, sizeof device->driver, "driver 8");
-    expect_measured(true);
-    device->index = slow_index = 1;
-    expect_measured(true);
-    expect_measured(false);
 }
 
 TEST(a_job_too_short_is_not_measured) {
@@ -159,14 +160,6 @@ TEST(what_fails_at_work_is_tried_again) {
     for (int i = 1; i <= 2; i++) {
         expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
         expect_contains(candidates.note, "fake: it fails");
-        assert_int_equal(fake.opened, i);
-    }
-}
-
-TEST(without_a_folder_it_is_measured_each_time) {
-    setenv("HEDRON_CACHE", "off", 1);
-    for (int i = 1; i <= 2; i++) {
-        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
         assert_int_equal(fake.opened, i);
     }
 }

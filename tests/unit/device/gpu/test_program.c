@@ -23,26 +23,26 @@ static HdStatus build(int planes) {
     return hd_gpu_build(&program, &fake_gpu, &needs, &error);
 }
 
-TEST(kernels_are_built_for_other_needs_only) {
+static HdStatus build_probe(void) {
+    return hd_gpu_build_probe(&program, &fake_gpu, &error);
+}
+
+TEST(kernels_are_built_for_other_needs_or_the_probe_only) {
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(gpu_state.compiled, 1);
     assert_int_equal(build(16), HD_OK);
     assert_int_equal(gpu_state.compiled, 2);
     assert_int_equal(program.cache.shape.needs.plane_bound, 16);
-}
-
-TEST(the_probe_takes_the_place_of_the_kernels) {
-    assert_int_equal(build(8), HD_OK);
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
-    assert_int_equal(gpu_state.compiled, 2);
+    assert_int_equal(build_probe(), HD_OK);
+    assert_int_equal(build_probe(), HD_OK);
+    assert_int_equal(gpu_state.compiled, 3);
     assert_true(program.cache.shape.is_probe);
     program.cache.shape.rounds_by_fma = true;
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
-    assert_int_equal(gpu_state.compiled, 3);
-    assert_int_equal(build(8), HD_OK);
+    assert_int_equal(build_probe(), HD_OK);
     assert_int_equal(gpu_state.compiled, 4);
+    assert_int_equal(build(16), HD_OK);
+    assert_int_equal(gpu_state.compiled, 5);
     assert_false(program.cache.shape.is_probe);
 }
 
@@ -57,11 +57,9 @@ TEST(groups_are_as_large_as_the_kernels_allow) {
         assert_int_equal(program.group_size, cases[i].group_size);
     }
     gpu_state.most = 64;
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_OK);
+    assert_int_equal(build_probe(), HD_OK);
     assert_int_equal(program.group_size, 64);
-}
-
-TEST(threads_that_do_not_share_items_have_no_groups) {
+    /* Threads that do not share items have none. */
     program.cache.shape.group_size = 0;
     program.group_size = program.block = 1;
     gpu_state.most = 0;
@@ -78,7 +76,7 @@ TEST(groups_that_were_asked_for_are_not_made_smaller) {
     assert_string_equal(error.message,
                         "a GPU runs the kernel in blocks of at most 127 threads, not 128");
     assert_false(program.is_built || gpu_state.has_kernels);
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
+    assert_int_equal(build_probe(), HD_UNAVAILABLE);
     assert_false(program.is_built || gpu_state.has_kernels);
 }
 
@@ -86,8 +84,8 @@ TEST(what_fails_is_tried_again) {
     gpu_state.breaks = true;
     assert_int_equal(build(8), HD_UNAVAILABLE);
     assert_int_equal(build(8), HD_UNAVAILABLE);
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
-    assert_int_equal(hd_gpu_build_probe(&program, &fake_gpu, &error), HD_UNAVAILABLE);
+    assert_int_equal(build_probe(), HD_UNAVAILABLE);
+    assert_int_equal(build_probe(), HD_UNAVAILABLE);
     assert_int_equal(gpu_state.compiled, 4);
     gpu_state.breaks = false;
     assert_int_equal(build(8), HD_OK);
