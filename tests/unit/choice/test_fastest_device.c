@@ -2,49 +2,20 @@
 #define _XOPEN_SOURCE 700
 #include "choice/fastest_device.h"
 
-#include "device/self_test_scenes.h"
-#include "fake_backend.h"
-#include "test_folder.h"
-#include "wrapped.h"
+#include "trial_setup.h"
 
 enum { FAKE, C };
 
-static HdError error;
-static HdRenderOptions options;
-static HdScene scene;
-static HdJob job;
 static HdCandidates candidates;
 static HdDevice chosen;
 
-/* Each look at the clock takes a millisecond, and each frame of the device with the number
-   `slow_index` 400 more. */
-static double now, clock_step;
-static int slow_index;
-
-static double read_clock(void) {
-    return now += clock_step;
-}
-REPLACE(hd_monotonic_seconds, read_clock)
-
-static HdStatus be_slow(FakePoint point, int index, HdError *failure) {
-    (void)failure;
-    now += point == FAKE_COLLECT && index == slow_index ? 0.4 : 0.0;
-    return HD_OK;
-}
-
-/* The arithmetic is fast, so that the kernels do not test themselves first. */
 static int begin(void **state) {
     (void)state;
     int count;
-    memset(&fake, 0, sizeof fake);
-    fake.event = be_slow;
+    begin_trial(100);
     clock_step = 1e-3;
-    slow_index = 0;
-    setenv("HEDRON_CACHE", "cache", 1);
-    options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
-    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
-        return 1;
-    job = (HdJob){.scene = &scene, .frame_count = 100};
+    frame_seconds[0] = 0.4;
+    frame_seconds[1] = 0.0;
     candidates = (HdCandidates){.wish = {.options = &options, .job = &job},
                                 .count = 2,
                                 .is_free = true,
@@ -52,13 +23,6 @@ static int begin(void **state) {
                                 .frame_seconds = 1.0};
     candidates.list[FAKE].device = fake_device();
     hd_backend_enumerate(&hd_backend_c, &candidates.list[C].device, 1, &count, &error);
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    hd_scene_free(&scene);
-    remove_folder("cache");
     return 0;
 }
 
@@ -117,9 +81,11 @@ TEST(without_a_folder_it_is_measured_each_time) {
 TEST(order_decides_nothing) {
     candidates.list[1] = candidates.list[0];
     candidates.list[1].device.index = 1;
-    for (slow_index = 0; slow_index < 2; slow_index++) {
+    for (int slow = 0; slow < 2; slow++) {
+        frame_seconds[slow] = 0.4;
+        frame_seconds[1 - slow] = 0.0;
         expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
-        assert_int_equal(chosen.index, 1 - slow_index);
+        assert_int_equal(chosen.index, 1 - slow);
         remove_folder("cache");
     }
 }
@@ -164,8 +130,6 @@ TEST(what_fails_at_work_is_tried_again) {
     }
 }
 
-/* ---- the estimate ---- */
-
 /* Of 4096 samples where they take long enough to be believed; else of more, until a job of so many
    frames surely takes less than is enough, or the picture is whole. */
 TEST(the_estimate_scales_with_the_picture) {
@@ -185,4 +149,4 @@ TEST(the_estimate_scales_with_the_picture) {
     }
 }
 
-EACH(begin, end)
+EACH(begin, end_trial)

@@ -3,55 +3,18 @@
 #include "choice/tuning.h"
 
 #include "choice/record.h"
-#include "device/self_test_scenes.h"
-#include "fake_backend.h"
-#include "test_folder.h"
-#include "wrapped.h"
+#include "trial_setup.h"
 
-static HdError error;
-static HdRenderOptions options;
-static HdScene scene;
-static HdJob job;
 static HdDevice device;
 static HdTuning tuning;
 
-/* The time goes on only while a picture is rendered. */
-static double now, picture_seconds;
-
-static double read_clock(void) {
-    return now;
-}
-REPLACE(hd_monotonic_seconds, read_clock)
-
-static HdStatus take_time(FakePoint point, int index, HdError *failure) {
-    (void)index, (void)failure;
-    now += point == FAKE_COLLECT ? picture_seconds : 0.0;
-    return HD_OK;
-}
-
-/* The arithmetic is fast, so that the kernels do not test themselves first. */
 static int begin(void **state) {
     (void)state;
-    memset(&fake, 0, sizeof fake);
-    fake.event = take_time;
-    picture_seconds = 0.3;
-    setenv("HEDRON_CACHE", "cache", 1);
-    options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
-    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
-        return 1;
-    scene.width = scene.height = 4;
-    scene.samples_per_side = 1;
-    job = (HdJob){.scene = &scene, .frame_count = 1};
+    begin_trial(1);
+    frame_seconds[0] = 0.3;
     device = fake_device();
     device.has_wide_atomics = true;
     device.compute_units = 10;
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    hd_scene_free(&scene);
-    remove_folder("cache");
     return 0;
 }
 
@@ -221,7 +184,7 @@ TEST(pictures_are_as_large_as_time_allows) {
     scene.width = scene.height = 16;
     scene.samples_per_side = 8;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        picture_seconds = cases[i].seconds;
+        frame_seconds[0] = cases[i].seconds;
         fake.rendered = 0;
         tune();
         assert_int_equal(tuning.count, 1);
@@ -379,7 +342,7 @@ TEST(the_least_of_several_counts) {
     assert_int_equal(time.width, 32);
     assert_int_equal(time.height, 16);
     assert_true(time.share == 0.25);
-    expect_near(time.seconds, picture_seconds, 1e-9);
+    expect_near(time.seconds, frame_seconds[0], 1e-9);
     measured = -100; /* rising */
     assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 1e-9, 1, &time, &error),
                      HD_OK);
@@ -394,4 +357,4 @@ TEST(the_least_of_several_counts) {
     hd_renderer_close(renderer);
 }
 
-EACH(begin, end)
+EACH(begin, end_trial)

@@ -99,13 +99,3 @@ TEST(launches_last_as_long_as_they_may) {
     options.launch_ms = 0.5;
     assert_true(hd_longest_launch(&devices[GPU], &options) == 5e-4);
 }
-
-TEST(a_lost_device_is_known_by_its_error) {
-    HdError error;
-    assert_int_equal(hd_fail_lost(&error, "clFinish"), HD_UNAVAILABLE);
-    assert_true(hd_is_loss(&error));
-    error.status = HD_FAILED;
-    assert_false(hd_is_loss(&error));
-    hd_fail(&error, HD_UNAVAILABLE, "there is no device");
-    assert_false(hd_is_loss(&error));
-}

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "device/gpu/program.h"
 
+#include "device/kernel_cache.h"
 #include "fake_gpu.h"
 #include "test_folder.h"
 
@@ -105,7 +106,8 @@ TEST(kernels_come_from_the_cache) {
     gpu_state.refuses = true;
     assert_int_equal(build(8), HD_OK);
     assert_int_equal(gpu_state.compiled, 3);
-    expect_contains(program.cache.note, "it is too old");
+    expect_contains(program.cache.note,
+                    "the driver refused the cached kernels; it is too old; compiled");
 }
 
 TEST(the_probes_key_tells_what_it_is_compiled_from) {
