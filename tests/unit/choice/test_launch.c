@@ -20,7 +20,9 @@ static int begin(void **state) {
 
 /* ---- tuning ---- */
 
-static void tune(void) {
+/* By what a frame's tracing is said to take; NULL: what it takes. */
+static void tune(double (*seconds)(const HdRenderOptions *asked)) {
+    fake.trace_seconds = seconds;
     assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_OK);
     assert_true(tuning.count > 0 && tuning.best >= 0 && tuning.best < tuning.count);
 }
@@ -47,9 +49,8 @@ static void expect_candidates(const char *const *texts, int count) {
 }
 
 TEST(a_gpu_has_its_candidates) {
-    fake.trace_seconds = picky;
     device.nvidia_arch = 90;
-    tune();
+    tune(picky);
     static const char *const candidates[] = {
         "mega",
         "mega, at most 64 registers",
@@ -73,16 +74,14 @@ TEST(a_gpu_has_its_candidates) {
 }
 
 TEST(only_nvidia_devices_have_limits_of_registers) {
-    fake.trace_seconds = picky;
-    tune();
+    tune(picky);
     assert_int_equal(tuning.count, 2 + 3 + 2);
     assert_int_equal(best().registers, 0);
 }
 
 TEST(a_cpu_has_pipelines_and_lanes) {
-    fake.trace_seconds = picky;
     device.is_cpu = true;
-    tune();
+    tune(picky);
     static const char *const candidates[] = {
         "mega", "wavefront", "wavefront, 4 lanes", "wavefront, 8 lanes", "wavefront, 16 lanes",
     };
@@ -91,12 +90,11 @@ TEST(a_cpu_has_pipelines_and_lanes) {
 }
 
 TEST(what_the_options_fix_stays) {
-    fake.trace_seconds = picky;
     device.nvidia_arch = 90;
     options.pipeline = HD_PIPELINE_MEGA;
     options.block = 128;
     options.grid = 7;
-    tune();
+    tune(picky);
     assert_int_equal(tuning.count, 5);
     for (int i = 0; i < tuning.count; i++) {
         assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_MEGA);
@@ -111,8 +109,7 @@ static double nearly_alike(const HdRenderOptions *asked) {
 }
 
 TEST(noise_decides_nothing) {
-    fake.trace_seconds = nearly_alike;
-    tune();
+    tune(nearly_alike);
     assert_int_equal(tuning.best, 0);
 }
 
@@ -121,9 +118,8 @@ static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
 }
 
 TEST(what_cannot_be_used_is_told) {
-    fake.trace_seconds = picky;
     fake.refuses = refuses_wavefronts_and_256;
-    tune();
+    tune(picky);
     assert_int_equal(tuning.count, 7);
     expect_contains(tuning.candidates[1].failure, "fake: it refuses");
     expect_contains(tuning.candidates[4].failure, "fake: it refuses");
@@ -132,7 +128,7 @@ TEST(what_cannot_be_used_is_told) {
     assert_int_equal(best().block, 0);
     assert_int_equal(best().grid, 320);
     device.has_wide_atomics = false;
-    tune();
+    tune(picky);
     expect_contains(tuning.candidates[1].failure, "64-bit integer atomics");
     fake.is_missing = true;
     assert_int_equal(hd_tune(&tuning, &device, &options, &job, &error), HD_UNAVAILABLE);
@@ -144,16 +140,15 @@ static double likes_mega(const HdRenderOptions *asked) {
 }
 
 TEST(a_display_is_not_kept_by_deep_trees) {
-    fake.trace_seconds = likes_mega;
     device.has_timeout = true;
-    tune();
+    tune(likes_mega);
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
     options.has_deep_trees = true;
-    tune();
+    tune(likes_mega);
     for (int i = 0; i < tuning.count; i++)
         assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_WAVEFRONT);
     device.has_timeout = false;
-    tune();
+    tune(likes_mega);
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
 }
 
@@ -165,8 +160,7 @@ static double unlucky_once(const HdRenderOptions *asked) {
 }
 
 TEST(what_was_unlucky_is_measured_again) {
-    fake.trace_seconds = unlucky_once;
-    tune();
+    tune(unlucky_once);
     assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
     assert_int_equal(best().block, 0);
 }
@@ -186,7 +180,7 @@ TEST(pictures_are_as_large_as_time_allows) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         frame_seconds[0] = cases[i].seconds;
         fake.rendered = 0;
-        tune();
+        tune(NULL);
         assert_int_equal(tuning.count, 1);
         assert_int_equal(tuning.width, cases[i].side);
         assert_int_equal(tuning.height, cases[i].side);
@@ -298,20 +292,22 @@ static bool note_pipeline(const HdRenderOptions *asked) {
     return false;
 }
 
-TEST(what_is_remembered_is_opened) {
+static void expect_opened(bool is_tuned, HdPipeline pipeline) {
     HdTeamDevice opened = {.device = device};
+    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
+    hd_launch_close(&opened);
+    assert_int_equal(opened.is_tuned, is_tuned);
+    assert_int_equal(opened_pipeline, pipeline);
+    if (is_tuned)
+        assert_memory_equal(&opened.launch, &choice, sizeof choice);
+}
+
+TEST(what_is_remembered_is_opened) {
     HdRenderer *renderer;
     fake.refuses = note_pipeline;
-    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
-    hd_launch_close(&opened);
-    assert_false(opened.is_tuned);
-    assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
+    expect_opened(false, HD_PIPELINE_MEGA);
     remember();
-    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
-    hd_launch_close(&opened);
-    assert_true(opened.is_tuned);
-    assert_memory_equal(&opened.launch, &choice, sizeof choice);
-    assert_int_equal(opened_pipeline, HD_PIPELINE_WAVEFRONT);
+    expect_opened(true, HD_PIPELINE_WAVEFRONT);
     /* To measure a candidate, though, is to measure that one. */
     assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
     hd_renderer_close(renderer);
@@ -327,6 +323,10 @@ static double fall(const HdRenderOptions *asked) {
     return 5.0 - (double)measured++;
 }
 
+static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrialTime *time) {
+    return hd_trial_measure(renderer, options.precision, &job, share, times, time, &error);
+}
+
 TEST(the_least_of_several_counts) {
     HdRenderer *renderer;
     HdTrialTime time;
@@ -335,25 +335,19 @@ TEST(the_least_of_several_counts) {
     scene.width = 64;
     scene.height = 32;
     assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
-    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
-                     HD_OK);
+    assert_int_equal(measure(renderer, 0.25, 3, &time), HD_OK);
     assert_int_equal(fake.rendered, 3);
-    assert_true(time.trace_seconds == 3.0);
-    assert_int_equal(time.width, 32);
-    assert_int_equal(time.height, 16);
-    assert_true(time.share == 0.25);
+    assert_true(time.trace_seconds == 3.0 && time.share == 0.25);
+    assert_true(time.width == 32 && time.height == 16);
     expect_near(time.seconds, frame_seconds[0], 1e-9);
     measured = -100; /* rising */
-    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 1e-9, 1, &time, &error),
-                     HD_OK);
+    assert_int_equal(measure(renderer, 1e-9, 1, &time), HD_OK);
     assert_true(time.trace_seconds == 105.0);
-    assert_int_equal(time.width * time.height, 1);
+    assert_true(time.width == 1 && time.height == 1);
     fake.fails = true;
-    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 3, &time, &error),
-                     HD_FAILED);
+    assert_int_equal(measure(renderer, 0.25, 3, &time), HD_FAILED);
     scene.eye = scene.target; /* which is no view */
-    assert_int_equal(hd_trial_measure(renderer, options.precision, &job, 0.25, 1, &time, &error),
-                     HD_BAD_INPUT);
+    assert_int_equal(measure(renderer, 0.25, 1, &time), HD_BAD_INPUT);
     hd_renderer_close(renderer);
 }
 

@@ -12,6 +12,8 @@
 static HdError error;
 static HdRenderOptions options;
 static HdDevice device;
+static HdSelfTestFrame kind;
+static bool refracts;
 static char note[1024];
 static uint64_t hash;
 
@@ -21,6 +23,8 @@ static int begin(void **state) {
     options = (HdRenderOptions){.threads = 1};
     device = fake_device();
     device.has_wide_atomics = true; /* for the wavefront */
+    kind = HD_SELF_TEST_SOLID;
+    refracts = false;
     setenv("HEDRON_CACHE", "cache", 1);
     return 0;
 }
@@ -33,7 +37,7 @@ static int end(void **state) {
 
 /* Renders a frame by a renderer that is opened for it; `note` is then what became of the kernels,
    and `hash` that of the frame. */
-static HdStatus render_frame(HdSelfTestFrame kind, bool refracts) {
+static HdStatus render_frame(void) {
     HdRenderer *renderer;
     HdScene scene;
     HdCamera camera;
@@ -53,8 +57,12 @@ static HdStatus render_frame(HdSelfTestFrame kind, bool refracts) {
     return status;
 }
 
-static HdStatus render(void) {
-    return render_frame(HD_SELF_TEST_SOLID, false);
+/* Renders, for which so many kernels are compiled, and loaded from the cache. */
+static void expect_rendered(HdStatus status, int compiled, int loaded) {
+    fake.compiled = fake.loaded = 0;
+    assert_int_equal(render_frame(), status);
+    assert_int_equal(fake.compiled, compiled);
+    assert_int_equal(fake.loaded, loaded);
 }
 
 /* Puts a text, after the stamp of kernels without meshes or not, in the place where the device's
@@ -73,87 +81,74 @@ static void replace_entry(bool has_stamp, const char *text) {
     assert_int_equal(hd_cache_put_text("fake", cache.key, entry, &error), HD_OK);
 }
 
-static void expect_counts(int compiled, int loaded) {
-    assert_int_equal(fake.compiled, compiled);
-    assert_int_equal(fake.loaded, loaded);
-}
-
 TEST(a_warm_start_compiles_and_tests_nothing) {
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     const uint64_t cold = hash;
-    expect_counts(1, 0);
     assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 1);
     assert_ptr_equal(strstr(note, "compiled in 1 ms by nobody; passed the self-test ("), note);
     expect_contains(note, "; cached");
-    assert_int_equal(render(), HD_OK);
-    expect_counts(1, 1);
+    expect_rendered(HD_OK, 0, 1);
     assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
     expect_contains(note, "taken from cache, made by nobody");
     assert_true(hash == cold);
 }
 
 TEST(whatever_kernels_depend_on_counts) {
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     snprintf(device.name, sizeof device.name, "Fake 2000");
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     snprintf(device.driver, sizeof device.driver, "driver 8");
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     fake.options = "-DFAST";
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     options.precision = HD_PRECISION_DOUBLE;
     fake.options = "-DDOUBLE";
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
+    refracts = true;
     fake.options = "-DREFRACTS";
-    assert_int_equal(render_frame(HD_SELF_TEST_SOLID, true), HD_OK);
-    expect_counts(6, 0);
-    assert_int_equal(render_frame(HD_SELF_TEST_SOLID, true), HD_OK);
-    expect_counts(6, 1);
+    expect_rendered(HD_OK, 1, 0);
+    expect_rendered(HD_OK, 0, 1);
 }
 
 /* The bytes of these entries are in order, but they tell of no test, or of nothing at all. */
 TEST(damaged_kernels_are_compiled_anew) {
     static const char *const entries[] = {"", "\n\n", "passed\nnobody\nfake", "fake"};
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     for (int i = 0; i < 4; i++) {
         replace_entry(false, entries[i]);
-        assert_int_equal(render(), HD_OK);
-        expect_counts(2 + i, i);
+        expect_rendered(HD_OK, 1, 0);
         expect_contains(note, "passed no test of this program's; compiled in");
-        assert_int_equal(render(), HD_OK);
-        expect_counts(2 + i, i + 1);
+        expect_rendered(HD_OK, 0, 1);
     }
 }
 
 TEST(without_a_folder_all_goes_on) {
     setenv("HEDRON_CACHE", "off", 1);
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "not cached; HEDRON_CACHE is off");
     setenv("HEDRON_CACHE", "cache", 1);
     fake.hides_binary = true;
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "not cached; the driver does not hand them out");
-    expect_counts(2, 0);
 }
 
 /* ---- the self-test ---- */
 
 TEST(wrong_kernels_are_an_error) {
     fake.renders_wrongly = true;
-    assert_int_equal(render(), HD_UNAVAILABLE);
+    expect_rendered(HD_UNAVAILABLE, 2, 0);
     expect_contains(error.message, "fake: Fake 1000 (driver 7) computes wrongly: ");
     expect_contains(error.message, "the test frame 'solid' with the hash ");
     expect_contains(error.message, ", expected ");
     assert_int_equal(fake.rendered, 2); /* by the megakernel, then by the wavefront */
     fake.renders_wrongly = false;
-    assert_int_equal(render(), HD_OK); /* they were not kept */
-    expect_counts(3, 0);
+    expect_rendered(HD_OK, 1, 0); /* they were not kept */
 }
 
 TEST(the_wavefront_takes_over) {
     char text[HD_FALLBACK_LENGTH];
     fake.renders_wrongly = fake.is_right_in_waves = true;
-    assert_int_equal(render(), HD_OK);
-    expect_counts(2, 0);
+    expect_rendered(HD_OK, 2, 0);
     expect_contains(note, "; passed");
     assert_true(hd_fallback_take(text));
     expect_contains(text, "the wavefront takes over: ");
@@ -173,7 +168,7 @@ TEST(wrong_kernels_render_nothing) {
                          HD_UNAVAILABLE);
         assert_int_equal(hd_renderer_render(renderer, &view, &frame, &error), HD_BAD_INPUT);
     }
-    expect_counts(2, 0);
+    assert_int_equal(fake.compiled, 2);
     hd_renderer_close(renderer);
     hd_scene_free(&scene);
 }
@@ -181,59 +176,53 @@ TEST(wrong_kernels_render_nothing) {
 /* Kernels that passed only the frames without meshes are compiled anew. */
 TEST(kernels_with_meshes_pass_one_more_frame) {
     options.lanes = 1;
-    fake.options = "-DMESHES";
-    assert_int_equal(render_frame(HD_SELF_TEST_MESH, false), HD_OK);
-    assert_int_equal(render_frame(HD_SELF_TEST_MESH, false), HD_OK);
-    expect_counts(1, 1);
+    kind = HD_SELF_TEST_MESH;
+    expect_rendered(HD_OK, 1, 0);
+    expect_rendered(HD_OK, 0, 1);
     assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES + 2);
     replace_entry(true, "\nnobody\nfake");
-    assert_int_equal(render_frame(HD_SELF_TEST_MESH, false), HD_OK);
-    expect_counts(2, 1);
+    expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "passed no test of this program's; compiled in");
 }
 
+/* What was not tested is not taken for strict arithmetic, even under the same options. */
 TEST(fast_arithmetic_is_not_tested) {
     options.math = HD_MATH_FAST;
-    fake.options = "-DFAST";
     fake.renders_wrongly = true;
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     assert_int_equal(fake.rendered, 1);
     expect_contains(note, "not tested, for the arithmetic is fast; cached");
-    assert_int_equal(render(), HD_OK);
-    expect_counts(1, 1);
-    /* What was not tested is not taken for strict arithmetic, even under the same options. */
+    expect_rendered(HD_OK, 0, 1);
     options.math = HD_MATH_STRICT;
-    assert_int_equal(render(), HD_UNAVAILABLE);
+    expect_rendered(HD_UNAVAILABLE, 2, 0);
 }
 
 /* What came of the probe is remembered with all that it depends on, good or bad. */
 TEST(arithmetic_is_probed_once) {
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     assert_int_equal(fake.probed, 1);
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 0, 1);
     assert_int_equal(fake.probed, 1);
     snprintf(device.driver, sizeof device.driver, "driver 8");
     fake.adds_wrongly = true;
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(render(), HD_UNAVAILABLE);
+        expect_rendered(HD_UNAVAILABLE, 0, 0);
         expect_contains(error.message, "(driver 8) computes wrongly: a + b of a = ");
         expect_contains(error.message, " is 0x1p-3, expected ");
         assert_int_equal(fake.probed, 2);
     }
-    expect_counts(1, 1);
     options.math = HD_MATH_FAST;
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     assert_int_equal(fake.probed, 2);
 }
 
 TEST(division_that_was_healed_stays_so) {
     fake.divides_wrongly = true;
-    for (int i = 0; i < 2; i++) {
-        assert_int_equal(render(), HD_OK);
-        assert_int_equal(fake.probed, 2);
-    }
+    expect_rendered(HD_OK, 1, 0);
+    expect_rendered(HD_OK, 0, 1);
+    assert_int_equal(fake.probed, 2);
     remove_folder("cache");
-    assert_int_equal(render(), HD_OK);
+    expect_rendered(HD_OK, 1, 0);
     assert_int_equal(fake.probed, 4);
 }
 

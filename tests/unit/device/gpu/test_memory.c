@@ -21,14 +21,13 @@ static HdStatus reserve(HdGpuMemory *memory, HdGpuPlace place, size_t bytes) {
 }
 
 TEST(memory_is_kept_while_it_is_enough) {
+    static const int bytes[] = {100, 100, 50, 101}, taken[] = {1, 1, 1, 2};
     HdGpuMemory memory = {0};
-    assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 100), HD_OK);
-    assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 100), HD_OK);
-    assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 50), HD_OK);
-    assert_int_equal(gpu_state.taken, 1);
-    assert_int_equal(reserve(&memory, HD_GPU_DEVICE, 101), HD_OK);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(reserve(&memory, HD_GPU_DEVICE, (size_t)bytes[i]), HD_OK);
+        assert_int_equal(gpu_state.taken, taken[i]);
+    }
     assert_int_equal(memory.bytes, 101);
-    assert_int_equal(gpu_state.taken, 2);
     assert_int_equal(gpu_state.living, 1);
     hd_gpu_release(&gpu, &memory);
     hd_gpu_release(&gpu, &memory);

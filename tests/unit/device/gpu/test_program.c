@@ -28,22 +28,23 @@ static HdStatus build_probe(void) {
     return hd_gpu_build_probe(&program, &fake_gpu, &error);
 }
 
+/* All in all so many kernels are compiled then. */
+static void expect_compiled(HdStatus status, HdStatus expected, int compiled) {
+    assert_int_equal(status, expected);
+    assert_int_equal(gpu_state.compiled, compiled);
+}
+
 TEST(kernels_are_built_for_other_needs_or_the_probe_only) {
-    assert_int_equal(build(8), HD_OK);
-    assert_int_equal(build(8), HD_OK);
-    assert_int_equal(gpu_state.compiled, 1);
-    assert_int_equal(build(16), HD_OK);
-    assert_int_equal(gpu_state.compiled, 2);
+    expect_compiled(build(8), HD_OK, 1);
+    expect_compiled(build(8), HD_OK, 1);
+    expect_compiled(build(16), HD_OK, 2);
     assert_int_equal(program.cache.shape.needs.plane_bound, 16);
-    assert_int_equal(build_probe(), HD_OK);
-    assert_int_equal(build_probe(), HD_OK);
-    assert_int_equal(gpu_state.compiled, 3);
+    expect_compiled(build_probe(), HD_OK, 3);
+    expect_compiled(build_probe(), HD_OK, 3);
     assert_true(program.cache.shape.is_probe);
     program.cache.shape.rounds_by_fma = true;
-    assert_int_equal(build_probe(), HD_OK);
-    assert_int_equal(gpu_state.compiled, 4);
-    assert_int_equal(build(16), HD_OK);
-    assert_int_equal(gpu_state.compiled, 5);
+    expect_compiled(build_probe(), HD_OK, 4);
+    expect_compiled(build(16), HD_OK, 5);
     assert_false(program.cache.shape.is_probe);
 }
 
@@ -83,29 +84,26 @@ TEST(groups_that_were_asked_for_are_not_made_smaller) {
 
 TEST(what_fails_is_tried_again) {
     gpu_state.breaks = true;
-    assert_int_equal(build(8), HD_UNAVAILABLE);
-    assert_int_equal(build(8), HD_UNAVAILABLE);
-    assert_int_equal(build_probe(), HD_UNAVAILABLE);
-    assert_int_equal(build_probe(), HD_UNAVAILABLE);
-    assert_int_equal(gpu_state.compiled, 4);
+    expect_compiled(build(8), HD_UNAVAILABLE, 1);
+    expect_compiled(build(8), HD_UNAVAILABLE, 2);
+    expect_compiled(build_probe(), HD_UNAVAILABLE, 3);
+    expect_compiled(build_probe(), HD_UNAVAILABLE, 4);
     gpu_state.breaks = false;
     assert_int_equal(build(8), HD_OK);
 }
 
 TEST(kernels_come_from_the_cache) {
     setenv("HEDRON_CACHE", "cache", 1);
-    assert_int_equal(build(8), HD_OK);
+    expect_compiled(build(8), HD_OK, 1);
     expect_contains(program.cache.note, "by somebody");
     hd_kernel_cache_accept(&program.cache);
-    assert_int_equal(build(16), HD_OK); /* not accepted */
+    expect_compiled(build(16), HD_OK, 2); /* not accepted */
     program.is_built = false;
-    assert_int_equal(build(8), HD_OK);
-    assert_int_equal(gpu_state.compiled, 2);
+    expect_compiled(build(8), HD_OK, 2);
     assert_int_equal(gpu_state.loaded, 1);
     program.is_built = false;
     gpu_state.refuses = true;
-    assert_int_equal(build(8), HD_OK);
-    assert_int_equal(gpu_state.compiled, 3);
+    expect_compiled(build(8), HD_OK, 3);
     expect_contains(program.cache.note,
                     "the driver refused the cached kernels; it is too old; compiled");
 }
