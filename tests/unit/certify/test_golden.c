@@ -16,13 +16,3 @@ TEST(precisions_and_names_are_told_apart) {
     for (int i = 0; i < 3; i++)
         assert_false(hd_golden_find_hashes(others[i], HD_PRECISION_FLOAT, &hashes[0]));
 }
-
-TEST(every_line_is_a_frames) {
-    HdGoldenHashes ignored;
-    int lines = 0;
-    for (const char *at = hd_golden_text(); *at != '\0'; at++)
-        lines += *at == '\n';
-    assert_int_equal(lines, hd_golden_frame_count);
-    for (int i = 0; i < hd_golden_frame_count; i++)
-        assert_true(hd_golden_find_hashes(hd_golden_frames[i].name, HD_PRECISION_FLOAT, &ignored));
-}

@@ -72,12 +72,6 @@ TEST(the_fastest_is_taken_and_remembered) {
     expect_fastest(earlier, 0);
 }
 
-TEST(without_a_folder_it_is_measured_each_time) {
-    setenv("HEDRON_CACHE", "off", 1);
-    expect_fastest(now_measured, 1);
-    expect_fastest(now_measured, 1);
-}
-
 TEST(order_decides_nothing) {
     candidates.list[1] = candidates.list[0];
     candidates.list[1].device.index = 1;
