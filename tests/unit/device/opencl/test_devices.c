@@ -118,10 +118,9 @@ static HdDevice devices[HD_MAX_DEVICES];
 static HdError error;
 
 TEST(devices_and_obstacles_are_described) {
-    static const char *const obstacles[COUNT] = {
-        "", "", "it is older than OpenCL 1.2", "",
-        "it is not available, its driver has no compiler, it is older than OpenCL 1.2, it is not "
-        "little-endian"};
+    static const char all[] = "it is not available, its driver has no compiler, it is older than "
+                              "OpenCL 1.2, it is not little-endian";
+    static const char *const obstacles[COUNT] = {"", "", "it is older than OpenCL 1.2", "", all};
     int count;
     assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
     assert_int_equal(count, COUNT);
