@@ -31,6 +31,7 @@ static struct {
        wait, or let the device fail. NULL: nothing happens. */
     HdStatus (*event)(FakePoint point, int index, HdError *error);
     atomic_int opened, probed, compiled, loaded, rendered;
+    atomic_bool divides_by_fma; /* the kernels that were built last */
 } fake;
 
 typedef struct FakeRenderer {
@@ -83,6 +84,7 @@ static void fake_build(FakeRenderer *renderer) {
     size_t size;
     const char *options = fake.options != NULL ? fake.options : "";
     renderer->is_built = true;
+    fake.divides_by_fma = renderer->kernels.shape.rounds_by_fma;
     if (hd_kernel_cache_find(&renderer->kernels, source, sizeof source, options, "1", &binary,
                              &size)) {
         assert_int_equal(size, 4);

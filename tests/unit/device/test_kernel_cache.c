@@ -219,7 +219,9 @@ TEST(arithmetic_is_probed_once) {
 TEST(division_that_was_healed_stays_so) {
     fake.divides_wrongly = true;
     expect_rendered(HD_OK, 1, 0);
+    assert_true(fake.divides_by_fma);
     expect_rendered(HD_OK, 0, 1);
+    assert_true(fake.divides_by_fma);
     assert_int_equal(fake.probed, 2);
     remove_folder("cache");
     expect_rendered(HD_OK, 1, 0);
