@@ -2,29 +2,20 @@
 #define _XOPEN_SOURCE 700
 #include "choice/fastest_device.h"
 
-#include "choice/record.h"
-#include "device/self_test_scenes.h"
-#include "fake_backend.h"
-#include "test_folder.h"
+#include "trial_setup.h"
 
 enum { FAKE, C };
 
-static HdError error;
-static HdRenderOptions options;
-static HdScene scene;
-static HdJob job;
 static HdCandidates candidates;
 static HdDevice chosen;
 
 static int begin(void **state) {
     (void)state;
     int count;
-    memset(&fake, 0, sizeof fake);
-    setenv("HEDRON_CACHE", "cache", 1);
-    options = (HdRenderOptions){.threads = 1};
-    if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
-        return 1;
-    job = (HdJob){.scene = &scene, .frame_count = 100};
+    begin_trial(100);
+    clock_step = 1e-3;
+    frame_seconds[0] = 0.4;
+    frame_seconds[1] = 0.0;
     candidates = (HdCandidates){.wish = {.options = &options, .job = &job},
                                 .count = 2,
                                 .is_free = true,
@@ -32,13 +23,6 @@ static int begin(void **state) {
                                 .frame_seconds = 1.0};
     candidates.list[FAKE].device = fake_device();
     hd_backend_enumerate(&hd_backend_c, &candidates.list[C].device, 1, &count, &error);
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    hd_scene_free(&scene);
-    remove_folder("cache");
     return 0;
 }
 
@@ -62,69 +46,42 @@ static void expect_chosen(const HdBackend *backend, const char *reason) {
     expect_contains(candidates.why, reason);
 }
 
-TEST(the_fastest_is_taken_and_remembered) {
-    fake.slow_milliseconds = 400;
+/* `opened`: how many times the fake device is opened for it. */
+static void expect_fastest(const char *when, int opened) {
+    fake.opened = 0;
     expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
-    expect_contains(candidates.why, " ms (fake 0)");
-    assert_int_equal(fake.rendered, HD_SELF_TEST_FRAMES_WITHOUT_MESHES + 2);
-    fake.opened = fake.rendered = 0;
-    expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, measured earlier, ");
-    assert_int_equal(fake.opened + fake.rendered, 0);
+    expect_contains(candidates.why, when);
+    assert_int_equal(fake.opened, opened);
+}
+
+static const char now_measured[] = "scene, 3 ms against 403 ms (fake 0)";
+static const char earlier[] = "measured earlier, 3 ms against 403 ms (fake 0)";
+
+TEST(the_fastest_is_taken_and_remembered) {
+    expect_fastest(now_measured, 1);
+    assert_int_equal(fake.rendered, 2);
+    expect_fastest(earlier, 0);
+    assert_int_equal(fake.rendered, 2);
     assert_string_equal(candidates.note, "");
+    scene.width *= 4;
+    expect_fastest(now_measured, 1);
+    options.precision = HD_PRECISION_DOUBLE;
+    expect_fastest(now_measured, 1);
+    snprintf(candidates.list[FAKE].device.driver, 16, "driver 8");
+    expect_fastest(now_measured, 1);
+    expect_fastest(earlier, 0);
 }
 
 TEST(order_decides_nothing) {
     candidates.list[1] = candidates.list[0];
     candidates.list[1].device.index = 1;
-    fake.slow_milliseconds = 400;
-    for (fake.slow_index = 0; fake.slow_index < 2; fake.slow_index++) {
+    for (int slow = 0; slow < 2; slow++) {
+        frame_seconds[slow] = 0.4;
+        frame_seconds[1 - slow] = 0.0;
         expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
-        assert_int_equal(chosen.index, 1 - fake.slow_index);
+        assert_int_equal(chosen.index, 1 - slow);
         remove_folder("cache");
     }
-}
-
-static void expect_measured(bool is_measured) {
-    fake.opened = 0;
-    assert_int_equal(open_it(), HD_OK);
-    assert_int_equal(fake.opened, is_measured);
-}
-
-TEST(scenes_and_devices_of_another_kind_are_measured) {
-    fake.slow_milliseconds = 200;
-    expect_measured(true);
-    expect_measured(false);
-    scene.exposure = 2.0;
-    scene.lights[0].position.x = 0.75;
-    expect_measured(false);
-    scene.depth = 60;
-    expect_measured(true);
-    scene.width *= 4;
-    expect_measured(true);
-    scene.solids[0].lights.per_edge = 7;
-    expect_measured(true);
-    options.precision = HD_PRECISION_DOUBLE;
-    expect_measured(true);
-    options.block = 64;
-    expect_measured(true);
-    snprintf(candidates.list[FAKE].device.driver, sizeof candidates.list[FAKE].device.driver,
-             "driver 8");
-    expect_measured(true);
-    expect_measured(false);
-}
-
-/* Whatever else is the same. */
-TEST(meshes_of_another_size_are_another_kind) {
-    char text[16];
-    HdScene meshes;
-    assert_int_equal(hd_self_test_scene(&meshes, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
-    assert_int_equal(hd_record_put("test", &meshes, &options, "", "known", &error), HD_OK);
-    meshes.meshes[0].triangle_count += 1;
-    assert_true(hd_record_get("test", &meshes, &options, "", text, sizeof text));
-    assert_string_equal(text, "known");
-    meshes.meshes[0].triangle_count += 1000;
-    assert_false(hd_record_get("test", &meshes, &options, "", text, sizeof text));
-    hd_scene_free(&meshes);
 }
 
 TEST(a_job_too_short_is_not_measured) {
@@ -137,6 +94,7 @@ TEST(a_job_too_short_is_not_measured) {
 
 TEST(what_computes_wrongly_is_passed_over) {
     fake.renders_wrongly = true;
+    options.math = HD_MATH_STRICT;
     expect_chosen(&hd_backend_c, "the fastest of 2");
     expect_contains(candidates.note, "fake: Fake 1000 (driver 7) computes wrongly");
     fake.opened = 0;
@@ -166,26 +124,23 @@ TEST(what_fails_at_work_is_tried_again) {
     }
 }
 
-TEST(without_a_folder_it_is_measured_each_time) {
-    setenv("HEDRON_CACHE", "off", 1);
-    fake.slow_milliseconds = 400;
-    for (int i = 1; i <= 2; i++) {
-        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
-        assert_int_equal(fake.opened, i);
+/* Of 4096 samples where they take long enough to be believed; else of more, until a job of so many
+   frames surely takes less than is enough, or the picture is whole. */
+TEST(the_estimate_scales_with_the_picture) {
+    static const struct {
+        double step, enough, expected;
+    } cases[] = {
+        {0.025, 0.0, 4 * 0.075}, {0.005, 0.0, 0.015}, {0.005, 6.1, 4 * 0.015}, {0.005, 5.9, 0.015}};
+    double seconds;
+    scene.solid_count = 0;
+    scene.width = scene.height = 128;
+    scene.samples_per_side = 1;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clock_step = cases[i].step;
+        assert_int_equal(hd_trial_estimate(&options, &job, cases[i].enough, &seconds, &error),
+                         HD_OK);
+        expect_near(seconds, cases[i].expected, 1e-6);
     }
 }
 
-/* ---- the estimate ---- */
-
-/* No machine is so slow or busy that less than what it really needs would be told: more than a
-   second for so many pixels on one thread, of which a few thousandths are measured. */
-TEST(the_estimate_scales_with_the_picture) {
-    double seconds;
-    scene.width = scene.height = 16384;
-    assert_int_equal(hd_trial_estimate(&options, &job, 0.0, &seconds, &error), HD_OK);
-    assert_true(seconds > 1.0);
-}
-
-/* It is measured with the meshes, so that their triangles count. */
-
-EACH(begin, end)
+EACH(begin, end_trial)

@@ -75,4 +75,12 @@ TEST(tables_without_their_data_are_refused) {
     assert_int_equal(hd_renderer_upload(renderer, &others, &error), HD_BAD_INPUT);
 }
 
+TEST(options_are_checked) {
+    const HdRenderOptions wrong = {.block = 33};
+    HdRenderer *none = renderer;
+    assert_int_equal(hd_renderer_open(&none, hd_renderer_device(renderer), &wrong, &error),
+                     HD_BAD_INPUT);
+    assert_null(none);
+}
+
 EACH(begin, end)

@@ -50,42 +50,35 @@ TEST(the_c_backend_passes) {
     assert_int_equal(failed, 0);
 }
 
+/* Over each mesh and all of them there is a hierarchy, with nodes for rays alone. */
 TEST(frames_are_valid_and_fit_every_build) {
     for (int i = 0; i < 4 * HD_SELF_TEST_FRAMES; i++) {
+        const HdSelfTestFrame frame = (HdSelfTestFrame)(i / 4);
+        const bool is_mesh = frame == HD_SELF_TEST_MESH;
         HdScene scene;
         HdSceneTables tables;
-        assert_int_equal(hd_self_test_scene(&scene, (HdSelfTestFrame)(i / 4), (i & 2) != 0,
-                                            (i & 1) != 0, &error),
+        assert_int_equal(hd_self_test_scene(&scene, frame, (i & 2) != 0, (i & 1) != 0, &error),
                          HD_OK);
         assert_int_equal(hd_scene_validate(&scene, &error), HD_OK);
-        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
+        assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 4, &error), HD_OK);
         assert_true(tables.plane_count <= hd_kernel_bound(0));
         assert_true(tables.depth <= hd_kernel_bound(0));
-        if (i / 4 != HD_SELF_TEST_FLOOR) {
+        if (frame != HD_SELF_TEST_FLOOR) {
             assert_int_equal(tables.refracts, (i & 2) != 0);
             assert_int_equal(tables.lit_from_behind, (i & 1) != 0);
         }
+        assert_int_equal(tables.node_stack > 1, is_mesh);
+        assert_int_equal(tables.table[HD_TABLE_wide_children].bytes > 0, is_mesh);
+        if (is_mesh)
+            assert_int_equal(tables.table[HD_TABLE_top_items].bytes,
+                             (size_t)scene.instance_count * sizeof(int32_t));
         HdSceneTables shallow = tables;
-        shallow.node_stack = i / 4 == HD_SELF_TEST_MESH;
+        shallow.node_stack = is_mesh;
         HdKernelNeeds needs = hd_kernel_needs(&tables), least = hd_kernel_needs(&shallow);
         assert_true(hd_kernel_needs_equal(&needs, &least));
         hd_scene_tables_free(&tables);
         hd_scene_free(&scene);
     }
-}
-
-/* There is a hierarchy over each mesh and over all of them, and nodes for rays alone. */
-TEST(meshes_are_searched_in_every_way) {
-    HdScene scene;
-    HdSceneTables tables;
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_MESH, false, false, &error), HD_OK);
-    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 4, &error), HD_OK);
-    assert_true(tables.node_stack > 1);
-    assert_int_equal(tables.table[HD_TABLE_top_items].bytes,
-                     (size_t)scene.instance_count * sizeof(int32_t));
-    assert_true(tables.table[HD_TABLE_wide_children].bytes > 0);
-    hd_scene_tables_free(&tables);
-    hd_scene_free(&scene);
 }
 
 static void write_stamp(int variant, int node_stack_bound, char stamp[160]) {
@@ -96,26 +89,20 @@ static void write_stamp(int variant, int node_stack_bound, char stamp[160]) {
     hd_self_test_stamp(&shape, stamp, 160);
 }
 
-/* What the frames are to find must change them. */
-TEST(frames_differ) {
+/* What the frames are to find must change them; kernels that can search meshes must pass a third
+   one, and their entries say so. */
+TEST(the_stamp_names_each_frame) {
     char stamps[8][160], mesh_stamps[8][160];
     for (int i = 0; i < 8; i++) {
         write_stamp(i, 0, stamps[i]);
         write_stamp(i, 32, mesh_stamps[i]);
+        const size_t shorter = strlen(stamps[i]) - 1;
+        assert_int_equal(stamps[i][shorter], ')');
+        assert_memory_equal(mesh_stamps[i], stamps[i], shorter);
+        assert_int_equal(strlen(mesh_stamps[i]), shorter + strlen(", 0123456789abcdef)"));
         for (int k = 0; k < i; k++) {
             assert_string_not_equal(stamps[k], stamps[i]);
             assert_string_not_equal(strrchr(mesh_stamps[k], ','), strrchr(mesh_stamps[i], ','));
         }
     }
-}
-
-/* Kernels that can search meshes must pass a third frame, and their entries say so. */
-TEST(the_stamp_names_each_frame) {
-    char stamp[160], mesh_stamp[160];
-    write_stamp(0, 0, stamp);
-    write_stamp(0, 32, mesh_stamp);
-    size_t shorter = strlen(stamp) - 1;
-    assert_int_equal(stamp[shorter], ')');
-    assert_memory_equal(mesh_stamp, stamp, shorter);
-    assert_int_equal(strlen(mesh_stamp), shorter + strlen(", 0123456789abcdef)"));
 }

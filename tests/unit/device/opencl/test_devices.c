@@ -13,18 +13,16 @@ enum { CAPABILITY_MAJOR = 0x4000, CAPABILITY_MINOR = 0x4001, TIMEOUT = 0x4005 };
 typedef struct Said {
     const char *name, *version, *extensions;
     cl_device_type type;
-    bool is_available, has_compiler, is_little_endian, is_nvidias, has_timeout;
+    bool is_usable, is_nvidias;
 } Said;
-
-#define USABLE .is_available = true, .has_compiler = true, .is_little_endian = true
 
 static const Said said[] = {
     {"  a GPU ", "OpenCL 3.0 CUDA", "cl_nv_compiler_options cl_khr_int64_base_atomics",
-     CL_DEVICE_TYPE_GPU, USABLE, .is_nvidias = true},
-    {"a CPU", "OpenCL 1.2", "cl_khr_fp64", CL_DEVICE_TYPE_CPU, USABLE},
-    {"an old one", "OpenCL 1.1", "", CL_DEVICE_TYPE_GPU, USABLE},
-    {"a new one", "OpenCL 2.0", "", CL_DEVICE_TYPE_GPU, USABLE},
-    {"nothing", "unknown", "", CL_DEVICE_TYPE_GPU, .is_available = false},
+     CL_DEVICE_TYPE_GPU, true, true},
+    {"a CPU", "OpenCL 1.2", "cl_khr_fp64", CL_DEVICE_TYPE_CPU, true, false},
+    {"an old one", "OpenCL 1.1", "", CL_DEVICE_TYPE_GPU, true, false},
+    {"a new one", "OpenCL 2.0", "", CL_DEVICE_TYPE_GPU, true, false},
+    {"nothing", "unknown", "", CL_DEVICE_TYPE_GPU, false, false},
 };
 enum { COUNT = sizeof said / sizeof *said };
 
@@ -75,54 +73,33 @@ static cl_int answer(const void *from, size_t bytes, size_t size, void *value, s
 static cl_int describe(cl_device_id device, cl_device_info what, size_t size, void *value,
                        size_t *needed) {
     const Said *is = (const Said *)device;
-    const char *text = NULL;
-    cl_uint number = 0;
-    cl_ulong wide = 5000000000;
-    switch (what) {
-    case CL_DEVICE_NAME:
-        text = is->name;
-        break;
-    case CL_DEVICE_VERSION:
-        text = is->version;
-        break;
-    case CL_DEVICE_EXTENSIONS:
-        text = is->extensions;
-        break;
-    case CL_DRIVER_VERSION:
-        text = "5.6";
-        break;
-    case CL_DEVICE_TYPE:
-    case CL_DEVICE_GLOBAL_MEM_SIZE:
-        wide = what == CL_DEVICE_TYPE ? is->type : wide;
-        return answer(&wide, sizeof wide, size, value, needed);
-    case CL_DEVICE_AVAILABLE:
-        number = is->is_available;
-        break;
-    case CL_DEVICE_COMPILER_AVAILABLE:
-        number = is->has_compiler;
-        break;
-    case CL_DEVICE_ENDIAN_LITTLE:
-        number = is->is_little_endian;
-        break;
-    case CL_DEVICE_MAX_COMPUTE_UNITS:
-        number = 12;
-        break;
-    case CAPABILITY_MAJOR:
-        number = 7;
-        break;
-    case CAPABILITY_MINOR:
-        number = 5;
-        break;
-    case TIMEOUT:
-        if (!is->is_nvidias)
-            return CL_INVALID_VALUE;
-        number = is->has_timeout;
-        break;
-    default:
-        return CL_INVALID_VALUE;
-    }
-    return text != NULL ? answer(text, strlen(text) + 1, size, value, needed)
-                        : answer(&number, sizeof number, size, value, needed);
+    const struct {
+        cl_device_info what;
+        const char *text;
+    } texts[] = {{CL_DEVICE_NAME, is->name},
+                 {CL_DEVICE_VERSION, is->version},
+                 {CL_DEVICE_EXTENSIONS, is->extensions},
+                 {CL_DRIVER_VERSION, "5.6"}};
+    const struct {
+        cl_device_info what;
+        size_t bytes;
+        cl_ulong number;
+    } numbers[] = {{CL_DEVICE_TYPE, sizeof(cl_ulong), is->type},
+                   {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong), 5000000000},
+                   {CL_DEVICE_AVAILABLE, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_COMPILER_AVAILABLE, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_ENDIAN_LITTLE, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(cl_uint), 12},
+                   {CAPABILITY_MAJOR, sizeof(cl_uint), 7},
+                   {CAPABILITY_MINOR, sizeof(cl_uint), 5},
+                   {TIMEOUT, is->is_nvidias ? sizeof(cl_uint) : 0, 0}};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (texts[i].what == what)
+            return answer(texts[i].text, strlen(texts[i].text) + 1, size, value, needed);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (numbers[i].what == what && numbers[i].bytes > 0)
+            return answer(&numbers[i].number, numbers[i].bytes, size, value, needed);
+    return CL_INVALID_VALUE;
 }
 
 REPLACE(clGetPlatformIDs, list_platforms)
@@ -134,12 +111,21 @@ static void hide_displays(void) {
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
 }
-TEST(devices_are_described) {
-    HdDevice devices[HD_MAX_DEVICES];
-    HdError error;
+
+AT_START(hide_displays)
+
+static HdDevice devices[HD_MAX_DEVICES];
+static HdError error;
+
+TEST(devices_and_obstacles_are_described) {
+    static const char all[] = "it is not available, its driver has no compiler, it is older than "
+                              "OpenCL 1.2, it is not little-endian";
+    static const char *const obstacles[COUNT] = {"", "", "it is older than OpenCL 1.2", "", all};
     int count;
     assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
     assert_int_equal(count, COUNT);
+    for (int i = 0; i < COUNT; i++)
+        assert_string_equal(devices[i].unusable, obstacles[i]);
     assert_string_equal(devices[0].name, "a GPU");
     assert_string_equal(devices[0].driver, "a platform, OpenCL 3.0 CUDA, driver 5.6");
     assert_int_equal(devices[0].nvidia_arch, 75);
@@ -152,24 +138,9 @@ TEST(devices_are_described) {
     assert_int_equal(count, 2);
 }
 
-TEST(obstacles_are_told) {
-    HdDevice devices[HD_MAX_DEVICES];
-    HdError error;
-    int count;
-    assert_int_equal(hd_opencl_enumerate(devices, HD_MAX_DEVICES, &count, &error), HD_OK);
-    assert_string_equal(devices[0].unusable, "");
-    assert_string_equal(devices[1].unusable, "");
-    assert_string_equal(devices[2].unusable, "it is older than OpenCL 1.2");
-    assert_string_equal(devices[3].unusable, "");
-    assert_string_equal(devices[4].unusable,
-                        "it is not available, its driver has no compiler, it is older than OpenCL "
-                        "1.2, it is not little-endian");
-}
-
 TEST(devices_are_found_by_number) {
     cl_device_id device;
     HdGpuFacts facts;
-    HdError error;
     assert_int_equal(hd_opencl_find(&device, 1, &facts, &error), HD_OK);
     assert_ptr_equal(device, &said[1]);
     assert_int_equal(facts.memory, 5000000000);
@@ -178,5 +149,3 @@ TEST(devices_are_found_by_number) {
     assert_string_equal(error.message, "there is no device 5, only 0 to 4");
     assert_int_equal(hd_opencl_find(&device, -1, &facts, &error), HD_UNAVAILABLE);
 }
-
-AT_START(hide_displays)

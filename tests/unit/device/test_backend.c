@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* What suits a device, and what it lacks. */
+#include "device/backend.h"
+
+#include "unit_test.h"
+
+#define MEGA  HD_PIPELINE_MEGA
+#define WAVES HD_PIPELINE_WAVEFRONT
+
+enum { GPU, GPU_WITHOUT_ATOMICS, SHOWING_GPU, SHOWING_GPU_WITHOUT_ATOMICS, CPU };
+
+static const HdDevice devices[] = {
+    [GPU] = {.has_wide_atomics = true},
+    [GPU_WITHOUT_ATOMICS] = {.name = "a GPU"},
+    [SHOWING_GPU] = {.has_timeout = true, .has_wide_atomics = true},
+    [SHOWING_GPU_WITHOUT_ATOMICS] = {.has_timeout = true},
+    [CPU] = {.is_cpu = true, .has_double = true, .most_lanes = {16, 8}},
+};
+
+/* A display must not stand still for as long as a tree of hundreds of levels takes. */
+TEST(pipelines_suit_devices_and_scenes) {
+    static const struct {
+        int device, endless_lights;
+        HdRenderOptions options;
+        HdPipeline expected;
+    } cases[] = {
+        {CPU, 0, {0}, MEGA},
+        {CPU, 0, {.pipeline = WAVES}, WAVES},
+        {CPU, 99, {0}, MEGA},
+        {CPU, 100, {0}, WAVES},
+        {CPU, 100, {.pipeline = MEGA}, MEGA},
+        {GPU, 100, {0}, MEGA},
+        {SHOWING_GPU, 0, {0}, MEGA},
+        {SHOWING_GPU, 0, {.has_deep_trees = true}, WAVES},
+        {SHOWING_GPU, 0, {.has_deep_trees = true, .pipeline = MEGA}, MEGA},
+        {SHOWING_GPU_WITHOUT_ATOMICS, 0, {.has_deep_trees = true}, MEGA},
+        {GPU, 0, {.has_deep_trees = true}, MEGA},
+        {GPU, 0, {.has_deep_trees = true, .launch_ms = 100.0}, WAVES},
+        {CPU, 0, {.has_deep_trees = true, .launch_ms = 100.0}, MEGA},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        HdLight lights[100] = {{.falloff = {.end = 0.0}}};
+        const HdScene scene = {.lights = lights, .light_count = 100};
+        for (int k = cases[i].endless_lights; k < 100; k++)
+            lights[k].falloff.end = 2.0;
+        const HdPipeline found =
+            hd_choose_pipeline(&devices[cases[i].device], &cases[i].options, &scene);
+        if (found != cases[i].expected)
+            fail_msg("case %zu takes %s", i, hd_pipeline_names[found]);
+    }
+    assert_int_equal(hd_choose_pipeline(&devices[CPU], &(HdRenderOptions){0}, NULL), MEGA);
+}
+
+static void expect_obstacle(const HdDevice *device, HdRenderOptions options, const char *expected) {
+    const char *found = hd_device_obstacle(device, &options);
+    if (expected == NULL)
+        assert_null(found);
+    else
+        assert_string_equal(found, expected);
+}
+
+TEST(a_wavefront_of_groups_needs_wide_atomics) {
+    static const char lack[] = "the wavefront pipeline needs 64-bit integer atomics, which the "
+                               "device lacks; --pipeline mega would take it";
+    const HdRenderOptions waves = {.pipeline = HD_PIPELINE_WAVEFRONT};
+    const HdDevice *lacking = &devices[GPU_WITHOUT_ATOMICS];
+    expect_obstacle(lacking, waves, lack);
+    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
+                    lack);
+    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_AUTO}, NULL);
+    expect_obstacle(&devices[GPU], waves, NULL);
+    expect_obstacle(&devices[CPU], waves, NULL);
+}
+
+TEST(more_lanes_than_registers_are_refused) {
+    static const struct {
+        int most;
+        const char *obstacle; /* to 16 lanes */
+    } cases[] = {{8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
+                 {4, "the processor has registers for 1 or 4 lanes in this precision"},
+                 {1, "the processor has registers for 1 lane in this precision"},
+                 {0, NULL}}; /* none is known */
+    HdDevice cpu = devices[CPU];
+    HdRenderOptions options = {.lanes = 16};
+    expect_obstacle(&cpu, options, NULL);
+    options.precision = HD_PRECISION_DOUBLE;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cpu.most_lanes[HD_PRECISION_DOUBLE] = cases[i].most;
+        expect_obstacle(&cpu, options, cases[i].obstacle);
+    }
+    cpu.most_lanes[HD_PRECISION_DOUBLE] = options.lanes = 8;
+    expect_obstacle(&cpu, options, NULL);
+}
+
+TEST(launches_last_as_long_as_they_may) {
+    HdRenderOptions options = {.launch_ms = 0.0};
+    assert_true(hd_longest_launch(&devices[SHOWING_GPU], &options) == 0.05);
+    assert_true(hd_longest_launch(&devices[GPU], &options) == 0.5);
+    options.launch_ms = 0.5;
+    assert_true(hd_longest_launch(&devices[GPU], &options) == 5e-4);
+}
