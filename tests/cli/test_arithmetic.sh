@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# OpenCL that computes wrongly, for its compiler takes some text for other text: the probe refuses it, what it found
-# is remembered, and division that is wrong is made of fma with equal bytes. What is said of each fault is a
-# matter of unit_test_device_probe.
+# OpenCL that computes wrongly, as Mesa's rusticl does, or since its compiler takes some text for other text: the probe
+# refuses it, what it found is remembered, and division that is wrong is made of fma with equal bytes. What is said of
+# each fault is a matter of the unit tests (device/test_probe).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -10,10 +10,29 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 build=$(realpath "${2:?the build folder is the second argument}")
 if is_sanitized; then
     skip "nothing can be preloaded before a sanitizer"
-elif ! has_opencl; then
-    skip "no OpenCL device compiles kernels here"
 fi
 export HEDRON_CACHE=$work/cache
+
+# ---- Mesa's rusticl on llvmpipe, which ./dev test fetches into the build folder
+rusticl=$build/../opencl-rusticl
+libraries=$(dirname "$(cat "$rusticl/vendors/rusticl.icd" 2>"$logs/which" || true)")
+rusticl=(env -C "$rusticl" OCL_ICD_VENDORS="$rusticl/vendors" RUSTICL_ENABLE=llvmpipe LD_LIBRARY_PATH="$libraries")
+if "${rusticl[@]}" "$hedron" devices 2>"$logs/which" | grep -q 'rusticl'; then
+    expect_refusal 3 "${rusticl[@]}" "$hedron" render "${small[@]}" --frames 0 --backend opencl --quiet -o "$work/picture.data"
+    expect_stderr_contains 'rusticl'
+    expect_stderr_contains ' computes wrongly: '
+    expect_stderr_contains ' in float is '
+    rm -r "$work/cache"
+else
+    echo "not tested: rusticl, which could not be fetched or has no device here"
+fi
+
+if ! has_opencl; then
+    if ((failures > 0)); then
+        finish
+    fi
+    skip "no OpenCL device compiles kernels here"
+fi
 render=("$hedron" render "${small[@]}" --frames 0 --backend opencl --lanes 1 -o picture.data)
 "$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.data >"$logs/stdout"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Wrong input of the classic mode: exit code 2, one sentence that says what is wrong, no file. Every kind of mistake is a
-# matter of unit_test_input_classic_errors.
+# matter of the unit tests (input/test_classic_errors).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Solids that touch: the picture is that of a gap too small to be seen. What touches, and what a check says of it, is a
-# matter of unit_test_scene_contact and unit_test_input_scene_words.
+# matter of the unit tests (scene/test_contact, input/test_scene_words).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # What keeps a card of NVIDIA's from being used on the first evening: drivers that know it no more or do
 # not start, an NVRTC that is missing or too new. Each is told with what helps; which words and which package
-# is a matter of unit_test_device_cuda_api and unit_test_device_cuda_nvrtc.
+# is a matter of the unit tests (device/cuda).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Several devices that render together: --device all, or a list. Which devices a list names, and who traces what is a
-# matter of unit_test_choice_devices and unit_test_render_team.
+# matter of the unit tests (choice, render).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

