@@ -64,11 +64,8 @@ once 'cuda: '
 expect_refusal 3 "${nothing[@]}" "${classic[@]}" --backend cuda --cpu <"$work/official.in" # it means it
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --device nonsense
 once 'no OpenCL platform'
-for device in nonsense -1 0x0 '0 ' 4294967296; do
-    expect_refusal 3 "${render[@]}" --backend c --device "$device"
-    expect_stderr_contains "'$device'"
-done
-expect_refusal 3 "${nothing[@]}" "${classic[@]}" --gpu --device 99 <"$work/official.in"
+expect_refusal 3 "${nothing[@]}" "${classic[@]}" --gpu --device 4294967296 <"$work/official.in"
+expect_stderr_contains "'4294967296'"
 # An empty name is the mistake of a script, not a wish for any device.
 expect_refusal 2 "${render[@]}" --backend c --device ''
 expect_files .
@@ -84,13 +81,11 @@ else
     echo "not tested: too little device memory, for there is no PoCL"
 fi
 
-# ---- a device by number and by part of its name, in any case
+# ---- a device by the name in the list, in any case
 expect_exit 0 "$hedron" devices
 name=$(section c | sed -n 's/^  0  //p')
-for device in 0 "${name:1:4}" "${name^^}"; do
-    expect_exit 0 "${nothing[@]}" "${render[@]}" --device "$device"
-    rm picture.data
-done
+expect_exit 0 "${nothing[@]}" "${render[@]}" --device "${name^^}"
+rm picture.data
 
 # ---- without any GPU: a sentence, and the same picture from the C backend
 expect_exit 0 "${classic[@]}" --cpu <"$work/official.in"

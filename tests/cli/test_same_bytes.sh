@@ -45,8 +45,6 @@ for options in '' '--math strict --precision float' '--backend c --math fast' "-
     # shellcheck disable=SC2086 # options and their values
     expect_float $options
 done
-picture other --backend c --precision double --pipeline wavefront
-expect_same other.data double.data
 expect_exit 0 "$hedron" render "${scene[@]:1}" --backend c --math fast -o fast.data
 expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast changes nothing there'
 
