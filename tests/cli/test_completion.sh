@@ -41,19 +41,15 @@ expect_completions "$commands" ''
 expect_completions 'check convert compare' c
 expect_completions '' x
 expect_completions '--geometry --gpu --grid' --g
-expect_completions '--variant --verbose --version' --v
 expect_completions '-v' -v
 expect_completions '' --cpu ''
-expect_completions '--schema' check --s
 expect_completions 'linear srgb' compare --curve ''
 expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
 expect_completions '' devices ''
 expect_completions "$commands scene man completion completion-zsh completion-fish" help ''
 expect_completions 'auto c opencl cuda' render --backend ''
-expect_completions 'c cuda' render --backend c
 expect_completions 'auto c opencl cuda' render --backend =
 expect_completions 'c cuda' render --backend = c
-expect_completions 'strict fast' --math ''
 expect_completions '1 16' render --lanes 1
 expect_completions '' render --size ''
 expect_completions 'camera.' render --set c
@@ -61,14 +57,11 @@ expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.targ
 expect_completions 'adaptive' render --set image.aa = a
 expect_completions 'depth,normal' render --layers depth,n
 expect_completions 'materials.glass. materials.frame. materials.floor.' render a.json --set mat
-expect_completions 'materials.glass.mirror_tint=' render a.json --set materials.glass.m
 expect_completions 'solids[0].rim.width= solids[0].rim.material=' render a.json --set 'solids[0].rim.' # ]
 expect_completions 'cube' render a.json --set 'solids[0].kind' = c
 expect_completions '' render a.json --set 'solids[1].'
 expect_completions 'all' render --device a
 expect_completions '0' render --device c : ''
-expect_completions 'a.json b.json scenes with space.json' render ''
-expect_completions 'a.json' check a
 expect_completions 'a.json b.json scenes with space.json' check a.json ''
 expect_completions 'a.json b.json c.in scenes with space.json' convert ''
 expect_completions 'c.in' convert -o c

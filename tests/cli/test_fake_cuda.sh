@@ -8,6 +8,9 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 use_fake_cuda "${2:?the build folder is the second argument}"
+if ! command -v jq >"$logs/which"; then
+    skip "there is no jq"
+fi
 render=("$hedron" render "${small[@]}" --frames 0 -o picture.data --backend cuda)
 
 # expect_build REGEX: what is said of the kernels.
@@ -31,6 +34,14 @@ if compgen -G "$work/cache/cuda-*" >"$logs/which"; then
 fi
 rm -r "$work/cache"
 
+# ---- the classic keys mean it: --gpu takes the card, --cpu refuses it
+"$hedron" --default >"$work/default.in"
+expect_exit 0 "$hedron" --gpu "${small[@]}" --frames 0 --math fast --verbose <"$work/default.in"
+expect_stderr_contains 'device    cuda 0, '
+expect_refusal 3 "$hedron" --cpu --backend cuda "${small[@]}" --frames 0 <"$work/default.in"
+expect_stderr_contains 'it is not a CPU'
+rm -r out "$work/cache"
+
 # ---- kernels that need no test are kept; then NVRTC is not loaded
 fast=("${render[@]}" --math fast --verbose)
 expect_exit 0 "${fast[@]}"
@@ -53,34 +64,32 @@ echo '{"hedron": 1, "camera": {"frames": 40, "eye": {"r0": 9, "z0": 2, "phi_freq
        "materials": {"red": {"colour": [1, 0, 0], "diffuse": 1}},
        "solids": [{"kind": "cube", "circumradius": 1, "material": "red"}], "lights": [{"position": [3, -4, 8]}]}' >"$work/cube.json"
 large=("$hedron" render "$work/cube.json" --size 128x128 --samples 4 --depth 2 --frames 0-3 --backend cuda --math fast --quiet)
-if command -v jq >"$logs/which"; then
-    # expect_launches FILTER COMMAND...: what holds of the last two frames, before which something is known.
-    expect_launches() {
-        local filter=$1
-        shift
-        expect_exit 0 "$@" --again -o launches/%d.data --stats stats.jsonl
-        if ! jq -e -s ".[-2:] | all(.[]; $filter)" stats.jsonl >"$logs/jq"; then
-            fail "not all frames have $filter: $(jq -c '[.longest_launch_ms, .seconds.trace]' stats.jsonl | tr '\n' ' ')"
-        fi
-    }
-    threads=(env FAKE_CUDA_UNITS=3 FAKE_CUDA_THREAD_NS=10000)
-    # The sums of the counts, 1024 threads, are a launch of their own.
-    expect_launches '.longest_launch_ms > 5 and (.longest_launch_ms + 0.02048 - 1000 * .seconds.trace | fabs) < 0.001' \
-        "${threads[@]}" FAKE_CUDA_THREAD_NS=20 "${large[@]}" --frames 0-9
-    mv launches whole
-    expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .seconds.trace > 2' "${threads[@]}" "${large[@]}"
-    for i in 0 1 2 3; do
-        expect_same "launches/$i.data" "whole/$i.data"
-    done
-    # As long as is asked for; by default short where a display may be there, though the driver ends nothing.
-    expect_launches '.longest_launch_ms > 8 and .longest_launch_ms < 20' "${threads[@]}" "${large[@]}" --max-launch 20
-    threads+=(FAKE_CUDA_TIMEOUT=0)
-    for display in DISPLAY=:0 WAYLAND_DISPLAY=wayland-0; do
-        expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50' "${threads[@]}" "$display" "${large[@]}"
-    done
-    expect_launches '.longest_launch_ms > 160 and .longest_launch_ms < 400' "${threads[@]}" "${large[@]}" --max-launch 400
-    rm -r whole launches stats.jsonl
-fi
+# expect_launches FILTER COMMAND...: what holds of the last two frames, before which something is known.
+expect_launches() {
+    local filter=$1
+    shift
+    expect_exit 0 "$@" --again -o launches/%d.data --stats stats.jsonl
+    if ! jq -e -s ".[-2:] | all(.[]; $filter)" stats.jsonl >"$logs/jq"; then
+        fail "not all frames have $filter: $(jq -c '[.longest_launch_ms, .seconds.trace]' stats.jsonl | tr '\n' ' ')"
+    fi
+}
+threads=(env FAKE_CUDA_UNITS=3 FAKE_CUDA_THREAD_NS=10000)
+# The sums of the counts, 1024 threads, are a launch of their own.
+expect_launches '.longest_launch_ms > 5 and (.longest_launch_ms + 0.02048 - 1000 * .seconds.trace | fabs) < 0.001' \
+    "${threads[@]}" FAKE_CUDA_THREAD_NS=20 "${large[@]}" --frames 0-9
+mv launches whole
+expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50 and .seconds.trace > 2' "${threads[@]}" "${large[@]}"
+for i in 0 1 2 3; do
+    expect_same "launches/$i.data" "whole/$i.data"
+done
+# As long as is asked for; by default short where a display may be there, though the driver ends nothing.
+expect_launches '.longest_launch_ms > 8 and .longest_launch_ms < 20' "${threads[@]}" "${large[@]}" --max-launch 20
+threads+=(FAKE_CUDA_TIMEOUT=0)
+for display in DISPLAY=:0 WAYLAND_DISPLAY=wayland-0; do
+    expect_launches '.longest_launch_ms > 20 and .longest_launch_ms < 50' "${threads[@]}" "$display" "${large[@]}"
+done
+expect_launches '.longest_launch_ms > 160 and .longest_launch_ms < 400' "${threads[@]}" "${large[@]}" --max-launch 400
+rm -r whole launches stats.jsonl
 
 # ---- passes of many sizes use the same memory
 passes=("${large[@]}" --size 200x150 --aa adaptive -o passes/%d.data)
