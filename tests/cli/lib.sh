@@ -374,3 +374,27 @@ expect_python() {
         fail "$* prints $found, expected $expected"
     fi
 }
+
+# without_opencl: no OpenCL for the commands from here on.
+without_opencl() {
+    mkdir -p "$work/no_vendors"
+    export OCL_ICD_VENDORS=$work/no_vendors
+}
+
+# use_fake_cuda BUILD: for the commands from here on CUDA's driver and compiler are those of the tests, and there is no OpenCL.
+use_fake_cuda() {
+    nvrtc=$1/tests/fake_cuda/libnvrtc.so.12
+    if [[ ! -e $nvrtc ]]; then
+        skip "no compiler of C++ is here that could build the kernels"
+    fi
+    without_opencl
+    export LD_LIBRARY_PATH=$1/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+    export HEDRON_CACHE=$work/cache HEDRON_NVRTC=$nvrtc
+}
+
+# take BUILD TEXT FOR: ${driver[@]} runs a command with an OpenCL whose compiler takes one text of the kernels for another.
+take() {
+    # shellcheck disable=SC2034 # for the scripts
+    driver=("${no_nvidia[@]}" LD_PRELOAD="$1/tests/failing/libfailing_opencl.so" FAILING_OPENCL_TEXT="$2"
+        FAILING_OPENCL_FOR="$3")
+}

@@ -33,17 +33,40 @@ expect_completions() {
 }
 
 commands='render view new check convert devices selftest tune compare help'
-touch a.json b.json c.in 'with space.json'
+touch b.json c.in 'with space.json'
 mkdir scenes
+"$hedron" new a.json >"$logs/new"
 
 expect_completions "$commands" ''
-expect_completions 'render' r
 expect_completions 'check convert compare' c
 expect_completions '' x
 expect_completions '--geometry --gpu --grid' --g
-expect_completions '--variant --verbose --version' --v
 expect_completions '-v' -v
 expect_completions '' --cpu ''
+expect_completions 'linear srgb' compare --curve ''
+expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
+expect_completions '' devices ''
+expect_completions "$commands scene man completion completion-zsh completion-fish" help ''
+expect_completions 'auto c opencl cuda' render --backend ''
+expect_completions 'auto c opencl cuda' render --backend =
+expect_completions 'c cuda' render --backend = c
+expect_completions '1 16' render --lanes 1
+expect_completions '' render --size ''
+expect_completions 'camera.' render --set c
+expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.target=' render --set camera.
+expect_completions 'adaptive' render --set image.aa = a
+expect_completions 'depth,normal' render --layers depth,n
+expect_completions 'materials.glass. materials.frame. materials.floor.' render a.json --set mat
+expect_completions 'solids[0].rim.width= solids[0].rim.material=' render a.json --set 'solids[0].rim.' # ]
+expect_completions 'cube' render a.json --set 'solids[0].kind' = c
+expect_completions '' render a.json --set 'solids[1].'
+expect_completions 'all' render --device a
+expect_completions '0' render --device c : ''
+expect_completions 'a.json b.json scenes with space.json' check a.json ''
+expect_completions 'a.json b.json c.in scenes with space.json' convert ''
+expect_completions 'c.in' convert -o c
+expect_completions 'c.in' render --output = c
+expect_completions 'scenes' render --stats s
 # ---- a command's own options, which are those of its help
 for command in $commands; do
     "$hedron" help "$command" >"$logs/help"
@@ -52,58 +75,13 @@ for command in $commands; do
     expect_completions "$long" "$command" --
     expect_completions "$short"$'\n'"$long" "$command" -
 done
-expect_completions '--schema' check --s
-expect_completions '--json' devices --j
-expect_completions '--json' tune --j
-expect_completions '--fail-above' compare --f
-expect_completions 'linear srgb' compare --curve ''
-expect_completions 'a.json b.json c.in scenes with space.json' compare a.json ''
-expect_completions '' devices ''
-expect_completions "$commands scene man completion completion-zsh completion-fish" help ''
-expect_completions 'man' help m
-# ---- values
-expect_completions 'auto c opencl cuda' render --backend ''
-expect_completions 'c cuda' render --backend c
-expect_completions 'opencl' render --backend o
-expect_completions 'auto c opencl cuda' render --backend =
-expect_completions 'c cuda' render --backend = c
-expect_completions 'strict fast' --math ''
-expect_completions 'double' --precision d
-expect_completions '1 16' render --lanes 1
-expect_completions '' render --size ''
-expect_completions 'camera.' render --set c
-expect_completions 'camera.field_of_view= camera.frames= camera.eye= camera.target=' render --set camera.
-expect_completions 'grid adaptive' render --set image.aa = ''
-expect_completions 'adaptive' render --set image.aa = a
-expect_completions 'samples' render --layers s
-expect_completions 'depth,normal' render --layers depth,n
-# ---- the scene's own materials and solids
-rm a.json
-"$hedron" new a.json >"$logs/new"
-expect_completions 'materials.glass. materials.frame. materials.floor.' render a.json --set mat
-expect_completions 'materials.glass.mirror_tint=' render a.json --set materials.glass.m
-expect_completions 'solids[0].rim.width= solids[0].rim.material=' render a.json --set 'solids[0].rim.' # ]
-expect_completions 'cube' render a.json --set 'solids[0].kind' = c
-expect_completions '' render a.json --set 'solids[1].'
-# ---- devices
-expect_completions 'all' render --device a
-expect_completions '0' render --device c : ''
-expect_completions '0' tune --device c : 0
-# ---- files: scenes for 'render' and 'check', any for the rest
-expect_completions 'a.json b.json scenes with space.json' render ''
-expect_completions 'a.json' check a
-expect_completions 'a.json b.json scenes with space.json' check a.json ''
-expect_completions 'a.json b.json c.in scenes with space.json' convert ''
-expect_completions 'c.in' convert -o c
-expect_completions 'c.in' render --output = c
-expect_completions 'scenes' render --stats s
 COMP_WORDS=("$hedron" render w) COMP_CWORD=2
 _hedron
 if [[ ${#COMPREPLY[@]} != 1 || ${COMPREPLY[0]} != 'with space.json' ]]; then
     fail "a name with a space gives ${#COMPREPLY[@]} completions"
 fi
 
-# ---- zsh, whose own functions tell here what they are asked for, and fish
+# ---- zsh, whose own functions tell what they are asked for, and fish
 "$hedron" help completion-zsh >"$work/completion.zsh"
 "$hedron" help completion-fish >"$work/completion.fish"
 # expect_words SHELL EXPECTED: what its completion offered, in $logs/offered.

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Renders a scene file to a PFM by docs/model.md and docs/formats.md alone: what hedron is compared with.
-
-    tracer.py SCENE.json PICTURE.pfm [FRAME]
 
 It is slow, in double, and knows nothing of how hedron computes. Textures are those of the data format.
 """
@@ -585,15 +582,3 @@ def write_pfm(path, rows):
     if sys.byteorder == "big":
         values.byteswap()
     Path(path).write_bytes(f"PF\n{len(rows[0])} {len(rows)}\n-1.0\n".encode() + values.tobytes())
-
-
-def main():
-    """The command line."""
-    if len(sys.argv) not in (3, 4):
-        sys.exit(__doc__)
-    scene = Scene(sys.argv[1], int(sys.argv[3]) if len(sys.argv) == 4 else 0)
-    write_pfm(sys.argv[2], scene.picture())
-
-
-if __name__ == "__main__":
-    main()
