@@ -20,19 +20,18 @@ static uint64_t fingerprint(void) {
     return hd_run_fingerprint(&file, HD_PRECISION_FLOAT, &style);
 }
 
-static void note_changed(const HdField *field) {
-    assert_true(changed_count < MAX_FIELDS);
-    for (int i = 0; i < changed_count; i++)
-        if (changed[i] == field)
-            return;
-    changed[changed_count++] = field;
-}
-
 static bool is_changed(const HdField *field) {
     for (int i = 0; i < changed_count; i++)
         if (changed[i] == field)
             return true;
     return false;
+}
+
+static void note_changed(const HdField *field) {
+    if (is_changed(field))
+        return;
+    assert_true(changed_count < MAX_FIELDS);
+    changed[changed_count++] = field;
 }
 
 static void expect_seen(const char *what) {
@@ -45,25 +44,15 @@ static void expect_unseen(const char *what) {
         fail_msg("%s decides no pixel, but it changes the fingerprint", what);
 }
 
-static void change_integer(const HdField *field, int *place) {
-    ++*place;
-    expect_seen(field->key);
-    --*place;
+/* The last bit of each of so many numbers. */
+static void change_numbers(const HdField *field, void *place, size_t count, size_t size) {
+    unsigned char *bytes = place;
+    for (size_t i = 0; i < count; i++) {
+        bytes[i * size] ^= 1;
+        expect_seen(field->key);
+        bytes[i * size] ^= 1;
+    }
     note_changed(field);
-}
-
-static void change_number(const HdField *field, double *place) {
-    const double was = *place;
-    *place = was + 1.0;
-    expect_seen(field->key);
-    *place = was;
-    note_changed(field);
-}
-
-static void change_vector(const HdField *field, HdVec3 *vector) {
-    change_number(field, &vector->x);
-    change_number(field, &vector->y);
-    change_number(field, &vector->z);
 }
 
 static void change_object(const HdObjectType *type, void *owner);
@@ -73,7 +62,7 @@ static void change_path(const HdField *field, HdPath *path) {
     expect_seen(field->key);
     path->is_fixed = !path->is_fixed;
     if (path->is_fixed)
-        change_vector(field, &path->point);
+        change_numbers(field, &path->point, 3, sizeof(double));
     else
         change_object(field->object, path);
     note_changed(field);
@@ -81,15 +70,6 @@ static void change_path(const HdField *field, HdPath *path) {
 
 static int *count_of(const HdField *field, void *owner) {
     return (int *)(void *)((char *)owner + field->count_offset);
-}
-
-static void change_vectors(const HdField *field, void *owner) {
-    HdVec3 *vectors = (HdVec3 *)(void *)((char *)owner + field->offset);
-    const int count = field->count_offset != 0 ? *count_of(field, owner) : field->most;
-    for (int i = 0; i < count; i++)
-        change_vector(field, &vectors[i]);
-    if (field->count_offset != 0)
-        change_integer(field, count_of(field, owner));
 }
 
 static void change_list(const HdField *field, void *owner) {
@@ -113,39 +93,41 @@ static void change_text(const HdField *field, char *text) {
     note_changed(field);
 }
 
-static void change_boolean(const HdField *field, bool *place) {
-    *place = !*place;
-    expect_seen(field->key);
-    *place = !*place;
-    note_changed(field);
+/* Whether it has a value of its own. */
+static bool has_value(const HdField *field) {
+    return field->type != HD_FIELD_OBJECT && field->type != HD_FIELD_MATERIAL &&
+           field->type != HD_FIELD_MATERIALS && field->type != HD_FIELD_FILE &&
+           (field->type != HD_FIELD_CHOICE || field->choices[1].word != NULL);
 }
 
 static void change_value(const HdField *field, void *owner) {
     void *place = (char *)owner + field->offset;
     switch (field->type) {
     case HD_FIELD_BOOLEAN:
-        change_boolean(field, place);
+        change_numbers(field, place, 1, sizeof(bool));
         break;
     case HD_FIELD_CHOICE:
-        if (field->choices[1].word == NULL)
-            break;
-        change_integer(field, place);
-        break;
     case HD_FIELD_INTEGER:
-        change_integer(field, place);
+        if (has_value(field))
+            change_numbers(field, place, 1, sizeof(int));
         break;
     case HD_FIELD_NUMBER:
-        change_number(field, place);
+        change_numbers(field, place, 1, sizeof(double));
         break;
     case HD_FIELD_VECTOR:
     case HD_FIELD_UNSCALED:
     case HD_FIELD_FACTOR:
     case HD_FIELD_SCALE:
-        change_vector(field, place);
+        change_numbers(field, place, 3, sizeof(double));
         break;
-    case HD_FIELD_VECTORS:
-        change_vectors(field, owner);
+    case HD_FIELD_VECTORS: {
+        const bool is_counted = field->count_offset != 0;
+        const int count = is_counted ? *count_of(field, owner) : field->most;
+        change_numbers(field, place, (size_t)count * 3, sizeof(double));
+        if (is_counted)
+            change_numbers(field, count_of(field, owner), 1, sizeof(int));
         break;
+    }
     case HD_FIELD_TEXT:
         change_text(field, place);
         break;
@@ -167,25 +149,25 @@ static void change_value(const HdField *field, void *owner) {
     }
 }
 
+static bool is_output(const HdField *field) {
+    return strcmp(field->key, "output") == 0;
+}
+
 static void change_object(const HdObjectType *type, void *owner) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
-        if (strcmp(field->key, "output") != 0 &&
-            (hd_field_is_given(field, owner) || field->zero_is_absent))
+        if (!is_output(field) && (hd_field_is_given(field, owner) || field->zero_is_absent))
             change_value(field, owner);
     }
 }
 
-/* Everything that holds a value of its own was reached. */
+/* Everything that has a value was reached. */
 static void expect_all_changed(const HdObjectType *type) {
     for (int i = 0; i < type->field_count; i++) {
         const HdField *field = &type->fields[i];
-        const bool has_value = field->type != HD_FIELD_OBJECT && field->type != HD_FIELD_MATERIAL &&
-                               field->type != HD_FIELD_MATERIALS && field->type != HD_FIELD_FILE &&
-                               (field->type != HD_FIELD_CHOICE || field->choices[1].word != NULL);
-        if (strcmp(field->key, "output") == 0)
+        if (is_output(field))
             continue;
-        if (has_value && !is_changed(field))
+        if (has_value(field) && !is_changed(field))
             fail_msg("no scene of this test has %s", field->key);
         if (field->object != NULL)
             expect_all_changed(field->object);
@@ -202,23 +184,13 @@ TEST(every_field_of_a_scene_changes_it) {
 TEST(the_last_digit_of_bright_lights_changes_it) {
     HdVec3 *light = &file.scene.lights[0].intensity;
     const HdVec3 kept = *light;
-    for (int i = 0; i < 1000; i++) {
-        *light = hd_vec3(6e11 + 1e8 / 3.0 * i, 1e11 / 7.0 * i / 1000, 1e11 / (i + 1));
+    for (int i = 0; i < 50; i++) {
+        *light = hd_vec3(6e11 + 2e9 / 3.0 * i, 1e11 / 7.0 * i / 50, 1e11 / (i + 1));
         const uint64_t before = fingerprint();
         light->y = nextafter(light->y, 1e12);
         assert_true(fingerprint() != before);
     }
     *light = kept;
-}
-
-TEST(what_becomes_of_the_frames_does_not) {
-    file.output.style.frames_per_second++;
-    expect_unseen("output.frames_per_second");
-    file.output.style.frames_per_second--;
-    change_text(&hd_scene_fields.fields[0], file.output.path);
-    file.mesh_entries[0].file[0] ^= 1;
-    expect_unseen("the name of a mesh's file");
-    file.mesh_entries[0].file[0] ^= 1;
 }
 
 /* What files hold */
@@ -266,15 +238,18 @@ static void drop_content(HdScene *scene) {
 }
 
 #define BITS(thing)                                                                                \
-    { #thing, &(thing), sizeof(thing) }
+    { #thing, &(thing), sizeof(thing), true }
+#define UNSEEN(thing)                                                                              \
+    { #thing, &(thing), sizeof(thing), false }
 
 /* Of each of these, one bit of the first byte and one of the last. */
-TEST(what_files_hold_changes_it) {
+TEST(what_files_hold_changes_it_and_what_lies_beside_does_not) {
     HdScene *scene = &file.scene;
     const struct {
         const char *what;
         void *place;
         size_t size;
+        bool is_seen;
     } list[] = {
         BITS(floor_texels),
         BITS(texels),
@@ -304,17 +279,20 @@ TEST(what_files_hold_changes_it) {
         BITS(scene->crop.whole_height),
         BITS(scene->geometry),
         BITS(scene->accel),
+        UNSEEN(materials[0]),
+        UNSEEN(materials[2]),
+        UNSEEN(materials[1].name),
+        UNSEEN(file.output.style.frames_per_second),
+        UNSEEN(file.output.path),
+        UNSEEN(file.mesh_entries[0].file),
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         unsigned char *bytes = list[i].place;
-        bytes[0] ^= 1;
-        expect_seen(list[i].what);
-        bytes[0] ^= 1;
-        if (list[i].size == 1)
-            continue;
-        bytes[list[i].size - 1] ^= 1;
-        expect_seen(list[i].what);
-        bytes[list[i].size - 1] ^= 1;
+        for (size_t k = 0; k<list[i].size; k += list[i].size> 1 ? list[i].size - 1 : 1) {
+            bytes[k] ^= 1;
+            (list[i].is_seen ? expect_seen : expect_unseen)(list[i].what);
+            bytes[k] ^= 1;
+        }
     }
     assert_true(fingerprint() == usual);
 }
@@ -326,20 +304,6 @@ TEST(arrays_that_are_missing_change_it) {
     mesh.group_of = NULL;
     expect_seen("group_of");
     mesh.group_of = group_of;
-}
-
-TEST(names_in_files_do_not) {
-    char name[] = "name";
-    materials[1].name = materials[1].texture = name;
-    expect_unseen("the name of a material or of its texture");
-    materials[1].name = materials[1].texture = NULL;
-}
-
-TEST(what_lies_beside_an_array_does_not) {
-    for (int i = 0; i < 3; i += 2) {
-        materials[i].emission.x = materials[i].material.diffuse = 1.0;
-        expect_unseen("what lies beside a mesh's materials");
-    }
 }
 
 TEST(how_it_is_rendered_and_stored_changes_it) {

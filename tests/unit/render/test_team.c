@@ -13,7 +13,8 @@
 #include "test_folder.h"
 #include "wrapped.h"
 
-enum { DEVICES = 3, FRAMES = 48, POINTS = 4, MOST_FAILURES = DEVICES };
+/* More frames than a store has room for. */
+enum { DEVICES = 3, FRAMES = 36, POINTS = 4 };
 
 /* What happened so far. Devices that must take part wait for each other here. */
 static struct {
@@ -29,7 +30,7 @@ static HdScene scene;
 static int frame_numbers[FRAMES];
 static HdFrameList frames;
 static int makers[FRAMES]; /* who traced the frame; -1: it was not stored */
-static int dropped_ones[MOST_FAILURES];
+static int dropped_ones[DEVICES];
 static char dropped_why[512];
 static int the_cpu; /* which device is one; the others are GPUs */
 
@@ -107,11 +108,12 @@ static int begin(void **state) {
 static int end(void **state) {
     (void)state;
     hd_scene_free(&scene);
-    if (access("run", F_OK) == 0)
-        remove_folder("run");
-    if (access("alone", F_OK) == 0)
-        remove_folder("alone");
-    return 0;
+    return access("run", F_OK) == 0 ? remove_folder("run") : 0;
+}
+
+static void begin_again(void) {
+    end(NULL);
+    begin(NULL);
 }
 
 /* A sequence may start so many threads, and has so many left; negative: any number. */
@@ -153,37 +155,37 @@ static HdStatus render(const char *output, int count) {
     return status;
 }
 
-static void render_alone(void) {
-    script = NULL;
-    history.stored = 0;
-    assert_int_equal(render("alone/%d.data", 1), HD_OK);
-}
-
 static bool is_same_file(const char *a, const char *b) {
     FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
-    int bytes[2];
-    assert_non_null(files[0]);
-    assert_non_null(files[1]);
-    do
-        for (int i = 0; i < 2; i++)
-            bytes[i] = fgetc(files[i]);
-    while (bytes[0] == bytes[1] && bytes[0] != EOF);
-    fclose(files[0]);
-    fclose(files[1]);
-    return bytes[0] == bytes[1];
+    char bytes[2][4096];
+    size_t sizes[2];
+    for (int i = 0; i < 2; i++) {
+        assert_non_null(files[i]);
+        sizes[i] = fread(bytes[i], 1, sizeof bytes[i], files[i]);
+        fclose(files[i]);
+    }
+    assert_true(sizes[0] > 0 && sizes[0] < sizeof bytes[0]);
+    return sizes[0] == sizes[1] && memcmp(bytes[0], bytes[1], sizes[0]) == 0;
 }
 
 /* The folder has the first `count` frames, as one device makes them, and nothing else. */
 static void expect_first_frames(int count) {
-    char name[64], expected[64];
-    render_alone();
-    assert_false(is_same_file("alone/0.data", "alone/1.data"));
+    const bool is_surveyed = scene.sampling == HD_SAMPLING_ADAPTIVE;
+    const char *alone = is_surveyed ? "adaptive/%d.data" : "grid/%d.data";
+    if (access(is_surveyed ? "adaptive" : "grid", F_OK) != 0) {
+        script = NULL;
+        history.stored = 0;
+        frames.count = FRAMES;
+        assert_int_equal(render(alone, 1), HD_OK);
+    }
     assert_int_equal(count_entries("run"), count);
     for (int i = 0; i < count; i++) {
+        char name[64], expected[64];
         snprintf(name, sizeof name, "run/%d.data", i);
-        snprintf(expected, sizeof expected, "alone/%d.data", i);
+        snprintf(expected, sizeof expected, is_surveyed ? "adaptive/%d.data" : "grid/%d.data", i);
         assert_true(is_same_file(name, expected));
     }
+    assert_true(count < 2 || !is_same_file("run/0.data", "run/1.data"));
 }
 
 static int count_made_by(int device) {
@@ -193,7 +195,25 @@ static int count_made_by(int device) {
     return count;
 }
 
-/* ---- all take part ---- */
+/* ---- each at its own pace ---- */
+
+static Happened *awaited;
+static bool all_wait;
+
+/* The first device, or each of them, finishes nothing before something happened. */
+static HdStatus hold(FakePoint point, int index, int count, HdError *failure) {
+    (void)failure;
+    if (point == FAKE_COLLECT && count == 1 && (index == 0 || all_wait))
+        wait_until(awaited);
+    return HD_OK;
+}
+
+static HdStatus render_held(int devices, Happened *until, bool holds_all) {
+    script = hold;
+    awaited = until;
+    all_wait = holds_all;
+    return render("run/%d.data", devices);
+}
 
 static bool all_collect(void) {
     for (int i = 0; i < DEVICES; i++)
@@ -202,35 +222,20 @@ static bool all_collect(void) {
     return true;
 }
 
-static HdStatus meet(FakePoint point, int index, int count, HdError *failure) {
-    (void)index;
-    (void)failure;
-    if (point == FAKE_COLLECT && count == 1)
-        wait_until(all_collect);
-    return HD_OK;
-}
-
 TEST(devices_share_the_frames) {
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    for (int i = 0; i < DEVICES; i++)
-        assert_true(count_made_by(i) > 0);
-    assert_int_equal(count_made_by(0) + count_made_by(1) + count_made_by(2), FRAMES);
-    assert_int_equal(history.dropped, 0);
-    expect_first_frames(FRAMES);
+    for (int survey = 0; survey < 2; survey++) {
+        begin_again();
+        scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
+        scene.max_error = survey;
+        assert_int_equal(render_held(DEVICES, all_collect, true), HD_OK);
+        assert_int_equal(history.stored, FRAMES);
+        for (int i = 0; i < DEVICES; i++)
+            assert_true(count_made_by(i) > 0);
+        assert_int_equal(count_made_by(0) + count_made_by(1) + count_made_by(2), FRAMES);
+        assert_int_equal(history.dropped, 0);
+        expect_first_frames(FRAMES);
+    }
 }
-
-TEST(surveyed_frames_are_shared_too) {
-    scene.sampling = HD_SAMPLING_ADAPTIVE;
-    scene.max_error = 1.0;
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    expect_first_frames(FRAMES);
-}
-
-/* ---- each at its own pace ---- */
 
 enum { AHEAD = 8 };
 
@@ -238,16 +243,8 @@ static bool second_is_ahead(void) {
     return history.events[1][FAKE_COLLECT] > AHEAD;
 }
 
-static HdStatus hold_first(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 1)
-        wait_until(second_is_ahead);
-    return HD_OK;
-}
-
 TEST(a_fast_device_does_not_wait_for_a_slow_one) {
-    script = hold_first;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(render_held(2, second_is_ahead, false), HD_OK);
     assert_true(count_made_by(0) > 0);
     assert_true(count_made_by(1) >= AHEAD);
     expect_first_frames(FRAMES);
@@ -259,17 +256,9 @@ static bool second_collects(void) {
 
 /* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
  */
-static HdStatus await_estimate(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 1)
-        wait_until(second_collects);
-    return HD_OK;
-}
-
 TEST(a_cpu_beside_gpus_estimates_its_pace) {
     the_cpu = 1;
-    script = await_estimate;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(render_held(2, second_collects, false), HD_OK);
     assert_int_equal(history.stored, FRAMES);
     assert_int_equal(history.dropped, 0);
     expect_first_frames(FRAMES);
@@ -297,12 +286,13 @@ TEST(others_trace_what_a_failed_device_had) {
     const struct {
         FakePoint point;
         int count, most_made;
-    } cases[] = {{FAKE_UPLOAD, 1, 0}, {FAKE_SUBMIT, 1, 0},  {FAKE_SUBMIT, 2, 1},
-                 {FAKE_SUBMIT, 3, 2}, {FAKE_COLLECT, 1, 0}, {FAKE_COLLECT, 2, 1},
+    } cases[] = {{FAKE_UPLOAD, 1, 0},
+                 {FAKE_SUBMIT, 1, 0},
+                 {FAKE_SUBMIT, 3, 2},
+                 {FAKE_COLLECT, 1, 0},
                  {FAKE_COLLECT, 5, 4}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        end(NULL);
-        begin(NULL);
+        begin_again();
         failing_point = cases[i].point;
         failing_count = cases[i].count;
         script = fail_second;
@@ -321,18 +311,25 @@ static bool first_has_the_rest(void) {
     return history.events[0][FAKE_COLLECT] >= frames.count - 1;
 }
 
-/* The second device fails with its first frame when the other one has made all the others. */
-static HdStatus fail_at_last(FakePoint point, int index, int count, HdError *failure) {
+static Happened *fails_after;
+
+/* The second device fails with its first frame, once something happened. */
+static HdStatus fail_second_later(FakePoint point, int index, int count, HdError *failure) {
     if (point != FAKE_COLLECT || count > 1)
         return HD_OK;
-    wait_until(index == 0 ? second_collects : first_has_the_rest);
+    wait_until(index == 0 ? second_collects : fails_after);
     return index == 0 ? HD_OK : fail_here(failure);
+}
+
+static HdStatus render_failing_after(Happened *happened) {
+    script = fail_second_later;
+    fails_after = happened;
+    return render("run/%d.data", 2);
 }
 
 TEST(a_device_that_has_done_its_part_is_still_there) {
     frames.count = 8;
-    script = fail_at_last;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(render_failing_after(first_has_the_rest), HD_OK);
     assert_int_equal(history.stored, 8);
     assert_int_equal(history.dropped, 1);
     assert_int_equal(count_made_by(0), 8);
@@ -350,17 +347,9 @@ static bool store_is_full(void) {
     return history.events[0][FAKE_COLLECT] >= room_beside();
 }
 
-static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : store_is_full);
-    return index == 0 ? HD_OK : fail_here(failure);
-}
-
 /* A device must not hold a later frame that waits for the one that it is to make now. */
 TEST(a_failure_while_the_store_is_full_stops_nobody) {
-    script = fail_when_full;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
+    assert_int_equal(render_failing_after(store_is_full), HD_OK);
     assert_int_equal(history.stored, FRAMES);
     assert_int_equal(history.dropped, 1);
     assert_int_equal(count_made_by(0), FRAMES);
@@ -376,45 +365,31 @@ static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *
     return fail_here(failure);
 }
 
+/* The words of one alone are its own. */
 TEST(all_devices_failing_is_an_error) {
-    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
-    for (int i = 0; i < 3; i++) {
-        end(NULL);
-        begin(NULL);
-        failing_point = points[i];
-        failing_count = 1;
+    const struct {
+        int devices;
+        FakePoint point;
+        int count, stored;
+    } cases[] = {{DEVICES, FAKE_UPLOAD, 1, 0},  {DEVICES, FAKE_SUBMIT, 1, 0},
+                 {DEVICES, FAKE_COLLECT, 1, 0}, {1, FAKE_UPLOAD, 1, 0},
+                 {1, FAKE_SUBMIT, 4, 3},        {1, FAKE_COLLECT, 4, 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        begin_again();
+        failing_point = cases[i].point;
+        failing_count = cases[i].count;
         script = fail_everywhere;
-        assert_int_equal(render("run/%d.data", DEVICES), HD_FAILED);
+        assert_int_equal(render("run/%d.data", cases[i].devices), HD_FAILED);
         assert_string_equal(error.message,
-                            "no device is left, for the last one failed: fake: it fails");
-        assert_int_equal(history.dropped, DEVICES - 1);
-        for (int k = 0; k < DEVICES - 1; k++)
+                            cases[i].devices == 1
+                                ? "fake: it fails"
+                                : "no device is left, for the last one failed: fake: it fails");
+        assert_int_equal(history.dropped, cases[i].devices - 1);
+        for (int k = 0; k < history.dropped; k++)
             assert_int_equal(dropped_ones[k], k);
-        assert_int_equal(history.stored, 0);
-        assert_true(access("run", F_OK) != 0 || count_entries("run") == 0);
-    }
-}
-
-static HdStatus fail_at_once(FakePoint point, int index, int count, HdError *failure) {
-    (void)index;
-    return point == failing_point && count == failing_count ? fail_here(failure) : HD_OK;
-}
-
-/* Its own words, for there is nobody else. */
-TEST(a_device_alone_that_fails_is_an_error) {
-    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
-    for (int i = 0; i < 3; i++) {
-        end(NULL);
-        begin(NULL);
-        failing_point = points[i];
-        failing_count = i == 0 ? 1 : 4;
-        script = fail_at_once;
-        assert_int_equal(render("run/%d.data", 1), HD_FAILED);
-        assert_string_equal(error.message, "fake: it fails");
-        assert_int_equal(history.dropped, 0);
-        assert_int_equal(history.stored, i == 0 ? 0 : 3);
-        if (i > 0)
-            expect_first_frames(3);
+        assert_int_equal(history.stored, cases[i].stored);
+        if (access("run", F_OK) == 0)
+            expect_first_frames(cases[i].stored);
     }
 }
 
@@ -437,12 +412,10 @@ static void expect_spoilt(int frame, int dropped) {
 
 TEST(a_frame_that_cannot_be_ends_it_for_all) {
     for (int survey = 0; survey < 2; survey++) {
-        end(NULL);
-        begin(NULL);
+        begin_again();
         scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
         spoil_frame(7);
-        script = meet;
-        assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
+        assert_int_equal(render_held(DEVICES, all_collect, true), HD_BAD_INPUT);
         expect_spoilt(7, 0);
     }
 }
@@ -452,26 +425,17 @@ static bool first_has_four(void) {
     return history.events[0][FAKE_COLLECT] >= 4;
 }
 
-/* The other device has met the frame that cannot be, or is about to, and is still needed. */
-static HdStatus fail_after_others(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : first_has_four);
-    return index == 0 ? HD_OK : fail_here(failure);
-}
-
+/* The first device has met the frame that cannot be, or is about to, and is still needed. */
 TEST(frames_before_one_that_cannot_be_are_made) {
     spoil_frame(5);
-    script = fail_after_others;
-    assert_int_equal(render("run/%d.data", 2), HD_BAD_INPUT);
+    assert_int_equal(render_failing_after(first_has_four), HD_BAD_INPUT);
     expect_spoilt(5, 1);
 }
 
 TEST(a_picture_that_cannot_be_stored_ends_it_for_all) {
     mkdir("run", 0777);
     mkdir("run/5.data", 0777);
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
+    assert_int_equal(render_held(DEVICES, all_collect, true), HD_BAD_INPUT);
     expect_contains(error.message, "run/5.data");
     assert_int_equal(history.stored, 5);
     assert_int_equal(history.dropped, 0);
@@ -498,8 +462,7 @@ TEST(devices_without_a_thread_are_dropped) {
     assert_int_equal(render("run/%d.data", 2), HD_OK);
     const int needed = ENOUGH - threads_left;
     for (int missing = 1; missing <= 3; missing++) {
-        end(NULL);
-        begin(NULL);
+        begin_again();
         threads_for_sequence = missing < 3 ? needed - missing : 0;
         HdStatus status = render("run/%d.data", 2);
         threads_for_sequence = -1;
