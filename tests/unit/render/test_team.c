@@ -16,12 +16,13 @@
 /* More frames than a store has room for. */
 enum { DEVICES = 3, FRAMES = 36, POINTS = 4 };
 
-/* What happened so far. Devices that must take part wait for each other here. */
+/* What happened so far. */
 static struct {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
     int events[DEVICES][POINTS];
-    int failed, dropped;
+    int collecting; /* devices that do */
+    int failed, dropped, signals;
     int stored;
 } history = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
 
@@ -34,30 +35,33 @@ static int dropped_ones[DEVICES];
 static char dropped_why[512];
 static int the_cpu; /* which device is one; the others are GPUs */
 
-typedef bool Happened(void);
+/* What a device does at one point, when it is there so many times: it waits until a number of the
+   history, which is this thread's own otherwise, is large enough. */
+typedef struct Rule {
+    FakePoint point;
+    int count; /* 0: nothing happens */
+    const int *until;
+    int least;
+    enum { GO_ON, FAIL, RAISE_SIGNAL } then;
+} Rule;
+static Rule rules[DEVICES];
 
-static void wait_until(Happened *happened) {
-    while (!happened())
-        pthread_cond_wait(&history.changed, &history.mutex);
-}
-
-static HdStatus fail_here(HdError *failure) {
-    history.failed++;
-    return hd_fail(failure, HD_FAILED, "it fails");
-}
-
-/* What a test does at a point, which it may let fail; the history is its own meanwhile. */
-typedef HdStatus Script(FakePoint point, int index, int count, HdError *failure);
-static Script *script;
-
-static HdStatus follow_script(FakePoint point, int index, HdError *failure) {
+static HdStatus follow_rules(FakePoint point, int index, HdError *failure) {
+    const Rule *rule = &rules[index];
     pthread_mutex_lock(&history.mutex);
-    int count = ++history.events[index][point];
+    const int count = ++history.events[index][point];
+    const bool is_here = count == rule->count && point == rule->point;
+    history.collecting += point == FAKE_COLLECT && count == 1;
     pthread_cond_broadcast(&history.changed);
-    HdStatus status = script != NULL ? script(point, index, count, failure) : HD_OK;
+    while (is_here && rule->until != NULL && *rule->until < rule->least)
+        pthread_cond_wait(&history.changed, &history.mutex);
+    const bool fails = is_here && rule->then == FAIL;
+    history.failed += fails;
+    if (is_here && rule->then == RAISE_SIGNAL)
+        history.signals += raise(SIGTERM) == 0;
     pthread_cond_broadcast(&history.changed);
     pthread_mutex_unlock(&history.mutex);
-    return status;
+    return fails ? hd_fail(failure, HD_FAILED, "it fails") : HD_OK;
 }
 
 static void note_uploaded(void *context, int renderer, const HdSceneTables *tables) {
@@ -89,10 +93,10 @@ static int begin(void **state) {
     (void)state;
     memset(&fake, 0, sizeof fake);
     memset(history.events, 0, sizeof history.events);
-    history.failed = history.dropped = history.stored = 0;
+    history.collecting = history.failed = history.dropped = history.stored = 0;
     the_cpu = -1;
-    script = NULL;
-    fake.event = follow_script;
+    memset(rules, 0, sizeof rules);
+    fake.event = follow_rules;
     for (int i = 0; i < FRAMES; i++) {
         frame_numbers[i] = i;
         makers[i] = -1;
@@ -168,21 +172,30 @@ static bool is_same_file(const char *a, const char *b) {
     return sizes[0] == sizes[1] && memcmp(bytes[0], bytes[1], sizes[0]) == 0;
 }
 
+static const char *const alone[] = {
+    [HD_SAMPLING_GRID] = "grid/%d.data", [HD_SAMPLING_ADAPTIVE] = "adaptive/%d.data"};
+
+/* Makes the frames of one device alone. */
+static int begin_group(void **state) {
+    if (make_test_folder(state) != 0)
+        return 1;
+    for (int sampling = 0; sampling < 2; sampling++) {
+        begin(NULL);
+        scene.sampling = (HdSampling)sampling;
+        scene.max_error = sampling;
+        assert_int_equal(render(alone[sampling], 1), HD_OK);
+        end(NULL);
+    }
+    return 0;
+}
+
 /* The folder has the first `count` frames, as one device makes them, and nothing else. */
 static void expect_first_frames(int count) {
-    const bool is_surveyed = scene.sampling == HD_SAMPLING_ADAPTIVE;
-    const char *alone = is_surveyed ? "adaptive/%d.data" : "grid/%d.data";
-    if (access(is_surveyed ? "adaptive" : "grid", F_OK) != 0) {
-        script = NULL;
-        history.stored = 0;
-        frames.count = FRAMES;
-        assert_int_equal(render(alone, 1), HD_OK);
-    }
     assert_int_equal(count_entries("run"), count);
     for (int i = 0; i < count; i++) {
-        char name[64], expected[64];
-        snprintf(name, sizeof name, "run/%d.data", i);
-        snprintf(expected, sizeof expected, is_surveyed ? "adaptive/%d.data" : "grid/%d.data", i);
+        char name[HD_MAX_PATH], expected[HD_MAX_PATH];
+        assert_int_equal(hd_pattern_format("run/%d.data", i, name, &error), HD_OK);
+        assert_int_equal(hd_pattern_format(alone[scene.sampling], i, expected, &error), HD_OK);
         assert_true(is_same_file(name, expected));
     }
     assert_true(count < 2 || !is_same_file("run/0.data", "run/1.data"));
@@ -195,97 +208,60 @@ static int count_made_by(int device) {
     return count;
 }
 
+static void expect_all_made(int devices, int dropped) {
+    assert_int_equal(render("run/%d.data", devices), HD_OK);
+    assert_int_equal(history.stored, frames.count);
+    assert_int_equal(history.dropped, dropped);
+    int made = 0;
+    for (int i = 0; i < devices; i++)
+        made += count_made_by(i);
+    assert_int_equal(made, frames.count);
+    expect_first_frames(frames.count);
+}
+
 /* ---- each at its own pace ---- */
 
-static Happened *awaited;
-static bool all_wait;
-
-/* The first device, or each of them, finishes nothing before something happened. */
-static HdStatus hold(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && count == 1 && (index == 0 || all_wait))
-        wait_until(awaited);
-    return HD_OK;
-}
-
-static HdStatus render_held(int devices, Happened *until, bool holds_all) {
-    script = hold;
-    awaited = until;
-    all_wait = holds_all;
-    return render("run/%d.data", devices);
-}
-
-static bool all_collect(void) {
+static void hold_all(void) {
     for (int i = 0; i < DEVICES; i++)
-        if (history.events[i][FAKE_COLLECT] == 0)
-            return false;
-    return true;
+        rules[i] = (Rule){FAKE_COLLECT, 1, &history.collecting, DEVICES, GO_ON};
 }
 
 TEST(devices_share_the_frames) {
     for (int survey = 0; survey < 2; survey++) {
         begin_again();
-        scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
+        scene.sampling = (HdSampling)survey;
         scene.max_error = survey;
-        assert_int_equal(render_held(DEVICES, all_collect, true), HD_OK);
-        assert_int_equal(history.stored, FRAMES);
+        hold_all();
+        expect_all_made(DEVICES, 0);
         for (int i = 0; i < DEVICES; i++)
             assert_true(count_made_by(i) > 0);
-        assert_int_equal(count_made_by(0) + count_made_by(1) + count_made_by(2), FRAMES);
-        assert_int_equal(history.dropped, 0);
-        expect_first_frames(FRAMES);
     }
 }
 
 enum { AHEAD = 8 };
 
-static bool second_is_ahead(void) {
-    return history.events[1][FAKE_COLLECT] > AHEAD;
-}
-
 TEST(a_fast_device_does_not_wait_for_a_slow_one) {
-    assert_int_equal(render_held(2, second_is_ahead, false), HD_OK);
+    rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], AHEAD + 1, GO_ON};
+    expect_all_made(2, 0);
     assert_true(count_made_by(0) > 0);
     assert_true(count_made_by(1) >= AHEAD);
-    expect_first_frames(FRAMES);
-}
-
-static bool second_collects(void) {
-    return history.events[1][FAKE_COLLECT] > 0;
 }
 
 /* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
  */
 TEST(a_cpu_beside_gpus_estimates_its_pace) {
     the_cpu = 1;
-    assert_int_equal(render_held(2, second_collects, false), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    assert_int_equal(history.dropped, 0);
-    expect_first_frames(FRAMES);
+    rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
+    expect_all_made(2, 0);
 }
 
 /* ---- a device that fails ---- */
 
-static FakePoint failing_point;
-static int failing_count;
-
-static bool one_failed(void) {
-    return history.failed > 0;
-}
-
 /* The second device fails; the first one finishes nothing before. */
-static HdStatus fail_second(FakePoint point, int index, int count, HdError *failure) {
-    if (index == 1 && point == failing_point && count == failing_count)
-        return fail_here(failure);
-    if (index == 0 && point == FAKE_COLLECT && count == 1)
-        wait_until(one_failed);
-    return HD_OK;
-}
-
 TEST(others_trace_what_a_failed_device_had) {
     const struct {
         FakePoint point;
-        int count, most_made;
+        int count, made;
     } cases[] = {{FAKE_UPLOAD, 1, 0},
                  {FAKE_SUBMIT, 1, 0},
                  {FAKE_SUBMIT, 3, 2},
@@ -293,79 +269,38 @@ TEST(others_trace_what_a_failed_device_had) {
                  {FAKE_COLLECT, 5, 4}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         begin_again();
-        failing_point = cases[i].point;
-        failing_count = cases[i].count;
-        script = fail_second;
-        assert_int_equal(render("run/%d.data", 2), HD_OK);
-        assert_int_equal(history.dropped, 1);
+        rules[0] = (Rule){FAKE_COLLECT, 1, &history.failed, 1, GO_ON};
+        rules[1] = (Rule){cases[i].point, cases[i].count, NULL, 0, FAIL};
+        expect_all_made(2, 1);
         assert_int_equal(dropped_ones[0], 1);
         assert_string_equal(dropped_why, "fake: it fails");
-        assert_int_equal(history.stored, FRAMES);
-        assert_int_equal(count_made_by(1), cases[i].most_made);
-        assert_int_equal(count_made_by(0), FRAMES - cases[i].most_made);
-        expect_first_frames(FRAMES);
+        assert_int_equal(count_made_by(1), cases[i].made);
     }
 }
 
-static bool first_has_the_rest(void) {
-    return history.events[0][FAKE_COLLECT] >= frames.count - 1;
-}
-
-static Happened *fails_after;
-
-/* The second device fails with its first frame, once something happened. */
-static HdStatus fail_second_later(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : fails_after);
-    return index == 0 ? HD_OK : fail_here(failure);
-}
-
-static HdStatus render_failing_after(Happened *happened) {
-    script = fail_second_later;
-    fails_after = happened;
-    return render("run/%d.data", 2);
+/* The second device fails with its first frame when the other one has made so many. */
+static void fail_second_after(int made) {
+    rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
+    rules[1] = (Rule){FAKE_COLLECT, 1, &history.events[0][FAKE_COLLECT], made, FAIL};
 }
 
 TEST(a_device_that_has_done_its_part_is_still_there) {
     frames.count = 8;
-    assert_int_equal(render_failing_after(first_has_the_rest), HD_OK);
-    assert_int_equal(history.stored, 8);
-    assert_int_equal(history.dropped, 1);
-    assert_int_equal(count_made_by(0), 8);
-    expect_first_frames(8);
-}
-
-/* What the store has room for beside the second device's first frame. */
-static int room_beside(void) {
-    enum { MOST_ENCODERS = 16, SPARE = 12 };
-    int processors = hd_processor_count();
-    return (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE - 1;
-}
-
-static bool store_is_full(void) {
-    return history.events[0][FAKE_COLLECT] >= room_beside();
+    fail_second_after(7);
+    expect_all_made(2, 1);
+    assert_int_equal(count_made_by(1), 0);
 }
 
 /* A device must not hold a later frame that waits for the one that it is to make now. */
 TEST(a_failure_while_the_store_is_full_stops_nobody) {
-    assert_int_equal(render_failing_after(store_is_full), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    assert_int_equal(history.dropped, 1);
-    assert_int_equal(count_made_by(0), FRAMES);
-    expect_first_frames(FRAMES);
+    enum { MOST_ENCODERS = 16, SPARE = 12 }; /* which decide how much room there is */
+    const int processors = hd_processor_count();
+    fail_second_after((processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE - 1);
+    expect_all_made(2, 1);
+    assert_int_equal(count_made_by(1), 0);
 }
 
-/* The others go on first. */
-static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *failure) {
-    if (point != failing_point || count < failing_count)
-        return HD_OK;
-    while (history.dropped < index)
-        pthread_cond_wait(&history.changed, &history.mutex);
-    return fail_here(failure);
-}
-
-/* The words of one alone are its own. */
+/* The others go on first. The words of one alone are its own. */
 TEST(all_devices_failing_is_an_error) {
     const struct {
         int devices;
@@ -376,9 +311,8 @@ TEST(all_devices_failing_is_an_error) {
                  {1, FAKE_SUBMIT, 4, 3},        {1, FAKE_COLLECT, 4, 3}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         begin_again();
-        failing_point = cases[i].point;
-        failing_count = cases[i].count;
-        script = fail_everywhere;
+        for (int k = 0; k < cases[i].devices; k++)
+            rules[k] = (Rule){cases[i].point, cases[i].count, &history.dropped, k, FAIL};
         assert_int_equal(render("run/%d.data", cases[i].devices), HD_FAILED);
         assert_string_equal(error.message,
                             cases[i].devices == 1
@@ -401,44 +335,37 @@ static void spoil_frame(int frame) {
         (HdPath){.is_fixed = true, .point = hd_path_point(&scene.eye, frame, scene.frame_count)};
 }
 
-static void expect_spoilt(int frame, int dropped) {
-    char expected[64];
-    snprintf(expected, sizeof expected, "frame %d: the eye is at the target", frame);
-    expect_contains(error.message, expected);
+static void expect_end_at(int frame, int devices, int dropped, const char *why) {
+    assert_int_equal(render("run/%d.data", devices), HD_BAD_INPUT);
+    expect_contains(error.message, why);
     assert_int_equal(history.stored, frame);
     assert_int_equal(history.dropped, dropped);
-    assert_int_equal(count_entries("run"), frame);
 }
 
 TEST(a_frame_that_cannot_be_ends_it_for_all) {
     for (int survey = 0; survey < 2; survey++) {
         begin_again();
-        scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
+        scene.sampling = (HdSampling)survey;
         spoil_frame(7);
-        assert_int_equal(render_held(DEVICES, all_collect, true), HD_BAD_INPUT);
-        expect_spoilt(7, 0);
+        hold_all();
+        expect_end_at(7, DEVICES, 0, "frame 7: the eye is at the target");
+        assert_int_equal(count_entries("run"), 7);
     }
 }
 
-/* All that can be made beside the second device's. */
-static bool first_has_four(void) {
-    return history.events[0][FAKE_COLLECT] >= 4;
-}
-
-/* The first device has met the frame that cannot be, or is about to, and is still needed. */
+/* The first device has made all that it can beside the second one's, and is still needed. */
 TEST(frames_before_one_that_cannot_be_are_made) {
     spoil_frame(5);
-    assert_int_equal(render_failing_after(first_has_four), HD_BAD_INPUT);
-    expect_spoilt(5, 1);
+    fail_second_after(4);
+    expect_end_at(5, 2, 1, "frame 5: the eye is at the target");
+    assert_int_equal(count_entries("run"), 5);
 }
 
 TEST(a_picture_that_cannot_be_stored_ends_it_for_all) {
     mkdir("run", 0777);
     mkdir("run/5.data", 0777);
-    assert_int_equal(render_held(DEVICES, all_collect, true), HD_BAD_INPUT);
-    expect_contains(error.message, "run/5.data");
-    assert_int_equal(history.stored, 5);
-    assert_int_equal(history.dropped, 0);
+    hold_all();
+    expect_end_at(5, DEVICES, 0, "run/5.data");
     assert_int_equal(count_entries("run"), 6);
 }
 
@@ -458,6 +385,8 @@ REPLACE(pthread_create, create_few)
    store that cannot begin. */
 TEST(devices_without_a_thread_are_dropped) {
     enum { ENOUGH = 1000 };
+    static const char *const errors[] = {
+        NULL, "no device is left, for the last one failed: ", "for the outputs: "};
     threads_for_sequence = ENOUGH;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
     const int needed = ENOUGH - threads_left;
@@ -467,38 +396,22 @@ TEST(devices_without_a_thread_are_dropped) {
         HdStatus status = render("run/%d.data", 2);
         threads_for_sequence = -1;
         assert_int_equal(status, missing == 1 ? HD_OK : HD_FAILED);
-        assert_int_equal(history.dropped, missing < 3 ? 1 : 0);
+        assert_int_equal(history.dropped, missing < 3);
         if (missing < 3)
             expect_contains(dropped_why, "cannot start a thread for the device: ");
         if (missing == 1)
             expect_first_frames(FRAMES);
-        if (missing == 2)
-            expect_contains(error.message, "no device is left, for the last one failed: ");
-        if (missing == 3)
-            expect_contains(error.message, "for the outputs: ");
+        else
+            expect_contains(error.message, errors[missing - 1]);
     }
 }
 
 /* ---- a signal, which the program remembers for ever ---- */
 
-static bool is_signalled(void) {
-    return hd_interrupt_signal() != 0;
-}
-
-static HdStatus interrupt(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 3) {
-        raise(SIGTERM);
-        pthread_cond_broadcast(&history.changed);
-    }
-    if (point == FAKE_COLLECT && index == 1 && count == 1)
-        wait_until(is_signalled);
-    return HD_OK;
-}
-
 TEST(a_signal_ends_it_for_all) {
     char expected[64];
-    script = interrupt;
+    rules[0] = (Rule){FAKE_COLLECT, 3, NULL, 0, RAISE_SIGNAL};
+    rules[1] = (Rule){FAKE_COLLECT, 1, &history.signals, 1, GO_ON};
     assert_int_equal(render("run/%d.data", 2), HD_INTERRUPTED);
     assert_true(history.stored < 3);
     assert_int_equal(history.dropped, 0);
@@ -508,6 +421,7 @@ TEST(a_signal_ends_it_for_all) {
     assert_int_equal(count_entries("run"), history.stored);
 }
 
+GROUP(begin_group, remove_test_folder)
 EACH(begin, end)
 
 AT_START(hd_interrupt_install)
