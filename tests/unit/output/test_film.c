@@ -209,12 +209,6 @@ TEST(segments_become_a_film) {
     assert_string_equal(durations, "1.000000\n1.000000\n0.500000\n");
 }
 
-TEST(without_segments_it_is_made_in_one_go) {
-    plan.keeps_films = false;
-    add_in_new_run(0, FRAMES);
-    close_it();
-}
-
 TEST(a_run_goes_on_behind_whole_segments) {
     add_in_new_run(0, 30);
     abort_it(1);

@@ -171,7 +171,7 @@ TEST(the_first_item_that_failed_counts) {
 
 static atomic_int gathered;
 
-/* Ends only where three items are at work at once. */
+/* Ends only where three items are at work at once: the giver waits for none of them. */
 static HdStatus gather(void *context, int item, HdError *failure) {
     (void)context;
     (void)item;
@@ -187,28 +187,6 @@ TEST(threads_of_a_stage_work_side_by_side) {
     assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, NULL, 3, &error), HD_OK);
     for (int i = 0; i < 3; i++)
         hd_stages_give(stages, hd_stages_take(stages, &anybody, true));
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-}
-
-/* The stage goes on with an item only when another one was given: the giver does not wait for it.
- */
-static HdStatus lag_behind(void *context, int item, HdError *failure) {
-    const atomic_int *given = context;
-    (void)failure;
-    while (atomic_load(given) < item + 2)
-        nap(1);
-    return HD_OK;
-}
-
-TEST(giving_overlaps_with_the_work) {
-    atomic_int given = 0;
-    const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, NULL, 2, &error), HD_OK);
-    for (int i = 0; i < 20; i++) {
-        hd_stages_give(stages, hd_stages_take(stages, &anybody, true));
-        atomic_fetch_add(&given, 1);
-    }
-    atomic_fetch_add(&given, 1);
     assert_int_equal(hd_stages_end(stages, &error), HD_OK);
 }
 

@@ -62,25 +62,6 @@ TEST(long_names_are_known_by_their_begin) {
     expect_there(temporary, false);
 }
 
-/* The lock is the descriptor's, so that another look from this same process meets it too. */
-TEST(those_that_are_being_written_stay) {
-    char temporary[HD_MAX_PATH];
-    int descriptor;
-    HdAtomicFile file;
-    assert_int_equal(hd_temporary_create("c/0.png", HD_MODE_USUAL, temporary, &descriptor, &error),
-                     HD_OK);
-    assert_int_equal(hd_atomic_file_open(&file, "c/1.png", &error), HD_OK);
-    remove_stale("c/%d.png", "film.mkv");
-    expect_there(temporary, true);
-    expect_there(file.temporary, true);
-    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    expect_there("c/1.png", true);
-    close(descriptor);
-    remove_stale("c/%d.png", "film.mkv");
-    expect_there(temporary, false);
-    assert_int_equal(count_entries("c"), 1);
-}
-
 /* Left by a process of this number that was killed, or of another machine. */
 TEST(a_name_that_is_taken_is_left_alone) {
     char taken[64];
