@@ -27,12 +27,12 @@ static inline void fake(const char *name, const char *script) {
  */
 static inline void fake_films(int frame_bytes, int error) {
     char script[200];
-    fake("ffmpeg",
-         "case \"$*\" in\n"
-         "*concat*) tee list | sed -n \"s/'\\\\\\\\''/'/g; s/^file 'file:\\(.*\\)'$/\\1/p\" |\n"
-         "while read -r part; do cat \"$part\"; done >\"$out\"\n"
-         "sed -n 's/^duration //p' list >durations ;;\n"
-         "*) cat >\"$out\" ;;\nesac");
+    fake("ffmpeg", "case \"$*\" in\n"
+                   "*concat*) tee list | sed -n \"s/'\\\\\\\\''/@/g; /^file/ {\n"
+                   "s/^file 'file:\\([^']*\\)'$/\\1/; s/@/'/g; p; }\" |\n"
+                   "while read -r part; do cat \"$part\"; done >\"$out\"\n"
+                   "sed -n 's/^duration //p' list >durations ;;\n"
+                   "*) cat >\"$out\" ;;\nesac");
     snprintf(script, sizeof script, "echo $(($(wc -c <\"$out\") / %d + %d))", frame_bytes, error);
     fake("ffprobe", script);
 }

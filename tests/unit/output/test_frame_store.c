@@ -184,7 +184,7 @@ TEST(what_cannot_be_begun_leaves_nothing) {
 
 static void check_film(void) {
     static uint8_t bytes[FRAMES * WIDTH * HEIGHT * 4 + 1];
-    FILE *file = fopen("film.mkv", "rb");
+    FILE *file = fopen("films/film.mkv", "rb");
     assert_non_null(file);
     assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes - 1);
     fclose(file);
@@ -192,27 +192,30 @@ static void check_film(void) {
         const uint8_t *pixel = bytes + (size_t)i * WIDTH * HEIGHT * 4;
         expect_brighter(pixel[0], i == 0 ? -1 : pixel[-4]);
     }
-    assert_int_equal(remove("film.mkv"), 0);
+    assert_int_equal(remove("films/film.mkv"), 0);
 }
 
 /* Of a run that goes on, frames that are finished are read back. */
 TEST(films_and_pictures_go_side_by_side) {
+    struct stat kept;
     fake_films(WIDTH * HEIGHT * 4, 0);
-    assert_int_equal(store_frames("run/%d.png", "film.mkv", -1, false), HD_OK);
+    assert_int_equal(store_frames("run/%d.png", "films/film.mkv", -1, false), HD_OK);
     assert_int_equal(told.calls, FRAMES);
     assert_true(told.last.convert.began >= told.last.trace.began);
     assert_true(told.last.film.began >= told.last.convert.began + told.last.convert.seconds - 1e-6);
     check_film();
     assert_true(remove("run/103.png") == 0 && remove("run/104.png") == 0);
-    assert_int_equal(store_frames("run/%d.png", "film.mkv", -1, true), HD_OK);
+    assert_int_equal(link("run/100.png", "kept"), 0);
+    assert_int_equal(store_frames("run/%d.png", "films/film.mkv", -1, true), HD_OK);
     assert_int_equal(told.finished, FRAMES - 2);
+    assert_true(stat("kept", &kept) == 0 && kept.st_nlink == 2); /* it was not written again */
     check_film();
     expect_first_frames(".png", FRAMES);
     /* The film of a run whose listener fails leaves no file. */
-    assert_int_equal(store_frames("run/%d.data", "film.mkv", 10, false), HD_FAILED);
+    assert_int_equal(store_frames("run/%d.data", "films/film.mkv", 10, false), HD_FAILED);
     assert_string_equal(error.message, "nobody listens");
     assert_int_equal(told.calls, 11);
-    assert_int_not_equal(access("film.mkv", F_OK), 0);
+    assert_int_equal(count_entries("films"), 0);
     assert_true(count_entries("run") >= 11); /* those that waited with it have their names too */
     expect_first_frames(".data", count_entries("run"));
 }
