@@ -262,10 +262,8 @@ TEST(others_trace_what_a_failed_device_had) {
     const struct {
         FakePoint point;
         int count, made;
-    } cases[] = {{FAKE_UPLOAD, 1, 0},
-                 {FAKE_SUBMIT, 1, 0},
-                 {FAKE_SUBMIT, 3, 2},
-                 {FAKE_COLLECT, 1, 0},
+    } cases[] = {{FAKE_UPLOAD, 1, 0}, {FAKE_SUBMIT, 1, 0},  {FAKE_SUBMIT, 2, 1},
+                 {FAKE_SUBMIT, 3, 2}, {FAKE_COLLECT, 1, 0}, {FAKE_COLLECT, 2, 1},
                  {FAKE_COLLECT, 5, 4}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         begin_again();
