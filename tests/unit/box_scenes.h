@@ -17,7 +17,8 @@ static inline double next_number(uint64_t *state) {
 }
 
 /* Boxes with corners within `size` of a place in the cube of +-1, everything times `scale`. */
-static inline void fill_random(HdBox *boxes, int count, double size, double scale, uint64_t seed) {
+static inline HdBox *random_boxes(int count, double size, double scale, uint64_t seed) {
+    HdBox *boxes = malloc((size_t)count * sizeof *boxes);
     for (int i = 0; i < count; i++)
         for (int axis = 0; axis < 3; axis++) {
             const double at = 2.0 * next_number(&seed) - 1.0;
@@ -25,11 +26,6 @@ static inline void fill_random(HdBox *boxes, int count, double size, double scal
             boxes[i].lower[axis] = (float)(scale * at);
             boxes[i].upper[axis] = (float)(scale * (at + extent));
         }
-}
-
-static inline HdBox *random_boxes(int count, double size, double scale, uint64_t seed) {
-    HdBox *boxes = malloc((size_t)count * sizeof *boxes);
-    fill_random(boxes, count, size, scale, seed);
     return boxes;
 }
 
