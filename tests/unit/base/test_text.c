@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/text.h"
 
-#include <string.h>
+#include <limits.h>
+#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/problems.h"
@@ -70,4 +71,64 @@ TEST(test_longest_error) {
     hd_fail(&error, HD_BAD_INPUT, "%s", text);
     assert_true(strlen(error.message) > sizeof error.message - 8);
     assert_null(strchr(error.message, '\x1b'));
+}
+
+TEST(test_distances_are_edits) {
+    static const struct {
+        const char *a, *b;
+        int distance;
+    } rows[] = {{"", "", 0},
+                {"render", "render", 0},
+                {"", "abc", 3},
+                {"rendr", "render", 1},
+                {"rander", "render", 1},
+                {"kitten", "sitting", 3},
+                {"flaw", "lawn", 2},
+                {"0123456789012345678901234567890", "0", 30}, /* the longest */
+                {"01234567890123456789012345678901", "0", INT_MAX}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal(hd_edit_distance(rows[i].a, rows[i].b), rows[i].distance);
+        assert_int_equal(hd_edit_distance(rows[i].b, rows[i].a), rows[i].distance);
+    }
+}
+
+TEST(test_the_nearest_is_kept) {
+    static const char *const names[] = {"render", "check", "convert", "devices", "help", "man"};
+    static const char *const rows[][2] = {
+        {"rendr", "render"}, {"redner", "render"}, {"device", "devices"},
+        {"hel", "help"},     {"men", "man"},       {"hlep", "help"},
+        {"hxxp", ""},        {"xyzzy", ""},        {"", ""},
+        {"r", ""},           {"reflection", ""}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        HdNearest best = {.word = rows[i][0]};
+        for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+            hd_nearest_offer(&best, names[k]);
+        assert_string_equal(best.name != NULL ? best.name : "", rows[i][1]);
+    }
+}
+
+TEST(test_numbers_read_back) {
+    static const struct {
+        double value;
+        const char *exact, *brief;
+    } numbers[] = {{0.1, "0.1", "0.1"},
+                   {0.07, "0.07", "0.07"}, /* 16 digits would be one too many */
+                   {1e12, "1000000000000", "1e12"},
+                   {1e-12, "1e-12", "1e-12"},
+                   {-1e6, "-1000000", "-1e6"},
+                   {100.0, "100", "100"},
+                   {1.0 / 3.0, "0.3333333333333333", "0.3333333333333333"},
+                   {0.1 + 0.2, "0.30000000000000004", "0.30000000000000004"},
+                   {-0.0, "-0.0", "-0"},
+                   {1e100, "1e+100", "1e100"},
+                   {1e300, "1e+300", "1e300"}};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        char text[HD_NUMBER_SIZE];
+        hd_exact_number(numbers[i].value, text);
+        assert_string_equal(text, numbers[i].exact);
+        assert_true(strtod(text, NULL) == numbers[i].value);
+        hd_short_number(numbers[i].value, text);
+        assert_string_equal(text, numbers[i].brief);
+        assert_true(strtod(text, NULL) == numbers[i].value);
+    }
 }

@@ -9,21 +9,8 @@
 static HdError error;
 static HdScene scene;
 
-/* A mesh of one triangle, its material with that picture. */
-static HdMesh small_mesh(int picture) {
-    HdMesh mesh = {0};
-    assert_true(hd_mesh_allocate(&mesh, 3, 1));
-    mesh.materials = calloc(1, sizeof *mesh.materials);
-    assert_non_null(mesh.materials);
-    mesh.vertex_count = 3;
-    mesh.triangle_count = mesh.material_count = 1;
-    mesh.materials[0].picture = picture;
-    return mesh;
-}
-
 static HdTexture texture_of(uint16_t first) {
     HdTexture texture = {.width = 2, .height = 1, .texels = calloc(6, sizeof(uint16_t))};
-    assert_non_null(texture.texels);
     for (int i = 0; i < 6; i++)
         texture.texels[i] = (uint16_t)(first + i);
     return texture;
@@ -43,7 +30,12 @@ static int begin(void **state) {
                                     .centre = {10.0 + i, 2.0, 3.0},
                                     .circumradius = 1.0,
                                     .lights = {.colour_count = 1}};
-        scene.meshes[i] = small_mesh(1 - i);
+        HdMesh *mesh = &scene.meshes[i];
+        assert_true(hd_mesh_allocate(mesh, 3, 1));
+        mesh->materials = calloc(1, sizeof *mesh->materials);
+        mesh->vertex_count = 3;
+        mesh->triangle_count = mesh->material_count = 1;
+        mesh->materials[0].picture = 1 - i;
         scene.pictures[i].texture = texture_of((uint16_t)(10 * i));
     }
     for (int i = 0; i < 3; i++)
@@ -79,7 +71,10 @@ static void expect_own(int made) {
     }
 }
 
-static void expect_solids(void) {
+TEST(solids_come_before_what_was_there) {
+    assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
+    expect_own(2);
+    assert_int_equal(scene.picture_count, 2);
     assert_int_equal(scene.geometry, HD_GEOMETRY_TRIANGLES);
     for (int i = 0; i < 2; i++) {
         const HdInstance *instance = &scene.instances[i];
@@ -90,13 +85,6 @@ static void expect_solids(void) {
         assert_int_equal(scene.meshes[i].triangle_count, i == 0 ? 4 : 12);
         assert_true(scene.meshes[i].tree.node_count > 0);
     }
-}
-
-TEST(solids_come_before_what_was_there) {
-    assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
-    expect_solids();
-    expect_own(2);
-    assert_int_equal(scene.picture_count, 2);
 }
 
 TEST(a_floor_brings_its_picture) {
@@ -121,7 +109,6 @@ TEST(a_bare_floor_has_none) {
     add_floor();
     hd_texture_clear(&scene.floor.texture);
     assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
-    expect_solids();
     expect_own(3);
     assert_int_equal(scene.picture_count, 2);
     assert_int_equal(scene.meshes[2].materials[0].picture, -1);
