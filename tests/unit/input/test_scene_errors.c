@@ -181,7 +181,6 @@ static const char *const wrong[][2] = {
     {"meshes[0].file=\"a\\u001b.obj\"",
      "meshes[0].file is a string, \"a\\u001b.obj\", expected a "},
     {"solids[0].material=\"a\\u0085\"", "solids[0].material is a string, \"a\\u0085\", expected"},
-    {"output.path=\xff", "the value is not UTF-8"},
     {"floor.texture.file=builtin:wood", "floor.texture.file is \"builtin:wood\", which is unknown, "
                                         "expected \"builtin:floor\" or a file"},
     /* words that stand for others */
@@ -293,10 +292,13 @@ static const struct {
     {"{\"hedron\": 1 // one\n}", NULL, ":1:14: '}' expected near '/'; JSON has no comments"},
     {"{\"hedron\": -1e999}", NULL, ":1:17: real number overflow"},
     {"{\"hedron\": 99999999999999999999}", NULL, ": 2 problems\n  hedron is 1e20, expected 1\n"},
-    {"{\"output\": {\"path\": \"\xff\"}}", NULL, ":1:20: unable to decode byte 0xff"},
-    {"{\"output\": {\"path\": \"a\\u0000b\"}}", NULL, ":1:"},
+    {"{\"output\": {\"path\": \"\xff\"}}", NULL, ":1:21: unable to decode byte 0xff"},
+    {"{\"output\": {\"path\": \"a\\u0000b\"}}", NULL,
+     ":1:30: a string has the character \\u0000, expected text without it"},
     {"[]", NULL, ": the scene is an array of 0 elements, expected an object"},
-    {"[]", "image.width=3", ": --set image.width=3: the scene is an array of 0 elements, expected"},
+    {"[]", "image.width=3",
+     ": 2 problems\n  --set image.width=3: the scene is an array of 0 elements, expected an "
+     "object\n"},
     {" 10\nout/%d.data 640 480", NULL,
      ": this looks like a classic input, which 'hedron convert "
      "FILE -o scene.json' makes a scene of"},
@@ -305,6 +307,7 @@ static const struct {
      "the scene"},
     {least_text, "solids[0].kind=cube", ": --set solids[0].kind=cube: solids is missing"},
     {SMALL ", \"a\\u001b.b\": 0}", NULL, ": [\"a\\u001b.b\"] is an unknown key"},
+    {rich_text, "output.path=\xff", ": --set output.path=\\xff: the value is not UTF-8"},
     {rich_text,
      "solids[1]={\"kind\": \"cube\", \"circumradius\": -1, \"material\": \"dark\", \"rim\": "
      "{\"width\": 50, \"material\": \"dark\"}}",
@@ -314,9 +317,9 @@ static const struct {
      ": --set materials.blue glass.reflection=2: materials[\"blue glass\"].reflection is 2, "
      "expected a number from 0 to 1"},
     {SMALL ", \"materials\": {\"my.glass\": {}}}", "materials.\"my.glass\".diffuse=-1",
-     ": --set materials.\\\"my.glass\\\".diffuse=-1: materials[\"my.glass\"].diffuse is -1, "},
+     ": --set materials.\"my.glass\".diffuse=-1: materials[\"my.glass\"].diffuse is -1, "},
     {SMALL ", \"materials\": {\"a[0]=b\": {}}}", "materials.\"a[0]=b\".diffuse=-1",
-     ": --set materials.\\\"a[0]=b\\\".diffuse=-1: materials[\"a[0]=b\"].diffuse is -1"},
+     ": --set materials.\"a[0]=b\".diffuse=-1: materials[\"a[0]=b\"].diffuse is -1"},
     /* the sum of a material's shares is told once, however many wear it */
     {SMALL ", \"materials\": {\"m\": {\"reflection\": 0.5}}, \"solids\": [\n"
            "{\"kind\": \"cube\", \"material\": \"m\"}, {\"kind\": \"cube\", \"material\": \"m\"}]}",
