@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Scene files that are wrong: each is refused, with a message that says what and where, in the
    words of people who are used to other programs, too. */
+#include "input/notes.h"
 #include "scene_text.h"
 
 static HdSceneFile file;
@@ -335,10 +336,6 @@ static const struct {
      "expected at most 100000 lights in the scene"},
     {rich_text, "solids[2].edge_lights.per_edge=16666",
      ": number of lights, those on the edges included, is 100088, expected at most 100000"},
-    {rich_text, "output.path=\"film.gif\"", ": output.path: film.gif cannot be linear, for a GIF"},
-    {rich_text, "output.path=one.png",
-     ": output.path is \"one.png\", which names one picture, but "
-     "camera.frames is 24, expected #### in the name, or a film"},
 };
 
 TEST(test_wrong_texts) {
@@ -348,6 +345,27 @@ TEST(test_wrong_texts) {
             fail_msg("'%s', expected 'a.json%s'", told, refused[i].message);
         if (strchr(told, '\n') != NULL && strchr(refused[i].message, '\n') == NULL)
             fail_msg("'%s' has more than one line", told);
+    }
+}
+
+TEST(test_outputs_that_do_not_suit) {
+    static const char *const cases[][2] = {
+        {"output.path=film.gif",
+         "output.path: film.gif cannot be linear, for a GIF has no way to "},
+        {"output.path=one.png", "output.path is \"one.png\", which names one picture, but "
+                                "camera.frames is 24, expected #### in the name, or a film"},
+        {"output.path=one_##.png", NULL},
+        {"output.path=film.mp4", NULL},
+        {"output={}", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        HdProblems problems = {.count = 0};
+        expect_scene(&file, rich_text, cases[i][0]);
+        hd_scene_check_output(&file, &problems);
+        assert_int_equal(problems.count, cases[i][1] != NULL);
+        if (cases[i][1] != NULL)
+            expect_contains(problems.text, cases[i][1]);
+        hd_scene_file_free(&file);
     }
 }
 
