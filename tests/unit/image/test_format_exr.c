@@ -183,9 +183,9 @@ TEST(damaged_files_are_refused_quietly) {
     int accepted = 0, unexpected = 0;
     get_bytes();
     const int capture = begin_capture();
-    for (size_t i = 0; i < size; i += i < 400 ? 3 : 37)
+    for (size_t i = 0; i < size; i += i < 400 ? 7 : 101)
         accepted += read_bytes_back(i) == HD_OK;
-    for (size_t i = 0; i < size; i += i < 400 ? 3 : 37) {
+    for (size_t i = 0; i < size; i += i < 400 ? 7 : 101) {
         bytes[i] ^= 0x11;
         const HdStatus status = read_bytes_back(size);
         unexpected += status != HD_OK && status != HD_BAD_INPUT;

@@ -61,10 +61,10 @@ TEST(test_defaults_of_parts) {
     expected.scene.lights = &light;
     expected.mesh_entries = &mesh;
     expected.scene.solid_count = expected.scene.light_count = expected.mesh_entry_count = 1;
-    expected.scene.floor = (HdFloor){
-        .present = true,
-        .corners = {{-1.0, 1.0, -9.0}, {1.0, 1.0, -9.0}, {1.0, -1.0, -9.0}, {-1.0, -1.0, -9.0}},
-        .material = {PLAIN, .diffuse = 1.0}};
+    expected.scene.floor =
+        (HdFloor){.present = true,
+                  .corners = {{-1, 1, -9}, {1, 1, -9}, {1, -1, -9}, {-1, -1, -9}},
+                  .material = {PLAIN, .diffuse = 1.0}};
     strcpy(expected.texture_path, "builtin:floor");
     expected.texture_curve = HD_CURVE_SRGB;
     expect_read(text, NULL, &expected);
@@ -72,36 +72,37 @@ TEST(test_defaults_of_parts) {
 
 TEST(test_every_key) {
     const HdMaterial plain = {PLAIN}, dark = {PLAIN, .diffuse = 0.125};
+    const HdMaterial glass = {{0.9, 0.8, 0.7},
+                              {0.6, 0.5, 0.4},
+                              0.01,
+                              0.02,
+                              0.03,
+                              65,
+                              0.04,
+                              0.05,
+                              0.06,
+                              0.07,
+                              true,
+                              1.5,
+                              true};
     HdSolid solids[] = {
-        {.kind = HD_HEXAHEDRON,
-         .centre = {1.0, 2.0, 3.0},
-         .circumradius = 2.0,
-         .rotation_degrees = {10.0, 20.0, 30.0},
-         .face = {.colour = {0.9, 0.8, 0.7},
-                  .mirror_tint = {0.6, 0.5, 0.4},
-                  .ambient = 0.01,
-                  .diffuse = 0.02,
-                  .specular = 0.03,
-                  .shininess = 65,
-                  .reflection = 0.04,
-                  .transmission = 0.05,
-                  .inner_reflection = 0.06,
-                  .inner_transmission = 0.07,
-                  .has_inner_side = true,
-                  .index_of_refraction = 1.5,
-                  .lit_from_behind = true}},
-        {.kind = HD_ICOSAHEDRON,
-         .centre = {100.0, 0.0, 0.0},
-         .circumradius = 1.0,
-         .face = dark,
-         .rim_width = 0.05,
-         .rim = plain,
-         .lights = {3, 2, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.5}}, 0.1, {6.0, 0.0}, 0.02, 4.0}},
-        {.kind = HD_TETRAHEDRON,
-         .centre = {200.0, 0.0, 0.0},
-         .circumradius = 1.0,
-         .face = plain,
-         .lights = {.per_edge = 1, .colour_count = 1, .colours = {WHITE}, .falloff.end = 7.0}}};
+        {HD_HEXAHEDRON, {1.0, 2.0, 3.0}, 2.0, {10.0, 20.0, 30.0}, glass, 0.0, plain, {0}},
+        {HD_ICOSAHEDRON,
+         {100.0, 0.0, 0.0},
+         1.0,
+         {0.0, 0.0, 0.0},
+         dark,
+         0.05,
+         plain,
+         {3, 2, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.5}}, 0.1, {6.0, 0.0}, 0.02, 4.0}},
+        {HD_TETRAHEDRON,
+         {200.0, 0.0, 0.0},
+         1.0,
+         {0.0, 0.0, 0.0},
+         plain,
+         0.0,
+         plain,
+         {1, 1, {WHITE}, 0.0, {0.0, 7.0}, 0.0, 0.0}}};
     HdLight lights[] = {{{4.0, 5.0, 6.0}, {3.0, 1.5, 0.75}, {8.0, 0.0}},
                         {{7.0, 8.0, 9.0}, WHITE, {0.0, 10.0}}};
     HdMeshEntry meshes[] = {
@@ -120,17 +121,14 @@ TEST(test_every_key) {
                   .field_of_view_degrees = 75.0,
                   .frame_count = 24,
                   .eye.cylinder = {30.0, 1.0, 0.1, 0.2, 0.3, 2.0, 3.0, 4.0, 0.4, 0.5},
-                  .target = {.is_fixed = true, .point = {0.5, 0.25, 0.125}},
+                  .target = {true, {0.5, 0.25, 0.125}, {0}},
                   .background = {0.1, 0.2, 3.0},
                   .solid_count = 3,
                   .solids = solids,
                   .light_count = 2,
                   .lights = lights,
                   .floor = {.present = true,
-                            .corners = {{-5.0, 5.0, -20.0},
-                                        {5.0, 5.0, -20.0},
-                                        {5.0, -5.0, -20.0},
-                                        {-5.0, -5.0, -20.0}},
+                            .corners = {{-5, 5, -20}, {5, 5, -20}, {5, -5, -20}, {-5, -5, -20}},
                             .material = dark}},
         .mesh_entry_count = 2,
         .mesh_entries = meshes,
