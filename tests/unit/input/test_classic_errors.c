@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Classic inputs that are wrong: each is refused, with a message that says where and why. */
+#include <ctype.h>
+
 #include "classic_text.h"
 
 static HdSceneFile input;
@@ -21,9 +23,8 @@ static void expect_token_rejected(int index, const char *replacement, const char
 
 /* A number cut in two may still be one, but nothing is read behind the end. */
 TEST(test_every_truncation) {
-    const Tokens tokens = official_tokens();
-    assert_int_equal(tokens.count, TOKENS);
-    for (size_t size = 0; size <= tokens.start[SAMPLES]; size++) {
+    size_t length;
+    for (size_t size = token_at(SAMPLES, &length, NULL) + 1; size-- > 0;) {
         const bool is_whole = size == 0 || isspace((unsigned char)official[size]) ||
                               isspace((unsigned char)official[size - 1]);
         expect_bytes_rejected(official, size,
@@ -48,20 +49,23 @@ TEST(test_the_missing_field_is_named) {
         {LIGHT_COUNT + 2, "standard input:11: light 1: position y is missing"},
         {SAMPLES, "standard input:13: square root of the number of rays per pixel is missing"},
     };
-    const Tokens tokens = official_tokens();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const int before = cases[i].token - 1;
-        expect_bytes_rejected(official, before < 0 ? 0 : tokens.end[before], cases[i].message);
+        size_t length, end = 0;
+        if (cases[i].token > 0)
+            end = token_at(cases[i].token - 1, &length, NULL) + length;
+        expect_bytes_rejected(official, end, cases[i].message);
     }
 }
 
 TEST(test_a_word_in_place_of_every_number) {
-    const Tokens tokens = official_tokens();
-    for (int i = 0; i < tokens.count; i++) {
+    for (int i = 0; i < TOKENS; i++) {
+        size_t length;
+        int line;
         char start[64];
         if (i == OUTPUT || i == TEXTURE)
             continue;
-        snprintf(start, sizeof start, "standard input:%d: ", tokens.line[i]);
+        token_at(i, &length, &line);
+        snprintf(start, sizeof start, "standard input:%d: ", line);
         expect_token_rejected(i, "abc", start);
         /* What does not begin as such an input is somebody else's, and not quoted. */
         expect_token_rejected(i, "abc",

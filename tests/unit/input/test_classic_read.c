@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
+#include <ctype.h>
+
 #include "classic_text.h"
 #include "same_scene.h"
 
@@ -64,12 +66,12 @@ TEST(test_official_example) {
 }
 
 TEST(test_no_light_and_no_edge_light) {
-    const Tokens tokens = official_tokens();
+    size_t length;
     char text[sizeof official + 16];
     expect_token_accepted(&input, SOLID_1 + 9, "0");
     expect_near(input.scene.solids[0].lights.intensity, 0.0, 0.0);
     hd_scene_file_free(&input);
-    snprintf(text, sizeof text, "%.*s0 3 2", (int)tokens.start[LIGHT_COUNT], official);
+    snprintf(text, sizeof text, "%.*s0 3 2", (int)token_at(LIGHT_COUNT, &length, NULL), official);
     expect_parsed(&input, text, 4);
     assert_int_equal(input.scene.light_count, 0);
     assert_int_equal(input.scene.depth, 3);
