@@ -6,11 +6,10 @@
 
 #include <jpeglib.h>
 
-#include "base/hash.h"
 #include "image/picture.h"
 #include "unit_test.h"
 
-enum { MAX_BYTES = 65536, SIDE = 24 };
+enum { SIDE = 24 };
 
 typedef struct Bytes {
     unsigned char *at; /* owned */
@@ -100,40 +99,6 @@ TEST(print_colours_are_refused) {
                   "is a JPEG of 4 colours (4 are those of print, CMYK), "
                   "expected 1 or 3");
     free(bytes.at);
-}
-
-/* What `djpeg -nosmooth -dct int` makes of the files, times 257. */
-TEST(every_libjpeg_makes_the_same_texels) {
-    static const struct {
-        const char *name;
-        uint64_t hash;
-    } files[] = {
-        {"jpeg_grey", UINT64_C(0x5dbe58cec83d2d6f)},
-        {"jpeg_444", UINT64_C(0x7a826930a8f8e845)},
-        {"jpeg_422", UINT64_C(0xe9664413da8bca87)},
-        {"jpeg_420", UINT64_C(0x0de0eebb0d6c817d)},
-        {"jpeg_440", UINT64_C(0x25272527f8536a6d)},
-        {"jpeg_progressive", UINT64_C(0xbc100507f1d086a7)},
-    };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        HdError error = {0};
-        HdTexture texture;
-        char path[4096];
-        unsigned char bytes[MAX_BYTES];
-        snprintf(path, sizeof path, "%s/tests/fuzz/corpus/texture/%s", unit_project, files[i].name);
-        FILE *file = fopen(path, "rb");
-        assert_non_null(file);
-        const size_t size = fread(bytes, 1, sizeof bytes, file);
-        fclose(file);
-        /* The first byte is the fuzz target's own. */
-        assert_int_equal(decode(&texture, bytes + 1, size - 1, HD_CURVE_LINEAR, &error), HD_OK);
-        const uint64_t hash =
-            hd_hash_bytes(HD_HASH_START, texture.texels,
-                          (size_t)texture.width * (size_t)texture.height * 3 * sizeof(uint16_t));
-        if (hash != files[i].hash)
-            fail_msg("%s has the hash 0x%016llx", files[i].name, (unsigned long long)hash);
-        hd_texture_clear(&texture);
-    }
 }
 
 TEST(cut_files_are_refused) {
