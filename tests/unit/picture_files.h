@@ -17,6 +17,15 @@ static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t r
     return size;
 }
 
+/* Reads a texture of the fuzz corpus, whose first byte is the fuzz target's own. */
+static inline size_t load_texture_file(const char *name, unsigned char *bytes, size_t room) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/tests/fuzz/corpus/texture/%s", unit_project, name);
+    const size_t size = read_bytes(path, bytes, room) - 1;
+    memmove(bytes, bytes + 1, size);
+    return size;
+}
+
 /* Writes the frame as a picture with a label, and frees it. */
 static inline void write_frame(HdFrame *frame, const HdFormat *format, const HdPictureStyle *style,
                                const HdPictureLabel *label, const char *path) {
