@@ -199,6 +199,12 @@ static unsigned char *find(const char *text) {
     return NULL;
 }
 
+TEST(the_label_is_in_the_file) {
+    get_bytes();
+    find("a.json");
+    find("--depth 3");
+}
+
 TEST(other_kinds_are_refused) {
     get_bytes();
     /* Behind a channel's name and its zero byte: the type, four bytes, and 8 more to the sampling;
