@@ -3,7 +3,6 @@
 #ifndef HD_CLASSIC_TEXT_H
 #define HD_CLASSIC_TEXT_H
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -27,8 +26,6 @@ static const char official[] =
     "1.0 0.0 10.0               0.0 0.0 1.0\n"
     "10 16\n";
 
-enum { MAX_TOKENS = 128 };
-
 /* Positions in the list of tokens. */
 enum {
     FRAMES = 0,
@@ -47,28 +44,18 @@ enum {
     TOKENS = SAMPLES + 1
 };
 
-/* A text cut into tokens, to be put together again with some of them changed. */
-typedef struct Tokens {
-    int count;
-    int line[MAX_TOKENS];
-    size_t start[MAX_TOKENS], end[MAX_TOKENS];
-} Tokens;
-
-static inline Tokens official_tokens(void) {
-    Tokens tokens = {.count = 0};
-    int line = 1;
-    for (size_t i = 0; official[i] != '\0'; i++) {
-        if (official[i] == '\n')
-            line++;
-        if (isspace((unsigned char)official[i]))
-            continue;
-        tokens.line[tokens.count] = line;
-        tokens.start[tokens.count] = i;
-        while (!isspace((unsigned char)official[i + 1]))
-            i++;
-        tokens.end[tokens.count++] = i + 1;
+/* Where the token begins and, by `length`, ends; `line`, counted from 1, may be NULL. */
+static inline size_t token_at(int index, size_t *length, int *line) {
+    static const char spaces[] = " \n";
+    size_t start = 0;
+    for (int i = 0; i < index; i++) {
+        start += strcspn(official + start, spaces);
+        start += strspn(official + start, spaces);
     }
-    return tokens;
+    *length = strcspn(official + start, spaces);
+    for (size_t i = 0; line != NULL && i <= start; i++)
+        *line = i == 0 ? 1 : *line + (official[i - 1] == '\n');
+    return start;
 }
 
 /* Parses a copy with no zero byte behind it, so that a memory checker sees a byte read too many. */
@@ -97,12 +84,12 @@ static inline void expect_empty(const HdSceneFile *input) {
 
 /* The official text with one token replaced; the caller frees it. */
 static inline char *with_token(int index, const char *replacement) {
-    const Tokens tokens = official_tokens();
-    const size_t size = sizeof official + strlen(replacement);
+    size_t length;
+    const size_t start = token_at(index, &length, NULL),
+                 size = sizeof official + strlen(replacement);
     char *text = malloc(size);
     assert_non_null(text);
-    snprintf(text, size, "%.*s%s%s", (int)tokens.start[index], official, replacement,
-             official + tokens.end[index]);
+    snprintf(text, size, "%.*s%s%s", (int)start, official, replacement, official + start + length);
     return text;
 }
 

@@ -10,7 +10,7 @@
 #include "image/png.h"
 #include "unit_test.h"
 
-enum { CHUNK = 1 << 20, MANY = 64 };
+enum { CHUNK = 1 << 20, MANY = 24 };
 
 static HdError error;
 
