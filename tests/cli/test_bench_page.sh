@@ -3,10 +3,9 @@
 # The page of bench/study as a browser shows it, of the results of machines that lie in bench/results: what it says
 # first, and that nothing of it is cut off, tiny, hidden or of another colour at 400, 1280 and 1920 pixels, light and dark.
 set -euo pipefail
-# shellcheck source=lib.sh
-source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+# shellcheck source=bench_lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 
-need_python
 for browser in chromium chromium-browser google-chrome none; do
     if command -v "$browser" >"$logs/which"; then
         break
