@@ -274,7 +274,7 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-export small no_nvidia
+export small no_nvidia project
 
 # True where some backend has a GPU that the command above does not hide.
 has_other_gpu() {
