@@ -55,7 +55,7 @@ def test_disturbed_runs_are_done_again_and_the_least_disturbed_counts():
     for noise, repeats, points, runs, expected in (
             ([0], 2, 1, [[[0, 0], []]], [(1500, False)]),
             ([0, 0.5, 0, 0], 2, 2, [[[0, 0], []], [[0, 0], [0.5]]], [(2500, False), (4000, False)]),
-            ([0.5, 0.3, 0.4], 4, 1, [[[0.3, 0, 0, 0], [0.5, 0.4]]], [(5000, False)]),  # no more than twice again
+            ([0.5, 0.3, 0.4], 8, 1, [[[0.3, *[0] * 7], [0.5, 0.4]]], [(7000, False)]),  # no more than twice again
             # A disturbed run does not count beside one that was not; half as many again are enough.
             ([0.5, 0, 0, 0.5, 0.6, 0.7], 2, 2, [[[0, 0.5], [0.5, 0.7]], [[0, 0.6], []]], [(3000, False), (2000, False)]),
             ([0.5] * 99, 2, 2, [[[0.5, 0.5], [0.5]], [[0.5, 0.5], [0.5]]], [(3000, True), (4000, True)])):
