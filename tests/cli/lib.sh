@@ -274,7 +274,7 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-export small no_nvidia
+export small no_nvidia project
 
 # True where some backend has a GPU that the command above does not hide.
 has_other_gpu() {
@@ -332,18 +332,6 @@ expect_end() {
     fi
 }
 
-works() {
-    pgrep -P "$pid" -f '^[^ ]*hedron(_[a-z_]+ | render )' >/dev/null || is_gone "$pid"
-}
-
-# interrupt_at_work BENCH...: Ctrl-C while a program that it measures runs.
-interrupt_at_work() {
-    start "$@"
-    wait_until "$patience" works || fail 'it measures nothing'
-    kill -INT -- "-$pid" 2>/dev/null || fail 'it was over before the signal'
-    expect_end 130
-}
-
 # expect_output_json EXPRESSION: true of `j`, the JSON on standard output.
 expect_output_json() {
     if ! python3 -B -c "import json, math, sys
@@ -351,27 +339,6 @@ j = json.load(open(sys.argv[1]))
 sys.exit(not ($1))" "$logs/stdout"; then
         fail "JSON: not $1"
         show_logs
-    fi
-}
-
-# expect_svg FILE: a picture with text in it, and no bars.
-expect_svg() {
-    local found
-    found=$(python3 -c 'import sys, xml.dom.minidom as xml
-svg = xml.parse(sys.argv[1]).documentElement
-print(svg.tagName, len(svg.getElementsByTagName("text")) > 0, len(svg.getElementsByTagName("rect")))' "$1" 2>&1) || true
-    if [[ $found != 'svg True 1' ]]; then # the paper
-        fail "$1 is no chart: $found"
-    fi
-}
-
-# expect_python EXPECTED STATEMENTS...: what they print.
-expect_python() {
-    local expected=$1 found
-    shift
-    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
-    if [[ $found != "$expected" ]]; then
-        fail "$* prints $found, expected $expected"
     fi
 }
 

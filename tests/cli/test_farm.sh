@@ -79,7 +79,7 @@ expect_refused() {
 
 expect_refused '--frames is missing' "${options[@]}" -o "$pattern"
 expect_refused '-o is missing' "${options[@]}" --frames 0-3
-for frames in 3-1 x 1,2 -1 1- '' 123456789 '1-2; true'; do
+for frames in 3-1 1,2 -1 1- '' 123456789 '1-2; true'; do
     expect_refused '--frames' "${options[@]}" -o "$pattern" --frames "$frames"
 done
 # shellcheck disable=SC2016 # that it is not expanded is the point
@@ -119,24 +119,14 @@ common="[--parsable][--job-name=hedron][--partition=gpu][--comment=two words][--
 common+="[--error=/dev/null][--chdir=$folder][--signal=B:USR1@60]"
 expect_call "sbatch${common}[--array=0-2][$task][$folder]"
 expect_call "sbatch${common}[--dependency=afterok:1][--kill-on-invalid-dep=yes][$task][$folder][film]"
-if [[ $(<"$folder/jobs") != $'1\n2' ]]; then
-    fail "the jobs are noted as $(<"$folder/jobs")"
-fi
+expect_same "$folder/jobs" <(printf '1\n2\n')
 
-# run_task NUMBER CODE: the task on node1 whose renderer ends with the code.
-run_task() {
+# expect_task NUMBER CODE [NODE]: the task on a node whose renderer ends with the code, with which it ends too.
+expect_task() {
     : >"$calls"
     echo "$2" >"$calls.code"
-    run env SLURM_ARRAY_JOB_ID=1 SLURM_ARRAY_TASK_ID="$1" SLURM_JOB_ID=77 SLURMD_NODENAME="${3:-node1}" \
+    expect_exit "$2" env SLURM_ARRAY_JOB_ID=1 SLURM_ARRAY_TASK_ID="$1" SLURM_JOB_ID=77 SLURMD_NODENAME="${3:-node1}" \
         SLURM_JOB_PARTITION=gpu "$task" "$folder"
-}
-
-# expect_task NUMBER CODE [NODE]: it ends with that code too.
-expect_task() {
-    run_task "$@"
-    if ((code != $2)); then
-        fail "task $1 ends with $code, expected $2"
-    fi
 }
 
 expect_rendered() {
@@ -175,9 +165,7 @@ rm "$folder"/task-1.*
 echo node1 >"$calls.queue"
 expect_task 1 3 node2
 expect_no_call requeue
-if ! grep -q 'the device is missing on every node of the partition gpu' "$folder/task-1.log"; then
-    fail "the log does not tell that no node has the device: $(<"$folder/task-1.log")"
-fi
+grep -q 'the device is missing on every node of the partition gpu' "$folder/task-1.log" || fail "the log is $(<"$folder/task-1.log")"
 rm "$calls.queue"
 
 # ---- the report: frames, states, and none of a finished task's
@@ -248,15 +236,19 @@ stop_task() {
     expect_end 143
 }
 
+# expect_record STATE: of the task that was told to stop.
+expect_record() {
+    grep -q "^end node1 [0-9]* $1 143\$" "$folder/task-0.txt" || fail "the record is $(<"$folder/task-0.txt")"
+}
+
 stop_task TERM
 expect_no_call requeue
-grep -q '^end node1 [0-9]* stopped 143$' "$folder/task-0.txt" || fail "the record is $(<"$folder/task-0.txt")"
+expect_record stopped
 stop_task USR1 'out/f 0002.png'
 expect_call 'scontrol[requeue][1_0]'
-grep -q '^end node1 [0-9]* stopped 143$' "$folder/task-0.txt" || fail "the record is $(<"$folder/task-0.txt")"
+expect_record stopped
 rm 'out/f 0002.png'
 stop_task USR1
 expect_no_call requeue
-grep -q '^end node1 [0-9]* failed 143$' "$folder/task-0.txt" || fail "the record is $(<"$folder/task-0.txt")"
-
+expect_record failed
 finish

@@ -69,41 +69,33 @@ JSON
 
 # ---- every kind, from the fewest triangles on
 expect_model sphere 12 8 12
-expect_model sphere 1000 488 972
 expect_model sphere 20000 10088 20172
 expect_model knot 12 9 18
-expect_model knot 150 75 150
 expect_model knot 20000 10000 20000
 expect_model soup 12 36 12
 expect_model soup 20000 60000 20000
 
 # ---- closed, and seen from outside counterclockwise
 for kind in sphere knot; do
-    for triangles in 150 3000; do
-        "$model" "$kind" "$triangles" >closed.obj
-        found=$(measure closed.obj)
-        if [[ $found != *' 0 positive' ]]; then
-            fail "$kind $triangles has '$found' vertices, triangles, open edges and volume"
-        fi
-    done
+    "$model" "$kind" 3000 >closed.obj
+    found=$(measure closed.obj)
+    if [[ $found != *' 0 positive' ]]; then
+        fail "$kind has '$found' vertices, triangles, open edges and volume"
+    fi
 done
 
 # ---- the same bytes every time, to standard output too
 for kind in sphere knot soup; do
     expect_exit 0 "$model" "$kind" 20000
-    if [[ $kind == sphere ]]; then
-        expect_different "$logs/stdout" knot.obj
-    fi
     expect_same "$logs/stdout" "$kind.obj"
 done
 rm ./*.obj
 
 # ---- wrong usage
-expect_model_refusal 2 'expected KIND and TRIANGLES'
 expect_model_refusal 2 'expected KIND and TRIANGLES' knot
 expect_model_refusal 2 '"teapot" is an unknown kind' teapot 100
-for triangles in 11 10000001 1e3 -5 '' 4294967396 99999999999999999999 100x; do
-    [[ $triangles == -* ]] || expect_model_refusal 2 "TRIANGLES is \"$triangles\"" knot "$triangles"
+for triangles in 11 10000001 1e3 '' 4294967396 99999999999999999999; do
+    expect_model_refusal 2 "TRIANGLES is \"$triangles\"" knot "$triangles"
 done
 expect_model_refusal 2 '-5 is an unknown option' knot -5
 expect_model_refusal 2 '"100" is too much' knot 100 100
@@ -117,25 +109,15 @@ expect_stdout_contains 'Usage: hedron_model KIND TRIANGLES'
 
 # ---- what cannot be written is told, and leaves what was there
 if [[ -c /dev/full ]]; then
-    for triangles in 12 20000; do
-        code=0
-        "$model" knot "$triangles" >/dev/full 2>"$logs/stderr" || code=$?
-        ((code == 1)) || fail "exit code $code with a full disk, expected 1"
-        expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
-        code=0
-        "$model" --help >/dev/full 2>"$logs/stderr" || code=$?
-        ((code == 1)) || fail "exit code $code of the help with a full disk, expected 1"
+    for words in 'knot 12' 'knot 20000' --help; do
+        expect_exit 1 bash -c "'$model' $words >/dev/full"
         expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
     done
 fi
 echo old >old.obj
-code=0
-(ulimit -f 100 && "$model" knot 20000 -o old.obj) 2>"$logs/stderr" || code=$?
-((code == 1)) || fail "exit code $code beyond the limit of a file's size, expected 1"
+expect_exit 1 bash -c "ulimit -f 100; '$model' knot 20000 -o old.obj"
 expect_stderr_contains 'hedron_model: cannot write old.obj: File too large'
-if [[ $(cat old.obj) != old ]]; then
-    fail "old.obj is not what it was"
-fi
+expect_same old.obj <(echo old)
 start "$model" soup 10000000 -o late.obj
 wait_until "$patience" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
 kill -INT "$pid"
