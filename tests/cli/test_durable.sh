@@ -43,22 +43,16 @@ else
     # ---- each kind of output; folders that are new, and those above them; the statistics' own file
     expect_durable "$hedron" "${frames[@]}" --frames 0-19 -o new/deep/%d.png -o new/%d.pfm --stats told/stats.jsonl
     for folder in new/deep new . told; do
-        if ! grep -q -x -F "folder $(realpath "$folder")" "$work/log"; then
-            fail "the folder $folder was not synced"
-        fi
+        grep -q -x -F "folder $(realpath "$folder")" "$work/log" || fail "the folder $folder was not synced"
     done
-    if ! grep -q -x -F "sync $(realpath told/stats.jsonl)" "$work/log"; then
-        fail "the statistics were not synced"
-    fi
-    if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
+    grep -q -x -F "sync $(realpath told/stats.jsonl)" "$work/log" || fail "the statistics were not synced"
+    if has_ffmpeg; then
         expect_durable "$hedron" "${frames[@]}" --frames 0-3 -o film.mkv
     fi
     # Frames that were finished before: their names may be younger than the last sync.
     rm "$work/log"
     expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-19 -o new/deep/%d.png
-    if ! grep -q -x -F "folder $(realpath new/deep)" "$work/log"; then
-        fail "the folder of finished frames was not synced"
-    fi
+    grep -q -x -F "folder $(realpath new/deep)" "$work/log" || fail "the folder of finished frames was not synced"
     expect_durable "$hedron" convert -o scene.json <<<"$("$hedron" --default)"
     # Exit code 1 is that of --fail-above.
     expect_durable "$hedron" compare new/deep/0.png new/deep/1.png --diff heat.png
@@ -66,17 +60,13 @@ else
     # ---- without
     rm "$work/log"
     expect_exit 0 "${watched[@]}" "$hedron" "${frames[@]}" --frames 0-3 -o fleeting/%d.png --stats fleeting.jsonl --no-sync
-    if grep -v '^rename ' "$work/log"; then
-        fail "--no-sync syncs"
-    fi
+    ! grep -v '^rename ' "$work/log" || fail "--no-sync syncs"
 
     # ---- statistics tell only frames whose names were on the disk: the program dies before it syncs a folder
     for when in 1 3 5 8; do # the second is that of the folder above
         rm -rf killed "$work/log"
-        run "${watched[@]}" SYNC_KILL=$when "$hedron" "${frames[@]}" --frames 0-199 -o killed/%d.png --stats killed/stats.jsonl
-        if ((code != 137)); then
-            fail "exit code $code of a program that is killed at sync $when of a folder, expected 137"
-        fi
+        expect_exit 137 "${watched[@]}" SYNC_KILL=$when "$hedron" "${frames[@]}" --frames 0-199 -o killed/%d.png \
+            --stats killed/stats.jsonl
         unsynced | sed -n 's/^its folder was not synced: //p' | sort >"$work/at_risk"
         sed 's|^{"frame":\([0-9]*\),.*|killed/\1.png|' killed/stats.jsonl | sort >"$work/told"
         if [[ ! -s $work/at_risk ]] || comm -12 "$work/at_risk" "$work/told" | grep .; then
@@ -87,11 +77,8 @@ else
     # ---- a disk that fails: the frames before stay, later ones are gone, nothing is half-done
     for when in 1 7 30; do
         rm -rf failing
-        run env SYNC_FAIL=$when LD_PRELOAD="$build/tests/failing/libfailing_sync.so" \
+        expect_exit 1 env SYNC_FAIL=$when LD_PRELOAD="$build/tests/failing/libfailing_sync.so" \
             "$hedron" "${frames[@]}" --frames 0-59 -o failing/%d.png --stats failing.jsonl
-        if ((code != 1)); then
-            fail "exit code $code where sync $when fails, expected 1"
-        fi
         expect_sentence
         expect_stderr_contains 'to the disk: Input/output error'
         if find failing -name '*.tmp-*' | grep . ||
@@ -131,9 +118,8 @@ check_disk() {
     copy_disk
     mount -o loop "$work/copy" "$work/looked_at"
     while read -r frame; do
-        if ! cmp -s "whole/$frame.png" "$work/looked_at/out/$frame.png"; then
+        cmp -s "whole/$frame.png" "$work/looked_at/out/$frame.png" ||
             fail "$1: frame $frame was told as stored, and is not whole after a power cut"
-        fi
     done < <(sed -n 's/^{"frame":\([0-9]*\),.*}$/\1/p' "$work/told")
     umount "$work/looked_at"
     echo "$1: $(wc -l <"$work/told") frames were told, and looked at"
