@@ -10,7 +10,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 build=$(realpath "${2:?the build folder is the second argument}")
-failing=$build/tests/failing # libraries that are preloaded
+failing=$build/tests/failing/libfailing_system.so # is preloaded
 render=("$hedron" render --quiet --backend c "${small[@]}")
 
 # An orphan may lie dead for long, until its new parent looks after it.
@@ -114,7 +114,7 @@ fi
 if has_ffmpeg; then
     fake ffmpeg "for last; do :; done; file=\${last#file:}; $note_leader
         while [[ -e \$file && ! -e '$work/may_go_on' ]]; do sleep 0.02; done; echo late >\"\$file\""
-    start "${with_tools[@]}" LD_PRELOAD="$failing/libfailing_orphans.so" "${render[@]}" --frames 0-2 -o film.mkv
+    start "${with_tools[@]}" LD_PRELOAD="$failing" FAILING_ORPHANS=1 "${render[@]}" --frames 0-2 -o film.mkv
     wait_for 'FFmpeg to be started' test -e "$work/leader"
     kill -KILL "$pid"
     wait "$pid" || true
@@ -133,7 +133,7 @@ fi
 # start_hanging PATIENCE FILE ARGUMENTS...: until it hangs because of that file.
 start_hanging() {
     rm -f "$work/reached"
-    start env HEDRON_STOP_PATIENCE="$1" STUCK_MARK="$work/reached" LD_PRELOAD="$failing/libfailing_stuck.so" STUCK_OPEN="$2" \
+    start env HEDRON_STOP_PATIENCE="$1" STUCK_MARK="$work/reached" LD_PRELOAD="$failing" STUCK_OPEN="$2" \
         "${render[@]}" "${@:3}"
     wait_for 'it to hang' test -e "$work/reached"
 }
@@ -164,7 +164,7 @@ expect_files .
 
 # ---- threads that the system refuses
 refused_from() {
-    run timeout "$patience" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing/libfailing_threads.so" "${@:2}"
+    run timeout "$patience" env FAILING_THREADS_AFTER="$1" LD_PRELOAD="$failing" "${@:2}"
 }
 few=("$hedron" render --backend c "${small[@]}" --frames 0-2 -o '%d.data' --threads 4)
 "${few[@]}" --quiet >"$logs/which"
@@ -203,7 +203,7 @@ rm -r finished
 
 # ---- memory that is at its end, at any of the allocations of a run, once or from then on for good
 lean=("${render[@]}" --threads 1 --frames 0-1 --no-sync --stats stats.jsonl -o '%d.png' -o '%d.pfm')
-memory=(env HEDRON_CACHE=off LD_PRELOAD="$failing/libfailing_memory.so")
+memory=(env HEDRON_CACHE=off LD_PRELOAD="$failing")
 expect_exit 0 "${memory[@]}" FAILING_MEMORY_COUNT="$work/count" "${lean[@]}"
 count=$(<"$work/count")
 ((count >= 200)) || fail "$count allocations were counted, expected hundreds"
