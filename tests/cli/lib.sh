@@ -24,8 +24,10 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
 logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr
 export HOME=$work/home
 mkdir "$logs" "$HOME" "$work/here"
+: | tee "$logs/stdout" >"$logs/stderr"
 cd "$work/here" || exit 1
 
+last_command=none
 failures=0
 finished=0
 code=0
@@ -87,18 +89,14 @@ script_line() {
     done
 }
 
+# With the last command, and what it said.
 fail() {
     failures=$((failures + 1))
-    echo "FAILED $(script_line): $*" >&2
-}
-
-show_logs() {
-    echo "  command: $last_command" >&2
-    {
-        head -c 600 "$logs/stdout" | sed 's/^/  stdout: /'
-        head -c 600 "$logs/stderr" | sed 's/^/  stderr: /'
-    } >&2
-}
+    echo "FAILED $(script_line): $*"
+    echo "  command: $last_command"
+    head -c 600 "$logs/stdout" | sed 's/^/  stdout: /'
+    head -c 600 "$logs/stderr" | sed 's/^/  stderr: /'
+} >&2
 
 # Runs a command; what it wrote and its exit code are kept. Standard input is passed on.
 run() {
@@ -112,10 +110,7 @@ expect_exit() {
     local expected=$1
     shift
     run "$@"
-    if ((code != expected)); then
-        fail "exit code $code, expected $expected"
-        show_logs
-    fi
+    ((code == expected)) || fail "exit code $code, expected $expected"
 }
 
 # expect_stdout_lines COUNT [REGEX]: so many lines, each of which matches as a whole.
@@ -124,36 +119,23 @@ expect_stdout_lines() {
     lines=$(wc -l <"$logs/stdout")
     if ((lines != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
         fail "standard output has $lines whole lines, expected $1 and nothing else"
-        show_logs
     fi
     if [[ $# -gt 1 ]]; then
         bad=$(grep -c -v -x -E -e "$2" "$logs/stdout" || true)
-        if ((bad != 0)); then
-            fail "$bad lines of standard output do not match $2"
-            show_logs
-        fi
+        ((bad == 0)) || fail "$bad lines of standard output do not match $2"
     fi
 }
 
 expect_stdout_contains() {
-    if ! grep -q -F -e "$1" "$logs/stdout"; then
-        fail "standard output lacks '$1'"
-        show_logs
-    fi
+    grep -q -F -e "$1" "$logs/stdout" || fail "standard output lacks '$1'"
 }
 
 expect_stderr_contains() {
-    if ! grep -q -F -i -e "$1" "$logs/stderr"; then
-        fail "standard error lacks '$1'"
-        show_logs
-    fi
+    grep -q -F -i -e "$1" "$logs/stderr" || fail "standard error lacks '$1'"
 }
 
 expect_silent_stderr() {
-    if [[ -s $logs/stderr ]]; then
-        fail "standard error is not empty"
-        show_logs
-    fi
+    [[ ! -s $logs/stderr ]] || fail "standard error is not empty"
 }
 
 # Exactly one line, which begins with the program's name and says something.
@@ -161,7 +143,6 @@ expect_sentence() {
     if (($(wc -l <"$logs/stderr") != 1)) || ! grep -q -E '^hedron: .{10,}$' "$logs/stderr" ||
         [[ -n $(tail -c 1 "$logs/stderr") ]]; then
         fail "standard error is not one sentence"
-        show_logs
     fi
 }
 
@@ -188,9 +169,7 @@ expect_files() {
 }
 
 expect_same() {
-    if ! cmp -s -- "$1" "$2"; then
-        fail "$1 and $2 differ, expected the same bytes"
-    fi
+    cmp -s -- "$1" "$2" || fail "$1 and $2 differ, expected the same bytes"
 }
 
 expect_different() {
@@ -281,6 +260,20 @@ has_other_gpu() {
     "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
 }
 
+# True where films can be made.
+has_ffmpeg() {
+    command -v ffmpeg && command -v ffprobe
+} >/dev/null
+
+# fake NAME BODY: a program of that name in a folder that with_tools has the system search first.
+with_tools=(env PATH="$work/tools:$PATH")
+export with_tools
+fake() {
+    mkdir -p "$work/tools"
+    printf '#!%s\n%s\n' "$(command -v bash)" "$2" >"$work/tools/$1"
+    chmod +x "$work/tools/$1"
+}
+
 is_sanitized() {
     grep -q -a -E '__(asan|tsan)_init' "$hedron"
 }
@@ -301,6 +294,11 @@ wait_until() {
     done
 }
 
+# wait_for WHAT COMMAND...: until it succeeds, and no longer than the patience lasts.
+wait_for() {
+    wait_until "$patience" "${@:2}" || fail "waited in vain for $1"
+}
+
 # In a group of its own, so that the shell does not have it ignore SIGINT. Sets `pid`.
 start() {
     last_command="$*"
@@ -314,6 +312,11 @@ is_gone() {
     ! kill -0 "$1" 2>/dev/null
 }
 
+# send SIGNAL TARGET: where the target is gone already, the test would show nothing.
+send() {
+    kill "-$1" -- "$2" 2>/dev/null || fail 'it was over before the signal'
+}
+
 # Seconds after which a program is taken to hang: more than any of them takes on a slow and busy machine.
 patience=300
 
@@ -321,25 +324,18 @@ patience=300
 expect_end() {
     if ! wait_until "$patience" is_gone "$pid"; then
         fail "still running after $patience s"
-        show_logs
         kill -KILL -- "-$pid" 2>/dev/null || true
     fi
     code=0
     wait "$pid" 2>/dev/null || code=$?
-    if ((code != $1)); then
-        fail "exit code $code, expected $1"
-        show_logs
-    fi
+    ((code == $1)) || fail "exit code $code, expected $1"
 }
 
 # expect_output_json EXPRESSION: true of `j`, the JSON on standard output.
 expect_output_json() {
-    if ! python3 -B -c "import json, math, sys
+    python3 -B -c "import json, math, sys
 j = json.load(open(sys.argv[1]))
-sys.exit(not ($1))" "$logs/stdout"; then
-        fail "JSON: not $1"
-        show_logs
-    fi
+sys.exit(not ($1))" "$logs/stdout" || fail "JSON: not $1"
 }
 
 # without_opencl: no OpenCL for the commands from here on.

@@ -24,7 +24,6 @@ for command in "$hedron" "${nothing[*]} $hedron"; do
         $(section c) != *'  0  '* || $(section c) != *'strict arithmetic: yes'* ]] ||
         grep -q -x -E ' *not available:? *' "$logs/stdout"; then
         fail "the list has not the three backends, plain C with strict arithmetic, and a reason where one is missing"
-        show_logs
     fi
     listed=$(grep -c '^  [0-9]' "$logs/stdout")
     missing=$(grep -c '^  not available: .' "$logs/stdout" || true)
@@ -53,7 +52,6 @@ once() {
     expect_stderr_contains "$1"
     if (($(grep -o -F -e "$1" "$logs/stderr" | wc -l) > 1)); then
         fail "the sentence says '$1' more than once"
-        show_logs
     fi
 }
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --backend opencl

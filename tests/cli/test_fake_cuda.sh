@@ -17,7 +17,6 @@ render=("$hedron" render "${small[@]}" --frames 0 -o picture.data --backend cuda
 expect_build() {
     if (($(grep -c -x -E -e "build +$1" "$logs/stderr") != 1)); then
         fail "standard error has no line that is $1"
-        show_logs
     fi
 }
 
@@ -165,7 +164,6 @@ for when in '' ', measured earlier'; do
     if ! grep -q -x -E "device +cuda 0, .*: the fastest of 2 on this kind of scene$when, [0-9.e-]+ ms against [0-9.e+-]+ ms \(c 0\); passed over: opencl: .*" \
         "$logs/stderr"; then
         fail "it is not told that the fastest was taken$when"
-        show_logs
     fi
 done
 
@@ -174,7 +172,6 @@ tune=("$hedron" tune --backend cuda "${small[@]}" --pipeline mega)
 expect_exit 0 "${tune[@]}" --math fast
 if (($(grep -c -x -E 'mega(, (at most [0-9]+ (registers|groups)|groups of [0-9]+))? +1\.000 +1\.000' "$logs/stdout") != 10)); then
     fail "there are not all candidates"
-    show_logs
 fi
 expect_stdout_contains 'the best: mega; remembered for scenes of this kind'
 for registers in 64 96 128 168; do

@@ -16,7 +16,6 @@ expect_help() {
     expected=$(tr -s ' \n' '\n' <<<"$expected" | sort | tr '\n' ' ')
     if [[ $found != "$expected" ]]; then
         fail "the help has '$found', expected '$expected'"
-        show_logs
     fi
     if grep -q -E '.{121}|[[:space:]]$' "$logs/stdout"; then
         fail "the help has a line of more than 120 characters, or one that ends in white space"

@@ -15,7 +15,6 @@ expect_model_refusal() {
     expect_stderr_contains "$what"
     if (($(grep -c -E '^hedron_model: .{10,}$' "$logs/stderr") != 1 || $(wc -l <"$logs/stderr") != 1)); then
         fail "standard error is not one sentence"
-        show_logs
     fi
 }
 

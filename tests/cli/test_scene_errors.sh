@@ -38,7 +38,6 @@ refuse() {
     expect_stdout_lines 0
     if ! grep -q -E '^hedron: (cannot read the scene )?bad\.json' "$logs/stderr"; then
         fail "the message does not begin with the names of the program and the file"
-        show_logs
     fi
     cp "$logs/stderr" "$work/checked"
     expect_exit 2 timeout "$patience" "${render[@]}" bad.json

@@ -15,7 +15,6 @@ expect_launch() {
     expect_exit 0 "${render[@]}" "${@:2}"
     if [[ $(sed -n 's/^launch *//p' "$logs/stderr") != "${1:+$1: the best for this kind of scene, by 'hedron tune'}" ]]; then
         fail "it is not told that '$1' is remembered"
-        show_logs
     fi
     expect_same picture.data expected.data
 }
@@ -34,19 +33,16 @@ if ! head -n 1 "$logs/stdout" | grep -q -x -E 'the built-in scene on c 0, .*' ||
     (($(grep -c -x -E "(mega|wavefront)(, (4|8|16) lanes)? +$number +$number" "$logs/stdout") != 1 + ${#lanes[@]})) ||
     ! grep -q -x -E "mega +$number +1\.000" "$logs/stdout"; then
     fail "the table has not a heading and the candidates of a CPU"
-    show_logs
 fi
 best=$(sed -n 's/^the best: \(.*\); remembered for scenes of this kind$/\1/p' "$logs/stdout")
 if [[ -z $best ]]; then
     fail "it does not tell what is the best"
-    show_logs
 fi
 
 # ---- later runs use it, with the same bytes; what they ask for themselves comes first
 expect_launch "$best"
 if ! grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr"; then
     fail "what is remembered is not used"
-    show_logs
 fi
 expect_launch '' --pipeline wavefront
 
@@ -58,14 +54,12 @@ if [[ $(jq -c '[.scene, .backend, .index, .width, .height, .remembered, .reason,
         .block, .grid, .registers, .failure])), (.candidates[0].ratio == 1), (.best | . == 0 or . == 1),
         (.candidates | all(.ms > 0 and .ratio > 0))]' "$logs/stdout") != '["standard input","c",0,32,24,true,null,[["mega",'"$some"',null,null,null,null],["wavefront",'"$some"',null,null,null,null]],true,true,true]' ]]; then
     fail "the JSON is another"
-    show_logs
 fi
 
 # ---- where nothing can be remembered
 expect_exit 0 env HEDRON_CACHE=off "${tune[@]}" --lanes "$some" --json
 if [[ $(jq -c '[.remembered, .reason]' "$logs/stdout") != '[false,"HEDRON_CACHE is off"]' ]]; then
     fail "the JSON does not tell that nothing is remembered"
-    show_logs
 fi
 expect_exit 1 env HEDRON_CACHE=/dev/null "${tune[@]}" --lanes "$some"
 expect_stdout_contains '; not remembered: cannot use the folder /dev/null: it is not a folder'

@@ -12,31 +12,25 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
+
+#include "real.h"
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
 
 static atomic_int calls;
-
-static int number_of(const char *name, int otherwise) {
-    const char *text = getenv(name);
-    return text != NULL ? atoi(text) : otherwise;
-}
 
 /* What the call is to fail with, or CL_SUCCESS. */
 static cl_int failure_of(const char *function) {
     const char *failing = getenv("FAILING_OPENCL"), *mark = getenv("FAILING_OPENCL_HANGS");
     if (failing == NULL || strcmp(failing, function) != 0)
         return CL_SUCCESS;
-    int past = atomic_fetch_add(&calls, 1) + 1 - number_of("FAILING_OPENCL_AT", 1);
+    long past = atomic_fetch_add(&calls, 1) + 1 - number_of("FAILING_OPENCL_AT", 1);
     if (past < 0 || past >= number_of("FAILING_OPENCL_TIMES", INT_MAX))
         return CL_SUCCESS;
     if (mark != NULL) {
@@ -44,34 +38,31 @@ static cl_int failure_of(const char *function) {
         for (;;)
             pause();
     }
-    return number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
+    return (cl_int)number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
 }
 
 /* Those that return a code, and those that return a handle and the code by their last argument. */
 #define CODED(name, parameters, arguments)                                                         \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         return failure != CL_SUCCESS ? failure : real arguments;                                   \
     }
 /* Those that wait do so even then: nobody may use memory that a copy still reads. */
 #define WAITING(name, parameters, arguments)                                                       \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         cl_int code = real arguments;                                                              \
         return failure != CL_SUCCESS ? failure : code;                                             \
     }
 #define MADE(type, name, parameters, arguments)                                                    \
     type name parameters {                                                                         \
         type(*real) parameters;                                                                    \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         if (failure == CL_SUCCESS)                                                                 \
             return real arguments;                                                                 \
         if (code != NULL)                                                                          \
@@ -88,9 +79,8 @@ CODED(clGetPlatformIDs, (cl_uint capacity, cl_platform_id *list, cl_uint *count)
 cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint capacity,
                       cl_device_id *list, cl_uint *count) {
     cl_int (*real)(cl_platform_id, cl_device_type, cl_uint, cl_device_id *, cl_uint *);
-    void *found = dlsym(RTLD_NEXT, "clGetDeviceIDs");
     cl_int failure = failure_of("clGetDeviceIDs");
-    memcpy(&real, &found, sizeof real);
+    find_real("clGetDeviceIDs", &real);
     cl_int code = failure != CL_SUCCESS ? failure : real(platform, type, capacity, list, count);
     if (code == CL_SUCCESS && count != NULL && getenv("FAILING_OPENCL_LIES") != NULL)
         *count += 100;
@@ -112,9 +102,8 @@ static cl_int answer(const char *text, size_t room, void *value, size_t *size) {
 cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t room, void *value,
                        size_t *size) {
     cl_int (*real)(cl_device_id, cl_device_info, size_t, void *, size_t *);
-    void *found = dlsym(RTLD_NEXT, "clGetDeviceInfo");
     const char *name = getenv("FAILING_OPENCL_NAME");
-    memcpy(&real, &found, sizeof real);
+    find_real("clGetDeviceInfo", &real);
     return name != NULL && what == CL_DEVICE_NAME ? answer(name, room, value, size)
                                                   : real(device, what, room, value, size);
 }
@@ -148,9 +137,8 @@ static char *replaced(const char *text, const char *from, const char *by) {
 cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const char **texts,
                                      const size_t *lengths, cl_int *code) {
     cl_program (*real)(cl_context, cl_uint, const char **, const size_t *, cl_int *);
-    void *found = dlsym(RTLD_NEXT, "clCreateProgramWithSource");
     const char *from = getenv("FAILING_OPENCL_TEXT"), *by = getenv("FAILING_OPENCL_FOR");
-    memcpy(&real, &found, sizeof real);
+    find_real("clCreateProgramWithSource", &real);
     if (from == NULL || by == NULL)
         return real(context, count, texts, lengths, code);
     char *text = replaced(texts[0], from, by);

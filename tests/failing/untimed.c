@@ -8,15 +8,14 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-#include <dlfcn.h>
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "real.h"
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
 
@@ -33,16 +32,6 @@ static uint64_t now = 1, end = 1; /* nanoseconds */
 static Mark marks[MARKS];
 static int newest, launches, too_long;
 
-static uint64_t number_of(const char *name) {
-    const char *text = getenv(name);
-    return text != NULL ? strtoull(text, NULL, 10) : 0;
-}
-
-/* The function of that name behind this one, at `function`. */
-static void find_real(const char *name, void *function) {
-    void *found = dlsym(RTLD_NEXT, name);
-    memcpy(function, &found, sizeof found);
-}
 #define REAL(name, parameters)                                                                     \
     cl_int(*real) parameters;                                                                      \
     find_real(#name, &real)
@@ -91,11 +80,11 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
     REAL(clEnqueueNDRangeKernel,
          (cl_command_queue, cl_kernel, cl_uint, const size_t *, const size_t *, const size_t *,
           cl_uint, const cl_event *, cl_event *));
-    uint64_t length = number_of("UNTIMED_NS") * global[0];
+    uint64_t length = (uint64_t)number_of("UNTIMED_NS", 0) * global[0];
     pthread_mutex_lock(&lock);
     end = (end > now ? end : now) + length;
     launches++;
-    too_long += length > 1000000 * number_of("UNTIMED_LONGEST");
+    too_long += length > 1000000 * (uint64_t)number_of("UNTIMED_LONGEST", 0);
     pthread_mutex_unlock(&lock);
     return real(queue, kernel, dimensions, offset, global, local, count, waits, event);
 }
