@@ -56,6 +56,8 @@ TEST(wrong_lines_are_refused) {
         {"render --set abc", "PATH=VALUE"},
         {"render --set =3", "PATH=VALUE"},
         {"render --set", "needs a value"},
+        {"render --layers depth,depth", "--layers has depth twice"},
+        {"render --layers depth,dep", "--layers has 'dep', expected some of "},
         /* opposites */
         {"render --quiet --verbose", "only one of --verbose and --quiet"},
         {"--verbose --quiet", "only one of --verbose and --quiet"},
@@ -229,6 +231,8 @@ TEST(values_reach_their_members) {
     assert_int_equal(render->precision, HD_PRECISION_DOUBLE);
     assert_int_equal(render->pipeline, HD_PIPELINE_WAVEFRONT_UNCOMPACTED);
     assert_string_equal(options.backend, "opencl");
+    expect_parsed("hedron render --layers depth,object");
+    assert_true(options.layers != 0);
     expect_parsed("hedron --default --backend auto --variant 7");
     assert_true(options.prints_default && !options.cpu && !options.gpu);
     assert_null(options.backend);

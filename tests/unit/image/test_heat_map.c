@@ -25,8 +25,8 @@ TEST(errors_have_colours) {
                  {128.0, {247, 223, 90}},
                  {256.0, {252, 252, 156}},
                  {1e9, {252, 252, 156}},
-                 {INFINITY, {252, 252, 156}},
-                 {NAN, {0, 255, 255}}};
+                 {(double)INFINITY, {252, 252, 156}},
+                 {(double)NAN, {0, 255, 255}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         uint8_t rgb[3];
         hd_heat_colour(cases[i].error, rgb);
