@@ -11,7 +11,7 @@ static HdError error;
 /* Parses these words and up to two more; NULL: no such word. */
 static HdStatus parse(const char *command, const char *word, const char *other) {
     static char texts[4][100000];
-    char *arguments[5] = {texts[0], NULL, NULL, NULL, NULL};
+    static char *arguments[5];
     const char *const words[] = {"hedron", command, word, other};
     int count = 0;
     for (int i = 0; i < 4; i++)
@@ -20,6 +20,7 @@ static HdStatus parse(const char *command, const char *word, const char *other) 
             arguments[count] = texts[count];
             count++;
         }
+    arguments[count] = NULL;
     error.message[0] = '\0';
     return hd_options_parse(&options, count, arguments, &error);
 }

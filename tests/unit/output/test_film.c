@@ -145,6 +145,7 @@ TEST(only_whole_files_are_taken_and_only_where_a_run_goes_on) {
     plan.resumes = false;
     find();
     assert_false(hd_segments_have(&segments, 0));
+    hd_segments_free(&segments);
 }
 
 TEST(names_that_are_too_long_are_refused) {
