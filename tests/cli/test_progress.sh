@@ -40,13 +40,10 @@ show_long_frame() {
     [[ $(tail -c 4 screen) == $'\r\033[K' ]] || fail "the line stays: $(tail -c 60 screen | od -c | tail -n 4)"
 }
 
-# ---- plain C; the passes of adaptive sampling and of a bound
-for accuracy in '--aa adaptive' '--max-error 2'; do
-    read -r -a options <<<"$accuracy"
-    render=("$hedron" render --backend c --threads 1 "${size[@]}" "${options[@]}" -o long.png)
-    show_long_frame "${render[@]}"
-done
-# The last of them in a pipe: the same bytes, and few, plain lines.
+# ---- plain C, in the passes of a bound
+render=("$hedron" render --backend c --threads 1 "${size[@]}" --max-error 2 -o long.png)
+show_long_frame "${render[@]}"
+# In a pipe: the same bytes, and few, plain lines.
 mv long.png before.png
 expect_exit 0 "${render[@]}" --samples "$samples"
 if grep -v -q -x -E "$part|1/1 frames, [0-9.]+ frames/s, $time in all, [0-9.]+ M rays/s" "$logs/stderr" ||
@@ -57,11 +54,9 @@ expect_same long.png before.png
 expect_exit 0 on_terminal "${render[@]}" --quiet --samples "$samples"
 [[ ! -s screen ]] || fail "--quiet is not quiet on a terminal"
 
-# ---- OpenCL: both pipelines cut a frame into launches
+# ---- OpenCL cuts a frame into launches
 if has_opencl; then
-    for pipeline in mega wavefront; do
-        show_long_frame "${no_nvidia[@]}" "$hedron" render --backend opencl --pipeline "$pipeline" "${size[@]}" -o long.png
-    done
+    show_long_frame "${no_nvidia[@]}" "$hedron" render --backend opencl --pipeline mega "${size[@]}" -o long.png
 fi
 
 # ---- the classic mode: standard output has what it always has, also where it is the same terminal

@@ -10,7 +10,9 @@
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
    cut, which are left out in double; with more lanes than that no scene has kernels of its own;
-   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. With
+   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. In
+   double, where kernels are compiled, it leaves out all lanes but one and those, unless --lanes
+   asks for others, and CPUs that work as GPUs do. With
    --ptx 61 CUDA compiles to PTX for compute_61, of which the driver makes machine code for the
    device: so the text for a Pascal card runs on any newer one.
 
@@ -265,6 +267,9 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .pipeline = HD_PIPELINE_MEGA,
         };
         bool compiles = device->is_cpu && !needs_no_build(device);
+        if (options->brief && options->lanes == ALL && compiles &&
+            precision == HD_PRECISION_DOUBLE && i > 0 && lane_counts[i] != most_for_all)
+            continue;
         bool has_own = compiles ? lane_counts[i] == OWN_BUILDS
                                 : !options->brief || lane_counts[i] == most_for_all;
         bool own_builds = !options->one_build && lane_counts[i] <= most_for_all && has_own;
@@ -285,7 +290,8 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
                            Golden *golden, Tally *tally) {
     for (int i = 0; i < variant_count; i++) {
         const Variant *variant = &variants[i];
-        bool only_cut = options->brief && (variant->frames & ONLY_CUT) != 0;
+        bool only_cut = options->brief &&
+                        ((variant->frames & ONLY_CUT) != 0 || variant->kind == FOR_CPUS_AS_GPUS);
         if (options->lanes != ALL || !variant_suits(variant, device) ||
             (only_cut && precision == HD_PRECISION_DOUBLE))
             continue;
