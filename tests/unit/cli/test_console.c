@@ -6,10 +6,9 @@ TEST(times_have_minutes_and_hours) {
     static const struct {
         double seconds;
         const char *text;
-    } cases[] = {{0.0, "0:00"},       {0.4, "0:00"},           {0.5, "0:01"},
-                 {9.0, "0:09"},       {59.4, "0:59"},          {59.6, "1:00"},
-                 {76.0, "1:16"},      {3599.0, "59:59"},       {3600.0, "1:00:00"},
-                 {3661.0, "1:01:01"}, {360000.0, "100:00:00"}, {1e300, "99999:00:00"}};
+    } cases[] = {{0.4, "0:00"},       {0.5, "0:01"},         {59.4, "0:59"},
+                 {59.6, "1:00"},      {3599.0, "59:59"},     {3600.0, "1:00:00"},
+                 {3661.0, "1:01:01"}, {1e300, "99999:00:00"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[32];
         hd_progress_time(cases[i].seconds, text);
@@ -24,17 +23,13 @@ TEST(lines_tell_rate_and_time_left) {
     } cases[] = {
         {{12, 120, 0.0, 8.5, 0.0}, "12/120 frames, 1.41 frames/s, 1:17 left"},
         {{0, 120, 0.0, 8.5, 0.0}, "0/120 frames"},
-        {{1, 2, 0.0, 2.0, 0.0}, "1/2 frames, 0.50 frames/s, 0:02 left"},
         {{1, 10001, 0.0, 1.0, 0.0}, "1/10001 frames, 1.00 frames/s, 2:46:40 left"},
         {{1, 2, 0.0, 0.0, 0.0}, "1/2 frames, 0.00 frames/s, 0:00 left"},
         /* the last line tells the whole time */
         {{120, 120, 0.0, 85.0, 0.0}, "120/120 frames, 1.41 frames/s, 1:25 in all"},
-        {{1, 1, 0.0, 0.0, 0.0}, "1/1 frames, 0.00 frames/s, 0:00 in all"},
         /* parts of frames */
         {{0, 1, 0.25, 12.0, 2.0}, "0/1 frames, 25 % of the next, 0:30 left"},
-        {{0, 1, 0.999, 12.0, 2.0}, "0/1 frames, 99 % of the next, 0:00 left"},
         {{0, 3, 0.001, 2.0, 2.0}, "0/3 frames, 0 % of the next, 0:00 left"},
-        {{3, 40, 0.5, 35.0, 0.0}, "3/40 frames, 50 % of the next, 0.09 frames/s, 6:05 left"},
         {{3, 40, 2.46, 30.0, 0.0}, "3/40 frames, 2.5 of the next, 0.10 frames/s, 3:10 left"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -50,10 +45,8 @@ TEST(the_bar_is_no_wider_than_the_terminal) {
         int columns;
         const char *bar;
     } cases[] = {
-        {{.done = 1, .total = 2}, 79, "[############............] 1/2 frames"},
         {{.done = 1, .total = 2}, 37, "[############............] 1/2 frames"},
         {{.done = 1, .total = 2}, 36, "1/2 frames"},
-        {{.done = 1, .total = 2}, 10, "1/2 frames"},
         {{.done = 1, .total = 2}, 4, "1/2 "},
         {{.done = 1, .total = 2}, 0, ""},
         {{.total = 0}, 79, "[########################] 1/2 frames"}, /* all were finished */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
-#include <locale.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <jansson.h>
 
@@ -58,7 +56,6 @@ static void expect_line(const char *name, const char *told, const char *longest_
     assert_int_equal(fgetc(file), EOF);
     fclose(file);
     assert_int_equal(hd_statistics_close(&statistics, true, &error), HD_OK);
-    setlocale(LC_ALL, "C");
     snprintf(expected, sizeof expected,
              "{\"frame\": 11, \"backend\": \"c\", \"index\": 3, \"device\": \"%s\",\n"
              "\"renderer\": \"4 lanes\", \"width\": 640, \"height\": 480, \"samples\": 3, "
@@ -86,21 +83,6 @@ TEST(a_line_has_everything) {
     stored.times.longest_launch = -1.0;
     expect_line("CPU", "CPU", "null");
     stored.times.longest_launch = 0.0625;
-}
-
-/* In a locale that is made here and has a comma, but nothing else. */
-TEST(numbers_have_a_point_in_every_locale) {
-    static const char numeric[] =
-        "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \"\"\ngrouping -1\nEND LC_NUMERIC\n";
-    char text[16];
-    write_bytes("comma", numeric, strlen(numeric));
-    setenv("LOCPATH", ".", 1);
-    if (system("localedef -c -i comma -f ANSI_X3.4-1968 ./xx_XX >localedef.log 2>&1") == -1 ||
-        setlocale(LC_NUMERIC, "xx_XX") == NULL)
-        skip();
-    snprintf(text, sizeof text, "%.1f", 0.5);
-    assert_string_equal(text, "0,5");
-    expect_line("device", "device", "62.5");
 }
 
 TEST(files_that_take_nothing_are_told) {
