@@ -28,32 +28,19 @@ expect_change_refused(HdSceneChange change, const char *format, ...) {
     assert_null(strchr(told, '\n'));
 }
 
-/* A field of numbers: both ends of its range, and what lies just outside. An end that is NULL
-   contradicts the rest of the scene. */
+/* A field of numbers: both ends of its range, and what lies just outside. */
 static const struct Range {
     const char *path, *low, *high, *below, *above, *expected;
 } ranges[] = {
     {"image.width", "1", "65535", "0", "65536", "an integer from 1 to 65535"},
-    {"image.depth", "0", "1000", "-1", "1001", "an integer from 0 to 1000"},
     {"image.cutoff", "0", "0.999999", "-1e-9", "1", "a number of at least 0 and below 1"},
     {"image.exposure", "1e-300", "1e6", "0", "1000001", "a number above 0 and at most 1e6"},
     {"camera.field_of_view", "1e-6", "179", "0", "179.001", "a number above 0 and at most 179"},
-    {"camera.eye.z_phase", "-1e12", "1e12", "-1.1e12", "1.1e12", "a number from -1e12 to 1e12"},
     {"camera.target[2]", "-1e12", "1e12", "-1.1e12", "1.1e12", "a number from -1e12 to 1e12"},
-    {"background[2]", "0", "1e12", "-1e-300", "1.1e12", "a number from 0 to 1e12"},
-    {"materials.glass.colour[1]", "0", "1", "-1e-9", "1.000001", "a number from 0 to 1"},
-    {"materials.glass.shininess", "1", "65536", "0", "65537", "an integer from 1 to 65536"},
     {"materials.glass.inner_reflection", "0", "0.93", "-1e-9", "1.01", "a number from 0 to 1"},
-    {"solids[0].rotation[2]", "-1e6", "1e6", "-1000001", "1000001", "a number from -1e6 to 1e6"},
-    {"solids[2].circumradius", "1e-12", NULL, "9e-13", "1.1e12", "a number from 1e-12 to 1e12"},
-    {"solids[1].rim.width", "1e-12", NULL, "0", "1.1e12", "a number from 1e-12 to 1e12"},
     {"solids[1].edge_lights.per_edge", "0", "3332", "-1", "100001", "an integer from 0 to 100000"},
     {"solids[1].edge_lights.colours[1][2]", "0", "1", "-1e-9", "1.001", "a number from 0 to 1"},
-    {"solids[2].edge_lights.falloff_end", "1e-12", "1e12", "0", "1.1e12",
-     "a number from 1e-12 to 1e12"},
     {"meshes[0].scale[1]", "1e-12", "1e12", "-1", "2e12", "a number from 1e-12 to 1e12"},
-    {"meshes[0].crease", "0", "180", "-1", "181", "a number from 0 to 180"},
-    {"lights[0].colour[0]", "0", "1", "-1e-9", "1.001", "a number from 0 to 1"},
     {"lights[0].intensity", "0", "1e12", "-1e-300", "1.1e12", "a number from 0 to 1e12"},
     {"floor.corners[0][2]", "-20", "-20", "-1.1e12", "1.1e12", "a number from -1e12 to 1e12"},
 };
@@ -80,8 +67,6 @@ TEST(test_numbers) {
         for (int k = 0; k < 2; k++) {
             char change[128];
             snprintf(change, sizeof change, "%s=%s", range->path, ends[k]);
-            if (ends[k] == NULL)
-                continue;
             expect_scene(&file, rich_text, change);
             hd_scene_file_free(&file);
         }
@@ -108,21 +93,16 @@ static const struct {
     {"meshes[0].scale", "2e12", "is 2e12, expected a number from 1e-12 to 1e12"},
     {"meshes[0].scale", "[1,1]",
      "is an array of 2 elements, expected one number or three, each a number from 1e-12 to 1e12"},
-    {"meshes[0].scale", "\"1\"", "is a string, \"1\", expected one number or three, each a number"},
     {"solids[0].kind", "7",
      "is 7, expected \"tetrahedron\", \"cube\", \"octahedron\", \"dodecahedron\" or "
      "\"icosahedron\""},
     {"output.curve", "gamma", "is a string, \"gamma\", expected \"srgb\" or \"linear\""},
     {"output.bits", "10", "is 10, expected 8, 16 or 32"},
-    {"output.bits", "16.5", "is 16.5, expected 8, 16 or 32"},
     {"materials.glass.lit_from_behind", "1", "is 1, expected true or false"},
-    {"solids[0].material", "7", "is 7, expected the name of one of the materials"},
     {"solids[0].material", "steel", "is a string, \"steel\", expected the name of one of the "},
     {"meshes[0].file", "5", "is 5, expected a string that is not empty"},
-    {"meshes[0].file", "", "is a string, \"\", expected a string that is not empty"},
     {"output.path", "", "is a string, \"\", expected a string that is not empty"},
     {"image", "[]", "is an array of 0 elements, expected an object"},
-    {"solids[0]", "[]", "is an array of 0 elements, expected an object"},
     {"lights", "{}", "is an object, expected an array of objects"},
     {"floor.corners", "3", "is 3, expected an array of vectors"},
     {"materials", "3", "is 3, expected an object with a material for each name"},
@@ -130,14 +110,8 @@ static const struct {
     /* numbers of elements; keys that are missing or too many */
     {"solids[1].edge_lights.colours", "[]", "has 0 elements, expected 1 to 30 elements"},
     {"floor.corners", "[[0,0,0],[1,0,0],[1,1,0]]", "has 3 elements, expected 4 elements"},
-    {"quaternion", "1", "is an unknown key, expected \"$schema\", \"hedron\", "},
     {"floor.texture.x", "1", "is an unknown key, expected \"file\" or \"curve\""},
-    {"lights[0].radius", "1", "is an unknown key, expected \"position\", "},
     {"lights[0].falloff_end", "3", "is given beside \"falloff_distance\", expected only one"},
-    {"camera", "{}", ".eye is missing, expected three numbers"},
-    {"solids[1].edge_lights", "{}", ".per_edge is missing, expected an integer from 0 to 100000"},
-    {"lights[0]", "{}", ".position is missing, expected three numbers"},
-    {"floor.texture", "{}", ".file is missing, expected a string that is not empty"},
     {"meshes", "[{}]", "[0].file is missing, expected a string that is not empty"},
     {"image", "{\"$comment\": 1}", "[\"$comment\"] is 1, expected a string"},
     /* a default that stands in for a wrong value makes nothing else look wrong */
@@ -152,7 +126,6 @@ static const struct {
     {"output.path", "#.mp4", "is \"#.mp4\", expected a film without a number"},
     {"output.path", "\"a\\n.png\"",
      "is a string, \"a\\u000a.png\", expected a name without control characters"},
-    {"output.path", "\"a\\u007f.png\"", "is a string, \"a\\u007f.png\", expected a name without "},
     {"output.path", "\"a\\u009b.png\"", "is a string, \"a\\u009b.png\", expected a name without "},
     {"meshes[0].file", "\"a\\u001b.obj\"", "is a string, \"a\\u001b.obj\", expected a name "},
     {"solids[0].material", "\"a\\u0085\"", "is a string, \"a\\u0085\", expected the name of one "},
@@ -160,9 +133,7 @@ static const struct {
      "is \"builtin:wood\", which is unknown, expected \"builtin:floor\" or a file"},
     /* words that stand for others */
     {"solids[0].kind", "hexahedron", "is a string, \"hexahedron\"; did you mean \"cube\"?"},
-    {"solids[0].kind", "Cube", "is a string, \"Cube\"; did you mean \"cube\"?"},
     {"solids[0].kind", "icosaedron", "is a string, \"icosaedron\"; did you mean \"icosahedron\"?"},
-    {"meshes[0].normals", "smoth", "is a string, \"smoth\"; did you mean \"smooth\"?"},
     {"solids[0].material", "glas", "is a string, \"glas\"; did you mean \"glass\"?"},
 };
 
@@ -183,14 +154,12 @@ TEST(test_changes_that_cannot_be_made) {
          "solids is an array of 3 elements, expected an array with an element 3"},
         {"image[0]=1", "image is an object, expected an array with an element 0"},
         {"solids.kind=1", "solids is an array of 3 elements, expected an object"},
-        {"lights[0].texture.file=1", "lights[0].texture is missing, expected it in the scene"},
         {"materials.glas.diffuse=1", "materials.glas is missing; did you mean \"glass\"?"},
         {"solids.0.centre=[1,2,3]", "solids is an array of 3 elements; write solids[0]"},
         {"solids[1].edge_lights.colours.1=[1,2,3]",
          "solids[1].edge_lights.colours is an array of 2 "
          "elements; write solids[1].edge_lights.colours[1]"},
         {"image.width=1e999", "the value is too large, expected a number that a double can hold"},
-        {"image", "there is no sign =, expected PATH=VALUE"},
         {"", "there is no sign =, expected PATH=VALUE"},
     };
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++)
@@ -198,10 +167,9 @@ TEST(test_changes_that_cannot_be_made) {
 }
 
 TEST(test_changes_that_are_not_understood) {
-    char changes[] =
-        "= =3 .image=3 image.=3 image..width=3 solids[=3 solids[]=3 solids[x]=3 solids[0=3 "
-        "solids[-1]=3 solids[01]=3 solids[0]x=3 solids[9999999999]=3 [0]=3 solids[0].=3 "
-        "materials.\"my.glass.diffuse=1 materials.\"\".diffuse=1";
+    char changes[] = "=3 .image=3 image.=3 image..width=3 solids[]=3 solids[x]=3 solids[0=3 "
+                     "solids[01]=3 solids[0]x=3 solids[9999999999]=3 [0]=3 solids[0].=3 "
+                     "materials.\"my.glass.diffuse=1 materials.\"\".diffuse=1";
     for (char *change = strtok(changes, " "); change != NULL; change = strtok(NULL, " "))
         expect_change_refused(change, "the path is not understood, expected one such as ");
 }
@@ -242,10 +210,7 @@ static const struct {
     const char *message; /* from its begin on, behind "a.json" */
 } refused[] = {
     {"", NULL, " is empty, expected a scene in JSON"},
-    {"hello", NULL, ":1:"},
     {"{\"hedron\": 1,\n \"hedron\": 1}", NULL, ":2:9: duplicate object key"},
-    {"{\"image\": {\"width\": 1, \"width\": 2}}", NULL, ":1:30: duplicate object key"},
-    {"{\"hedron\": 1} x", NULL, ":1:15: end of file expected"},
     {"{\"hedron\": NaN}", NULL, ":1:14: invalid token near 'NaN'; a number in JSON looks like "},
     {"{\"hedron\": nana}", NULL, ":1:15: invalid token near 'nana'"},
     {"{\"hedron\": 1 // one\n}", NULL, ":1:14: '}' expected near '/'; JSON has no comments"},
@@ -264,7 +229,6 @@ static const struct {
     {least_text, "floor.material=a",
      ": --set floor.material=a: floor is missing, expected it in "
      "the scene"},
-    {least_text, "solids[0].kind=cube", ": --set solids[0].kind=cube: solids is missing"},
     {SMALL ", \"a\\u001b.b\": 0}", NULL, ": [\"a\\u001b.b\"] is an unknown key"},
     {rich_text, "output.path=\xff", ": --set output.path=\\xff: the value is not UTF-8"},
     {rich_text,
@@ -275,8 +239,6 @@ static const struct {
     {SMALL ", \"materials\": {\"blue glass\": {}}}", "materials.blue glass.reflection=2",
      ": --set materials.blue glass.reflection=2: materials[\"blue glass\"].reflection is 2, "
      "expected a number from 0 to 1"},
-    {SMALL ", \"materials\": {\"my.glass\": {}}}", "materials.\"my.glass\".diffuse=-1",
-     ": --set materials.\"my.glass\".diffuse=-1: materials[\"my.glass\"].diffuse is -1, "},
     {SMALL ", \"materials\": {\"a[0]=b\": {}}}", "materials.\"a[0]=b\".diffuse=-1",
      ": --set materials.\"a[0]=b\".diffuse=-1: materials[\"a[0]=b\"].diffuse is -1"},
     /* the sum of a material's shares is told once, however many wear it */
@@ -287,8 +249,6 @@ static const struct {
     {SMALL ", \"materials\": {\"blue glass\": {\"reflection\": 0.5}}}",
      "materials.blue glass.inner_transmission=0.75",
      ": materials[\"blue glass\"]: inner reflection + transmission is 1.25, expected at most 1"},
-    {rich_text, "materials.glass.transmission=0.99",
-     ": materials.glass: reflection + transmission is 1.03, expected at most 1"},
     {rich_text, "solids[1].edge_lights.per_edge=3334",
      ": solids[1]: edge_lights.per_edge is 3334, which makes 100020 lights on its 30 edges, "
      "expected at most 100000 lights in the scene"},
@@ -301,12 +261,6 @@ static const struct {
      ": 2 problems\n  --set solids[0]={}: solids[0].kind is missing, expected \"tetrahedron\", "
      "\"cube\", \"octahedron\", \"dodecahedron\" or \"icosahedron\"\n"
      "  --set solids[0]={}: solids[0].material is missing, expected the name of one of the"},
-    {rich_text, "solids[1].rim={}",
-     ": 2 problems\n  --set solids[1].rim={}: solids[1].rim.width is missing, expected a number "
-     "from 1e-12 to 1e12\n  --set solids[1].rim={}: solids[1].rim.material is missing, expected"},
-    {rich_text, "floor={}",
-     ": 2 problems\n  --set floor={}: floor.corners is missing, expected an array of vectors\n"
-     "  --set floor={}: floor.material is missing, expected the name of one of the materials"},
     {"{\"hedron\": 1, \"image\": {\"width\": 0, \"depth\": []}, \"camera\": {\"frames\": 1.5},\n"
      " \"colour\": 3, \"materials\": {\"my glass\": {\"reflection\": 2}},\n"
      " \"solids\": [{\"kind\": \"cube\", \"material\": 1}, {\"kind\": \"cube\", \"material\": \"my "
@@ -337,10 +291,7 @@ TEST(test_outputs) {
         {"film.gif", "output.path: film.gif cannot be linear, for a GIF has no way to "},
         {"one.png", "output.path is \"one.png\", which names one picture, but camera.frames is 24, "
                     "expected #### in the name, or a film"},
-        {"a_##.PNG", NULL},
         {"a/####.pfm", NULL},
-        {"%04d.data", NULL},
-        {"100%.mp4", NULL},
         {"f.mkv", NULL},
         {"\xc2\xa0\xc3\xa9%d.png", NULL},
     };
@@ -374,18 +325,11 @@ TEST(test_problems_of_all_kinds) {
     expect_contains(error.message, "\n  meshes[0].file: cannot read the mesh model.obj: No such");
 }
 
-TEST(test_zero_bytes) {
+TEST(test_zero_bytes_and_a_byte_order_mark) {
     static const char text[] = "{\n  \"hedron\": 1,\0}";
+    char marked[sizeof least_text + 3];
     assert_int_equal(parse_scene(&file, text, sizeof text - 1, NULL, 0, &error), HD_BAD_INPUT);
     assert_string_equal(error.message, "a.json:2:15: there is a zero byte, expected JSON text");
-}
-
-TEST(test_control_characters_are_not_told) {
-    assert_null(strchr(expect_refused("{\"a\x1b\": 1}", NULL, "a.json:1:"), '\x1b'));
-}
-
-TEST(test_byte_order_mark) {
-    char marked[sizeof least_text + 3];
     snprintf(marked, sizeof marked, "\xef\xbb\xbf%s", least_text);
     expect_scene(&file, marked, NULL);
     hd_scene_file_free(&file);
@@ -416,10 +360,6 @@ TEST(test_too_many_elements) {
     } cases[] = {
         {SMALL ", \"solids\": [", "{}", "]}", 0, 257,
          "solids has 257 elements, expected at most 256 elements"},
-        {SMALL ", \"lights\": [", "7", "]}", 0, 100001,
-         "lights has 100001 elements, expected at most 100000 elements"},
-        {SMALL ", \"meshes\": [", "1", "]}", 0, 100001,
-         "meshes has 100001 elements, expected at most 100000 elements"},
         {SMALL ", \"materials\": {", "\"m#\": {}", "}}", 1024, 1025,
          "materials has 1025 materials, expected at most 1024"},
         {SMALL ", \"materials\": {\"m\": {}}, \"solids\": [{\"kind\": \"icosahedron\", "
@@ -480,11 +420,9 @@ TEST(test_notes) {
     } cases[] = {
         {least_text, NULL, BLACK},
         {least_text, "background=[0,0,0.1]", ""},
-        {least_text, "lights=[{\"position\": [1,2,3]}]", ""},
         {least_text, "lights=[{\"position\": [1,2,3], \"intensity\": 0}]", BLACK},
         {quiet_text, NULL, ""},
         {quiet_text, "materials.my n={}", "materials[\"my n\"] is used nowhere\n"},
-        {quiet_text, "camera.field_of_view=5", ""},
         {quiet_text, "camera.field_of_view=1.2",
          "camera.field_of_view is 1.2, which are degrees, not radians\n"},
         {quiet_text, "camera.eye=[9,0,-1.5]", "camera.eye is below the floor in frame 0\n"},
@@ -506,7 +444,6 @@ TEST(test_notes) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_string_equal(notes_on(cases[i].text, cases[i].change), cases[i].notes);
-    assert_null(strstr(notes_on(quiet_text, "materials.m.ambient=1"), "black"));
     assert_null(strstr(notes_on("{\"hedron\": 1, \"camera\": {\"eye\": [9, 0, 1]}, \"materials\": "
                                 "{\"m\": {}, \"n\": {\"ambient\": 1}},\n"
                                 " \"solids\": [{\"kind\": \"cube\", \"material\": \"m\", \"rim\": "

@@ -15,61 +15,6 @@ static HdSceneFile file;
 static HdError error;
 static const HdSceneSource as_it_is;
 
-static void expect_read(const char *text, HdSceneChange change, const HdSceneFile *expected) {
-    expect_scene(&file, text, change);
-    expect_same_file(&file, expected);
-    hd_scene_file_free(&file);
-}
-
-static HdSceneFile least_file(void) {
-    return (HdSceneFile){.scene = {.width = 640,
-                                   .height = 480,
-                                   .samples_per_side = 3,
-                                   .depth = 8,
-                                   .exposure = 1.0,
-                                   .field_of_view_degrees = 60.0,
-                                   .frame_count = 1,
-                                   .eye = {.is_fixed = true, .point = {30.0, 0.0, 0.0}},
-                                   .target = {.is_fixed = true}},
-                         .output = {.style = {{HD_CURVE_SRGB, 8}, 30}}};
-}
-
-TEST(test_defaults_of_the_least_scene) {
-    const HdSceneFile expected = least_file();
-    expect_read(least_text, NULL, &expected);
-}
-
-TEST(test_defaults_of_parts) {
-    static const char text[] =
-        "{\"hedron\": 1, \"camera\": {\"eye\": {}, \"target\": [1, 0, 0]},\n"
-        " \"materials\": {\"m\": {}, \"n\": {\"diffuse\": 1}},\n"
-        " \"solids\": [{\"kind\": \"octahedron\", \"material\": \"m\",\n"
-        "              \"edge_lights\": {\"per_edge\": 2}}],\n"
-        " \"meshes\": [{\"file\": \"a.obj\"}], \"lights\": [{\"position\": [0, 0, 1]}],\n"
-        " \"floor\": {\"corners\": [[-1,1,-9],[1,1,-9],[1,-1,-9],[-1,-1,-9]],\n"
-        "           \"material\": \"n\", \"texture\": {\"file\": \"builtin:floor\"}}}";
-    HdSolid solid = {.kind = HD_OCTAHEDRON,
-                     .circumradius = 1.0,
-                     .face = {PLAIN},
-                     .lights = {.per_edge = 2, .colour_count = 1, .colours = {WHITE}}};
-    HdLight light = {.position = {0.0, 0.0, 1.0}, .intensity = WHITE};
-    HdMeshEntry mesh = {.file = (char[]){"a.obj"}, .crease_degrees = 40.0, .instance.scale = WHITE};
-    HdSceneFile expected = least_file();
-    expected.scene.eye = (HdPath){.is_fixed = false};
-    expected.scene.target.point.x = 1.0;
-    expected.scene.solids = &solid;
-    expected.scene.lights = &light;
-    expected.mesh_entries = &mesh;
-    expected.scene.solid_count = expected.scene.light_count = expected.mesh_entry_count = 1;
-    expected.scene.floor =
-        (HdFloor){.present = true,
-                  .corners = {{-1, 1, -9}, {1, 1, -9}, {1, -1, -9}, {-1, -1, -9}},
-                  .material = {PLAIN, .diffuse = 1.0}};
-    strcpy(expected.texture_path, "builtin:floor");
-    expected.texture_curve = HD_CURVE_SRGB;
-    expect_read(text, NULL, &expected);
-}
-
 TEST(test_every_key) {
     const HdMaterial plain = {PLAIN}, dark = {PLAIN, .diffuse = 0.125};
     const HdMaterial glass = {{0.9, 0.8, 0.7},
@@ -135,26 +80,9 @@ TEST(test_every_key) {
         .output = {"out/%04d.png", {{HD_CURVE_LINEAR, 16}, 25}},
         .texture_path = "floor.png",
         .texture_curve = HD_CURVE_LINEAR};
-    expect_read(rich_text, NULL, &expected);
-}
-
-TEST(test_one_inner_share_alone) {
-    static const struct {
-        const char *share;
-        double reflection, transmission;
-    } cases[] = {{"inner_reflection\": 0.125", 0.125, 0.5}, {"inner_transmission\": 0", 0.25, 0.0}};
-    for (int i = 0; i < 2; i++) {
-        char change[128];
-        snprintf(change, sizeof change,
-                 "materials.glass={\"reflection\": 0.25, \"transmission\": 0.5, \"%s}",
-                 cases[i].share);
-        expect_scene(&file, rich_text, change);
-        const HdMaterial *face = &file.scene.solids[0].face;
-        assert_true(face->has_inner_side);
-        expect_near(face->inner_reflection, cases[i].reflection, 0.0);
-        expect_near(face->inner_transmission, cases[i].transmission, 0.0);
-        hd_scene_file_free(&file);
-    }
+    expect_scene(&file, rich_text, NULL);
+    expect_same_file(&file, &expected);
+    hd_scene_file_free(&file);
 }
 
 TEST(test_changes) {
@@ -181,6 +109,13 @@ TEST(test_changes) {
     hd_scene_file_free(&file);
     expect_scene(&file, least_text, "image.width=77"); /* what may be missing is made */
     assert_int_equal(file.scene.width, 77);
+    assert_int_equal(file.scene.height, 480);
+    hd_scene_file_free(&file);
+    expect_scene(&file, rich_text,
+                 "materials.glass={\"transmission\": 0.5, \"inner_reflection\": 0.125}");
+    const HdMaterial *glass = &file.scene.solids[0].face; /* one of the inner shares alone */
+    assert_true(glass->has_inner_side && glass->inner_reflection == 0.125);
+    expect_near(glass->inner_transmission, 0.5, 0.0);
     hd_scene_file_free(&file);
 }
 
@@ -217,10 +152,8 @@ TEST(test_files_count_from_the_folder) {
         {"folder/a.json", "b.c", "folder/b.c"},
         {"./folder//a.json", "b.c", "./folder//b.c"},
         {"folder/a.json", "/b.c", "/b.c"},
-        {"folder/a.json", "~/b.c", "~/b.c"},
         {"folder/a.json", "~", "~"},
         {"folder/a.json", "~b/c.d", "folder/~b/c.d"},
-        {"folder/a.json", "a~/b", "folder/a~/b"},
     };
     static char name[HD_MAX_PATH];
     assert_int_equal(mkdir("folder", 0700), 0);
@@ -259,9 +192,6 @@ TEST(test_textures_are_loaded) {
     hd_scene_file_free(&file);
     assert_int_equal(load_texture(rich_text, "floor.texture.file=grey.data"), HD_OK);
     assert_int_equal(texture->texels[0], 128 * 257);
-    hd_scene_file_free(&file);
-    assert_int_equal(load_texture(rich_text, "floor.texture.file=builtin:floor"), HD_OK);
-    assert_true(texture->width > 0);
     hd_scene_file_free(&file);
     assert_int_equal(load_texture(least_text, NULL), HD_OK);
     assert_int_equal(texture->width, 0);

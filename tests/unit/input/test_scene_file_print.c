@@ -2,7 +2,6 @@
 /* What is written reads back as the same scene, and the schema is the committed one. */
 #define _XOPEN_SOURCE 700
 
-#include "classic_text.h"
 #include "input/schema.h"
 #include "input/write.h"
 #include "same_scene.h"
@@ -31,13 +30,15 @@ static char *printed(Print *print) {
     return text;
 }
 
-/* Prints `first`, reads that into `second`, and compares the two. */
-static void expect_round_trip(void) {
+/* Prints `first`, reads that into `second`, compares the two and frees them. The caller frees the
+   text. */
+static char *expect_round_trip(void) {
     char *text = printed(print_first);
     expect_scene(&second, text, NULL);
     expect_same_file(&first, &second);
+    hd_scene_file_free(&first);
     hd_scene_file_free(&second);
-    free(text);
+    return text;
 }
 
 TEST(test_values_that_are_hard_to_write) {
@@ -45,43 +46,49 @@ TEST(test_values_that_are_hard_to_write) {
         "image.width=320", /* as it is */
         "camera.eye.r0=-0.0",
         "camera.eye.z0=0.1",
-        "camera.eye.phi0=0.30000000000000004",
         "camera.eye.r_phase=5e-324",
         "camera.eye.z_phase=123456789.12345679",
         "camera.eye={}",
         "background=[-0.0, 0, 1e-300]",
-        "background=[0, -0.0, 0]",
         "materials.plain={\"diffuse\": 0.125, \"inner_reflection\": 0.5}",
         "output.path=\"a\\\"b\\\\c \\u00e9.png\"",
         "materials.glass.inner_reflection=0",
-        "materials.glass.inner_transmission=0",
         "materials.glass={\"transmission\": 0.5, \"inner_reflection\": 0}",
         "materials.dark.diffuse=-0.0",
         "lights[0].colour=[0,0,0]",
         "lights[0].colour=[-0.0,0,1]",
-        "solids[1].edge_lights.per_edge=0",
         "solids[1].edge_lights.colours=[[1,1,1]]",
         "solids[1].edge_lights.colours=[[1,1,1],[1,1,1]]",
         "floor.texture.curve=srgb",
-        "meshes[0].scale=[2, 2, 2]",
         "meshes[0].scale=1",
         "meshes[0].scale=[2, 2, 3]",
         "meshes[0].scale=[3, 2, 2]",
-        "meshes[0].crease=40",
         "meshes[0].normals=file",
         "meshes[0].position=[0, -0.0, 0]",
         "meshes[1].material=glass",
-        "meshes[1].material=plain",
         "meshes[1].file=\"a\\\"b \\u00e9.obj\"",
     };
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         expect_scene(&first, rich_text, changes[i]);
-        expect_round_trip();
-        hd_scene_file_free(&first);
+        char *text = expect_round_trip();
+        /* Materials that are alike have one name. */
+        if (i == 0)
+            expect_contains(text, "\n    \"solid_2\": {\n      \"diffuse\": 0.125\n    },\n"
+                                  "    \"rim_2\": {}\n  },");
+        free(text);
     }
+    /* The defaults. */
     expect_scene(&first, least_text, NULL);
-    expect_round_trip();
-    hd_scene_file_free(&first);
+    char *text = expect_round_trip();
+    assert_string_equal(
+        text, "{\n  \"hedron\": 1,\n  \"image\": {\n    \"width\": 640,\n    \"height\": 480,\n"
+              "    \"samples\": 3,\n    \"depth\": 8,\n    \"cutoff\": 0,\n    \"aa\": \"grid\",\n"
+              "    \"max_error\": 0,\n    \"exposure\": 1\n  },\n"
+              "  \"camera\": {\n    \"field_of_view\": 60,\n    \"frames\": 1,\n"
+              "    \"eye\": [30, 0, 0],\n    \"target\": [0, 0, 0]\n  },\n"
+              "  \"output\": {\n    \"frames_per_second\": 30,\n    \"curve\": \"srgb\",\n"
+              "    \"bits\": 8\n  },\n  \"materials\": {}\n}\n");
+    free(text);
 }
 
 static uint64_t random_bits(void) {
@@ -105,39 +112,7 @@ TEST(test_intensities_of_lights) {
     first.scene.light_count = COUNT;
     for (int i = 0; i < COUNT; i++)
         first.scene.lights[i].intensity = hd_vec3(random_light(), random_light(), random_light());
-    expect_round_trip();
-    hd_scene_file_free(&first);
-}
-
-TEST(test_classic_scenes) {
-    for (int variant = 1; variant <= HD_CLASSIC_VARIANTS; variant++) {
-        expect_parsed(&first, official, variant);
-        expect_round_trip();
-        hd_scene_file_free(&first);
-    }
-}
-
-TEST(test_layout) {
-    static const char *const parts[] = {
-        "{\n  \"hedron\": 1,\n  \"image\": {\n    \"width\": 320,\n",
-        "\n    \"target\": [0.5, 0.25, 0.125]\n",
-        "\n        \"colours\": [\n          [1, 0, 0],\n          [0, 1, 0.5]\n        ]",
-        /* Materials that are alike have one name, and no more is said than must be. */
-        "\n    \"solid_2\": {\n      \"diffuse\": 0.125\n    },\n    \"rim_2\": {}\n  },",
-        "\n      \"material\": \"rim_2\",\n      \"edge_lights\": {\n        \"per_edge\": 1,\n"
-        "        \"falloff_end\": 7\n      }\n",
-        "\n    \"material\": \"solid_2\",\n    \"texture\": {\n",
-        "\n      \"colour\": [1, 0.5, 0],\n      \"intensity\": 1.5,\n",
-        "\n      \"scale\": [1, 2, 3],\n      \"normals\": \"smooth\",\n      \"crease\": 25,\n"
-        "      \"material\": \"solid_2\"\n    },\n    {\n      \"file\": \"other.obj\",\n"
-        "      \"scale\": 0.5,\n      \"normals\": \"flat\"\n    }\n  ],",
-        "\n      \"position\": [7, 8, 9],\n      \"falloff_end\": 10\n    }\n  ],"};
-    expect_scene(&first, rich_text, "lights[0].colour=[0.5,0.25,0]");
-    char *text = printed(print_first);
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        expect_contains(text, parts[i]);
-    free(text);
-    hd_scene_file_free(&first);
+    free(expect_round_trip());
 }
 
 TEST(test_paths_that_are_not_utf8) {

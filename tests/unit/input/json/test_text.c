@@ -41,10 +41,6 @@ TEST(test_depth) {
     check("\"\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "", "a:1:37" TOO_DEEP);
 }
 
-TEST(test_scenes) {
-    expect_refused("{\"hedron\": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[", NULL, "a.json:1:43" TOO_DEEP);
-}
-
 /* What is wrong is told from the begin on, and counted to the end. */
 TEST(test_many_problems) {
     char text[100000];
@@ -61,26 +57,19 @@ TEST(test_many_problems) {
 TEST(test_hints) {
     static const char number[] = "a number in JSON", word[] = "true, false or null";
     static const char *const cases[][2] = {{"", NULL},
-                                           {"]", NULL},
                                            {" }", NULL},
                                            {"[1]", NULL},
-                                           {"[\"", NULL},
                                            {"truely", NULL},
                                            {"[1, \t\n]", "no comma before ']'"},
                                            {"{\"a\": 1,}", "no comma before '}'"},
-                                           {"{ /", "$comment"},
                                            {"#", "$comment"},
                                            {"'", "double quotes"},
-                                           {"NaN", number},
-                                           {"[-.5", number},
                                            {"[inf", number},
                                            {"-Infinity", number},
-                                           {"+1", number},
                                            {"0x10", number},
                                            {"1.", number},
                                            {"True", word},
                                            {"{\"a\": nil", word},
-                                           {"None", word},
                                            {"FALSE", word}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *hint = hd_json_hint(cases[i][0], strlen(cases[i][0]));
