@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What the commands make of options: exit code 2, one sentence and no file where they are wrong, also where only
-# scene, device or other options tell so. What each option takes by itself is in tests/unit/cli/test_option_values.c.
+# scene, device or other options tell so. What each option takes by itself is in tests/unit/cli/test_options.c.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
