@@ -35,15 +35,6 @@ TEST(a_lost_device_is_told) {
     }
 }
 
-TEST(what_was_never_there_is_not_lost) {
-    HdError error;
-    hd_fail(&error, HD_UNAVAILABLE, "there is no device");
-    assert_false(hd_is_loss(&error));
-    hd_fail_lost(&error, "clFinish");
-    error.status = HD_FAILED;
-    assert_false(hd_is_loss(&error));
-}
-
 /* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
 TEST(errors_have_their_names) {
     for (int code = -68; code <= 1; code++) {
