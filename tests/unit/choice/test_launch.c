@@ -39,48 +39,34 @@ static double picky(const HdRenderOptions *asked) {
     return seconds * (asked->grid == 320 ? 0.9 : 1.0);
 }
 
-static void expect_candidates(const char *const *texts, int count) {
-    char described[128];
-    assert_int_equal(tuning.count, count);
-    for (int i = 0; i < count; i++) {
-        hd_launch_describe(&tuning.candidates[i].launch, described, sizeof described);
-        assert_string_equal(described, texts[i]);
-    }
-}
-
-TEST(a_gpu_has_its_candidates) {
+TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
+    static const char *const candidates[][16] = {
+        {"mega", "mega, at most 64 registers", "mega, at most 96 registers",
+         "mega, at most 128 registers", "mega, at most 168 registers", "wavefront",
+         "wavefront, at most 64 registers", "wavefront, at most 96 registers",
+         "wavefront, at most 128 registers", "wavefront, at most 168 registers",
+         "wavefront, groups of 64, at most 96 registers",
+         "wavefront, groups of 128, at most 96 registers",
+         "wavefront, groups of 256, at most 96 registers",
+         "wavefront, groups of 256, at most 80 groups, at most 96 registers",
+         "wavefront, groups of 256, at most 320 groups, at most 96 registers"},
+        {"mega", "wavefront", "wavefront, 4 lanes", "wavefront, 8 lanes", "wavefront, 16 lanes"}};
+    static const int best_of[] = {14, 1};
     device.nvidia_arch = 90;
-    tune(picky);
-    static const char *const candidates[] = {
-        "mega",
-        "mega, at most 64 registers",
-        "mega, at most 96 registers",
-        "mega, at most 128 registers",
-        "mega, at most 168 registers",
-        "wavefront",
-        "wavefront, at most 64 registers",
-        "wavefront, at most 96 registers",
-        "wavefront, at most 128 registers",
-        "wavefront, at most 168 registers",
-        "wavefront, groups of 64, at most 96 registers",
-        "wavefront, groups of 128, at most 96 registers",
-        "wavefront, groups of 256, at most 96 registers",
-        "wavefront, groups of 256, at most 80 groups, at most 96 registers",
-        "wavefront, groups of 256, at most 320 groups, at most 96 registers",
-    };
-    expect_candidates(candidates, 15);
-    assert_int_equal(tuning.best, 14);
-    assert_true(tuning.candidates[0].seconds == 1.2);
-}
-
-TEST(a_cpu_has_pipelines_and_lanes) {
-    device.is_cpu = true;
-    tune(picky);
-    static const char *const candidates[] = {
-        "mega", "wavefront", "wavefront, 4 lanes", "wavefront, 8 lanes", "wavefront, 16 lanes",
-    };
-    expect_candidates(candidates, 5);
-    assert_int_equal(tuning.best, 1);
+    for (int is_cpu = 0; is_cpu < 2; is_cpu++) {
+        int count = 0;
+        device.is_cpu = is_cpu;
+        tune(picky);
+        for (; candidates[is_cpu][count] != NULL; count++) {
+            char described[128];
+            hd_launch_describe(&tuning.candidates[count].launch, described, sizeof described);
+            assert_string_equal(described, candidates[is_cpu][count]);
+        }
+        assert_int_equal(tuning.count, count);
+        assert_int_equal(tuning.best, best_of[is_cpu]);
+        assert_true(tuning.candidates[0].seconds == 1.2);
+        device.nvidia_arch = 0;
+    }
 }
 
 TEST(what_the_options_fix_stays) {
@@ -102,9 +88,20 @@ static double nearly_alike(const HdRenderOptions *asked) {
     return asked->pipeline == HD_PIPELINE_WAVEFRONT ? 0.99 : asked->block > 0 ? 0.985 : 1.0;
 }
 
+/* The first time that it is measured, somebody else uses the machine. */
+static double unlucky_once(const HdRenderOptions *asked) {
+    if (asked->pipeline != HD_PIPELINE_WAVEFRONT)
+        return 1.0;
+    return fake.opened == 2 ? 1.4 : 0.5;
+}
+
 TEST(noise_decides_nothing) {
     tune(nearly_alike);
     assert_int_equal(tuning.best, 0);
+    fake.opened = 0;
+    tune(unlucky_once);
+    assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
+    assert_int_equal(best().block, 0);
 }
 
 static bool refuses_wavefronts_and_256(const HdRenderOptions *asked) {
@@ -147,19 +144,6 @@ TEST(a_display_is_not_kept_by_deep_trees) {
     assert_int_equal(best().pipeline, HD_PIPELINE_MEGA);
 }
 
-/* The first time that it is measured, somebody else uses the machine. */
-static double unlucky_once(const HdRenderOptions *asked) {
-    if (asked->pipeline != HD_PIPELINE_WAVEFRONT)
-        return 1.0;
-    return fake.opened == 2 ? 1.4 : 0.5;
-}
-
-TEST(what_was_unlucky_is_measured_again) {
-    tune(unlucky_once);
-    assert_int_equal(best().pipeline, HD_PIPELINE_WAVEFRONT);
-    assert_int_equal(best().block, 0);
-}
-
 /* Of one candidate, which is measured once, and twice more after each of three stages. */
 TEST(pictures_are_as_large_as_time_allows) {
     static const struct {
@@ -192,31 +176,19 @@ static void remember(void) {
     assert_int_equal(hd_launch_remember(&device, &options, &scene, &choice, &error), HD_OK);
 }
 
-static bool recall(HdLaunch *launch) {
-    return hd_launch_recall(launch, &device, &options, &scene);
-}
-
 static bool is_recalled(void) {
     HdLaunch launch;
-    return recall(&launch);
+    return hd_launch_recall(&launch, &device, &options, &scene);
 }
 
+/* It is meant for a device of the same name and driver, and for a like job. */
 TEST(a_choice_is_remembered) {
     HdLaunch launch;
     assert_false(is_recalled());
     remember();
-    assert_true(recall(&launch));
-    assert_memory_equal(&launch, &choice, sizeof launch);
-    const HdRenderOptions used = hd_launch_options(&options, &launch);
-    launch = hd_launch_of(&used);
-    assert_memory_equal(&launch, &choice, sizeof launch);
-    assert_int_equal(used.threads, 1);
-}
-
-TEST(another_job_or_device_is_not_meant) {
-    remember();
     device.index = 3;
-    assert_true(is_recalled());
+    assert_true(hd_launch_recall(&launch, &device, &options, &scene));
+    assert_memory_equal(&launch, &choice, sizeof launch);
     scene.width *= 4;
     assert_false(is_recalled());
     scene.width /= 4;
@@ -238,7 +210,7 @@ TEST(options_of_a_run_win) {
         options.threads = 1;
         options.math = HD_MATH_FAST;
         const HdLaunch own = hd_launch_of(&options);
-        assert_false(recall(&launch));
+        assert_false(hd_launch_recall(&launch, &device, &options, &scene));
         assert_memory_equal(&launch, &own, sizeof own);
         remember();
         assert_false(is_recalled());

@@ -5,7 +5,8 @@
 
 static HdError error;
 
-static bool passes(const HdDevice *device, int lanes, HdPrecision precision, bool refracts, bool lit_from_behind) {
+static bool passes(const HdDevice *device, int lanes, HdPrecision precision, bool refracts,
+                   bool lit_from_behind) {
     HdRenderOptions options = {.lanes = lanes, .threads = 1, .precision = precision};
     void *renderer;
     assert_int_equal(hd_backend_c.functions->open(device, &options, &renderer, &error), HD_OK);

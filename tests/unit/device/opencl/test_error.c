@@ -25,14 +25,17 @@ TEST(a_lost_device_is_told) {
         {"clFinish", -9999, true, "clFinish failed with an unknown error (-9999): "},
         {"clFinish", CL_INVALID_VALUE, false, "clFinish failed with CL_INVALID_VALUE (-30)"},
     };
+    HdError error;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        HdError error;
         const HdStatus status = hd_opencl_fail(&error, cases[i].function, cases[i].code);
         expect_contains(error.message, cases[i].message);
         if (status != (cases[i].is_lost ? HD_UNAVAILABLE : HD_FAILED) ||
             hd_is_loss(&error) != cases[i].is_lost)
             fail_msg("it is not so that a loss is %d: %s", cases[i].is_lost, error.message);
     }
+    hd_fail_lost(&error, "clFinish");
+    error.status = HD_FAILED;
+    assert_false(hd_is_loss(&error));
 }
 
 /* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
