@@ -35,15 +35,21 @@ static cl_int list_platforms(cl_uint capacity, cl_platform_id *platforms, cl_uin
     return CL_SUCCESS;
 }
 
+static cl_int answer(const void *from, size_t bytes, size_t size, void *value, size_t *needed) {
+    if (needed != NULL)
+        *needed = bytes;
+    if (value != NULL && size < bytes)
+        return CL_INVALID_VALUE;
+    if (value != NULL)
+        memcpy(value, from, bytes);
+    return CL_SUCCESS;
+}
+
 static cl_int name_platform(cl_platform_id platform, cl_platform_info what, size_t size,
                             void *value, size_t *needed) {
     (void)platform;
     assert_int_equal(what, CL_PLATFORM_NAME);
-    if (needed != NULL)
-        *needed = sizeof "a platform";
-    if (value != NULL)
-        memcpy(value, "a platform", size);
-    return CL_SUCCESS;
+    return answer("a platform", sizeof "a platform", size, value, needed);
 }
 
 /* The second platform has none. */
@@ -60,45 +66,32 @@ static cl_int list_devices(cl_platform_id platform, cl_device_type types, cl_uin
     return CL_SUCCESS;
 }
 
-static cl_int answer(const void *from, size_t bytes, size_t size, void *value, size_t *needed) {
-    if (needed != NULL)
-        *needed = bytes;
-    if (value != NULL && size < bytes)
-        return CL_INVALID_VALUE;
-    if (value != NULL)
-        memcpy(value, from, bytes);
-    return CL_SUCCESS;
-}
-
 static cl_int describe(cl_device_id device, cl_device_info what, size_t size, void *value,
                        size_t *needed) {
     const Said *is = (const Said *)device;
     const struct {
         cl_device_info what;
-        const char *text;
-    } texts[] = {{CL_DEVICE_NAME, is->name},
-                 {CL_DEVICE_VERSION, is->version},
-                 {CL_DEVICE_EXTENSIONS, is->extensions},
-                 {CL_DRIVER_VERSION, "5.6"}};
-    const struct {
-        cl_device_info what;
+        const char *text; /* NULL: the number */
         size_t bytes;
         cl_ulong number;
-    } numbers[] = {{CL_DEVICE_TYPE, sizeof(cl_ulong), is->type},
-                   {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong), 5000000000},
-                   {CL_DEVICE_AVAILABLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_COMPILER_AVAILABLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_ENDIAN_LITTLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(cl_uint), 12},
-                   {CAPABILITY_MAJOR, sizeof(cl_uint), 7},
-                   {CAPABILITY_MINOR, sizeof(cl_uint), 5},
-                   {TIMEOUT, is->is_nvidias ? sizeof(cl_uint) : 0, 0}};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        if (texts[i].what == what)
-            return answer(texts[i].text, strlen(texts[i].text) + 1, size, value, needed);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (numbers[i].what == what && numbers[i].bytes > 0)
-            return answer(&numbers[i].number, numbers[i].bytes, size, value, needed);
+    } answers[] = {{CL_DEVICE_NAME, is->name, 0, 0},
+                   {CL_DEVICE_VERSION, is->version, 0, 0},
+                   {CL_DEVICE_EXTENSIONS, is->extensions, 0, 0},
+                   {CL_DRIVER_VERSION, "5.6", 0, 0},
+                   {CL_DEVICE_TYPE, NULL, sizeof(cl_ulong), is->type},
+                   {CL_DEVICE_GLOBAL_MEM_SIZE, NULL, sizeof(cl_ulong), 5000000000},
+                   {CL_DEVICE_AVAILABLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_COMPILER_AVAILABLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_ENDIAN_LITTLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_MAX_COMPUTE_UNITS, NULL, sizeof(cl_uint), 12},
+                   {CAPABILITY_MAJOR, NULL, sizeof(cl_uint), 7},
+                   {CAPABILITY_MINOR, NULL, sizeof(cl_uint), 5},
+                   {is->is_nvidias ? TIMEOUT : 0, NULL, sizeof(cl_uint), 0}};
+    for (size_t i = 0; i < sizeof answers / sizeof *answers; i++)
+        if (answers[i].what == what)
+            return answers[i].text != NULL
+                       ? answer(answers[i].text, strlen(answers[i].text) + 1, size, value, needed)
+                       : answer(&answers[i].number, answers[i].bytes, size, value, needed);
     return CL_INVALID_VALUE;
 }
 
