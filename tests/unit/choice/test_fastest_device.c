@@ -92,36 +92,29 @@ TEST(a_job_too_short_is_not_measured) {
     expect_chosen(&fake_backend, "");
 }
 
-TEST(what_computes_wrongly_is_passed_over) {
-    fake.renders_wrongly = true;
-    options.math = HD_MATH_STRICT;
-    expect_chosen(&hd_backend_c, "the fastest of 2");
-    expect_contains(candidates.note, "fake: Fake 1000 (driver 7) computes wrongly");
-    fake.opened = 0;
-    expect_chosen(&hd_backend_c, "measured earlier");
-    assert_int_equal(fake.opened, 0);
+/* Only what fails at work is tried again. */
+TEST(what_cannot_be_used_is_passed_over) {
+    static const char *const notes[] = {"fake: Fake 1000 (driver 7) computes wrongly",
+                                        "fake: it is missing", "fake: it fails"};
+    for (int i = 0; i < 3; i++) {
+        fake.renders_wrongly = i == 0;
+        options.math = i == 0 ? HD_MATH_STRICT : HD_MATH_FAST;
+        fake.is_missing = i == 1;
+        fake.fails = i == 2;
+        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
+        expect_contains(candidates.note, notes[i]);
+        fake.opened = 0;
+        expect_chosen(&hd_backend_c, i == 2 ? "the fastest of 2" : "measured earlier");
+        assert_int_equal(fake.opened, i == 2);
+        remove_folder("cache");
+    }
+    fake.is_missing = true;
     candidates.compared = 1;
     expect_chosen(&hd_backend_c, "the next after one that cannot be used");
-    expect_contains(candidates.note, "computes wrongly");
-}
-
-TEST(what_is_missing_is_passed_over) {
-    fake.is_missing = true;
-    expect_chosen(&hd_backend_c, "the fastest of 2");
     expect_contains(candidates.note, "fake: it is missing");
     candidates.count = 1;
-    candidates.compared = 1;
     assert_int_equal(open_it(), HD_UNAVAILABLE);
     expect_contains(error.message, "fake: it is missing");
-}
-
-TEST(what_fails_at_work_is_tried_again) {
-    fake.fails = true;
-    for (int i = 1; i <= 2; i++) {
-        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
-        expect_contains(candidates.note, "fake: it fails");
-        assert_int_equal(fake.opened, i);
-    }
 }
 
 /* Of 4096 samples where they take long enough to be believed; else of more, until a job of so many

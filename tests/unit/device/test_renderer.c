@@ -35,7 +35,7 @@ TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
     assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
 
     HdSceneTables others[] = {tables, tables, tables};
-    others[0].table[HD_TABLE_lights].data = NULL;
+    others[0].table[0].data = NULL;
     others[1].table_count--;
     others[2].precision = HD_PRECISION_DOUBLE;
     for (int i = 0; i < 3; i++)
