@@ -4,6 +4,7 @@
 
 #include "certify/render_scene.h"
 #include "device/self_test_scenes.h"
+#include "device/verdict.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"
 #include "system/warnings.h"
@@ -113,11 +114,7 @@ TEST(damaged_kernels_are_compiled_anew) {
     }
 }
 
-TEST(without_a_folder_all_goes_on) {
-    setenv("HEDRON_CACHE", "off", 1);
-    expect_rendered(HD_OK, 1, 0);
-    expect_contains(note, "not cached; HEDRON_CACHE is off");
-    setenv("HEDRON_CACHE", "cache", 1);
+TEST(what_a_driver_hides_is_not_cached) {
     fake.hides_binary = true;
     expect_rendered(HD_OK, 1, 0);
     expect_contains(note, "not cached; the driver does not hand them out");
@@ -185,6 +182,11 @@ TEST(arithmetic_is_probed_once) {
         expect_contains(error.message, " is 0x1p-3, expected ");
         assert_int_equal(fake.probed, 2);
     }
+    assert_true(hd_verdict_get(device.name, "driver 8", note, sizeof note));
+    expect_contains(note, " is 0x1p-3, expected ");
+    assert_true(hd_verdict_get(device.name, "driver 7", note, sizeof note));
+    assert_string_equal(note, "");
+    assert_false(hd_verdict_get("Fake 2000", "driver 7", note, sizeof note));
 }
 
 TEST(division_that_was_healed_stays_so) {

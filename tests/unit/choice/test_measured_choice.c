@@ -1,21 +1,185 @@
 /* SPDX-License-Identifier: MIT */
+/* What is measured and remembered: the fastest device and the best launch of one. The clock is made
+   up: each look at it takes `clock_step`, and each frame of the fake device with a number
+   `frame_seconds` of that number. */
 #define _XOPEN_SOURCE 700
-#include "choice/tuning.h"
-
+#include "choice/fastest_device.h"
 #include "choice/record.h"
-#include "trial_setup.h"
+#include "choice/trial.h"
+#include "choice/tuning.h"
+#include "device/self_test_scenes.h"
+#include "fake_backend.h"
+#include "test_folder.h"
+#include "wrapped.h"
 
+static HdError error;
+static HdRenderOptions options;
+static HdScene scene;
+static HdJob job;
 static HdDevice device;
 static HdTuning tuning;
+static HdCandidates candidates;
+static HdDevice chosen; /* of the candidates */
+static double now, clock_step, frame_seconds[2];
 
+static double read_clock(void) {
+    return now += clock_step;
+}
+REPLACE(hd_monotonic_seconds, read_clock)
+
+static HdStatus take_time(FakePoint point, int index, HdError *failure) {
+    (void)failure;
+    now += point == FAKE_COLLECT ? frame_seconds[index] : 0.0;
+    return HD_OK;
+}
+
+enum { FAKE, C };
+
+/* The arithmetic is fast, so that the kernels do not test themselves first. */
 static int begin(void **state) {
     (void)state;
-    begin_trial(1);
-    frame_seconds[0] = 0.3;
+    int count;
+    memset(&fake, 0, sizeof fake);
+    fake.event = take_time;
+    clock_step = 0.0;
+    frame_seconds[0] = 0.4;
+    frame_seconds[1] = 0.0;
+    setenv("HEDRON_CACHE", "cache", 1);
+    options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
+    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error), HD_OK);
+    scene.width = scene.height = 4;
+    scene.samples_per_side = 1;
+    job = (HdJob){.scene = &scene, .frame_count = 100};
     device = fake_device();
     device.has_wide_atomics = true;
     device.compute_units = 10;
+    candidates = (HdCandidates){.wish = {.options = &options, .job = &job},
+                                .count = 2,
+                                .is_free = true,
+                                .compared = 2,
+                                .frame_seconds = 1.0};
+    candidates.list[FAKE].device = fake_device();
+    hd_backend_enumerate(&hd_backend_c, &candidates.list[C].device, 1, &count, &error);
     return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    hd_scene_free(&scene);
+    remove_folder("cache");
+    return 0;
+}
+
+EACH(begin, end)
+
+/* ---- the fastest device ---- */
+
+static HdStatus open_it(void) {
+    HdTeamDevice opened;
+    clock_step = 1e-3;
+    candidates.why[0] = candidates.note[0] = '\0';
+    HdStatus status = hd_fastest_open(&candidates, &opened, &error);
+    if (status != HD_OK)
+        return status;
+    assert_non_null(opened.renderer);
+    chosen = opened.device;
+    hd_launch_close(&opened);
+    for (int i = 0; i < candidates.count; i++)
+        candidates.list[i].renderer = NULL;
+    return status;
+}
+
+static void expect_chosen(const HdBackend *backend, const char *reason) {
+    assert_int_equal(open_it(), HD_OK);
+    assert_ptr_equal(chosen.backend, backend);
+    expect_contains(candidates.why, reason);
+}
+
+/* `opened`: how many times the fake device is opened for it. */
+static void expect_fastest(const char *when, int opened) {
+    fake.opened = 0;
+    expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene, ");
+    expect_contains(candidates.why, when);
+    assert_int_equal(fake.opened, opened);
+}
+
+TEST(the_fastest_is_taken_and_remembered) {
+    static const char measured[] = "scene, 3 ms against 403 ms (fake 0)";
+    static const char earlier[] = "measured earlier, 3 ms against 403 ms (fake 0)";
+    expect_fastest(measured, 1);
+    assert_int_equal(fake.rendered, 2);
+    expect_fastest(earlier, 0);
+    assert_int_equal(fake.rendered, 2);
+    assert_string_equal(candidates.note, "");
+    scene.width *= 4;
+    expect_fastest(measured, 1);
+    snprintf(candidates.list[FAKE].device.driver, 16, "driver 8");
+    expect_fastest(measured, 1);
+    expect_fastest(earlier, 0);
+}
+
+TEST(order_decides_nothing) {
+    candidates.list[1] = candidates.list[0];
+    candidates.list[1].device.index = 1;
+    for (int slow = 0; slow < 2; slow++) {
+        frame_seconds[slow] = 0.4;
+        frame_seconds[1 - slow] = 0.0;
+        expect_chosen(&fake_backend, "the fastest of 2 on this kind of scene, ");
+        assert_int_equal(chosen.index, 1 - slow);
+        remove_folder("cache");
+    }
+}
+
+TEST(a_job_too_short_is_not_measured) {
+    job.frame_count = 1;
+    expect_chosen(&hd_backend_c, "it needs about 1 s, too little to measure");
+    assert_int_equal(fake.opened, 0);
+    candidates.compared = 1; /* only GPUs are wanted */
+    expect_chosen(&fake_backend, "");
+}
+
+/* Only what fails at work is tried again. */
+TEST(what_cannot_be_used_is_passed_over) {
+    static const char *const notes[] = {"fake: Fake 1000 (driver 7) computes wrongly",
+                                        "fake: it is missing", "fake: it fails"};
+    for (int i = 0; i < 3; i++) {
+        fake.renders_wrongly = i == 0;
+        options.math = i == 0 ? HD_MATH_STRICT : HD_MATH_FAST;
+        fake.is_missing = i == 1;
+        fake.fails = i == 2;
+        expect_chosen(&hd_backend_c, "the fastest of 2 on this kind of scene");
+        expect_contains(candidates.note, notes[i]);
+        fake.opened = 0;
+        expect_chosen(&hd_backend_c, i == 2 ? "the fastest of 2" : "measured earlier");
+        assert_int_equal(fake.opened, i == 2);
+        remove_folder("cache");
+    }
+    fake.is_missing = true;
+    candidates.compared = 1;
+    expect_chosen(&hd_backend_c, "the next after one that cannot be used");
+    expect_contains(candidates.note, "fake: it is missing");
+    candidates.count = 1;
+    assert_int_equal(open_it(), HD_UNAVAILABLE);
+    expect_contains(error.message, "fake: it is missing");
+}
+
+/* Of 4096 samples where they take long enough to be believed; else of more, until a job of so many
+   frames surely takes less than is enough, or the picture is whole. */
+TEST(the_estimate_scales_with_the_picture) {
+    static const struct {
+        double step, enough, expected;
+    } cases[] = {
+        {0.025, 0.0, 4 * 0.075}, {0.005, 0.0, 0.015}, {0.005, 6.1, 4 * 0.015}, {0.005, 5.9, 0.015}};
+    double seconds;
+    scene.solid_count = 0;
+    scene.width = scene.height = 128;
+    scene.samples_per_side = 1;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        clock_step = cases[i].step;
+        assert_int_equal(hd_trial_estimate(&options, &job, cases[i].enough, &seconds, &error),
+                         HD_OK);
+        expect_near(seconds, cases[i].expected, 1e-6);
+    }
 }
 
 /* ---- tuning ---- */
@@ -40,7 +204,7 @@ static double picky(const HdRenderOptions *asked) {
 }
 
 TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
-    static const char *const candidates[][16] = {
+    static const char *const expected[][16] = {
         {"mega", "mega, at most 64 registers", "mega, at most 96 registers",
          "mega, at most 128 registers", "mega, at most 168 registers", "wavefront",
          "wavefront, at most 64 registers", "wavefront, at most 96 registers",
@@ -57,10 +221,10 @@ TEST(a_gpu_has_its_candidates_and_a_cpu_pipelines_and_lanes) {
         int count = 0;
         device.is_cpu = is_cpu;
         tune(picky);
-        for (; candidates[is_cpu][count] != NULL; count++) {
+        for (; expected[is_cpu][count] != NULL; count++) {
             char described[128];
             hd_launch_describe(&tuning.candidates[count].launch, described, sizeof described);
-            assert_string_equal(described, candidates[is_cpu][count]);
+            assert_string_equal(described, expected[is_cpu][count]);
         }
         assert_int_equal(tuning.count, count);
         assert_int_equal(tuning.best, best_of[is_cpu]);
@@ -77,9 +241,9 @@ TEST(what_the_options_fix_stays) {
     tune(picky);
     assert_int_equal(tuning.count, 5);
     for (int i = 0; i < tuning.count; i++) {
-        assert_int_equal(tuning.candidates[i].launch.pipeline, HD_PIPELINE_MEGA);
-        assert_int_equal(tuning.candidates[i].launch.block, 128);
-        assert_int_equal(tuning.candidates[i].launch.grid, 7);
+        const HdLaunch *launch = &tuning.candidates[i].launch;
+        assert_true(launch->pipeline == HD_PIPELINE_MEGA && launch->block == 128 &&
+                    launch->grid == 7);
     }
     assert_int_equal(best().registers, 96);
 }
@@ -244,35 +408,6 @@ TEST(nonsense_is_ignored) {
     assert_false(is_recalled());
 }
 
-static HdPipeline opened_pipeline;
-
-static bool note_pipeline(const HdRenderOptions *asked) {
-    opened_pipeline = asked->pipeline;
-    return false;
-}
-
-static void expect_opened(bool is_tuned, HdPipeline pipeline) {
-    HdTeamDevice opened = {.device = device};
-    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
-    hd_launch_close(&opened);
-    assert_int_equal(opened.is_tuned, is_tuned);
-    assert_int_equal(opened_pipeline, pipeline);
-    if (is_tuned)
-        assert_memory_equal(&opened.launch, &choice, sizeof choice);
-}
-
-TEST(what_is_remembered_is_opened) {
-    HdRenderer *renderer;
-    fake.refuses = note_pipeline;
-    expect_opened(false, HD_PIPELINE_MEGA);
-    remember();
-    expect_opened(true, HD_PIPELINE_WAVEFRONT);
-    /* To measure a candidate, though, is to measure that one. */
-    assert_int_equal(hd_trial_open(&renderer, &device, &options, &job, &error), HD_OK);
-    hd_renderer_close(renderer);
-    assert_int_equal(opened_pipeline, HD_PIPELINE_MEGA);
-}
-
 /* ---- trials ---- */
 
 static int measured;
@@ -309,5 +444,3 @@ TEST(the_least_of_several_counts) {
     assert_int_equal(measure(renderer, 0.25, 1, &time), HD_BAD_INPUT);
     hd_renderer_close(renderer);
 }
-
-EACH(begin, end_trial)
