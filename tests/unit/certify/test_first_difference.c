@@ -78,3 +78,13 @@ TEST(the_place_and_what_it_needs_are_told) {
     expect_contains(difference("one-pixel", with_other_mirrors), "pixel 0, 0, sample ");
     expect_contains(difference("crop-of-reference", with_other_light), "pixel ");
 }
+
+TEST(hashes_are_found_by_name_and_precision) {
+    HdGoldenHashes one = {0}, two = {0};
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_FLOAT, &one));
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_DOUBLE, &two));
+    assert_true(one.frame != 0 && one.first_hits != 0 && one.frame != one.first_hits);
+    assert_true(one.frame != two.frame && one.first_hits != two.first_hits);
+    assert_false(hd_golden_find_hashes("tetra", HD_PRECISION_FLOAT, &one));
+    assert_false(hd_golden_find_hashes("", HD_PRECISION_FLOAT, &one));
+}

@@ -348,8 +348,16 @@ static bool is_recalled(void) {
 /* It is meant for a device of the same name and driver, and for a like job. */
 TEST(a_choice_is_remembered) {
     HdLaunch launch;
+    HdTeamDevice opened = {.device = device};
+    fake.refuses = refuses_wavefronts_and_256;
     assert_false(is_recalled());
+    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_OK);
+    assert_false(opened.is_tuned);
+    hd_launch_close(&opened);
     remember();
+    assert_int_equal(hd_launch_open(&opened, &options, &job, false, &error), HD_UNAVAILABLE);
+    assert_true(opened.is_tuned);
+    assert_memory_equal(&opened.launch, &choice, sizeof choice);
     device.index = 3;
     assert_true(hd_launch_recall(&launch, &device, &options, &scene));
     assert_memory_equal(&launch, &choice, sizeof launch);

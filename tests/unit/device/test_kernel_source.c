@@ -38,6 +38,30 @@ TEST(registers_suit_the_card_the_block_and_the_scene) {
     }
 }
 
+TEST(each_shape_has_its_kernels) {
+    static const struct {
+        HdKernelShape shape;
+        const char *names; /* of the kernels in their order */
+    } cases[] = {
+        {{0}, "hedron_render - hedron_sum_counts - - "},
+        {{.wavefront = true, .first_hits = true},
+         "hedron_render_by_waves - hedron_sum_counts - hedron_first_hits "},
+        {{.wavefront = true, .group_size = 1},
+         "hedron_trace_take hedron_store_batch hedron_sum_counts hedron_encode - "},
+        {{.first_hits = true, .group_size = 1},
+         "hedron_render - hedron_sum_counts hedron_encode hedron_first_hits "},
+        {{.first_hits = true, .group_size = 1, .is_probe = true}, "hedron_probe - - - - "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char names[200] = "";
+        for (int k = 0; k < HD_KERNEL_COUNT; k++) {
+            const char *name = hd_kernel_name(&cases[i].shape, (HdKernel)k);
+            strcat(strcat(names, name != NULL ? name : "-"), " ");
+        }
+        assert_string_equal(names, cases[i].names);
+    }
+}
+
 TEST(scenes_of_similar_size_need_the_same) {
     HdSceneTables tables = {.plane_count = 20, .depth = 9, .surveyed = true};
     const HdKernelNeeds plain = hd_kernel_needs(&tables);
@@ -77,6 +101,31 @@ TEST(needs_are_told_in_words) {
     hd_kernel_needs_describe(&needs, text, sizeof text);
     expect_contains(text, "16, with refraction, faces lit from behind, meshes, many lights, with "
                           "surveys");
+}
+
+/* Neighbours in the list have other values. */
+TEST(whatever_a_shape_has_is_defined) {
+    char text[HD_KERNEL_DEFINES_SIZE];
+    const HdKernelShape shape = {.lanes = 4,
+                                 .precision = HD_PRECISION_DOUBLE,
+                                 .pixels_per_item = 2,
+                                 .group_size = 96,
+                                 .wavefront = true,
+                                 .needs = {.plane_bound = 8,
+                                           .depth_bound = 16,
+                                           .node_stack_bound = 32,
+                                           .refracts = true,
+                                           .many_lights = true,
+                                           .small_tables = true},
+                                 .math = HD_MATH_FAST,
+                                 .rounds_by_fma = true};
+    hd_kernel_defines(&shape, text);
+    assert_string_equal(text, " -DHD_LANES=4 -DHD_DOUBLE=1 -DHD_PIXELS_PER_ITEM=2"
+                              " -DHD_GROUP_SIZE=96 -DHD_WAVEFRONT=1 -DHD_FIRST_HITS=0"
+                              " -DHD_PLANE_BOUND=8 -DHD_DEPTH_BOUND=16 -DHD_NODE_STACK=32"
+                              " -DHD_WIDE_STACK=128 -DHD_REFRACTS=1 -DHD_LIT_FROM_BEHIND=0"
+                              " -DHD_MANY_LIGHTS=1 -DHD_SURVEYED=0 -DHD_SMALL_TABLES=1"
+                              " -DHD_STRICT=0 -DHD_ROUNDED_BY_FMA=1 -DHD_PROBE=0");
 }
 
 TEST(blocks_cover_the_picture) {

@@ -150,6 +150,11 @@ TEST(rays_go_below_those_that_made_them) {
 }
 
 TEST(plans_keep_to_their_budget) {
+    const HdWaveNeeds few = {
+        .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
+    assert_int_equal(hd_wave_plan(&few).sum_stride, 1000);
+    for (int levels = 1; levels <= 40; levels++)
+        assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
         for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
             HdWaveNeeds needs = {.bytes = bytes,
@@ -183,6 +188,9 @@ TEST(a_refused_queue_is_halved) {
     needs.bytes = 1;
     assert_false(hd_wave_halve(&needs));
     assert_int_equal(needs.bytes, 1);
+    char text[128];
+    hd_wave_tell_cut(33554432, text, sizeof text);
+    assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
 }
 
 TEST(launches_have_the_groups_that_they_need) {

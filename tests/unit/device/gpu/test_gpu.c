@@ -12,7 +12,7 @@ static HdGpuProgram program;
 
 static struct {
     size_t room;       /* what may still be taken */
-    bool breaks;       /* taking and compiling fail, not for want of memory */
+    bool breaks;       /* taking, loading and compiling fail, not for want of memory */
     int taken, living; /* memories */
     size_t most;       /* threads of a group that its kernels allow */
     bool has_kernels;
@@ -83,6 +83,23 @@ static HdStatus fake_compile(void *of, const HdKernelShape *shape, const char *o
     return HD_OK;
 }
 
+static HdStatus fake_load(void *of, const HdKernelShape *shape, const char *options,
+                          const unsigned char *binary, size_t size, const char *maker,
+                          HdError *failure) {
+    (void)of, (void)shape, (void)options, (void)maker;
+    assert_true(size == 1 && binary[0] == 'k');
+    if (card.breaks)
+        return hd_fail(failure, HD_FAILED, "it is too old");
+    card.has_kernels = true;
+    return HD_OK;
+}
+
+static unsigned char *fake_binary(const void *of, size_t *size) {
+    (void)of;
+    *size = 1;
+    return (unsigned char *)strdup("k");
+}
+
 static void fake_unload(void *of) {
     (void)of;
     card.has_kernels = false;
@@ -107,6 +124,8 @@ static const HdGpuDriver driver = {
     .write_options = fake_write_options,
     .write_version = fake_write_version,
     .compile = fake_compile,
+    .load = fake_load,
+    .binary = fake_binary,
     .unload = fake_unload,
     .most_threads = fake_most_threads,
 };
@@ -301,6 +320,21 @@ TEST(what_fails_is_tried_again) {
     expect_compiled(build_probe(), HD_UNAVAILABLE, 4);
     card.breaks = false;
     assert_int_equal(build(8), HD_OK);
+}
+
+TEST(kernels_come_from_the_cache) {
+    setenv("HEDRON_CACHE", "cache", 1);
+    expect_compiled(build(8), HD_OK, 1);
+    expect_contains(program.cache.note, "by somebody");
+    hd_kernel_cache_accept(&program.cache);
+    expect_compiled(build(16), HD_OK, 2); /* not accepted */
+    program.is_built = false;
+    expect_compiled(build(8), HD_OK, 2);
+    assert_true(card.has_kernels);
+    program.is_built = false;
+    card.breaks = true;
+    expect_compiled(build(8), HD_UNAVAILABLE, 3);
+    expect_contains(program.cache.note, "the driver refused the cached kernels; it is too old");
 }
 
 EACH(begin, NULL)
