@@ -30,7 +30,7 @@ static struct {
     /* Called at each of these points, with the device's number, on the thread that is there; may
        wait, or let the device fail. NULL: nothing happens. */
     HdStatus (*event)(FakePoint point, int index, HdError *error);
-    atomic_int opened, probed, compiled, loaded, rendered;
+    atomic_int opened, probed, compiled, loaded, rendered, dropped;
     /* Of the kernels that were built last. */
     atomic_bool divides_by_fma;
     char key[HD_KERNEL_KEY_LENGTH];
@@ -137,6 +137,11 @@ static HdStatus fake_collect(void *state, const HdFrameTables *tables, HdFrame *
     return HD_OK;
 }
 
+static void fake_drop(void *state) {
+    (void)state;
+    fake.dropped++;
+}
+
 static HdKernelCache *fake_kernels(void *state) {
     return &((FakeRenderer *)state)->kernels;
 }
@@ -181,6 +186,7 @@ static const HdRendererFunctions fake_functions = {
     .upload = fake_upload,
     .submit = fake_submit,
     .collect = fake_collect,
+    .drop = fake_drop,
     .kernels = fake_kernels,
     .probe = fake_probe,
     .probe_key = fake_probe_key,

@@ -137,6 +137,40 @@ TEST(the_wavefront_takes_over_unless_it_is_wrong_too) {
     expect_contains(text, "computes wrongly: ");
 }
 
+TEST(what_is_wrong_is_refused_and_frames_under_way_are_dropped) {
+    static const HdFrameWish radiance = {.radiance = true};
+    const HdRenderOptions wrong = {.block = 33};
+    HdRenderer *renderer;
+    HdScene scene;
+    HdSceneTables tables;
+    HdCamera camera;
+    HdFrameTables view;
+    assert_int_equal(hd_renderer_open(&renderer, &device, &wrong, &error), HD_BAD_INPUT);
+    assert_null(renderer);
+    assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
+    assert_int_equal(hd_self_test_scene(&scene, kind, false, false, &error), HD_OK);
+    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error), HD_OK);
+    HdSceneTables others[] = {tables, tables, tables};
+    others[0].table[0].data = NULL;
+    others[1].table_count--;
+    others[2].precision = HD_PRECISION_DOUBLE;
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(hd_renderer_upload(renderer, &others[i], &error), HD_BAD_INPUT);
+    assert_int_equal(hd_renderer_upload(renderer, &tables, &error), HD_OK);
+    assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
+    assert_int_equal(hd_compile_frame(&view, &scene, &camera, HD_PRECISION_FLOAT, &error), HD_OK);
+    hd_renderer_drop(renderer);
+    assert_int_equal(fake.dropped, 0);
+    assert_int_equal(hd_renderer_submit(renderer, &view, &radiance, &error), HD_OK);
+    hd_renderer_drop(renderer);
+    hd_renderer_drop(renderer);
+    assert_int_equal(fake.dropped, 1);
+    hd_frame_tables_free(&view);
+    hd_renderer_close(renderer);
+    hd_scene_tables_free(&tables);
+    hd_scene_free(&scene);
+}
+
 TEST(wrong_kernels_render_nothing) {
     HdRenderer *renderer;
     HdScene scene;
