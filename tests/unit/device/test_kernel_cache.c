@@ -14,7 +14,6 @@ static HdError error;
 static HdRenderOptions options;
 static HdDevice device;
 static HdSelfTestFrame kind;
-static bool refracts;
 static char note[1024];
 static uint64_t hash;
 
@@ -25,7 +24,6 @@ static int begin(void **state) {
     device = fake_device();
     device.has_wide_atomics = true; /* for the wavefront */
     kind = HD_SELF_TEST_SOLID;
-    refracts = false;
     setenv("HEDRON_CACHE", "cache", 1);
     return 0;
 }
@@ -43,7 +41,7 @@ static HdStatus render_frame(void) {
     HdScene scene;
     HdCamera camera;
     HdFrame frame;
-    assert_int_equal(hd_self_test_scene(&scene, kind, refracts, false, &error), HD_OK);
+    assert_int_equal(hd_self_test_scene(&scene, kind, false, false, &error), HD_OK);
     assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     HdStatus status =
@@ -95,9 +93,6 @@ TEST(whatever_kernels_depend_on_counts) {
     expect_rendered(HD_OK, 1, 0);
     options.precision = HD_PRECISION_DOUBLE;
     fake.options = "-DDOUBLE";
-    expect_rendered(HD_OK, 1, 0);
-    refracts = true;
-    fake.options = "-DREFRACTS";
     expect_rendered(HD_OK, 1, 0);
     expect_rendered(HD_OK, 0, 1);
 }
@@ -205,7 +200,6 @@ TEST(fast_arithmetic_is_not_tested) {
 /* What came of the probe is remembered with all that it depends on, good or bad. */
 TEST(arithmetic_is_probed_once) {
     expect_rendered(HD_OK, 1, 0);
-    assert_int_equal(fake.probed, 1);
     expect_rendered(HD_OK, 0, 1);
     assert_int_equal(fake.probed, 1);
     snprintf(device.driver, sizeof device.driver, "driver 8");
