@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # 'hedron tune': what it measures and prints, that later runs use what it found, and that pictures do not
-# depend on it. Which runs it holds for is a matter of the unit tests (choice/test_launch).
+# depend on it. Which runs it holds for is a matter of the unit tests (choice/test_measured_choice).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -61,13 +61,10 @@ static const char *difference(const char *frame, void (*how)(const HdSceneTables
     return text;
 }
 
-TEST(equal_frames_have_none) {
-    assert_string_equal(difference("tetrahedron", with_nothing), "");
-}
-
 /* What is wrong in mirrors is not seen before a ray was mirrored; the sky at once, in the corner,
    and it needs nothing else; one of two lights is enough for what is wrong with it. */
 TEST(the_place_and_what_it_needs_are_told) {
+    assert_string_equal(difference("tetrahedron", with_nothing), "");
     expect_contains(difference("tetrahedron", with_other_mirrors), "depth 1 of the ray: ");
     const char *sky = difference("tetrahedron", with_other_sky);
     expect_contains(sky, "pixel 0, 0, sample 0, 0 of 2 x 2, depth 0 of the ray: ");
@@ -77,4 +74,14 @@ TEST(the_place_and_what_it_needs_are_told) {
     expect_contains(difference("tetrahedron", with_other_light), "0 of 1 solids, 2 of 20 lights");
     expect_contains(difference("one-pixel", with_other_mirrors), "pixel 0, 0, sample ");
     expect_contains(difference("crop-of-reference", with_other_light), "pixel ");
+}
+
+TEST(hashes_are_found_by_name_and_precision) {
+    HdGoldenHashes one = {0}, two = {0};
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_FLOAT, &one));
+    assert_true(hd_golden_find_hashes("tetrahedron", HD_PRECISION_DOUBLE, &two));
+    assert_true(one.frame != 0 && one.first_hits != 0 && one.frame != one.first_hits);
+    assert_true(one.frame != two.frame && one.first_hits != two.first_hits);
+    assert_false(hd_golden_find_hashes("tetra", HD_PRECISION_FLOAT, &one));
+    assert_false(hd_golden_find_hashes("", HD_PRECISION_FLOAT, &one));
 }

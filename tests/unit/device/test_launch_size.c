@@ -13,7 +13,7 @@ typedef struct Frame {
     double longest, seconds;
 } Frame;
 
-/* Returns the last one of the frames. */
+/* Returns the last frame. */
 static Frame run_frames(int frames, HdLaunchSize *size, int items, int work, Cost *cost) {
     Frame frame = {0};
     for (; frames > 0; frames--) {
@@ -52,18 +52,14 @@ static double uneven(double first, double count) {
     return seconds;
 }
 
-TEST(short_frames_are_one_launch) {
+TEST(frames_are_cut_for_the_limit_only) {
     HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
     assert_in_range(run_frames(1, &size, 1000000, 4, cheap).launches, 2, 6);
     assert_int_equal(run_frames(4, &size, 1000000, 4, cheap).launches, 1);
-}
-
-TEST(long_frames_are_cut_below_the_limit) {
-    HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
+    size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
     assert_true(run_frames(1, &size, 1000000, 1, costly).longest < HD_LAUNCH_SECONDS);
     const Frame frame = run_frames(1, &size, 1000000, 1, costly);
     assert_true(frame.longest < HD_LAUNCH_SECONDS);
-    /* Not into more than they need. */
     assert_true(frame.launches < 1.3 * frame.seconds / (HD_LAUNCH_AIM * HD_LAUNCH_SECONDS) + 1.0);
 }
 
@@ -98,7 +94,8 @@ TEST(slow_threads_are_not_cut_for) {
         }
 }
 
-/* Once they are gone, launches are cut as before. */
+/* When they are gone, launches are cut as before. Launches of a device that may last ten times as
+   long are not cut for them. */
 TEST(slow_threads_are_forgotten) {
     HdLaunchSize size = hd_launch_size_start(5, HD_LAUNCH_SECONDS);
     each = 1e-8;
@@ -106,25 +103,10 @@ TEST(slow_threads_are_forgotten) {
     assert_true(run_tail_frames(&size, 20).longest > 0.3);
     tail = 0.0;
     assert_true(run_tail_frames(&size, 40).longest < HD_LAUNCH_SECONDS);
-}
-
-/* Where nothing ends a kernel, launches may last ten times as long: the same frame is one launch.
- */
-TEST(free_devices_are_cut_less) {
-    HdLaunchSize size = hd_launch_size_start(132, HD_LAUNCH_SECONDS_FREE);
+    size = hd_launch_size_start(132, HD_LAUNCH_SECONDS_FREE);
     each = 4e-10;
     tail = 0.06;
     assert_int_equal(run_tail_frames(&size, 12).launches, 1);
-}
-
-TEST(launches_at_most_double) {
-    HdLaunchSize size = hd_launch_size_start(10, HD_LAUNCH_SECONDS);
-    for (int i = 0; i < 40; i++) {
-        int before = size.limit;
-        hd_launch_size_note(&size, before, 0.0);
-        assert_true(size.limit >= before && size.limit <= 2.0 * before);
-    }
-    assert_int_equal(size.limit, HD_MOST_LAUNCH_WORK);
 }
 
 /* After the first frame, which cannot know what is below the sky. */
@@ -155,14 +137,11 @@ TEST(after_a_slow_launch_sizes_rise_by_a_quarter_a_frame) {
         hd_launch_size_note(&size, size.limit, 0.0);
         assert_in_range(size.limit, (int)(0.999 * risen), (int)(1.001 * risen));
     }
-}
-
-TEST(one_slow_launch_is_forgotten_again) {
-    HdLaunchSize size = hd_launch_size_start(100, HD_LAUNCH_SECONDS);
-    run_frames(1, &size, 1000000, 4, cheap);
-    hd_launch_size_note(&size, 100000.0, 60.0);
-    assert_int_equal(size.limit, 25000);
-    assert_int_equal(run_frames(60, &size, 1000000, 4, cheap).launches, 1);
+    size = hd_launch_size_fixed(77);
+    hd_launch_size_begin_frame(&size);
+    hd_launch_size_note(&size, 77.0, 5.0);
+    hd_launch_size_note(&size, 77.0, 0.0);
+    assert_int_equal(size.limit, 77);
 }
 
 TEST(small_launches_tell_little) {
@@ -174,6 +153,9 @@ TEST(small_launches_tell_little) {
     assert_int_equal(size.limit, before.limit);
     hd_launch_size_note(&size, before.limit / 4.0, 0.1);
     assert_true(size.limit < before.limit / 4);
+    size = before;
+    hd_launch_size_note(&size, before.limit, 0.0);
+    assert_int_equal(size.limit, 2 * before.limit);
 }
 
 TEST(items_come_in_equal_parts_of_whole_groups) {
@@ -188,15 +170,6 @@ TEST(items_come_in_equal_parts_of_whole_groups) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(hd_launch_size_items(&size, cases[i].left, cases[i].work, cases[i].grain),
                          cases[i].expected);
-}
-
-TEST(fixed_sizes_stay) {
-    HdLaunchSize size = hd_launch_size_fixed(77);
-    for (int i = 0; i < 5; i++) {
-        hd_launch_size_begin_frame(&size);
-        hd_launch_size_note(&size, 77.0, i % 2 == 0 ? 5.0 : 0.0);
-        assert_int_equal(size.limit, 77);
-    }
 }
 
 TEST(any_device_has_a_first_size) {

@@ -106,14 +106,14 @@ static void expect_failure(const char *function, HdCuResult code, bool is_loss,
 }
 
 TEST(errors_have_their_words) {
-    static const char unknown[] = "cuMemAlloc failed with an unknown error (2: no description)";
-    word = "WORD";
-    expect_failure("cuMemAlloc", 2, false, "cuMemAlloc failed with WORD (2: WORD)");
-    outcome = 1;
-    expect_failure("cuMemAlloc", 2, false, unknown);
-    outcome = HD_CU_SUCCESS;
-    word = NULL;
-    expect_failure("cuMemAlloc", 2, false, unknown);
+    static const char *const words[] = {"WORD", "WORD", NULL};
+    for (int i = 0; i < 3; i++) {
+        word = words[i];
+        outcome = i == 1 ? 1 : HD_CU_SUCCESS;
+        expect_failure("cuMemAlloc", 2, false,
+                       i == 0 ? "cuMemAlloc failed with WORD (2: WORD)"
+                              : "cuMemAlloc failed with an unknown error (2: no description)");
+    }
 }
 
 TEST(what_a_device_does_not_survive_is_a_loss) {

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What becomes of what OpenCL's drivers say of their devices. */
+/* What becomes of what OpenCL's drivers say of their devices and of errors. */
 #define _POSIX_C_SOURCE 200809L
 #include "device/opencl/devices.h"
 
 #include <stdlib.h>
 
+#include "device/backend.h"
+#include "device/opencl/error.h"
 #include "unit_test.h"
 #include "wrapped.h"
 
@@ -35,15 +37,21 @@ static cl_int list_platforms(cl_uint capacity, cl_platform_id *platforms, cl_uin
     return CL_SUCCESS;
 }
 
+static cl_int answer(const void *from, size_t bytes, size_t size, void *value, size_t *needed) {
+    if (needed != NULL)
+        *needed = bytes;
+    if (value != NULL && size < bytes)
+        return CL_INVALID_VALUE;
+    if (value != NULL)
+        memcpy(value, from, bytes);
+    return CL_SUCCESS;
+}
+
 static cl_int name_platform(cl_platform_id platform, cl_platform_info what, size_t size,
                             void *value, size_t *needed) {
     (void)platform;
     assert_int_equal(what, CL_PLATFORM_NAME);
-    if (needed != NULL)
-        *needed = sizeof "a platform";
-    if (value != NULL)
-        memcpy(value, "a platform", size);
-    return CL_SUCCESS;
+    return answer("a platform", sizeof "a platform", size, value, needed);
 }
 
 /* The second platform has none. */
@@ -60,45 +68,32 @@ static cl_int list_devices(cl_platform_id platform, cl_device_type types, cl_uin
     return CL_SUCCESS;
 }
 
-static cl_int answer(const void *from, size_t bytes, size_t size, void *value, size_t *needed) {
-    if (needed != NULL)
-        *needed = bytes;
-    if (value != NULL && size < bytes)
-        return CL_INVALID_VALUE;
-    if (value != NULL)
-        memcpy(value, from, bytes);
-    return CL_SUCCESS;
-}
-
 static cl_int describe(cl_device_id device, cl_device_info what, size_t size, void *value,
                        size_t *needed) {
     const Said *is = (const Said *)device;
     const struct {
         cl_device_info what;
-        const char *text;
-    } texts[] = {{CL_DEVICE_NAME, is->name},
-                 {CL_DEVICE_VERSION, is->version},
-                 {CL_DEVICE_EXTENSIONS, is->extensions},
-                 {CL_DRIVER_VERSION, "5.6"}};
-    const struct {
-        cl_device_info what;
+        const char *text; /* NULL: the number */
         size_t bytes;
         cl_ulong number;
-    } numbers[] = {{CL_DEVICE_TYPE, sizeof(cl_ulong), is->type},
-                   {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong), 5000000000},
-                   {CL_DEVICE_AVAILABLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_COMPILER_AVAILABLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_ENDIAN_LITTLE, sizeof(cl_uint), is->is_usable},
-                   {CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(cl_uint), 12},
-                   {CAPABILITY_MAJOR, sizeof(cl_uint), 7},
-                   {CAPABILITY_MINOR, sizeof(cl_uint), 5},
-                   {TIMEOUT, is->is_nvidias ? sizeof(cl_uint) : 0, 0}};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        if (texts[i].what == what)
-            return answer(texts[i].text, strlen(texts[i].text) + 1, size, value, needed);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (numbers[i].what == what && numbers[i].bytes > 0)
-            return answer(&numbers[i].number, numbers[i].bytes, size, value, needed);
+    } answers[] = {{CL_DEVICE_NAME, is->name, 0, 0},
+                   {CL_DEVICE_VERSION, is->version, 0, 0},
+                   {CL_DEVICE_EXTENSIONS, is->extensions, 0, 0},
+                   {CL_DRIVER_VERSION, "5.6", 0, 0},
+                   {CL_DEVICE_TYPE, NULL, sizeof(cl_ulong), is->type},
+                   {CL_DEVICE_GLOBAL_MEM_SIZE, NULL, sizeof(cl_ulong), 5000000000},
+                   {CL_DEVICE_AVAILABLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_COMPILER_AVAILABLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_ENDIAN_LITTLE, NULL, sizeof(cl_uint), is->is_usable},
+                   {CL_DEVICE_MAX_COMPUTE_UNITS, NULL, sizeof(cl_uint), 12},
+                   {CAPABILITY_MAJOR, NULL, sizeof(cl_uint), 7},
+                   {CAPABILITY_MINOR, NULL, sizeof(cl_uint), 5},
+                   {is->is_nvidias ? TIMEOUT : 0, NULL, sizeof(cl_uint), 0}};
+    for (size_t i = 0; i < sizeof answers / sizeof *answers; i++)
+        if (answers[i].what == what)
+            return answers[i].text != NULL
+                       ? answer(answers[i].text, strlen(answers[i].text) + 1, size, value, needed)
+                       : answer(&answers[i].number, answers[i].bytes, size, value, needed);
     return CL_INVALID_VALUE;
 }
 
@@ -148,4 +143,51 @@ TEST(devices_are_found_by_number) {
     assert_int_equal(hd_opencl_find(&device, COUNT, &facts, &error), HD_UNAVAILABLE);
     assert_string_equal(error.message, "there is no device 5, only 0 to 4");
     assert_int_equal(hd_opencl_find(&device, -1, &facts, &error), HD_UNAVAILABLE);
+}
+
+/* ---- errors ---- */
+
+TEST(a_lost_device_is_told) {
+    static const struct {
+        const char *function;
+        cl_int code;
+        bool is_lost;
+        const char *message;
+    } cases[] = {
+        {"clFinish", CL_OUT_OF_RESOURCES, true, "clFinish failed with CL_OUT_OF_RESOURCES (-5): "},
+        {"clWaitForEvents", CL_OUT_OF_RESOURCES, true, ""},
+        {"clEnqueueReadBuffer", CL_OUT_OF_RESOURCES, true, ""},
+        /* A lack of memory, which may pass. */
+        {"clEnqueueNDRangeKernel", CL_OUT_OF_RESOURCES, false, ""},
+        {"clEnqueueNDRangeKernel", CL_DEVICE_NOT_AVAILABLE, true, ""},
+        {"clWaitForEvents", CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST, true, ""},
+        {"clFlush", CL_INVALID_COMMAND_QUEUE, true, ""},
+        {"clFlush", CL_INVALID_CONTEXT, true, ""},
+        {"clFlush", CL_INVALID_DEVICE, true, ""},
+        {"clFinish", -9999, true, "clFinish failed with an unknown error (-9999): "},
+        {"clFinish", CL_INVALID_VALUE, false, "clFinish failed with CL_INVALID_VALUE (-30)"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const HdStatus status = hd_opencl_fail(&error, cases[i].function, cases[i].code);
+        expect_contains(error.message, cases[i].message);
+        if (status != (cases[i].is_lost ? HD_UNAVAILABLE : HD_FAILED) ||
+            hd_is_loss(&error) != cases[i].is_lost)
+            fail_msg("it is not so that a loss is %d: %s", cases[i].is_lost, error.message);
+    }
+    hd_fail_lost(&error, "clFinish");
+    error.status = HD_FAILED;
+    assert_false(hd_is_loss(&error));
+}
+
+/* From the first to the last that OpenCL 1.2 has, but for those between its two groups. */
+TEST(errors_have_their_names) {
+    for (int code = -68; code <= 1; code++) {
+        const bool is_none = code >= 0 || (code > CL_INVALID_VALUE && code < -19);
+        const char *name = hd_opencl_error_name(code);
+        if (strncmp(name, is_none ? "an unknown" : "CL_", 3) != 0)
+            fail_msg("the error %d is called %s", code, name);
+    }
+    assert_string_equal(hd_opencl_error_name(CL_INVALID_ARG_INDEX), "CL_INVALID_ARG_INDEX");
+    assert_string_equal(hd_opencl_error_name(-1001), "CL_PLATFORM_NOT_FOUND_KHR");
+    assert_string_equal(hd_opencl_error_name(-2000000), "an unknown error");
 }
