@@ -37,7 +37,7 @@ static bool parse(Options *options, int count, char **arguments) {
         {"--kind", .number = &test->kind},
         {"--threads", .number = &test->threads},
         {"--general", .flag = &test->general},
-        {NULL},
+        {.name = NULL},
     };
     if (!parse_options(list, count, arguments))
         return false;

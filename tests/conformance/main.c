@@ -331,7 +331,7 @@ static bool parse(Options *options, int count, char **arguments) {
         {"--one-build", .flag = &options->one_build},
         {"--few", .flag = &options->few},
         {"--brief", .flag = &options->brief},
-        {NULL},
+        {.name = NULL},
     };
     if (!parse_options(list, count, arguments))
         return false;

@@ -194,7 +194,7 @@ static bool parse(Options *options, int count, char **arguments) {
         {"--precision", .number = &options->precision, .choices = precision_names},
         {"--lanes", .number = &options->lanes, .choices = lane_names},
         {"--seed", .number = &options->seed},
-        {NULL},
+        {.name = NULL},
     };
     return count > 1 && parse_rays(arguments[1], &options->rays) &&
            parse_options(list, count - 1, arguments + 1);
