@@ -76,7 +76,8 @@ def main():
                       f"{pixel}, not {expected}")
     pixels = count * WIDTH * HEIGHT
     for precision in TOLERANCES:
-        print(f"{precision}: {total[precision]} of {pixels} pixels differ; the others by {largest[precision]:.3g} at most")
+        print(f"{precision}: {total[precision]} of {pixels} pixels differ; "
+              f"the others by {largest[precision]:.3g} at most")
     sys.exit(max(total.values()) > SHARE_ALLOWED * pixels)
 
 
