@@ -25,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../options.h"
 #include "base/hash.h"
 #include "certify/golden.h"
 #include "device/renderer.h"
@@ -34,11 +35,10 @@
 #include "truths.h"
 #include "variants.h"
 
-enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
+enum { MAX_FRAMES = 64, MAX_NAME = 64 };
 /* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.
  */
 enum { OWN_BUILDS = 8 };
-enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 static const char usage[] =
     "usage: hedron_conformance [--write-golden FILE] [--math strict|fast]\n"
@@ -46,11 +46,6 @@ static const char usage[] =
     "                          [--precision float|double] [--threads 1|2]\n"
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
-static const char *const precision_names[2] = {"float", "double"};
-static const char *const math_names[2] = {"strict", "fast"};
-static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
-static const char *const thread_names[] = {"1", "2"};
-static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 
 /* Which frames are rendered; those that are surveyed have kernels of their own. */
 typedef enum Frames { FEW, NOT_SURVEYED, EVERY } Frames;
@@ -64,7 +59,7 @@ typedef struct Options {
     const char *write_golden, *pictures;
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
-    int threads;              /* an index into thread_names; or ALL */
+    int threads;              /* one less than there are; or ALL */
     bool one_build, few, brief;
     int math;
     int ptx_arch; /* 0: machine code */
@@ -321,50 +316,27 @@ static void check_backend(const HdBackend *backend, const Options *options, Gold
         check_device(&devices[i], options, golden, tally);
 }
 
-static bool parse_option(Options *options, const char *name, const char *value) {
-    if (strcmp(name, "--write-golden") == 0)
-        return (options->write_golden = value) != NULL;
-    if (strcmp(name, "--pictures") == 0)
-        return (options->pictures = value) != NULL;
-    if (strcmp(name, "--backend") == 0)
-        return (options->backend = hd_backend_find(value)) != NULL;
-    if (strcmp(name, "--math") == 0)
-        return (options->math = choose(value, math_names, 2)) >= 0;
-    if (strcmp(name, "--lanes") == 0)
-        return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
-    if (strcmp(name, "--precision") == 0)
-        return (options->precision = choose(value, precision_names, 2)) >= 0;
-    if (strcmp(name, "--threads") == 0)
-        return (options->threads = choose(value, thread_names, 2)) >= 0;
-    if (strcmp(name, "--ptx") == 0) {
+static bool parse(Options *options, int count, char **arguments) {
+    static const char *const maths[] = {"strict", "fast", NULL}, *const threads[] = {"1", "2",
+                                                                                     NULL};
+    const Option list[] = {
+        {"--write-golden", .text = &options->write_golden},
+        {"--pictures", .text = &options->pictures},
+        {"--backend", .backend = &options->backend},
+        {"--math", .number = &options->math, .choices = maths},
+        {"--lanes", .number = &options->lanes, .choices = lane_names},
+        {"--precision", .number = &options->precision, .choices = precision_names},
+        {"--threads", .number = &options->threads, .choices = threads},
+        {"--ptx", .number = &options->ptx_arch},
+        {"--one-build", .flag = &options->one_build},
+        {"--few", .flag = &options->few},
+        {"--brief", .flag = &options->brief},
+        {.name = NULL},
+    };
+    if (!parse_options(list, count, arguments))
+        return false;
+    if (options->ptx_arch > 0)
         options->backend = &hd_backend_cuda;
-        return (options->ptx_arch = atoi(value)) > 0;
-    }
-    return false;
-}
-
-static bool parse_options(Options *options, int count, char **arguments) {
-    for (int i = 1; i < count; i++) {
-        if (strcmp(arguments[i], "--one-build") == 0) {
-            options->one_build = true;
-            continue;
-        }
-        if (strcmp(arguments[i], "--few") == 0) {
-            options->few = true;
-            continue;
-        }
-        if (strcmp(arguments[i], "--brief") == 0) {
-            options->brief = true;
-            continue;
-        }
-        const char *value = i + 1 < count ? arguments[i + 1] : NULL;
-        if (value == NULL || !parse_option(options, arguments[i], value)) {
-            fprintf(stderr, "hedron_conformance: not understood: %s %s\n", arguments[i],
-                    value == NULL ? "" : value);
-            return false;
-        }
-        i++;
-    }
     return true;
 }
 
@@ -379,7 +351,7 @@ int main(int count, char **arguments) {
     Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL, .threads = ALL};
     Golden golden = {0};
     Tally tally = {0};
-    if (!parse_options(&options, count, arguments)) {
+    if (!parse(&options, count, arguments)) {
         fputs(usage, stderr);
         return EXIT_USAGE;
     }

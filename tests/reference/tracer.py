@@ -241,10 +241,7 @@ class Floor:
         self.material = materials[keys["material"]]
         self.texture = None
         if "texture" in keys:
-            name = keys["texture"]["file"]
-            if name.startswith("builtin:"):
-                raise ValueError(f"{name} is not known here")
-            self.texture = Texture(folder / name, keys["texture"].get("curve", "srgb"), False)
+            self.texture = Texture(folder / keys["texture"]["file"], keys["texture"]["curve"], False)
 
     def holds(self, point):
         """Whether a point of the plane is within the border."""
@@ -453,8 +450,6 @@ class Scene:
         path = Path(path)
         keys = json.loads(path.read_text("utf-8"))
         image = keys.get("image", {})
-        if image.get("max_error", 0) != 0 or image.get("aa", "grid") != "grid":
-            raise ValueError(f"{path}: image.max_error and image.aa are not known here")
         self.width, self.height = image.get("width", 640), image.get("height", 480)
         self.samples, self.depth = image.get("samples", 3), image.get("depth", 8)
         self.cutoff, self.exposure = image.get("cutoff", 0), image.get("exposure", 1)
