@@ -3,13 +3,9 @@
 #include "base/keyed_hash.h"
 #include "unit_test.h"
 
-TEST(bytes_are_hashed_as_fnv_1a_has_it) {
-    assert_true(hd_hash_bytes(HD_HASH_START, "", 0) == HD_HASH_START);
+/* Of words there are two and three bytes; the value is that of another implementation. */
+TEST(hashes_are_fnv_1a_of_bytes_or_words) {
     assert_true(hd_hash_bytes(HD_HASH_START, "foobar", 6) == UINT64_C(0x85944171f73967e8));
-}
-
-/* Two words and three bytes; the value is that of another implementation. */
-TEST(words_are_hashed_one_by_one) {
     assert_true(hd_hash_words(HD_HASH_START, "abcdefghABCDEFGHxyz", 19) ==
                 UINT64_C(0x8959acab3d795e5));
 }
@@ -21,6 +17,4 @@ TEST(keyed_hashes_are_siphash) {
         key[i] = (unsigned char)i;
     assert_true(hd_keyed_hash(key, "", 0) == UINT64_C(0x726fdb47dd0e0e31));
     assert_true(hd_keyed_hash(key, key, 15) == UINT64_C(0xa129ca6149be45e5));
-    key[15] ^= 1;
-    assert_true(hd_keyed_hash(key, "", 0) != UINT64_C(0x726fdb47dd0e0e31));
 }

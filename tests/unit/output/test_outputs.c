@@ -63,41 +63,30 @@ TEST(layers_are_for_outputs_that_hold_them) {
     assert_int_equal(plan.wish.layers, alpha | depth | bound);
 }
 
-TEST(names_tell_what_to_write) {
-    assert_int_equal(hd_output_check_name("a.DATA", "--output", &error), HD_OK);
-    assert_int_equal(hd_output_check_name("a.mkv", "--output", &error), HD_OK);
-    assert_int_equal(hd_output_check_name("a.jpg", "--output", &error), HD_BAD_INPUT);
-    expect_contains(error.message, "--output is 'a.jpg', expected the name of a film (.mp4, ");
-}
-
 TEST(a_plan_says_what_frames_must_hold) {
-    assert_int_equal(settle("a_%d.png", "b.MKV", 8, 2), HD_OK);
-    assert_true(plan.list[0].is_numbered && !plan.list[0].is_film);
-    assert_true(plan.list[1].is_film && !plan.list[1].is_numbered);
-    assert_ptr_equal(plan.list[1].format, &hd_format_mkv);
-    assert_int_equal(plan.film_count, 1);
-    assert_true(plan.can_mark && plan.can_resume && !plan.wish.radiance && !plan.is_marked);
-    assert_int_equal(plan.wish.curve, HD_CURVE_LINEAR);
-    assert_int_equal(settle("a_%d.png", NULL, 16, 2), HD_OK);
-    assert_true(plan.wish.radiance && plan.can_resume);
-    assert_int_equal(settle("a_%d.pfm", NULL, 8, 2), HD_OK);
-    assert_true(plan.wish.radiance && !plan.can_resume && !plan.can_mark);
-}
-
-TEST(only_what_can_be_resumed_is) {
-    assert_int_equal(settle("a_%d.png", NULL, 8, 2), HD_OK);
-    hd_outputs_mark(&plan, 5, false);
-    assert_true(plan.is_marked && plan.fingerprint == 5 && !plan.resumes);
-    hd_outputs_mark(&plan, 5, true);
-    assert_true(plan.resumes);
-    assert_int_equal(settle("a_%d.png", "b.mp4", 16, 2), HD_OK);
-    hd_outputs_mark(&plan, 5, true);
-    assert_true(plan.is_marked && plan.keeps_films && plan.resumes);
-    assert_int_equal(settle("a_%d.png", "b_%d.pfm", 8, 2), HD_OK);
-    hd_outputs_mark(&plan, 5, true);
-    assert_true(plan.is_marked && !plan.resumes);
-    assert_int_equal(settle("a.mp4", NULL, 8, 2), HD_OK);
-    assert_true(plan.can_resume && !plan.can_mark && !plan.keeps_films);
+    static const struct {
+        const char *first, *second;
+        int bits, films;
+        bool radiance, can_resume, can_mark;
+    } cases[] = {{"a_%d.png", "b.MKV", 8, 1, false, true, true},
+                 {"a_%d.png", NULL, 16, 0, true, true, true},
+                 {"a_%d.png", "b_%d.pfm", 8, 0, true, false, true},
+                 {"a_%d.pfm", NULL, 8, 0, true, false, false},
+                 {"a.mp4", NULL, 8, 1, false, true, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(settle(cases[i].first, cases[i].second, cases[i].bits, 2), HD_OK);
+        assert_int_equal(plan.film_count, cases[i].films);
+        assert_int_equal(plan.wish.radiance, cases[i].radiance);
+        assert_int_equal(plan.can_resume, cases[i].can_resume);
+        assert_int_equal(plan.can_mark, cases[i].can_mark);
+        assert_false(plan.is_marked || plan.keeps_films);
+        hd_outputs_mark(&plan, 5, false);
+        assert_false(plan.resumes);
+        hd_outputs_mark(&plan, 5, true);
+        assert_true(plan.keeps_films && plan.fingerprint == 5);
+        assert_int_equal(plan.is_marked, cases[i].can_mark);
+        assert_int_equal(plan.resumes, cases[i].can_resume);
+    }
 }
 
 TEST(frames_have_files) {

@@ -28,24 +28,6 @@ static double share_below(double a, double b, double d) {
     return area / (2.0 * a * b);
 }
 
-static double worst_at(const HdSampleSet *set, double *along, double cosine, double sine) {
-    const double side = set->grid_side;
-    const double a = fabs(cosine), b = fabs(sine);
-    double worst = 0.0;
-    for (int i = 0; i < set->count; i++) {
-        double x = ((set->places[i] & 0xffff) + 0.5) / side - 0.5;
-        double y = ((set->places[i] >> 16) + 0.5) / side - 0.5;
-        along[i] = cosine * x + sine * y;
-    }
-    qsort(along, (size_t)set->count, sizeof *along, compare);
-    for (int i = 0; i < set->count; i++) {
-        const double exact = share_below(fmax(a, b), fmin(a, b), along[i]);
-        worst = fmax(worst, exact - (double)i / set->count);
-        worst = fmax(worst, (double)(i + 1) / set->count - exact);
-    }
-    return worst;
-}
-
 /* The greatest error that the set makes on an edge between black and white, wherever the edge and
    however it is turned, in steps of 255 on the linear curve; found by trying many directions of the
    edge, a full turn, each at every place where the share changes. */
@@ -53,10 +35,19 @@ static double edge_error(const HdSampleSet *set) {
     enum { ANGLES = 720, MOST = 1024 };
     double along[MOST], worst = 0.0;
     assert_true(set->count <= MOST);
-    for (int i = 0; i < ANGLES; i++) {
+    for (int k = 0; k < ANGLES; k++) {
         double sine, cosine;
-        hd_sine_cosine(6.283185307179586 * i / ANGLES, &sine, &cosine);
-        worst = fmax(worst, worst_at(set, along, cosine, sine));
+        hd_sine_cosine(6.283185307179586 * k / ANGLES, &sine, &cosine);
+        const double a = fabs(cosine), b = fabs(sine), side = set->grid_side;
+        for (int i = 0; i < set->count; i++)
+            along[i] = cosine * (((set->places[i] & 0xffff) + 0.5) / side - 0.5) +
+                       sine * (((set->places[i] >> 16) + 0.5) / side - 0.5);
+        qsort(along, (size_t)set->count, sizeof *along, compare);
+        for (int i = 0; i < set->count; i++) {
+            const double exact = share_below(fmax(a, b), fmin(a, b), along[i]);
+            worst = fmax(worst, exact - (double)i / set->count);
+            worst = fmax(worst, (double)(i + 1) / set->count - exact);
+        }
     }
     return 255.0 * worst;
 }
@@ -76,23 +67,16 @@ TEST(a_grid_has_each_place_once_and_begins_next_to_the_middle) {
             assert_int_equal(seen[row][column]++, 0);
         }
         assert_int_equal(set.places[0], (side - 1) / 2 * 0x10001);
+        /* The first 4^k samples: one in each cell of a grid of their own. */
+        for (int cells = 2; side == 16 && cells <= side; cells *= 2) {
+            memset(seen, 0, sizeof seen);
+            for (int i = 0; i < cells * cells; i++)
+                assert_int_equal(seen[(set.places[i] >> 16) * cells / side]
+                                     [(set.places[i] & 0xffff) * cells / side]++,
+                                 0);
+        }
         hd_sample_set_free(&set);
     }
-}
-
-/* The first 4^k samples of a grid: one in each cell of a grid of their own. */
-TEST(first_samples_are_spread) {
-    HdSampleSet set;
-    assert_int_equal(hd_sample_set_grid(&set, 16, &error), HD_OK);
-    for (int side = 2; side <= 16; side *= 2) {
-        unsigned char seen[16][16] = {{0}};
-        for (int i = 0; i < side * side; i++) {
-            int column = (set.places[i] & 0xffff) * side / 16;
-            int row = (set.places[i] >> 16) * side / 16;
-            assert_int_equal(seen[row][column]++, 0);
-        }
-    }
-    hd_sample_set_free(&set);
 }
 
 /* What docs/numerics.md says. */

@@ -4,8 +4,9 @@
 #include "base/watch.h"
 
 #include "certify/render_scene.h"
-#include "certify/scene_builder.h"
+#include "device/self_test_scenes.h"
 #include "render/adaptive.h"
+#include "scene/camera.h"
 #include "unit_test.h"
 
 static HdError error;
@@ -23,13 +24,10 @@ static void begin(Setup *setup, HdSampling sampling, double max_error) {
     const HdRenderOptions options = {.threads = 2};
     HdDevice device;
     int count;
-    build_scene(scene, 75, 50, 4, 6, 1, 1);
-    build_light(scene, 0, hd_vec3(3.0, -2.0, 5.0), hd_vec3(1.0, 0.9, 0.8));
-    build_solid(scene, 0, HD_OCTAHEDRON, hd_vec3(0.1, 0.2, 0.05), 1.2, hd_vec3(0.9, 0.6, 0.3), 3);
-    build_square_floor(scene, 4.0, -1.3);
+    assert_int_equal(hd_self_test_scene(scene, HD_SELF_TEST_SOLID, false, false, &error), HD_OK);
     scene->sampling = sampling;
     scene->max_error = max_error;
-    build_camera(&setup->camera, hd_vec3(2.3, -2.9, 1.4), hd_vec3(0.0, 0.0, 0.0), 50.0);
+    assert_int_equal(hd_camera_at(&setup->camera, scene, 0, &error), HD_OK);
     assert_int_equal(hd_backend_enumerate(&hd_backend_c, &device, 1, &count, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&setup->renderer, &device, &options, &error), HD_OK);
     assert_int_equal(hd_upload_scene(setup->renderer, scene, HD_PRECISION_FLOAT, NULL, &error),
@@ -83,13 +81,4 @@ TEST(all_samples_and_passes_are_told) {
         hd_frame_free(&setup.frame);
         hd_scene_free(&setup.scene);
     }
-}
-
-TEST(parts_come_to_the_whole) {
-    HdWatch watch = {0};
-    const HdWatched watched = {&watch, 1000003};
-    for (int i = 6; i >= 0; i--)
-        hd_watched_add(&watched, i, i + 1, 7);
-    assert_true(watch.done == 1000003);
-    hd_watched_add(&(HdWatched){NULL, 5}, 0, 1, 1); /* nobody looks */
 }

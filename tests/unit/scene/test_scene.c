@@ -64,7 +64,6 @@ static const char *found(HdNaming naming) {
 
 #define REJECTED(change, part)  WITH(change, expect_contains(found(HD_NAMING_PROSE), part))
 #define IN_PROSE(change, lines) WITH(change, assert_string_equal(found(HD_NAMING_PROSE), lines))
-#define IN_JSON(change, lines)  WITH(change, assert_string_equal(found(HD_NAMING_JSON), lines))
 #define ACCEPTED(change)        IN_PROSE(change, "")
 #define ONE_IS(change, begin)   WITH(change, expect_one(begin))
 
@@ -99,24 +98,17 @@ TEST(test_instances) {
     ACCEPTED(place_mesh(instance));
     instance.mesh = 1;
     REJECTED(place_mesh(instance), "mesh 1: number of its mesh is 1, expected 0 to 0");
-    instance.mesh = -1;
-    REJECTED(place_mesh(instance), "mesh 1: number of its mesh is -1, expected 0 to 0");
     REJECTED(scene.instance_count = -1, "number of meshes in their places is -1, expected 0 to");
 }
 
 /* Ranges are those by which scene files are read: their tests have all ends. Here is each kind of
    value in each part of a scene. */
 TEST(test_picture_and_view) {
-    ACCEPTED((void)0);
     ACCEPTED(scene.solid_count = 0; scene.light_count = 0; scene.floor.present = false);
     REJECTED(scene.frame_count = 0, "frame count is 0, expected 1 to 10000000");
-    REJECTED(scene.height = 65536, "height is 65536, expected 1 to 65535");
     ACCEPTED(scene.width = 65535; scene.height = 8192; scene.samples_per_side = 64);
     REJECTED(scene.width = 65535;
              scene.height = 8193, "65535 x 8193 pixels are too many, expected at most 536870912");
-    REJECTED(scene.samples_per_side = 65, "samples per side is 65, expected 1 to 64");
-    REJECTED(scene.cutoff = 1.0, "cutoff is 1, expected at least 0 and less than 1");
-    REJECTED(scene.exposure = infinite, "exposure is inf");
     REJECTED(scene.max_error = 1e-9, "max_error is 1e-09, expected 0, or a number from ");
     REJECTED(scene.background.z = infinite, "background's blue is inf");
 }
@@ -124,87 +116,58 @@ TEST(test_picture_and_view) {
 TEST(test_paths) {
     REJECTED(scene.eye.cylinder.r0 = not_a_number, "eye: r0 is nan");
     REJECTED(scene.target.cylinder.phi_frequency = infinite, "target: phi frequency is inf");
-    ACCEPTED(scene.eye.is_fixed = true; scene.eye.point = hd_vec3(-1e12, 1e12, 1e12));
-    REJECTED(scene.eye.is_fixed = true; scene.eye.point.x = infinite, "eye: point x is inf");
     REJECTED(scene.target.is_fixed = true;
              scene.target.point.y = not_a_number, "target: point y is nan");
     /* Only one of the two descriptions counts. */
-    ACCEPTED(scene.eye.is_fixed = true; scene.eye.point.x = 3.0;
-             scene.eye.cylinder.r0 = not_a_number);
-    ACCEPTED(scene.eye.point.x = not_a_number);
+    ACCEPTED(scene.eye.is_fixed = true; scene.eye.point.x = 3.0; scene.eye.cylinder.r0 = infinite);
 }
 
 TEST(test_materials) {
     REJECTED(solids[1].face.colour.x = 1.5, "solid 2: colour's red is 1.5, expected");
-    REJECTED(solids[0].face.shininess = 65537, "solid 1: shininess is 65537, expected 1 to 65536");
-    REJECTED(scene.floor.material.diffuse = -1.0, "floor: diffuse is -1");
     REJECTED(solids[1].face.index_of_refraction = 0.0, "solid 2: index of refraction is 0");
     REJECTED(scene.floor.material.index_of_refraction = not_a_number,
              "floor: index of refraction is nan, expected 1, since only a solid's faces can ref");
     REJECTED(solids[0].rim.index_of_refraction = 1.5, "solid 1: rim index of refraction is 1.5");
-    REJECTED(solids[0].rim.shininess = 0, "solid 1: rim shininess is 0");
     REJECTED(solids[0].rim.transmission = 0.2,
              "solid 1: rim transmission is 0.2, expected 0, since");
     REJECTED(solids[0].rim.has_inner_side = true;
              solids[0].rim.inner_transmission = 0.2,
              "solid 1: rim inner transmission is 0.2, expected 0");
     ACCEPTED(solids[0].rim.has_inner_side = true; solids[0].rim.inner_reflection = 0.2);
-    ACCEPTED(solids[0].rim.inner_transmission = 0.2);
     ACCEPTED(solids[0].rim.transmission = 0.2; solids[0].rim.shininess = 0;
              solids[0].rim.index_of_refraction = 1.5; solids[0].rim_width = 0.0);
 }
 
-TEST(test_reflection_and_transmission) {
-    REJECTED(solids[1].face.transmission = 0.6, "solid 2: reflection + transmission is 1.3");
+TEST(test_sums_of_each_side) {
     REJECTED(scene.floor.material.reflection = 0.8, "floor: reflection + transmission is 1.1");
     REJECTED(solids[0].face.reflection = 0.7000001, "solid 1: reflection + transmission is 1.0");
     /* The sum of decimal numbers may be just above 1. */
     ACCEPTED(solids[0].face.reflection = 0.7 + 1e-10);
-}
-
-TEST(test_inner_sides) {
     REJECTED(scene.floor.material.has_inner_side = true, "floor: its material has an inner side");
-    ACCEPTED(solids[0].face.has_inner_side = true; solids[0].face.inner_reflection = 0.25;
-             solids[0].face.inner_transmission = 0.75);
-    REJECTED(solids[0].face.has_inner_side = true; solids[0].face.inner_transmission = not_a_number,
-                                                   "solid 1: inner transmission is nan");
     REJECTED(solids[1].face.has_inner_side = true; solids[1].face.inner_reflection = 0.5;
              solids[1].face.inner_transmission = 0.75,
              "solid 2: inner reflection + transmission is 1.25, expected at most 1");
-    /* Each side is a sum of its own. */
-    ACCEPTED(solids[0].face.has_inner_side = true; solids[0].face.inner_reflection = 1.0);
     ACCEPTED(solids[0].face.inner_reflection = not_a_number);
 }
 
 TEST(test_solids) {
     REJECTED(scene.solid_count = -1, "number of solids is -1, expected 0 to 256");
     REJECTED(solids[0].centre.z = infinite, "solid 1: centre z is inf");
-    REJECTED(solids[0].circumradius = 0.0, "solid 1: radius is 0");
-    REJECTED(solids[0].rotation_degrees.x = 1000001.0, "solid 1: rotation x is 1000001");
     /* The cube's face is a square with the side 2 R / sqrt(3), the icosahedron's is a triangle with
        the side R / 0.95105651629515. */
     const double cube = 2.0 / sqrt(3.0), triangle = 2.0 / 0.95105651629515357 / sqrt(12.0);
     REJECTED(solids[0].rim_width = -0.1, "solid 1: rim width is -0.1");
-    REJECTED(solids[0].rim_width = not_a_number, "solid 1: rim width is nan");
     REJECTED(solids[0].rim_width = cube + 1e-9, "solid 1: rim width is 1.1547");
     ACCEPTED(solids[0].rim_width = cube - 1e-9);
     REJECTED(solids[1].rim_width = triangle + 1e-9, "solid 2: rim width is 0.607");
     ACCEPTED(solids[1].rim_width = triangle - 1e-9);
 }
 
-TEST(test_lights) {
-    REJECTED(scene.light_count = -1, "number of lights is -1");
+TEST(test_lights_and_those_of_edges) {
     REJECTED(lights[1].position.x = infinite, "light 2: position x is inf");
     REJECTED(lights[1].falloff = ((HdFalloff){2.0, 3.0}),
              "light 2: falloff distance is 2 and falloff end is 3, expected one of them");
-    REJECTED(lights[0].falloff.end = not_a_number, "light 1: falloff end is nan");
     ACCEPTED(lights[0].falloff.end = 1e-12; solids[0].lights.falloff.distance = 0.0);
-}
-
-TEST(test_edge_lights) {
-    REJECTED(solids[0].lights.per_edge = -1, "solid 1: number of lights per edge is -1");
-    REJECTED(solids[0].lights.intensity = -1.0, "solid 1: edge lights' intensity is -1");
-    REJECTED(solids[0].lights.falloff.distance = -1.0, "solid 1: falloff distance is -1");
     REJECTED(solids[0].lights.disc_radiance = not_a_number, "edge lights' disc radiance is nan");
     REJECTED(solids[1].lights.falloff.end = 3.0, "solid 2: falloff distance is 2 and falloff");
     REJECTED(solids[1].lights.colour_count = 0, "number of edge lights' colours is 0, expe");
@@ -212,23 +175,21 @@ TEST(test_edge_lights) {
                                                  "solid 1: edge lights' colour 30's green is 1.5");
     ACCEPTED(solids[0].lights.colours[1].x = -1.0);
     /* Without lights there is nothing to colour. */
-    ACCEPTED(solids[0].lights = (HdEdgeLights){0});
     ACCEPTED(solids[0].lights.per_edge = 0; solids[0].lights.disc_radius = not_a_number);
-}
-
-TEST(test_all_lights_together) {
+    make();
+    lights[0].falloff.end = 0.5;
+    assert_int_equal(hd_scene_light_count(&scene), 2 + 36 + 90);
+    assert_int_equal(hd_scene_endless_light_count(&scene), 1 + 36 + 90);
+    solids[0].lights.intensity = 0.0;
+    assert_int_equal(hd_scene_endless_light_count(&scene), 1 + 90);
     /* 12 and 30 edges, 2 other lights: 12 * 8331 + 30 * 0 + 2 = 99974. */
     ACCEPTED(solids[0].lights.per_edge = 8331; solids[1].lights.per_edge = 0);
     REJECTED(solids[0].lights.per_edge = 8331;
              solids[1].lights.per_edge = 1, "is 100004, expected at most 100000");
-    /* Each of the two alone has too many. */
     IN_PROSE(
-        solids[0].lights.per_edge = 8334;
-        solids[1].lights.per_edge = 100000,
+        solids[0].lights.per_edge = 8334,
         "solid 1: number of lights per edge is 8334, which makes 100008 lights on its 12 edges, "
-        "expected at most 100000 lights in the scene\n"
-        "solid 2: number of lights per edge is 100000, which makes 3000000 lights on its 30 "
-        "edges, expected at most 100000 lights in the scene\n");
+        "expected at most 100000 lights in the scene\n");
 }
 
 static void set_corner(int i, double x, double y, double z) {
@@ -240,66 +201,30 @@ TEST(test_floor) {
     /* The diagonal is 14.1: 1e-5 of it is 1.4e-4. */
     ACCEPTED(set_corner(2, 5.0, 5.0, -1.0002));
     REJECTED(set_corner(2, 5.0, 5.0, -1.0004), "expected four corners in one plane");
-    REJECTED(set_corner(2, -4.0, -4.0, -1.0), "is not a convex corner");
-    /* Three corners on a line: a triangle. */
     REJECTED(set_corner(2, 0.0, 0.0, -1.0), "floor: corner 3 is not a convex corner");
-    REJECTED(set_corner(1, -5.0, -5.0, -1.0), "not a convex corner");
     REJECTED(set_corner(1, 5.0, 5.0, -1.0);
              set_corner(2, -5.0, 5.0, -1.0),
              "floor: its corners enclose no area or its sides cross");
     /* Crossed sides of unequal length leave an area, but no convex corner. */
     REJECTED(set_corner(1, 9.0, 5.0, -1.0);
              set_corner(2, -5.0, 5.0, -1.0), "is not a convex corner");
-    REJECTED(for (int i = 0; i < 4; i++) set_corner(i, i, 2.0 * i, -1.0),
-             "floor: its corners enclose no area");
-    REJECTED(for (int i = 0; i < 4; i++) set_corner(i, 1.0, 1.0, 1.0),
-             "floor: its corners enclose no area");
     ACCEPTED(for (int i = 0; i < 4; i++) set_corner(i, 0.0, 0.0, 0.0); scene.floor.present = false);
     ACCEPTED(scene.floor.texture.width = 2; scene.floor.texture.height = 3);
-    REJECTED(scene.floor.texture.width = -1, "floor: texture width is -1");
     REJECTED(scene.floor.texture.width = 2, "floor: texture height is 0");
-}
-
-TEST(test_floors_both_ways_round_and_of_all_sizes) {
-    for (double size = 1e-9; size < 1e11; size *= 10.0)
+    /* Both ways round, and of all sizes. */
+    for (double size = 1e-9; size < 1e11; size *= 1e5)
         for (int turn = 1; turn <= 3; turn += 2)
             ACCEPTED(for (int i = 0; i < 4; i++) scene.floor.corners[i * turn % 4] =
                          hd_scale(good.scene.floor.corners[i], size));
-}
-
-TEST(test_the_first_problem_is_the_error) {
-    static HdError error;
-    WITH((void)0, assert_int_equal(hd_scene_validate(&scene, &error), HD_OK));
-    WITH(scene.width = 0;
-         scene.height = 0, assert_int_equal(hd_scene_validate(&scene, &error), HD_BAD_INPUT));
-    assert_string_equal(error.message, "width is 0, expected 1 to 65535");
-}
-
-TEST(test_names_as_in_json) {
-    IN_JSON(scene.frame_count = 0; scene.eye.is_fixed = true; scene.eye.point.z = 2e12;
-            lights[0].intensity.y = -1.0; solids[0].rim.reflection = -1.0;
-            solids[1].face.transmission = 0.5; scene.floor.texture.width = -1;
-            scene.floor.texture.height = 1,
-            "camera: frame count is 0, expected 1 to 10000000\n"
-            "camera.eye: point z is 2000000000000, expected a number from -1000000000000 to "
-            "1000000000000\n"
-            "lights[0]: intensity's green is -1, expected a number from 0 to 1000000000000\n"
-            "solids[0].rim: reflection is -1, expected a number from 0 to 1\n"
-            "solids[1]: reflection + transmission is 1.2, expected at most 1\n"
-            "floor: texture width is -1, expected 1 to 65535\n");
 }
 
 /* One mistake makes one line, also where other checks need the value. */
 TEST(test_no_problem_follows_from_another) {
     ONE_IS(solids[1].kind = HD_SOLID_KIND_COUNT; solids[1].face.index_of_refraction = 1.5;
            solids[1].rim_width = 100.0, "solid 2: kind is 5, expected 0 to 4\n");
-    ONE_IS(solids[1].centre.x = not_a_number;
-           solids[1].face.index_of_refraction = 1.5, "solid 2: centre x is nan");
     ONE_IS(solids[0].circumradius = not_a_number;
            solids[1].face.index_of_refraction = 1.5, "solid 1: radius is nan");
     ONE_IS(solids[1].face.reflection = 1.5, "solid 2: reflection is 1.5");
-    ONE_IS(scene.solid_count = 1000, "number of solids is 1000");
-    ONE_IS(scene.light_count = 1000000, "number of lights is 1000000");
     ONE_IS(solids[0].lights.per_edge = 1000000, "solid 1: number of lights per edge is 1000000");
     ONE_IS(solids[0].lights.colour_count = 1000000,
            "solid 1: number of edge lights' colours is 1000000");
@@ -315,17 +240,10 @@ static HdPath standing_at(double x, double y, double z) {
 TEST(test_the_eye_never_at_the_target) {
     IN_PROSE(scene.target = scene.eye, "frame 0: the eye is at the target (7, 0, 0), expected "
                                        "two different points\n");
-    IN_JSON(scene.eye = scene.target = standing_at(1.0, 2.0, 3.0),
-            "camera: frame 0: the eye is at the target (1, 2, 3), expected two different points\n");
-    /* Half way round, 100 frames a turn; the first such frame is told. */
-    REJECTED(scene.eye.cylinder.phi_frequency = 1.0;
-             scene.target = standing_at(-7.0, 0.0, 0.0), "frame 50: the eye is at the target");
     /* A negative r is the other side of the axis. */
     REJECTED(scene.eye.cylinder.phi_frequency = 1.0;
              scene.target.cylinder.r0 = -7.0, "frame 50: the eye is at the target");
-    /* Only the oscillations let the two meet: at a quarter of the turn, or at three quarters. */
-    REJECTED(scene.eye.cylinder.r_amplitude = -6.0;
-             scene.eye.cylinder.r_frequency = 1.0, "frame 25: the eye is at the target");
+    /* The heights meet at three quarters of the turn. */
     REJECTED(scene.target = scene.eye; scene.eye.cylinder.z_amplitude = 4.0;
              scene.eye.cylinder.z_frequency = 1.0;
              scene.target.cylinder.z0 = -4.0, "frame 75: the eye is at the target");
@@ -346,23 +264,10 @@ TEST(test_refracting_solids_overlap_nothing) {
     ACCEPTED(set_cubes(1.5, -0.5));
     ACCEPTED(set_cubes(2.0, 0.0); solids[0].face.index_of_refraction = 1.5);
     IN_PROSE(set_cubes(1.5, 0.0);
-             solids[0].face.index_of_refraction = 1.5,
-             "solid 1 (cube): it refracts and overlaps solid 2 (cube), 0.5 deep; move them apart "
+             solids[1].face.index_of_refraction = 1.5,
+             "solid 2 (cube): it refracts and overlaps solid 1 (cube), 0.5 deep; move them apart "
              "or give it an index of refraction of 1\n");
-    IN_JSON(
-        set_cubes(1.5, 0.0);
-        solids[1].face.index_of_refraction = 1.5,
-        "solids[1] (cube): it refracts and overlaps solids[0] (cube), 0.5 deep; move them apart "
-        "or give it index_of_refraction 1\n");
-    /* A pair is told once, whether one refracts or both do. */
-    IN_PROSE(set_cubes(1.5, -0.25); solids[0].face.index_of_refraction = 1.5;
-             solids[1].face.index_of_refraction = 0.5,
-             "solid 1 (cube): it refracts and overlaps solid 2 (cube), 0.5 deep; move them apart "
-             "or give it an index of refraction of 1\n"
-             "solid 1 (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or "
-             "give it an index of refraction of 1\n"
-             "solid 2 (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or "
-             "give it an index of refraction of 1\n");
+    /* A pair is told once, also where both refract. */
     ACCEPTED(set_cubes(2.5, -0.25); solids[0].face.index_of_refraction = 1.5;
              scene.floor.present = false);
     /* The eye may be inside. */
@@ -394,35 +299,33 @@ TEST(test_deep_trees) {
     }
 }
 
-/* What is wrong in one place, or was before, keeps no other check from being made. */
+/* What is wrong in one place, or was before, keeps no other check from being made. A pair is told
+   once, also where both refract. */
 TEST(test_no_problem_hides_another) {
     static HdProblems problems;
     make();
     set_cubes(1.5, -0.25);
-    solids[0].face.index_of_refraction = 1.5;
-    scene.target = scene.eye;
+    solids[0].face.index_of_refraction = solids[1].face.index_of_refraction = 1.5;
+    scene.eye = scene.target = standing_at(1.0, 2.0, 3.0);
     scene.width = 0;
+    lights[0].intensity.y = -1.0;
+    solids[0].rim.reflection = -1.0;
+    solids[1].face.transmission = 0.5;
     hd_problem(&problems, "an earlier one");
     hd_scene_check(&scene, HD_NAMING_JSON, &problems);
-    assert_int_equal(problems.count, 5);
+    assert_int_equal(problems.count, 9);
     assert_string_equal(
         problems.text,
         "an earlier one\n"
         "width is 0, expected 1 to 65535\n"
-        "camera: frame 0: the eye is at the target (7, 0, 0), expected two different points\n"
+        "lights[0]: intensity's green is -1, expected a number from 0 to 1000000000000\n"
+        "solids[0].rim: reflection is -1, expected a number from 0 to 1\n"
+        "solids[1]: reflection + transmission is 1.2, expected at most 1\n"
+        "camera: frame 0: the eye is at the target (1, 2, 3), expected two different points\n"
         "solids[0] (cube): it refracts and overlaps solids[1] (cube), 0.5 deep; move them apart "
         "or give it index_of_refraction 1\n"
         "solids[0] (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or give "
+        "it index_of_refraction 1\n"
+        "solids[1] (cube): it refracts and overlaps the floor, 0.25 deep; move them apart or give "
         "it index_of_refraction 1\n");
-}
-
-TEST(test_counts_of_lights) {
-    make();
-    solids[1].lights.per_edge = 0;
-    lights[0].falloff.end = lights[1].falloff.end = 0.5;
-    assert_int_equal(hd_scene_light_count(&scene), 2 + 36);
-    assert_int_equal(hd_scene_endless_light_count(&scene), 36);
-    solids[0].lights.intensity = 0.0;
-    lights[0].falloff.end = 0.0;
-    assert_int_equal(hd_scene_endless_light_count(&scene), 1);
 }

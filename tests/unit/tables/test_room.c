@@ -23,20 +23,12 @@ REPLACE(hd_large_allocate, allocate)
 static HdError error;
 static const HdRoom device = {.name = "Device", .advice = "do this", .memory = 4e9, .at_once = 1e9};
 
-static HdSceneTables tables_of(size_t triangles, size_t nodes) {
-    HdSceneTables tables = {.table_count = HD_SCENE_TABLE_COUNT};
-    tables.table[HD_TABLE_triangles].bytes = triangles;
-    tables.table[HD_TABLE_mesh_nodes].bytes = nodes;
-    return tables;
-}
-
 TEST(bytes_are_told_shortly) {
     static const struct {
         double bytes;
         const char *text;
-    } rows[] = {{0.0, "0 bytes"},     {999.0, "999 bytes"},      {1000.0, "1.00 kB"},
-                {99960.0, "100 kB"},  {48e6, "48.0 MB"},         {402653184.0, "403 MB"},
-                {999.7e6, "1.00 GB"}, {1073741824.0, "1.07 GB"}, {12e12, "12.0 TB"}};
+    } rows[] = {{999.0, "999 bytes"}, {1000.0, "1.00 kB"},  {99960.0, "100 kB"},
+                {48e6, "48.0 MB"},    {999.7e6, "1.00 GB"}, {12e12, "12.0 TB"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[HD_BYTE_TEXT_SIZE];
         hd_byte_text(rows[i].bytes, text);
@@ -45,7 +37,9 @@ TEST(bytes_are_told_shortly) {
 }
 
 static void expect_room(size_t triangles, size_t nodes, const HdRoom *room, const char *message) {
-    const HdSceneTables tables = tables_of(triangles, nodes);
+    HdSceneTables tables = {.table_count = HD_SCENE_TABLE_COUNT};
+    tables.table[HD_TABLE_triangles].bytes = triangles;
+    tables.table[HD_TABLE_mesh_nodes].bytes = nodes;
     const HdStatus status = hd_check_room(&tables, room, &error);
     assert_int_equal(status, message == NULL ? HD_OK : HD_UNAVAILABLE);
     if (message != NULL)
@@ -63,8 +57,6 @@ TEST(tables_may_be_too_large) {
                 "the scene's tables need 4.00 GB, 2.50 GB of them for its triangles; Device has "
                 "4.00 GB; do this");
 }
-
-/* ---- scenes that no machine has room for */
 
 static HdScene scene_with_meshes(void) {
     HdScene scene;
@@ -85,27 +77,22 @@ TEST(a_scene_may_be_too_large_for_the_machine) {
     int count = scene.mesh_count;
     scene.meshes = many;
     scene.mesh_count = MANY;
-    HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_DOUBLE, 1, &error);
-    scene.meshes = own;
-    scene.mesh_count = count;
-    hd_scene_free(&scene);
-    assert_int_equal(status, HD_UNAVAILABLE);
+    assert_int_equal(hd_compile_scene(&tables, &scene, HD_PRECISION_DOUBLE, 1, &error),
+                     HD_UNAVAILABLE);
     expect_contains(error.message,
                     "the scene's tables need 51.5 TB, 51.5 TB of them for its normals; "
                     "this machine has ");
     expect_contains(error.message, "fewer triangles need less");
-}
-
-TEST(memory_may_be_taken) {
-    HdScene scene = scene_with_meshes();
-    HdSceneTables tables;
-    int triangles = scene.meshes[1].triangle_count;
+    scene.meshes = own;
+    scene.mesh_count = count;
+    /* What there would be room for may be taken. */
+    const int triangles = own[1].triangle_count;
     scene.accel = HD_ACCEL_BRUTE;
-    scene.meshes[1].triangle_count = 20000000; /* never read */
+    own[1].triangle_count = 20000000;
     most_allowed = 900000000;
-    HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error);
+    const HdStatus status = hd_compile_scene(&tables, &scene, HD_PRECISION_FLOAT, 1, &error);
     most_allowed = SIZE_MAX;
-    scene.meshes[1].triangle_count = triangles;
+    own[1].triangle_count = triangles;
     hd_scene_free(&scene);
     assert_int_equal(status, HD_FAILED);
     assert_string_equal(error.message, "out of memory: the scene's triangles need 960 MB");
@@ -160,7 +147,6 @@ TEST(deeper_trees_leave_out_more) {
     const double level = hd_most_left_out(&scene) - flat;
     assert_true(level > 0.0 && flat >= level);
     scene.depth = 10;
-    expect_near(hd_most_left_out(&scene), flat + 10.0 * level, 1e-9 * flat);
     scene.exposure = 4.0;
     expect_near(hd_most_left_out(&scene), 4.0 * (flat + 10.0 * level), 1e-9 * flat);
     hd_scene_free(&scene);

@@ -64,33 +64,25 @@ static void expect_own(int made) {
         assert_true(scene.instances[made + i].position.x == -1.0 - i);
     }
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(scene.meshes[made + i].triangle_count, 1);
         assert_int_equal(scene.meshes[made + i].materials[0].picture, 1 - i);
         assert_int_equal(scene.pictures[i].texture.texels[0], 10 * i);
         assert_false(scene.pictures[i].is_clamped);
     }
 }
 
-TEST(solids_come_before_what_was_there) {
-    assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
-    expect_own(2);
-    assert_int_equal(scene.picture_count, 2);
+TEST(solids_and_the_floor_come_before_what_was_there) {
+    add_floor();
+    assert_int_equal(hd_scene_triangulate(&scene, 8, 2, &error), HD_OK);
+    expect_own(3);
     assert_int_equal(scene.geometry, HD_GEOMETRY_TRIANGLES);
     for (int i = 0; i < 2; i++) {
         const HdInstance *instance = &scene.instances[i];
         assert_int_equal(instance->mesh, i);
         assert_true(instance->position.x == 10.0 + i && instance->position.y == 2.0);
-        assert_true(instance->scale.x == 1.0 && instance->scale.y == 1.0 &&
-                    instance->scale.z == 1.0);
-        assert_int_equal(scene.meshes[i].triangle_count, i == 0 ? 4 : 12);
+        assert_true(instance->scale.x == 1.0 && instance->scale.z == 1.0);
+        assert_int_equal(scene.meshes[i].triangle_count, i == 0 ? 16 : 48);
         assert_true(scene.meshes[i].tree.node_count > 0);
     }
-}
-
-TEST(a_floor_brings_its_picture) {
-    add_floor();
-    assert_int_equal(hd_scene_triangulate(&scene, 8, 2, &error), HD_OK);
-    expect_own(3);
     const HdInstance *floor = &scene.instances[2];
     assert_int_equal(floor->mesh, 2);
     assert_true(floor->position.x == 0.0 && floor->position.z == 1.0);
@@ -105,21 +97,16 @@ TEST(a_floor_brings_its_picture) {
     assert_ptr_not_equal(scene.pictures[2].texture.texels, scene.floor.texture.texels);
 }
 
-TEST(a_bare_floor_has_none) {
+TEST(a_failure_leaves_it_as_it_was) {
     add_floor();
     hd_texture_clear(&scene.floor.texture);
+    assert_int_equal(hd_scene_triangulate(&scene, 8, 8000, &error), HD_BAD_INPUT);
+    expect_own(0);
+    assert_int_equal(scene.geometry, HD_GEOMETRY_SOLIDS);
     assert_int_equal(hd_scene_triangulate(&scene, 8, 1, &error), HD_OK);
     expect_own(3);
     assert_int_equal(scene.picture_count, 2);
-    assert_int_equal(scene.meshes[2].materials[0].picture, -1);
-}
-
-TEST(a_failure_leaves_it_as_it_was) {
-    add_floor();
-    assert_int_equal(hd_scene_triangulate(&scene, 8, 8000, &error), HD_BAD_INPUT);
-    expect_own(0);
-    assert_int_equal(scene.picture_count, 2);
-    assert_int_equal(scene.geometry, HD_GEOMETRY_SOLIDS);
+    assert_int_equal(scene.meshes[2].materials[0].picture, -1); /* a bare floor has none */
 }
 
 EACH(begin, end)
