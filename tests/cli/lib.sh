@@ -163,9 +163,7 @@ expect_files() {
     shift
     expected=$(if (($# > 0)); then printf '%s\n' "$@" | sort; fi)
     found=$(find "$folder" -mindepth 1 -printf '%P\n' 2>&1 | sort)
-    if [[ $found != "$expected" ]]; then
-        fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
-    fi
+    [[ $found == "$expected" ]] || fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
 }
 
 expect_same() {

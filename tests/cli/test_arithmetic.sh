@@ -53,9 +53,7 @@ done
 expect_stderr_contains "taken from $work/cache"
 rm -r "$work/cache"
 expect_exit 0 "${no_nvidia[@]}" "${render[@]}" --verbose
-if grep -q 'division by fma' "$logs/stderr"; then
-    fail 'a device that divides rightly divides by fma'
-fi
+! grep -q 'division by fma' "$logs/stderr" || fail 'a device that divides rightly divides by fma'
 rm -r "$work/cache" picture.data
 
 # ---- what nothing mends is refused, before kernels are compiled; then it is remembered
@@ -65,9 +63,7 @@ expect_refused() {
     expect_refusal 3 "${driver[@]}" "${render[@]}" --quiet
     expect_stderr_contains ' computes wrongly: '
     expect_stderr_contains "$3"
-    if compgen -G "$work/cache/opencl-*" >"$logs/which"; then
-        fail "kernels of a device that computes wrongly are kept"
-    fi
+    ! compgen -G "$work/cache/opencl-*" >"$logs/which" || fail "kernels of a device that computes wrongly are kept"
     expect_refusal 3 "${no_nvidia[@]}" "${render[@]}" --quiet
     expect_stderr_contains ': it computes wrongly: '
     rm -r "$work/cache"

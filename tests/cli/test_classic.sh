@@ -33,9 +33,8 @@ for key in gpu cpu none; do
     classic "$key" "$work/official.in" "${option[@]}" "${small_one[@]}" --frames 0-2
     expect_stdout_lines 3 "$row"
     numbers >"$key.numbers"
-    if [[ $(cut -f 1 "$logs/stdout" | tr '\n' ' ') != '0 1 2 ' ]]; then
+    [[ $(cut -f 1 "$logs/stdout" | tr '\n' ' ') == '0 1 2 ' ]] ||
         fail "the lines are not those of the frames 0, 1 and 2 in order"
-    fi
     if [[ $key == cpu ]]; then
         expect_silent_stderr
     elif ! has_other_gpu; then
@@ -53,9 +52,8 @@ expect_different cpu/out/img_1.data cpu/out/img_2.data
 
 # ---- frames on their own are those of the sequence
 classic last "$work/official.in" --cpu "${small_one[@]}" --frames 1023,2
-if [[ $(cut -f 1 "$logs/stdout" | sort -n | tr '\n' ' ') != '2 1023 ' ]]; then
+[[ $(cut -f 1 "$logs/stdout" | sort -n | tr '\n' ' ') == '2 1023 ' ]] ||
     fail "the list 1023,2 did not give these two frames"
-fi
 expect_files last out out/img_2.data out/img_1023.data
 expect_same last/out/img_2.data cpu/out/img_2.data
 expect_same <(numbers | grep '^2') <(sed -n 3p cpu.numbers)
@@ -77,9 +75,8 @@ expect_same space/out/img_1.data bare/out/img_1.data
 
 # ---- rays: those from the eye and those of mirrors and faces, but not those to lights
 classic eye "$work/official.in" --cpu "${small_one[@]}" --frames 0 --depth 0
-if [[ $(cut -f 3 "$logs/stdout") != 768 ]]; then
+[[ $(cut -f 3 "$logs/stdout") == 768 ]] ||
     fail "$(cut -f 3 "$logs/stdout") rays at depth 0, expected one for each of the 768 pixels"
-fi
 # The example without its lights, those on the edges included.
 sed -e '6,8s/[0-9]*$/0/' -e '10s/.*/0/' -e '11,12d' "$work/official.in" >"$work/unlit.in"
 classic unlit "$work/unlit.in" --cpu "${small_one[@]}" --frames 0
@@ -91,9 +88,7 @@ for variant in 1 2 3 4 5 6 7 8 9 10 ''; do
     classic "variant$variant" "$work/official.in" --cpu "${small_one[@]}" --frames 0 --depth 3 ${variant:+--variant "$variant"}
 done
 different=$(md5sum variant?*/out/img_0.data | cut -d ' ' -f 1 | sort -u | wc -l)
-if ((different != 10)); then
-    fail "the ten variants give $different different pictures"
-fi
+((different == 10)) || fail "the ten variants give $different different pictures"
 expect_same variant/out/img_0.data variant4/out/img_0.data
 
 # ---- output paths
@@ -132,8 +127,6 @@ expect_png default/out/frame_0.png 32 24
 # Its tokens: the 73rd is the number of lights, each has six more, and two follow.
 tokens=$(wc -w <"$work/default.in")
 lights=$(xargs -n 1 <"$work/default.in" | sed -n 73p)
-if ((tokens != 73 + 6 * lights + 2)); then
-    fail "the default configuration has $tokens tokens, expected $((73 + 6 * lights + 2))"
-fi
+((tokens == 73 + 6 * lights + 2)) || fail "the default configuration has $tokens tokens, expected $((73 + 6 * lights + 2))"
 
 finish

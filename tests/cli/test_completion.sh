@@ -10,9 +10,7 @@ expect_silent_stderr
 cp "$logs/stdout" "$work/completion"
 # shellcheck source=/dev/null
 source "$work/completion"
-if [[ $(complete -p hedron) != 'complete -F _hedron hedron' ]]; then
-    fail "bash completes hedron with '$(complete -p hedron)'"
-fi
+[[ $(complete -p hedron) == 'complete -F _hedron hedron' ]] || fail "bash completes hedron with '$(complete -p hedron)'"
 if command -v shellcheck >"$logs/which" && ! shellcheck -s bash "$work/completion"; then
     fail "the completion script has mistakes"
 fi
@@ -27,9 +25,7 @@ expect_completions() {
     _hedron
     found=$(printf '%s\n' "${COMPREPLY[@]}" | tr -s ' ' '\n' | sort | tr '\n' ' ')
     expected=$(tr -s ' ' '\n' <<<"$expected" | sort | tr '\n' ' ')
-    if [[ $found != "$expected" ]]; then
-        fail "'hedron $*' gives '$found', expected '$expected'"
-    fi
+    [[ $found == "$expected" ]] || fail "'hedron $*' gives '$found', expected '$expected'"
 }
 
 commands='render view new check convert devices selftest tune compare help'
@@ -86,9 +82,8 @@ fi
 "$hedron" help completion-fish >"$work/completion.fish"
 # expect_words SHELL EXPECTED: what its completion offered, in $logs/offered.
 expect_words() {
-    if [[ $(sort "$logs/offered" | tr '\n' ' ') != "$2 " ]]; then
+    [[ $(sort "$logs/offered" | tr '\n' ' ') == "$2 " ]] ||
         fail "$1 offers '$(tr '\n' ' ' <"$logs/offered")', expected '$2'"
-    fi
 }
 if command -v zsh >"$logs/which"; then
     zsh_completes() {

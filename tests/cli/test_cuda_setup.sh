@@ -27,9 +27,7 @@ expect_stderr_contains '; tracing with c on '
 expect_exit 0 "${too_new[@]}" "${any[@]}" --quiet
 expect_silent_stderr
 expect_exit 0 "${cannot_start[@]}" FAKE_CUDA_ERROR=100 "${any[@]}" # no card is there
-if grep -q '^hedron: ' "$logs/stderr"; then
-    fail "a card that is not there is told to be passed over"
-fi
+! grep -q '^hedron: ' "$logs/stderr" || fail "a card that is not there is told to be passed over"
 rm -r any
 
 # ---- an NVRTC that does not know the card, and a driver that does not load what it makes: which one to install
@@ -45,9 +43,8 @@ mkdir -p "$work/build/release" "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 cp "$hedron" "$work/build/release/hedron"
 cp "$nvrtc" "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 expect_exit 0 env -u HEDRON_NVRTC LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "$work/build/release/hedron" devices
-if ! grep -q '/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc\.so\.12$' "$work"/loaded.*; then
+grep -q '/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc\.so\.12$' "$work"/loaded.* ||
     fail "the library that ./dev fetches was not loaded"
-fi
 
 # ---- of 2 GB of memory 700 MB are enough for 3840 x 2160 and both pipelines; less is told
 large=(FAKE_CUDA_MEMORY=2000000000 FAKE_CUDA_SKIPS=1 "$hedron" render --size 3840x2160 --samples 1

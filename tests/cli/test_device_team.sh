@@ -35,14 +35,10 @@ if has_opencl; then
         --stats stats.jsonl
     for line in 'device +c 0, .*: named by --device.*' 'device +opencl 0, .*: named by --device.*' \
         'renderer +.* threads?, (mega|wavefront).*' 'renderer +.* compute units?, (mega|wavefront).*'; do
-        if (($(grep -c -x -E "$line" "$logs/stderr") != 1)); then
-            fail "no line of --verbose is $line"
-        fi
+        (($(grep -c -x -E "$line" "$logs/stderr") == 1)) || fail "no line of --verbose is $line"
     done
     expect_frames
-    if (($(grep -c -E '"backend":"(c|opencl)","index":0' stats.jsonl) != 12)); then
-        fail "the statistics do not name the devices"
-    fi
+    (($(grep -c -E '"backend":"(c|opencl)","index":0' stats.jsonl) == 12)) || fail "the statistics do not name the devices"
     rm stats.jsonl
     if [[ -e alone.mkv ]]; then
         for film in alone pair; do
@@ -82,9 +78,7 @@ expect_exit 0 env HEDRON_CACHE=off FAKE_NVRTC_WRONG=1 "${frames[@]}" --device cu
 expect_sentence
 expect_stderr_contains "${dropped}Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly"
 expect_frames
-if (($(grep -c '"backend":"c"' stats.jsonl) != 12)); then
-    fail "not all frames are of plain C"
-fi
+(($(grep -c '"backend":"c"' stats.jsonl) == 12)) || fail "not all frames are of plain C"
 # The device fails as it gets the scene.
 expect_exit 0 env FAKE_CUDA_FAILS=cuMemcpyHtoDAsync "${frames[@]}" --math fast --device all -o together/%d.data --quiet
 expect_sentence

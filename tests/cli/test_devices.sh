@@ -39,9 +39,7 @@ for command in "$hedron" "${nothing[*]} $hedron"; do
         (.kernels | test("^[0-9a-f]{64}$")), ([.backends[].devices[] | keys_unsorted | join(" ")] | unique),
         (.backends[2].devices[0] | [.backend, .index, .is_cpu, .has_double, .unusable, .is_measured, .not_strict])]' "$logs/stdout")
     expected="[\"cuda opencl c\",$listed,$missing,true,[\"backend index name driver is_cpu compute_units clock_mhz has_double unusable is_measured not_strict\"],[\"c\",0,true,true,null,true,null]]"
-    if [[ $found != "$expected" ]]; then
-        fail "the JSON has $found, expected $expected"
-    fi
+    [[ $found == "$expected" ]] || fail "the JSON has $found, expected $expected"
 done
 
 # ---- a backend or a device that is missing
@@ -50,9 +48,7 @@ classic=("$hedron" "${small[@]}" --frames 0)
 # once WORDS: the sentence says it, but not over and over.
 once() {
     expect_stderr_contains "$1"
-    if (($(grep -o -F -e "$1" "$logs/stderr" | wc -l) > 1)); then
-        fail "the sentence says '$1' more than once"
-    fi
+    (($(grep -o -F -e "$1" "$logs/stderr" | wc -l) <= 1)) || fail "the sentence says '$1' more than once"
 }
 expect_refusal 3 "${nothing[@]}" "${render[@]}" --backend opencl
 once 'no OpenCL platform'

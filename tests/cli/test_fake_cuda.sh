@@ -15,9 +15,7 @@ render=("$hedron" render "${small[@]}" --frames 0 -o picture.data --backend cuda
 
 # expect_build REGEX: what is said of the kernels.
 expect_build() {
-    if (($(grep -c -x -E -e "build +$1" "$logs/stderr") != 1)); then
-        fail "standard error has no line that is $1"
-    fi
+    (($(grep -c -x -E -e "build +$1" "$logs/stderr") == 1)) || fail "standard error has no line that is $1"
 }
 
 expect_exit 0 "$hedron" devices
@@ -28,9 +26,7 @@ expect_stdout_contains 'sm_61, driver for CUDA 12.8'
 expect_refusal 3 env FAKE_NVRTC_WRONG=1 "${render[@]}" --quiet
 expect_stderr_contains 'cuda: Fake device 0 (sm_61, driver for CUDA 12.8) computes wrongly'
 expect_files .
-if compgen -G "$work/cache/cuda-*" >"$logs/which"; then
-    fail "wrong kernels are kept"
-fi
+! compgen -G "$work/cache/cuda-*" >"$logs/which" || fail "wrong kernels are kept"
 rm -r "$work/cache"
 
 # ---- the classic keys mean it: --gpu takes the card, --cpu refuses it
@@ -68,9 +64,8 @@ expect_launches() {
     local filter=$1
     shift
     expect_exit 0 "$@" --again -o launches/%d.data --stats stats.jsonl
-    if ! jq -e -s ".[-2:] | all(.[]; $filter)" stats.jsonl >"$logs/jq"; then
+    jq -e -s ".[-2:] | all(.[]; $filter)" stats.jsonl >"$logs/jq" ||
         fail "not all frames have $filter: $(jq -c '[.longest_launch_ms, .seconds.trace]' stats.jsonl | tr '\n' ' ')"
-    fi
 }
 threads=(env FAKE_CUDA_UNITS=3 FAKE_CUDA_THREAD_NS=10000)
 # The sums of the counts, 1024 threads, are a launch of their own.
@@ -170,14 +165,12 @@ done
 # ---- 'hedron tune': every limit of registers is compiled, and the best is used from then on
 tune=("$hedron" tune --backend cuda "${small[@]}" --pipeline mega)
 expect_exit 0 "${tune[@]}" --math fast
-if (($(grep -c -x -E 'mega(, (at most [0-9]+ (registers|groups)|groups of [0-9]+))? +1\.000 +1\.000' "$logs/stdout") != 10)); then
+(($(grep -c -x -E 'mega(, (at most [0-9]+ (registers|groups)|groups of [0-9]+))? +1\.000 +1\.000' "$logs/stdout") == 10)) ||
     fail "there are not all candidates"
-fi
 expect_stdout_contains 'the best: mega; remembered for scenes of this kind'
 for registers in 64 96 128 168; do
-    if ! grep -q -a -e "--maxrregcount=$registers " "$HEDRON_CACHE"/cuda-*; then
+    grep -q -a -e "--maxrregcount=$registers " "$HEDRON_CACHE"/cuda-* ||
         fail "no kernels were compiled for $registers registers"
-    fi
 done
 expect_exit 0 "${fast[@]}" --pipeline mega
 expect_stderr_contains "launch    mega: the best for this kind of scene, by 'hedron tune'"

@@ -14,12 +14,9 @@ expect_help() {
     expect_stdout_contains 'Usage'
     found=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z-]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
     expected=$(tr -s ' \n' '\n' <<<"$expected" | sort | tr '\n' ' ')
-    if [[ $found != "$expected" ]]; then
-        fail "the help has '$found', expected '$expected'"
-    fi
-    if grep -q -E '.{121}|[[:space:]]$' "$logs/stdout"; then
+    [[ $found == "$expected" ]] || fail "the help has '$found', expected '$expected'"
+    ! grep -q -E '.{121}|[[:space:]]$' "$logs/stdout" ||
         fail "the help has a line of more than 120 characters, or one that ends in white space"
-    fi
 }
 
 viewing='--backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision
@@ -94,9 +91,7 @@ formatted() {
     sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$logs/stdout" | tr -s ' \n' '  ' >"$work/page"
     for word in NAME SYNOPSIS DESCRIPTION COMMANDS 'EXIT STATUS' EXAMPLES 'hedron render scene.json -o out/%04d.png -o film.mkv' \
         '130, 143' 'hedron convert' check devices selftest tune compare $rendering --output --layers --set; do
-        if ! grep -q -F -e "$word" "$work/page"; then
-            fail "the man page lacks '$word'"
-        fi
+        grep -q -F -e "$word" "$work/page" || fail "the man page lacks '$word'"
     done
 }
 if command -v groff >"$logs/which"; then

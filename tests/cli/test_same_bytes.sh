@@ -30,9 +30,7 @@ expect_close() {
     local far
     far=$(paste <(od -A n -v -t u1 -w1 "$1") <(od -A n -v -t u1 -w1 "$2") |
         awk '{d = $1 - $2; if (d > 8 || d < -8) far++} END {print far + 0}')
-    if ((far > 33 * 25 * 4 / 50)); then
-        fail "$1 and $2 differ by more than 8 in $far bytes"
-    fi
+    ((far <= 33 * 25 * 4 / 50)) || fail "$1 and $2 differ by more than 8 in $far bytes"
 }
 
 # ---- the C backend
@@ -49,9 +47,7 @@ expect_exit 0 "$hedron" render "${scene[@]:1}" --backend c --math fast -o fast.d
 expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast changes nothing there'
 
 # ---- it is a picture: not of one colour, and another one for another frame
-if (($(tail -c +9 float.data | od -A n -v -t x4 -w4 | sort -u | wc -l) < 50)); then
-    fail "the picture has fewer than 50 colours"
-fi
+(($(tail -c +9 float.data | od -A n -v -t x4 -w4 | sort -u | wc -l) >= 50)) || fail "the picture has fewer than 50 colours"
 picture next --backend c --frames 41
 expect_different next.data float.data
 

@@ -36,9 +36,8 @@ refuse() {
         expect_stderr_contains "$what"
     done
     expect_stdout_lines 0
-    if ! grep -q -E '^hedron: (cannot read the scene )?bad\.json' "$logs/stderr"; then
+    grep -q -E '^hedron: (cannot read the scene )?bad\.json' "$logs/stderr" ||
         fail "the message does not begin with the names of the program and the file"
-    fi
     cp "$logs/stderr" "$work/checked"
     expect_exit 2 timeout "$patience" "${render[@]}" bad.json
     expect_stdout_lines 0
@@ -120,9 +119,7 @@ expect_files . floor.data
 echo 'root:secret:0:0' >secrets
 expect_refusal 2 "$hedron" check secrets
 expect_stderr_contains 'secrets is no scene: neither has it the ending .json nor does it begin with {'
-if grep -q -e root -e secret: "$logs/stderr"; then
-    fail 'words of the file are told'
-fi
+! grep -q -e root -e secret: "$logs/stderr" || fail 'words of the file are told'
 printf 'solid teapot' >teapot.stl
 expect_refusal 2 "$hedron" render teapot.stl
 expect_stderr_contains 'teapot.stl is no scene by its name'

@@ -116,9 +116,8 @@ expect_exit 0 "$hedron" convert --variant 10 <"$work/official.in"
 expect_silent_stderr
 expect_same "$logs/stdout" new/converted.json
 # Of the output and of the texture: the classic mode knows no other curve.
-if (($(grep -c '"curve": "linear"' new/converted.json) != 2)); then
+(($(grep -c '"curve": "linear"' new/converted.json) == 2)) ||
     fail "the converted scene does not say that its curves are linear"
-fi
 # What the classic mode writes in the data format for want of an ending has one in the scene.
 for name in img_%d img_%d.jpg img_%d.mp4; do
     sed "s|out/img_%d.data|out/$name|" "$work/official.in" >bare.in

@@ -44,9 +44,8 @@ expect_exit 0 "${nothing[@]}" --device c:0 --quick
 expect_silent_stderr
 first=$(grep -o 'certificate [0-9a-f]\{16\}$' "$logs/stdout")
 expect_stdout_contains 'right    frames in float by mega, with refraction, lit from behind ('
-if (($(grep -c '^  right    ' "$logs/stdout") != 4)); then
+(($(grep -c '^  right    ' "$logs/stdout") == 4)) ||
     fail "a quick test of plain C is not one kind of kernels with its golden frames in both precisions"
-fi
 expect_exit 0 "${nothing[@]}" --device c:0 --quick --json
 expect_stdout_contains "\"hash\": \"${first#certificate }\""
 expect_certificate right 4
@@ -82,9 +81,7 @@ expect_stdout_contains 'strict arithmetic: no, it computes wrongly: fma(a, b, c)
 expect_exit 0 "${no_nvidia[@]}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in double, 8192 tuples of operands ('
 expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
-if grep -q 'computes wrongly' "$logs/stdout"; then
-    fail "a device that computes rightly is still told to compute wrongly"
-fi
+! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes rightly is still told to compute wrongly"
 # Frames that are wrong though the arithmetic is right.
 take "$build" '1.5259021896696422e-5' '1.6e-5'
 expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"

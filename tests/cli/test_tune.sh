@@ -13,9 +13,8 @@ render=("$hedron" render --backend c --threads 1 "${small[@]}" --frames 0 --verb
 # expect_launch WORDS OPTION...: a rendering says that it uses this; "": that it uses nothing; the picture is as ever.
 expect_launch() {
     expect_exit 0 "${render[@]}" "${@:2}"
-    if [[ $(sed -n 's/^launch *//p' "$logs/stderr") != "${1:+$1: the best for this kind of scene, by 'hedron tune'}" ]]; then
+    [[ $(sed -n 's/^launch *//p' "$logs/stderr") == "${1:+$1: the best for this kind of scene, by 'hedron tune'}" ]] ||
         fail "it is not told that '$1' is remembered"
-    fi
     expect_same picture.data expected.data
 }
 
@@ -35,15 +34,11 @@ if ! head -n 1 "$logs/stdout" | grep -q -x -E 'the built-in scene on c 0, .*' ||
     fail "the table has not a heading and the candidates of a CPU"
 fi
 best=$(sed -n 's/^the best: \(.*\); remembered for scenes of this kind$/\1/p' "$logs/stdout")
-if [[ -z $best ]]; then
-    fail "it does not tell what is the best"
-fi
+[[ -n $best ]] || fail "it does not tell what is the best"
 
 # ---- later runs use it, with the same bytes; what they ask for themselves comes first
 expect_launch "$best"
-if ! grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr"; then
-    fail "what is remembered is not used"
-fi
+grep -q -E "^renderer .*, ${best%%,*}$" "$logs/stderr" || fail "what is remembered is not used"
 expect_launch '' --pipeline wavefront
 
 # ---- a scene from standard input, and JSON
@@ -58,9 +53,8 @@ fi
 
 # ---- where nothing can be remembered
 expect_exit 0 env HEDRON_CACHE=off "${tune[@]}" --lanes "$some" --json
-if [[ $(jq -c '[.remembered, .reason]' "$logs/stdout") != '[false,"HEDRON_CACHE is off"]' ]]; then
+[[ $(jq -c '[.remembered, .reason]' "$logs/stdout") == '[false,"HEDRON_CACHE is off"]' ]] ||
     fail "the JSON does not tell that nothing is remembered"
-fi
 expect_exit 1 env HEDRON_CACHE=/dev/null "${tune[@]}" --lanes "$some"
 expect_stdout_contains '; not remembered: cannot use the folder /dev/null: it is not a folder'
 expect_stderr_contains 'hedron: cannot use the folder /dev/null: it is not a folder'
