@@ -31,7 +31,7 @@ if ! head -n 1 "$logs/stdout" | grep -q -x -E 'the built-in scene on c 0, .*' ||
     ! sed -n 2p "$logs/stdout" | grep -q -x -E 'pictures of 32 x 24 pixels, [0-9]+ x [0-9]+ samples' ||
     (($(grep -c -x -E "(mega|wavefront)(, (4|8|16) lanes)? +$number +$number" "$logs/stdout") != 1 + ${#lanes[@]})) ||
     ! grep -q -x -E "mega +$number +1\.000" "$logs/stdout"; then
-    fail "the table has not a heading and the candidates of a CPU"
+    fail 'the table has other candidates'
 fi
 best=$(sed -n 's/^the best: \(.*\); remembered for scenes of this kind$/\1/p' "$logs/stdout")
 [[ -n $best ]] || fail "it does not tell what is the best"
@@ -53,8 +53,7 @@ fi
 
 # ---- where nothing can be remembered
 expect_exit 0 env HEDRON_CACHE=off "${tune[@]}" --lanes "$some" --json
-[[ $(jq -c '[.remembered, .reason]' "$logs/stdout") == '[false,"HEDRON_CACHE is off"]' ]] ||
-    fail "the JSON does not tell that nothing is remembered"
+expect_stdout_contains '"reason": "HEDRON_CACHE is off"'
 expect_exit 1 env HEDRON_CACHE=/dev/null "${tune[@]}" --lanes "$some"
 expect_stdout_contains '; not remembered: cannot use the folder /dev/null: it is not a folder'
 expect_stderr_contains 'hedron: cannot use the folder /dev/null: it is not a folder'
@@ -65,7 +64,4 @@ expect_stderr_contains 'none.json'
 expect_refusal 2 "${tune[@]}" --frames 9999
 expect_refusal 3 "${tune[@]}" --device 7
 expect_stderr_contains "see 'hedron devices'"
-
-rm -f picture.data expected.data
-expect_files .
 finish
