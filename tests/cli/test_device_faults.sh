@@ -164,7 +164,6 @@ if [[ ! -e $nvrtc ]]; then
     echo "not tested: CUDA that fails, for no compiler of C++ is here that could build the kernels"
     finish
 fi
-mkdir "$work/no_vendors"
 cuda=(env LD_LIBRARY_PATH="$build/tests/fake_cuda" HEDRON_NVRTC="$nvrtc" HEDRON_CACHE="$work/cache"
     OCL_ICD_VENDORS="$work/no_vendors")
 frames=("$hedron" render "${small[@]}" --frames 0-6 --backend cuda --math fast --quiet -o '%d.data')

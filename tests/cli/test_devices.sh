@@ -7,8 +7,6 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 use_official_input
-mkdir "$work/no_vendors"
-nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
 
 section() { # NAME: what the list says below this backend
     awk -v name="$1" '/^[^ ]/ {inside = ($0 == name)} inside && /^ /' "$logs/stdout"
