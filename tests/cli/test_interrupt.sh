@@ -12,8 +12,8 @@ use_official_input
 
 # Signals come when something shows that it is time for them, never after a fixed while.
 
-# The state of the program's main thread, as a letter, and the hundredths of a second it has computed.
-# Nothing before it has taken the place of the shell that started it.
+# The state of the program's main thread, as a letter, and the hundredths of a second it has computed, once it has taken
+# the place of the shell that started it.
 look_at() {
     local all stat
     state='' ticks=0
@@ -118,9 +118,8 @@ if has_ffmpeg; then
     expect_end 143
     expect_sentence
     expect_first_frames out
-    if (($(grep -c '^{.*}$' "$work/stats.jsonl") != frames || $(wc -l <"$work/stats.jsonl") != frames)); then
+    (($(grep -c '^{.*}$' "$work/stats.jsonl") == frames && $(wc -l <"$work/stats.jsonl") == frames)) ||
         fail "the statistics have not one line for each of $frames frames"
-    fi
     rm -r out
 
     # An FFmpeg that neither speaks nor ends must not stop us from ending.
@@ -159,7 +158,7 @@ stands_still() {
     local files
     files=$(find out -type f | wc -l)
     sleep 0.3
-    ((files > 3)) && [[ $(find out -type f | wc -l) == "$files" ]]
+    ((files > 3 && $(find out -type f | wc -l) == files))
 }
 exec 9<>"$work/pipe"
 start "$hedron" render --quiet --backend c --size 16x12 --samples 1 --depth 0 --frames 0-239 -o 'out/%d.data' \
@@ -170,9 +169,8 @@ send INT "$pid"
 expect_end 130
 expect_sentence
 exec 9>&-
-if (($(find out -type f | wc -l) > 200)) || [[ -n $(find out -name '*.tmp-*') ]]; then
-    fail 'the pipe took all statistics, or temporary files were left'
-fi
+(($(find out -type f | wc -l) <= 200)) || fail 'the pipe took all statistics'
+[[ -z $(find out -name '*.tmp-*') ]] || fail 'temporary files were left'
 rm -r out
 
 # ---- in the midst of a frame of many minutes

@@ -49,7 +49,7 @@ accept photo.png photo.data
 expect_different photo.data home.data
 # Alpha carries no meaning.
 for alpha in 000 377; do
-    { int32 1 && int32 1 && printf '\200\100\040%b' "\\$alpha"; } >alpha.texture
+    printf '%b' '\1\0\0\0\1\0\0\0\0200\0100\040' "\\0$alpha" >alpha.texture
     accept alpha.texture "alpha$alpha.data"
 done
 expect_same alpha000.data alpha377.data
