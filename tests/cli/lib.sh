@@ -45,11 +45,9 @@ trap clean_up EXIT
 
 finish() {
     finished=1
-    if ((failures > 0)); then
-        echo "$failures expectations failed" >&2
-        exit 1
-    fi
-    exit 0
+    ((failures > 0)) || exit 0
+    echo "$failures expectations failed" >&2
+    exit 1
 }
 
 # lanes_there PRECISION: the numbers of lanes that plain C takes on this processor.

@@ -63,8 +63,7 @@ else
     expect_exit 0 "${opencl[@]}" FAILING_OPENCL_NAME=$'A\e[2J\a card\x9b' "$hedron" devices
     expect_silent_stderr
     expect_stdout_contains 'A\u001b[2J\u0007 card\x9b'
-    ! LC_ALL=C grep -q $'[\x01-\x09\x0b-\x1f\x7f-\x9f]' "$logs/stdout" ||
-        fail "control characters of a driver are printed as they are"
+    ! grep -q $'[\x01-\x09\x0b-\x1f\x7f-\x9f]' "$logs/stdout" || fail 'control characters of a driver are printed'
     devices=$(grep -c '^  [0-9]' "$logs/stdout")
     expect_exit 0 "${opencl[@]}" FAILING_OPENCL_NAME='A card' FAILING_OPENCL_LIES=1 "$hedron" devices
     expect_silent_stderr

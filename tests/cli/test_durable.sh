@@ -36,9 +36,8 @@ expect_durable() {
     rm -f "$work/log"
     expect_exit 0 "${watched[@]}" "$@"
     faults=$(unsynced)
-    if [[ -n $faults ]] || ! grep -q '^rename ' "$work/log"; then
-        fail "of $* ${faults:-nothing was renamed}"
-    fi
+    [[ -z $faults ]] || fail "of $* $faults"
+    grep -q '^rename ' "$work/log" || fail "of $* nothing was renamed"
 }
 
 # ---- each kind of output; folders that are new, and those above them; the statistics' own file

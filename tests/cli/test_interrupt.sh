@@ -11,25 +11,13 @@ slow=(--quiet --size 240x180 --samples 2 --depth 4 --threads 1 --frames 0-239)
 use_official_input
 
 # Signals come when something shows that it is time for them, never after a fixed while.
-
-# The state of the program's main thread, as a letter, and the hundredths of a second it has computed, once it has taken
-# the place of the shell that started it.
-look_at() {
-    local all stat
-    state='' ticks=0
-    { read -r all <"/proc/$pid/stat"; } 2>/dev/null || return 1
-    [[ $all == "$pid (hedron) "* ]] || return 1
-    read -r -a stat <<<"${all#*) }"
-    state=${stat[0]}
-    ticks=$((stat[11] + stat[12]))
-}
-
+# Nothing before the program has taken the place of the shell that started it.
 sleeps_for_signals() {
     local mask
-    look_at || return 1
+    [[ $(ps -o s=,comm= -p "$pid") == S*hedron ]] || return 1
     mask=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$pid/status") || return 1
     switches=$(sed -n 's/^voluntary_ctxt_switches:[[:space:]]*//p' "/proc/$pid/status") || return 1
-    [[ -n $mask && $state == S ]] && (((16#$mask >> ($(kill -l INT) - 1)) & 1))
+    [[ -n $mask ]] && (((16#$mask >> ($(kill -l INT) - 1)) & 1))
 }
 
 # It has nothing but its input or a pipe to wait for then. On its way there it may sleep for a moment: it waits
@@ -42,8 +30,8 @@ waits() {
     sleeps_for_signals && [[ $switches == "$before" ]]
 }
 
-has_computed() {
-    look_at && ((ticks >= $1))
+has_computed() { # SECONDS
+    [[ $(ps -o cputimes=,comm= -p "$pid") == *hedron ]] && (($(ps -o cputimes= -p "$pid") >= $1))
 }
 
 # expect_first_frames FOLDER: the files are those of the first frames, whole, and no others. Sets `frames`.
@@ -98,9 +86,7 @@ expect_end_without_files() {
 if has_ffmpeg; then
     # As soon as there is a folder for the film, and when FFmpeg has several frames; twice at once, as 'timeout' does it.
     fake ffmpeg "{ head -c 500000; : >'$work/reached'; exec cat; } | '$(command -v ffmpeg)' \"\$@\""
-    mkdir new
     for case in "INT $work/here/new" "TERM $work/reached"; do
-        rmdir new
         start_film "${case#* }" "${slow[@]}" -o new/film.mp4
         send "${case% *}" "-$pid"
         kill "-${case% *}" "$pid" 2>/dev/null || true
@@ -108,8 +94,8 @@ if has_ffmpeg; then
         expect_sentence
         expect_stdout_lines 0
         expect_files . new
+        rmdir new
     done
-    rmdir new
 
     # Several outputs: the film goes, pictures and statistics stay whole.
     rm "$work/tools/ffmpeg"
@@ -175,7 +161,7 @@ rm -r out
 
 # ---- in the midst of a frame of many minutes
 start "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o picture.data
-wait_for 'it to compute' has_computed 20
+wait_for 'it to compute' has_computed 1
 send INT "$pid"
 expect_end_without_files INT
 expect_stderr_contains 'interrupted after 0 of 1 frames'

@@ -52,7 +52,8 @@ if has_ffmpeg; then
     rm film.mkv stats.jsonl
     mkfifo "$work/pipe"
     # Descriptor 4 is a pipe that nobody reads.
-    exec 3<>"$work/pipe" 4>"$work/pipe" 3<&-
+    exec 3<>"$work/pipe"
+    exec 4>"$work/pipe" 3<&-
     code=0
     "${render[@]}" --frames 0-1 -o film.mkv --stats - >&4 2>"$logs/stderr" || code=$?
     ((code == 1)) || fail "exit code $code, expected 1"
