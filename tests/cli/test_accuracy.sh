@@ -17,8 +17,7 @@ expect_all() {
     jq -e -s "all(.[]; $2)" "$1" >"$logs/jq" 2>&1 || fail "$1: not $2: $(tr '\n' ' ' <"$1" | cut -c1-600)"
 }
 
-# compare NAME NAME: into compared.json.
-compare() {
+compare() { # NAME NAME: into compared.json
     "$hedron" compare --json "$1.pfm" "$2.pfm" >compared.json || true
 }
 
@@ -86,8 +85,7 @@ expect_exit 0 "$hedron" render nested.json --backend c --frames 0 --size 1x1 --s
 expect_stderr_contains 'may be missing from a pixel, more than the 16 of --max-error'
 
 # ---- wrong options
-# wrong WORDS OPTION...
-wrong() {
+wrong() { # WORDS OPTION...
     expect_refusal 2 "$hedron" render --backend c -o wrong.pfm "${@:2}"
     expect_stderr_contains "$1"
 }

@@ -20,8 +20,7 @@ classic() {
 }
 small_one=(--size 32x24 --samples 1)
 
-# The frame number and the rays of each line, which are the same for every run.
-numbers() {
+numbers() { # of frame and rays in each line, the same for every run
     cut -f 1,3 "$logs/stdout"
 }
 
@@ -109,8 +108,7 @@ output_case '~/frames/%d.png' "$HOME/frames/1.png"
 mkdir empty
 cd empty
 mapfile -t tokens < <(xargs -n 1 <"$work/bare.in")
-# refuse WHAT: standard input is refused with a sentence that has WHAT.
-refuse() {
+refuse() { # WHAT: standard input is refused with a sentence that has this
     expect_refusal 2 "$hedron" --cpu
     expect_stderr_contains "$1"
 }

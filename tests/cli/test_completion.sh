@@ -65,8 +65,7 @@ _hedron
 # ---- zsh, whose own functions tell what they are asked for, and fish
 "$hedron" help completion-zsh >"$work/completion.zsh"
 "$hedron" help completion-fish >"$work/completion.fish"
-# expect_words SHELL EXPECTED: what its completion offered, in $logs/offered.
-expect_words() {
+expect_words() { # SHELL EXPECTED: what its completion offered, in $logs/offered
     [[ $(sort "$logs/offered") == "$2" ]] || fail "$1 offers '$(<"$logs/offered")', expected '$2'"
 }
 if command -v zsh >"$logs/which"; then

@@ -12,8 +12,7 @@ films=()
 ! has_ffmpeg || films=(-o alone.mkv)
 expect_exit 0 "${frames[@]}" --device c:0 -o alone/%d.data "${films[@]}"
 
-# expect_frames: those in the folder `together`, which goes, are the same as of one device.
-expect_frames() {
+expect_frames() { # those in the folder `together`, which goes, are the same as of one device
     expect_files together {0..11}.data
     for i in {0..11}; do
         expect_same "together/$i.data" "alone/$i.data"

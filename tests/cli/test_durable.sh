@@ -25,8 +25,7 @@ unsynced() {
         END { for (name in open) print "its folder was not synced: " name }' "$work/log"
 }
 
-# expect_synced KIND PATH: the log has a sync of it.
-expect_synced() {
+expect_synced() { # KIND PATH
     grep -q "^$1 $(realpath "$2") [0-9]*$" "$work/log" || fail "$2 was not synced"
 }
 

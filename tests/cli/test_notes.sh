@@ -10,8 +10,7 @@ render=("$hedron" render --backend c "${small[@]}")
 time='([0-9]+:)?[0-9]+:[0-9]{2}'
 rate='[0-9]+\.[0-9]{2} frames/s'
 
-# expect_note REGEX: one line of standard error matches as a whole.
-expect_note() {
+expect_note() { # REGEX: one line of standard error matches as a whole
     (($(grep -c -x -E -e "$1" "$logs/stderr") == 1)) || fail "standard error has no line, or more than one, that is $1"
 }
 

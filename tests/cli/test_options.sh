@@ -11,8 +11,7 @@ sed -e '1s/.*/3/' -e '3s/.*/16 12 120/' -e '$s/.*/2 1/' "$work/official.in" >"$w
 input=$work/good.in
 render=("$hedron" render --backend c "${small[@]}")
 
-# right OPTION...: a render of one frame with these.
-right() {
+right() { # OPTION...: a render of one frame with these
     rm -f picture.data
     expect_exit 0 "${render[@]}" --quiet --frames 0 -o picture.data "$@"
     expect_stdout_lines 1 'picture\.data'
@@ -20,14 +19,12 @@ right() {
     [[ -s picture.data ]] || fail "no picture: $*"
 }
 
-# wrong WORDS ARGUMENT...: 'hedron render' refuses these with a sentence that has the words.
-wrong() {
+wrong() { # WORDS ARGUMENT...: 'hedron render' refuses these with a sentence that has the words
     expect_refusal 2 "${render[@]}" "${@:2}"
     expect_stderr_contains "$1"
 }
 
-# classic_wrong WORDS ARGUMENT...: likewise the classic mode.
-classic_wrong() {
+classic_wrong() { # WORDS ARGUMENT...: likewise the classic mode
     expect_refusal 2 "$hedron" "${@:2}" <"$input"
     expect_stderr_contains "$1"
 }

@@ -79,8 +79,7 @@ expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast chan
 rm ./*.*
 
 # ---- a picture says what it is, and not where or when it was made
-# texts FILE: the texts of a PNG but for its mark, a line each.
-texts() {
+texts() { # FILE: those of a PNG but for its mark, a line each
     python3 - "$1" <<'PYTHON'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
@@ -138,8 +137,7 @@ if ! has_ffmpeg; then
     finish
 fi
 
-# expect_film FILE FRAMES WIDTH HEIGHT
-expect_film() {
+expect_film() { # FILE FRAMES WIDTH HEIGHT
     local found
     found=$(ffprobe -v error -select_streams v:0 -count_frames -of csv=p=0 -show_entries \
         stream=nb_read_frames,width,height,pix_fmt,codec_name,r_frame_rate "$1" 2>&1 || true)

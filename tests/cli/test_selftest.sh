@@ -10,8 +10,7 @@ build=$(realpath "${2:?the build folder is the second argument}")
 export HEDRON_CACHE=$work/cache
 nothing+=("$hedron" selftest)
 
-# validate FILE: by the schema that is installed with the scenes.
-validate() {
+validate() { # FILE: by the schema that is installed with the scenes
     python3 -c 'import json, sys, jsonschema
 load = lambda path: json.load(open(path, encoding="utf-8"))
 jsonschema.Draft202012Validator.check_schema(load(sys.argv[1]))

@@ -9,8 +9,7 @@ command -v jq >"$logs/which" || skip "there is no jq"
 use_official_input
 render=("$hedron" render --quiet --backend c "${small[@]}")
 
-# expect_json FILE FILTER EXPECTED: what jq says of all lines together.
-expect_json() {
+expect_json() { # FILE FILTER EXPECTED: what jq says of all lines together
     [[ $(jq -c -s "$2" "$1" 2>&1) == "$3" ]] || fail "$1: $2 is $(jq -c -s "$2" "$1"), expected $3"
 }
 
