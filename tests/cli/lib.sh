@@ -23,7 +23,7 @@ unset CDPATH XDG_CACHE_HOME # hedron's own cache is where HEDRON_CACHE says, els
 work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
 logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr
 export HOME=$work/home
-mkdir "$logs" "$HOME" "$work/here"
+mkdir "$logs" "$HOME" "$work/here" "$work/no_vendors"
 : | tee "$logs/stdout" >"$logs/stderr"
 cd "$work/here" || exit 1
 
@@ -45,11 +45,9 @@ trap clean_up EXIT
 
 finish() {
     finished=1
-    if ((failures > 0)); then
-        echo "$failures expectations failed" >&2
-        exit 1
-    fi
-    exit 0
+    ((failures > 0)) || exit 0
+    echo "$failures expectations failed" >&2
+    exit 1
 }
 
 # lanes_there PRECISION: the numbers of lanes that plain C takes on this processor.
@@ -71,11 +69,9 @@ skip() {
     exit 77
 }
 
-# The programs under bench/ are written in it.
 need_python() {
-    if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
+    python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which" ||
         skip "there is no python3 of version 3.10 or newer"
-    fi
 }
 
 # The line of the script, not of this file, that led here.
@@ -107,23 +103,16 @@ run() {
 
 # expect_exit CODE COMMAND...
 expect_exit() {
-    local expected=$1
-    shift
-    run "$@"
-    ((code == expected)) || fail "exit code $code, expected $expected"
+    run "${@:2}"
+    (($1 == code)) || fail "exit code $code, expected $1"
 }
 
 # expect_stdout_lines COUNT [REGEX]: so many lines, each of which matches as a whole.
 expect_stdout_lines() {
-    local lines bad
-    lines=$(wc -l <"$logs/stdout")
-    if ((lines != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
-        fail "standard output has $lines whole lines, expected $1 and nothing else"
+    if (($(wc -l <"$logs/stdout") != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
+        fail "standard output has $(wc -l <"$logs/stdout") whole lines, expected $1 and nothing else"
     fi
-    if [[ $# -gt 1 ]]; then
-        bad=$(grep -c -v -x -E -e "$2" "$logs/stdout" || true)
-        ((bad == 0)) || fail "$bad lines of standard output do not match $2"
-    fi
+    (($# == 1)) || ! grep -q -v -x -E -e "$2" "$logs/stdout" || fail "a line of standard output does not match $2"
 }
 
 expect_stdout_contains() {
@@ -148,10 +137,8 @@ expect_sentence() {
 
 # expect_refusal CODE COMMAND...: that exit code at once, one sentence, and nothing on standard output.
 expect_refusal() {
-    local expected=$1
-    shift
-    expect_exit "$expected" timeout "$patience" "$@"
-    if ((code == expected)); then
+    expect_exit "$1" timeout "$patience" "${@:2}"
+    if ((code == $1)); then
         expect_sentence
         expect_stdout_lines 0
     fi
@@ -163,9 +150,7 @@ expect_files() {
     shift
     expected=$(if (($# > 0)); then printf '%s\n' "$@" | sort; fi)
     found=$(find "$folder" -mindepth 1 -printf '%P\n' 2>&1 | sort)
-    if [[ $found != "$expected" ]]; then
-        fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
-    fi
+    [[ $found == "$expected" ]] || fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
 }
 
 expect_same() {
@@ -178,35 +163,17 @@ expect_different() {
     fi
 }
 
-# A number as four bytes, little endian: int32 NUMBER [big]
-int32() {
-    local shift text='' shifts=(0 8 16 24)
-    if [[ ${2:-little} == big ]]; then
-        shifts=(24 16 8 0)
-    fi
-    for shift in "${shifts[@]}"; do
-        text+=$(printf '\\%03o' $(($1 >> shift & 255)))
-    done
-    # shellcheck disable=SC2059 # the octal escapes are the format
-    printf "$text"
-}
-
 # The number in four bytes from an offset of a file: number_at FILE OFFSET [big]
 number_at() {
-    local endian=${3:-little}
-    od -A n -t u4 -j "$2" -N 4 --endian="$endian" "$1" | tr -d ' '
+    od -A n -t u4 -j "$2" -N 4 --endian="${3:-little}" "$1" | tr -d ' '
 }
 
 # expect_data FILE WIDTH HEIGHT: a whole picture in the data format.
 expect_data() {
-    local size
     if [[ ! -f $1 ]]; then
         fail "there is no file $1"
-        return
-    fi
-    size=$(stat -c %s "$1")
-    if ((size != 8 + $2 * $3 * 4)); then
-        fail "$1 has $size bytes, expected $((8 + $2 * $3 * 4))"
+    elif (($(stat -c %s "$1") != 8 + $2 * $3 * 4)); then
+        fail "$1 has $(stat -c %s "$1") bytes, expected $((8 + $2 * $3 * 4))"
     elif (($(number_at "$1" 0) != $2 || $(number_at "$1" 4) != $3)); then
         fail "the head of $1 says $(number_at "$1" 0) x $(number_at "$1" 4), expected $2 x $3"
     fi
@@ -227,20 +194,9 @@ expect_png() {
 
 # Writes a chequered texture of 4 x 4 pixels in the data format.
 make_texture() {
-    local y x
-    {
-        int32 4
-        int32 4
-        for y in 0 1 2 3; do
-            for x in 0 1 2 3; do
-                if (((x + y) % 2 == 0)); then
-                    printf '\377\377\377\377'
-                else
-                    printf '\040\200\100\000'
-                fi
-            done
-        done
-    } >"$1"
+    local white='\377\377\377\377' green='\040\200\100\000'
+    local row=$white$green$white$green other=$green$white$green$white
+    printf '%b' '\4\0\0\0\4\0\0\0' "$row$other$row$other" >"$1"
 }
 
 # The task's own example, with the texture that it names in the home folder.
@@ -253,7 +209,9 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-export small no_nvidia project
+# Nor any OpenCL.
+nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
+export small no_nvidia nothing project
 
 # True where some backend has a GPU that the command above does not hide.
 has_other_gpu() {
@@ -285,11 +243,8 @@ has_opencl() {
 # wait_until SECONDS COMMAND...: true as soon as the command succeeds, false when time is up.
 wait_until() {
     local end=$((SECONDS + $1))
-    shift
-    until "$@"; do
-        if ((SECONDS > end)); then
-            return 1
-        fi
+    until "${@:2}"; do
+        ((SECONDS <= end)) || return 1
         sleep 0.01
     done
 }
@@ -338,19 +293,11 @@ j = json.load(open(sys.argv[1]))
 sys.exit(not ($1))" "$logs/stdout" || fail "JSON: not $1"
 }
 
-# without_opencl: no OpenCL for the commands from here on.
-without_opencl() {
-    mkdir -p "$work/no_vendors"
-    export OCL_ICD_VENDORS=$work/no_vendors
-}
-
 # use_fake_cuda BUILD: for the commands from here on CUDA's driver and compiler are those of the tests, and there is no OpenCL.
 use_fake_cuda() {
     nvrtc=$1/tests/fake_cuda/libnvrtc.so.12
-    if [[ ! -e $nvrtc ]]; then
-        skip "no compiler of C++ is here that could build the kernels"
-    fi
-    without_opencl
+    [[ -e $nvrtc ]] || skip "no compiler of C++ is here that could build the kernels"
+    export OCL_ICD_VENDORS=$work/no_vendors
     export LD_LIBRARY_PATH=$1/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
     export HEDRON_CACHE=$work/cache HEDRON_NVRTC=$nvrtc
 }

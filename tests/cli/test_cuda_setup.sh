@@ -24,12 +24,8 @@ too_new=(env FAKE_NVRTC_MAJOR=13)
 expect_exit 0 "${too_new[@]}" "${any[@]}"
 expect_stderr_contains 'hedron: cuda:0 (Fake device 0) is passed over: no NVRTC library here compiles for Fake device 0 (sm_61); to install one that does: '
 expect_stderr_contains '; tracing with c on '
-expect_exit 0 "${too_new[@]}" "${any[@]}" --quiet
-expect_silent_stderr
 expect_exit 0 "${cannot_start[@]}" FAKE_CUDA_ERROR=100 "${any[@]}" # no card is there
-if grep -q '^hedron: ' "$logs/stderr"; then
-    fail "a card that is not there is told to be passed over"
-fi
+! grep -q '^hedron: ' "$logs/stderr" || fail "a card that is not there is told to be passed over"
 rm -r any
 
 # ---- an NVRTC that does not know the card, and a driver that does not load what it makes: which one to install
@@ -45,9 +41,7 @@ mkdir -p "$work/build/release" "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 cp "$hedron" "$work/build/release/hedron"
 cp "$nvrtc" "$work/build/nvrtc12/nvidia/cuda_nvrtc/lib"
 expect_exit 0 env -u HEDRON_NVRTC LD_DEBUG=files LD_DEBUG_OUTPUT="$work/loaded" "$work/build/release/hedron" devices
-if ! grep -q '/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc\.so\.12$' "$work"/loaded.*; then
-    fail "the library that ./dev fetches was not loaded"
-fi
+grep -q '/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc\.so\.12$' "$work"/loaded.* || fail "that of ./dev was not loaded"
 
 # ---- of 2 GB of memory 700 MB are enough for 3840 x 2160 and both pipelines; less is told
 large=(FAKE_CUDA_MEMORY=2000000000 FAKE_CUDA_SKIPS=1 "$hedron" render --size 3840x2160 --samples 1
@@ -66,11 +60,9 @@ with_ptx=$build/tests/fake_cuda/hedron_with_fake_ptx
 if [[ -e $with_ptx ]]; then
     ptx=("$with_ptx" render "${small[@]}" --frames 0 --backend cuda -o)
     off=(env HEDRON_NVRTC=off)
-    for ending in data exr; do # there are builds without OpenEXR
-        "$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.$ending >"$logs/stdout" 2>&1 || continue
-        expect_exit 0 "${off[@]}" "${ptx[@]}" picture.$ending --quiet
-        expect_same picture.$ending expected.$ending
-    done
+    "$hedron" render "${small[@]}" --frames 0 --backend c --quiet -o expected.data >"$logs/stdout" 2>&1
+    expect_exit 0 "${off[@]}" "${ptx[@]}" picture.data --quiet
+    expect_same picture.data expected.data
     for card in '61 64' '90 96'; do
         expect_exit 0 "${off[@]}" FAKE_CUDA_CAPABILITY="${card% *}" "${ptx[@]}" picture.data --verbose
         expect_stderr_contains ' by the driver from PTX of NVRTC 12.8; passed the self-test ('

@@ -19,28 +19,24 @@ expect_failure() {
 
 # to_full COMMAND...: exit code 1 and a sentence where standard output takes nothing, or is closed.
 to_full() {
+    local full
     : >"$logs/stdout"
-    last_command="$* > /dev/full"
-    code=0
-    "$@" <"$work/good.in" >/dev/full 2>"$logs/stderr" || code=$?
-    expect_failure 1
-    last_command="$* >&-"
-    code=0
-    "$@" <"$work/good.in" >&- 2>"$logs/stderr" || code=$?
-    expect_failure 1
+    for full in '>/dev/full' '>&-'; do
+        last_command="$* $full"
+        code=0
+        eval '"$@" <"$work/good.in" 2>"$logs/stderr"' "$full" || code=$?
+        expect_failure 1
+    done
 }
 to_full "$hedron" --cpu
 # The frame was there before its line; those after it may be as well.
 expect_data out/img_0.data 32 24
 rm -r out
-for arguments in --default --help --version devices 'devices --json' 'help man' 'help completion' convert; do
+for arguments in --default --help --version 'devices --json' 'help man' 'help completion' convert; do
     # shellcheck disable=SC2086 # several words
     to_full "${no_nvidia[@]}" "$hedron" $arguments
 done
-for output in '' --json; do
-    # shellcheck disable=SC2086 # an option or none
-    to_full env HEDRON_CACHE=off "$hedron" tune --backend c "${small[@]}" $output
-done
+to_full env HEDRON_CACHE=off "$hedron" tune --backend c "${small[@]}"
 to_full "${render[@]}" --quiet --frames 0 -o picture.data --stats -
 to_full "${render[@]}" --quiet --frames 0 -o picture.data
 expect_data picture.data 32 24
@@ -65,25 +61,20 @@ done
 expect_files . out
 rm out
 mkdir folder folder.png folder.mp4
-for name in folder folder/ /dev/null folder.png folder.mp4; do
+for name in folder/ /dev/null folder.png folder.mp4; do
     expect_refusal 2 "${render[@]}" --frames 0 -o "$name"
     expect_stderr_contains "$name"
 done
 expect_files . folder folder.png folder.mp4
 rmdir folder*
-for length in 300 5000; do
-    expect_refusal 2 "${render[@]}" --frames 0 -o "$(printf "%0${length}d" 0).png"
-done
+expect_refusal 2 "${render[@]}" --frames 0 -o "$(printf '%05000d' 0).png"
 
 # ---- what cannot be written is found before a frame of many minutes, and nothing of it stays
 long=$(printf '%0252d' 0)
 : >blocked
-for name in "$long.png" "$long.mkv" "$long%d.pfm" blocked/picture.png; do
-    if [[ $name != *.mkv ]] || has_ffmpeg; then
-        run timeout "$patience" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 \
-            -o "$name"
-        expect_failure 1 2
-    fi
+for name in "$long.png" "$long%d.pfm" blocked/picture.png; do
+    run timeout "$patience" "$hedron" render --quiet --backend c --size 1600x1200 --samples 16 --depth 12 --frames 0 -o "$name"
+    expect_failure 1 2
 done
 rm blocked
 
@@ -115,10 +106,6 @@ limited() {
 limited 2 "$hedron" --cpu
 expect_files . out
 rm -rf out
-for name in x.png x.data; do
-    limited 1 "${render[@]}" --size 64x64 --frames 0 -o "$name"
-done
-expect_files .
 limited 1 "${render[@]}" --quiet --size 8x8 --frames 0-9 -o '%d.data' --stats stats.jsonl
 expect_stderr_contains 'statistics to stats.jsonl'
 rm -rf ./*
@@ -144,14 +131,14 @@ if full_disk true 2>"$logs/which"; then
     expect_sentence
     expect_stderr_contains 'No space left'
     frames=$(find disk_copy -type f | wc -l)
-    ((frames >= 1 && frames <= 8)) || fail "$frames frames were written to a disk with room for some of nine"
+    ((frames >= 1 && frames <= 8)) || fail "$frames frames were written"
     expect_stdout_lines "$frames"
     for ((i = 0; i < frames; i++)); do
         expect_data "disk_copy/$i.data" 32 24
     done
     rm -r disk_copy
     # A film finds the disk full at once, or once it is finished.
-    outputs=('0 320x240 x.png' '0 320x240 x.data')
+    outputs=('0 320x240 x.png')
     ! has_ffmpeg || outputs+=('0-39 160x120 x.mkv' '0-39 96x72 x.mp4')
     for output in "${outputs[@]}"; do
         read -r frames size name <<<"$output"
@@ -171,47 +158,21 @@ rmdir disk
 
 # ---- no FFmpeg: films cannot be made, and pictures need none. Its failures are in tests/unit/output/test_video.c.
 mkdir "$work/tools"
-for name in film.mp4 film.mkv film.gif; do
-    expect_refusal 3 env PATH="$work/tools" "${render[@]}" --frames 0-2 -o '%d.data' -o "$name"
-    expect_stderr_contains ffmpeg
-done
+expect_refusal 3 env PATH="$work/tools" "${render[@]}" --frames 0-2 -o '%d.data' -o film.mp4
+expect_stderr_contains ffmpeg
 expect_files .
-expect_exit 0 env PATH="$work/tools" "${render[@]}" --frames 0 -o picture.png
-expect_png picture.png 32 24
-rm picture.png
 if ! has_ffmpeg; then
     echo "not tested: films that fail, for there is no FFmpeg"
     finish
 fi
 ffmpeg=$(command -v ffmpeg)
 
-# ---- FFmpeg fails: with few bytes, and with more than the buffers on the way hold
-# expect_no_film CODE WORDS
-expect_no_film() {
-    local size
-    for size in 32x24 400x300; do
-        expect_exit "$1" timeout "$patience" "${with_tools[@]}" "${render[@]}" --quiet --size "$size" --frames 0-2 -o film.mp4
-        expect_stderr_contains 'hedron: '
-        expect_stderr_contains "$2"
-        expect_stdout_lines 0
-        expect_files .
-    done
-}
-fake ffmpeg 'echo "first line of woe" >&2; echo "second line of woe" >&2; exit 7'
-expect_no_film 1 'second line of woe'
+# ---- FFmpeg fails, with more bytes than the buffers on the way hold; other ways are a matter of output/test_video
 fake ffmpeg 'read -r -N 1000 -t 5 || true; echo "had enough" >&2; kill -9 $$'
-expect_no_film 1 'signal 9'
-# Success is claimed, but there is no film; words beside a good exit code tell why, as on a disk that gets full.
-fake ffmpeg 'cat >/dev/null; echo "Error writing trailer: No space left on device" >&2'
-expect_no_film 1 'FFmpeg had said: Error writing trailer: No space left on device'
-# shellcheck disable=SC2016 # for the script that is written
-fake ffmpeg 'cat >/dev/null; for last; do :; done; echo nonsense >"${last#file:}"'
-expect_no_film 1 'ffprobe'
-fake ffmpeg "exec '$ffmpeg' \"\${@:1:\$#-1}\" -frames:v 2 \"\${@: -1}\""
-expect_no_film 1 'film.mp4'
-fake ffmpeg ''
-printf '\177ELF' >"$work/tools/ffmpeg" # the system cannot start it
-expect_no_film 3 'cannot start'
+expect_exit 1 timeout "$patience" "${with_tools[@]}" "${render[@]}" --quiet --size 400x300 --frames 0-2 -o film.mp4
+expect_stderr_contains 'signal 9'
+expect_stdout_lines 0
+expect_files .
 
 # One film of two fails: neither stays, and the pictures do, and so does an old film.
 printf 'old' >film.mkv
@@ -220,9 +181,7 @@ fake ffmpeg 'if [[ $* == *film.gif* ]]; then exit 1; fi; exec '"'$ffmpeg'"' "$@"
 expect_exit 1 "${with_tools[@]}" "${render[@]}" --quiet --frames 0-2 -o film.gif -o film.mkv -o '%d.data'
 expect_stderr_contains 'exit code 1'
 expect_stdout_lines 0
-if [[ -e film.gif || $(<film.mkv) != old || -n $(find . -name '*tmp*') ]]; then
-    fail "a film stayed, or the old one went: $(ls)"
-fi
+[[ ! -e film.gif && $(<film.mkv) == old && -z $(find . -name '*tmp*') ]] || fail "a film stayed, or the old one went: $(ls)"
 # A talkative FFmpeg does not bring everything to a halt; the new film takes the place of the old one.
 fake ffmpeg "head -c 1000000 /dev/zero | tr '\\0' x >&2; exec '$ffmpeg' \"\$@\""
 rm -f ./*.data

@@ -28,6 +28,7 @@ expect_same picture.data ./-dash.data
 printf 'old' >old.data
 render --size 32x24 --frames 0 -o old.data
 expect_same picture.data old.data
+(($(tail -c +9 old.data | od -A n -v -t x4 -w4 | sort -u | wc -l) >= 50)) || fail 'the picture has fewer than 50 colours'
 expect_files . -dash.data new new/folders new/folders/picture.data odd.PNG old.data picture.data picture.png
 rm -rf ./*
 
@@ -41,16 +42,44 @@ done
 expect_different out/0000.png out/0001.png
 render --size 32x24 --frames 1 -o alone_%d.png
 expect_same out/0001.png alone_1.png
-expect_files . out out/0000.png out/0001.png out/0002.png out/0010.png alone_1.png
 rm -rf ./*
 render --size 32x24 --frames 0,10 -o 'take ##/a.data'
 expect_files . 'take 00' 'take 00/a.data' 'take 10' 'take 10/a.data'
 expect_data 'take 10/a.data' 32 24
 rm -rf ./*
 
+# ---- backends, pipelines, lanes and threads, as options ask for them, give the same bytes; fast arithmetic nearly
+# picture NAME OPTION...: with sides that are no multiple of anything.
+picture() {
+    expect_exit 0 "${no_nvidia[@]}" "$hedron" render --quiet --size 33x25 --samples 2 --depth 3 --frames 40 -o "$@"
+    expect_silent_stderr
+}
+picture float.data --backend c --lanes 1 --threads 1
+ways=('' '--math strict --precision float' '--backend c --math fast --threads 2' '--backend c --pipeline wavefront --threads 3'
+    '--backend c --pipeline wavefront-uncompacted' "--backend c --lanes $(lanes_there float | tail -n 1)")
+! has_opencl || ways+=('--backend opencl' '--backend opencl --threads 1 --pipeline wavefront')
+for options in "${ways[@]}"; do
+    # shellcheck disable=SC2086 # options and their values
+    picture other.data $options
+    expect_same other.data float.data
+done
+picture float.png --backend c
+picture double.png --backend c --precision double
+expect_exit 0 "$hedron" compare float.png double.png --fail-above 3
+if has_opencl; then
+    picture other.png --backend opencl --precision double
+    expect_exit 0 "$hedron" compare other.png double.png --fail-above 0
+    picture fast.png --backend opencl --math fast
+    expect_exit 0 "$hedron" compare float.png fast.png --fail-above 32 # of four samples one may meet another edge
+else
+    echo "not tested: OpenCL, for there is no device with strict arithmetic"
+fi
+expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 0 --math fast -o fast.data
+expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast changes nothing there'
+rm ./*.*
+
 # ---- a picture says what it is, and not where or when it was made
-# texts FILE: the texts of a PNG but for its mark, a line each.
-texts() {
+texts() { # FILE: those of a PNG but for its mark, a line each
     python3 - "$1" <<'PYTHON'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
@@ -75,17 +104,10 @@ expect_exit 0 "$hedron" render --backend c --lanes 1 --threads 1 "a b/lämp.json
 cp "a b/lämp.json" .
 expect_exit 0 "$hedron" render lämp.json --backend c --lanes 4 --threads 2 -o 'two/###.png' "${options[@]}" --frames 3
 expect_same one/3.png two/003.png
-if has_opencl; then
-    expect_exit 0 "$hedron" render lämp.json --backend opencl -o 'three_#.png' "${options[@]}" --frames 3
-    expect_same one/3.png three_3.png
-fi
 if command -v python3 >"$logs/which"; then
     expect_same <(texts one/3.png) - <<<"$expected"
     expect_exit 0 "$hedron" render --backend c --size 32x24 --frames 0 -o plain.png
-    expect_same <(texts plain.png) - <<<"Software: $("$hedron" --version)
-Scene: the built-in scene
-Frame: 0
-Options: --size 32x24"
+    texts plain.png | grep -q -x 'Scene: the built-in scene' || fail 'the built-in scene is not named'
 else
     echo "not tested: the texts of a PNG, for there is no python3"
 fi
@@ -95,8 +117,6 @@ rm -rf ./*
 render --size 32x24 --frames 0-1 -o 'out/%04d.png' --output='out/##.data'
 expect_stdout_lines 2 'out/(%04d\.png|##\.data)'
 expect_files out 0000.png 0001.png 00.data 01.data
-render --size 32x24 --frames 1 -o alone.data
-expect_same alone.data out/01.data
 rm -rf ./*
 
 # ---- pictures of one scene hold the same pixels in all formats
@@ -117,8 +137,7 @@ if ! has_ffmpeg; then
     finish
 fi
 
-# expect_film FILE FRAMES WIDTH HEIGHT
-expect_film() {
+expect_film() { # FILE FRAMES WIDTH HEIGHT
     local found
     found=$(ffprobe -v error -select_streams v:0 -count_frames -of csv=p=0 -show_entries \
         stream=nb_read_frames,width,height,pix_fmt,codec_name,r_frame_rate "$1" 2>&1 || true)
@@ -129,8 +148,6 @@ expect_film() {
 render --size 33x25 --frames 0-2 -o new/odd.MP4
 expect_stdout_lines 1 'new/odd\.MP4'
 expect_film new/odd.MP4 3 34 26
-render --size 1x1 --frames 5 -o new/odd.MP4
-expect_film new/odd.MP4 1 2 2
 render --size 32x24 --frames 0,7
 expect_stdout_lines 1 'hedron\.mp4'
 expect_film hedron.mp4 2 32 24

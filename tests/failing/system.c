@@ -9,8 +9,7 @@
    server that is gone, and no signal but one that kills ends it; STUCK_MARK is made before.
    A disk: SYNC_LOG names a file that gets a line for each call: "sync FILE BYTES", "folder FOLDER",
    "rename FROM TO BYTES". SYNC_FAIL=N: the call number N of fsync(), counted from 1, and all later
-   ones fail with an input/output error. SYNC_KILL=N: the program dies before its Nth sync of a
-   folder. */
+   ones fail with an input/output error. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -141,7 +140,7 @@ static void tell(const char *what, const char *first, const char *second, const 
 }
 
 int fsync(int descriptor) {
-    static atomic_long syncs, folder_syncs;
+    static atomic_long syncs;
     int (*real)(int);
     char link[64], path[PATH_MAX] = "";
     struct stat found;
@@ -151,8 +150,6 @@ int fsync(int descriptor) {
         errno = EIO;
         return -1;
     }
-    if (is_folder && atomic_fetch_add(&folder_syncs, 1) + 1 >= number_of("SYNC_KILL", LONG_MAX))
-        raise(SIGKILL);
     const int code = real(descriptor);
     snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
     if (readlink(link, path, sizeof path - 1) > 0)
