@@ -12,23 +12,18 @@ from types import SimpleNamespace as Some
 PROJECT, HEDRON = map(Path, sys.argv[1:])
 sys.path.insert(0, str(PROJECT / "bench"))
 
-from harness.accuracy import points as accuracy_points, targets as accuracy_targets  # noqa: E402
 from harness.accuracy.front import cheapest, front, ratios, time_at  # noqa: E402
 from harness.accuracy.truth import SAMPLE_ERROR  # noqa: E402
-from harness.measure import kernel_rates  # noqa: E402
 from harness.measure.jobs import job, summarize  # noqa: E402
 from harness.measure.plan import Plan  # noqa: E402
 from harness.measure.rows import NONE, Target, judge  # noqa: E402
-from harness.measurements import bounds, compare, devices, predict, promise  # noqa: E402
+from harness.measurements import compare, devices, predict, promise  # noqa: E402
 from harness.page.section import sections  # noqa: E402
-from harness.pipelines import order  # noqa: E402
 from harness.rivals import povray, shapes  # noqa: E402
 from harness.run import pfm  # noqa: E402
-from harness.run import devices as run_devices  # noqa: E402
 from harness.run.program import Problem, Program  # noqa: E402
-from harness.speed import timeline  # noqa: E402
 from harness.stability import methods  # noqa: E402
-from harness.triangles import leaks, rates, sweep  # noqa: E402
+from harness.triangles import leaks, rates  # noqa: E402
 
 
 def same(found, expected):
@@ -107,14 +102,6 @@ def test_comparison_of_two_studies():
     assert all(each["verdict"] == compare.SAME for each in compare.compare(few, {**few, **measured([110, 110])}))
 
 
-def test_bound_of_the_official_example():
-    cpu, gpu = {"is_cpu": True, "name": "c"}, {"is_cpu": False, "name": "g", "driver": "sm_90", "compute_units": 2, "clock_mhz": 1000}
-    known = {"instructions_per_core_second": 1e9, "lanes": 4, "operations_per_test": 80, "operations_per_test_one_lane": 512}
-    result = {"bounds": known, "devices": [cpu], "machine": {"cores": 2}}
-    entry = {"scale": 4, "runs": [{"noisy": False, "frames": [{"warm_up": False, "shadow_tests": n} for n in (0, 2000000)]}]}
-    same([bounds.milliseconds(result, device, entry) for device in (cpu, gpu, {**gpu, "driver": "?"})], [20.0, 4.0, None])
-
-
 def test_devices_that_share_frames():
     """One ends frames at 1, 2, 3 s, the other at 5 and 9 s: 1 and a quarter frames a second."""
     frames = [{"backend": "c", "index": index, "began": {"trace": end - 0.5}, "seconds": {"trace": 0.5}}
@@ -136,42 +123,6 @@ def test_fronts_and_times_at_equal_error():
     same([cheapest(some, 30)["ms"], cheapest(some, 0.1), ratios([], some)], [10, None, []])
 
 
-def test_recommended_settings():
-    """The fastest of those as good as the grid; what hedron chooses by itself is none."""
-    made = [{"device": "c:0", "family": family, "name": name, "ms": ms, "rmse": error, "recommended": None}
-            for family, name, ms, error in (("grid", "grid 2", 4, 20), ("grid", "grid 4", 16, 10), ("deep", "deep 3", 5, 9.9),
-                                            ("adaptive", "adaptive 2", 3, 20), ("arithmetic", "fast", 1, 1), ("full", "full 3", 50, 9.9))]
-    accuracy_points.recommend(made)
-    same({each["name"]: each["recommended"] for each in made if each["recommended"]}, {"deep 3": "usual", "adaptive 2": "draft"})
-    same([accuracy_points.equal_error(made, "c:0"), accuracy_points.equal_error(made, "c:0", ("adaptive",), "grid")],
-         [[(9.9, 0.1)], [(20, 0.75)]])
-
-
-def test_accuracy_targets_are_of_the_worst_scene():
-    for truncation, arithmetic, expected in (
-            ({"a": (0.5, 0.9), "b": (0, 0.1)}, {"a": 0.0005, "b": 0}, [(0.5, "aim"), (1.8, "aim"), (99.95, "least")]),
-            ({"a": (1.5, 0.9), "b": (0.01, 0.1)}, {"a": 0.002, "b": 0}, [(1.5, "missed"), (10.0, "missed"), (99.8, "missed")]),
-            ({"a": (0.5, 0.9), "b": "no room"}, {}, [(None, "no room"), (None, "no room"), (None, "nothing was measured")])):
-        plan = Plan({}, {}, quick=True)
-        made = accuracy_targets.SceneTargets(plan, {"label": "c:0"}, [])
-        made.truncation = {name: found if isinstance(found, str) else {"measured": found[0], "bound": found[1]}
-                           for name, found in truncation.items()}
-        made.arithmetic = {name: {"above_1": share} for name, share in arithmetic.items()}
-        made.add_truncation()
-        made.add_arithmetic()
-        same([(row["figure"], row["verdict"] or row["reason"]) for row in plan.finished() if not row["what"].startswith(" ")], expected)
-
-
-def test_who_makes_the_reference():
-    """A GPU before a CPU, and nobody without double precision; its samples' error is what their unit test measures."""
-    for doubles, expected in ((("c", "cuda"), "cuda:0"), (("opencl", "c"), "c:0"), ((), None)):
-        found = run_devices.judge([{"label": f"{name}:0", "backend": name, "strict": True, "is_cpu": name != "cuda",
-                                    "has_double": name in doubles} for name in ("opencl", "c", "cuda")])
-        same(found and found["label"], expected)
-    stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
-    assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
-
-
 def test_pictures_are_read_and_compared():
     def write(name, numbers, order="<"):
         head = b"PF\n2 1\n%s1.0\n" % (b"-" if order == "<" else b"")
@@ -190,34 +141,12 @@ def test_pictures_are_read_and_compared():
     small = povray.smaller((4, 2, [1, 2, 3, 2, 3, 4] + [1] * 6 + [3, 4, 5, 4, 5, 6] + [1] * 6), 2)
     pfm.write("b.pfm", *small)
     same(([*small[2]], [*pfm.read("b.pfm")[2]]), ([2.5, 3.5, 4.5, 1.0, 1.0, 1.0],) * 2)
+    # The error that the reference's samples leave is what their unit test measures.
+    stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
+    assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
 
 
 # ---- speed
-
-def test_which_instructions_are_operations():
-    for line in """32,1 vfmadd213ps (%rax){1to16},%zmm1,%zmm2
-16,1 vcmpltps %zmm1,%zmm2,%k1
-16,1 vmovaps %zmm1,%zmm2{%k1}
-0,0 vmovaps %zmm1,%zmm2
-0,0 vpxor %xmm0,%xmm0,%xmm0
-4,1 vpxor %xmm0,%xmm1,%xmm0
-2,1 vfmadd132ss %xmm0,%xmm1,%xmm2
-0,1 kandw %k1,%k2,%k3
-0,0 addq $64,%rax""".splitlines():
-        expected, *instruction = line.split()
-        same((line, "%d,%d" % kernel_rates.weigh(*instruction)), (line, expected))
-    code = [(0, "vfmadd213ps", "%zmm1,%zmm2,%zmm3"), (6, "vdivps", "%zmm1,%zmm2,%zmm3"), (12, "ret", "")]
-    same(kernel_rates.add_up(code, {0: 2, 6: 3}), {"instructions": 5, "operations": 112, "slots": 5, "divisions": 3})
-
-
-def test_timeline():
-    """The second frame is traced while the first is stored; of boxes that overlap each moment counts once."""
-    found = timeline.measure([{"frame": 0, "began": {"trace": 1, "store": 3}, "seconds": {"trace": 2, "store": 1}},
-                              {"frame": 1, "began": {"trace": 3, "store": 5, "copy": None}, "seconds": {"trace": 2, "store": 1, "copy": 0}}])
-    same((found["seconds"], found["slowest"], found["ratio_to_slowest"]), (5, "trace", 1.25))
-    same(found["stages"]["store"], {"busy_seconds": 2.0, "busy_share": 0.4, "work_seconds": 2})
-    same(timeline.busy_seconds([(0, 2, 0), (1, 2, 1), (5, 6, 2)]), 3.0)
-
 
 def test_model_of_other_gpus():
     """It finds the coefficients that made the times, and scales all but the fixed part."""
@@ -230,10 +159,6 @@ def test_model_of_other_gpus():
     row = predict.table(made, model, 640e9, {**predict.GTX_1050, "lane_rate": 64e9})[0]
     same(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), 10.0)
     same([round(each, 6) for each in predict.non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])], [1.0, 0.0])
-    for low, high, words in ((1.4, 11.6, "slower there than the report's program, over the whole range"), (0.9, 3.0, "likely slower"),
-                             (0.2, 1.0, "faster there than the report's program, over the whole range")):
-        said = predict.beside_report({"target": math.sqrt(low * high), "low": low, "high": high})
-        assert said.startswith("official: the report's program took 1100 ms on its GTX 1050;") and f": hedron is {words}" in said, said
 
 
 # ---- stability
@@ -282,16 +207,6 @@ def test_rates_against_embree():
     same([len(rates.failures({1000: each})) for each in (good, "why not", parsed(0.99), parsed(1, 0, 1))], [0, 0, 1, 1])
     same(rates.failures({1000: parsed(1, 2)}), [
         "of 9 rays aimed at edges and corners of 1 k triangles 2 leak and 0 cross the closed surface an odd number of times"])
-    for objects, expected in (({1000: good}, (2.0, "aim")), ({}, (None, None))):
-        plan = Plan({}, {})
-        rates.add_comparison(plan, objects, "primary", 1000, rates.BUNDLED, rates.RATES[0][3])
-        same((plan.finished()[0]["figure"], plan.finished()[0]["verdict"]), expected)
-
-
-def test_where_brute_force_and_the_hierarchy_cross():
-    flat = [(100, 1.0), (10000, 1.0), (1000000, 2.0)]
-    same([sweep.crossover(brute, flat) for brute in ([(100, 0.1), (10000, 10.0)], [(100, 2.0), (10000, 200.0)],
-                                                     [(100, 0.1), (10000, 0.2)], [])], ["at about 1,000", "below 100", "beyond 10,000", None])
 
 
 def test_any_leak_is_a_failure():
@@ -303,18 +218,6 @@ def test_any_leak_is_a_failure():
     same([(row["figure"], row["verdict"], row["reason"]) for row in plan.finished()],
          [(0.0, "aim", None), (3.0, "missed", None), (None, None, "no driver")])
     same((sorted(plan.failures), leaks.parse("c float, a CPU\n")), (["opencl: 2 leaks and 1 double hits"], None))
-
-
-# ---- pipelines
-
-def test_orders_of_queues():
-    """Times for each ray of all levels, medians of the rounds, 40 of 8 bundles alive."""
-    product, appended = order.parse("build avx512 16\norder a.json 256 product 0 0 0 0 0\norder a.json 256 appended 60 40 8 12 16\n"
-                                    + "".join(f"time a.json 256 product 0 {one}e-6 0 0\ntime a.json 256 appended 1e-6 {two}e-6 0 {three}e-6\n"
-                                              for one, two, three in ((2, 2, 1), (2, 4, 1), (8, 9, 3))))["orders"]
-    same((product["rays"], product["lanes_alive"], round(product["ns_a_ray"]["all"], 6)), (100, None, 20.0))
-    same([round(value, 6) for value in appended["ns_a_ray"].values()], [10.0, 40.0, 0.0, 10.0, 60.0])
-    same((appended["lanes_alive"], appended["touched_a_bundle"], appended["met_a_bundle"]), (5.0, 1.5, 2.0))
 
 
 # ---- other programs
