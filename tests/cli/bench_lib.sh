@@ -25,7 +25,7 @@ expect_python() {
 # expect_value FILE EXPRESSION EXPECTED: what Python makes of the result `r`, its rows by key and device, and its
 # measurements by part, series, x and device.
 expect_value() {
-    expect_python "$3" 'import json, re' "def read(name): return open(name, encoding='utf-8').read()" "r = json.loads(read('$1'))" \
+    expect_python "$3" 'import json, os, re' "def read(name): return open(name, encoding='utf-8').read()" "r = json.loads(read('$1'))" \
         'rows = {row["key"] + " " + (row["device"] or "nowhere"): row for row in reversed(r.get("rows") or [])}' \
         'm = {(e.get("part"), e.get("series"), e.get("x"), e["device"]): e for e in r["measurements"]}' \
         'def ms(*key, what="trace_ms"): return round(m[key]["summary"][what]["median"], 6)' "print(json.dumps($2))"
