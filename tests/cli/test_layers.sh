@@ -100,8 +100,6 @@ expect_exr all.exr '{n for n, (t, _) in c.items() if t == "h"} == set("RGBA")'
 expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.X", "normal.Y", "normal.Z", "object", "samples"}'
 expect_exit 0 "${render[@]}" --backend c --layers object --set output.bits=32 -o some.exr
 expect_exr some.exr '{n: t for n, (t, _) in c.items()} == dict.fromkeys(("A", "B", "G", "R", "object"), "f")'
-expect_exit 0 "$hedron" compare --json some.exr plain.pfm
-expect_output_json 'j["identical"] and j["channels"] == [] and j["most_different"] is None'
 
 # ---- what is in them
 expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3} and set(what("samples")) == {9}'
@@ -129,9 +127,6 @@ expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays
 expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o grid.exr
 expect_exit 0 "$hedron" compare --json adaptive.exr grid.exr
 expect_output_json 'len(j["channels"]) == 6 and all(c["largest"] == 0 for c in j["channels"])'
-expect_exit 0 "${render[@]}" --backend c --max-error 1.5 --layers bound,samples -o bound.exr
-expect_exr bound.exr 'set(what("samples")) == {9} and max(what("bound")) > 0'
-
 # ---- the same bytes from every backend
 expect_exit 0 "${render[@]}" --backend c --lanes 1 --threads 1 --pipeline wavefront --layers "$all" -o other.exr
 expect_same all.exr other.exr
@@ -150,13 +145,11 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     done
     expect_exit 0 "${fake[@]}" "${adaptive[@]}" --backend cuda -o other.exr
     expect_same adaptive.exr other.exr
-    # Frames under way do not get in each other's way.
+    # Frames under way are kept apart.
     still=("${render[@]}" --set camera.frames=3 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
     expect_exit 0 "${still[@]}" --backend c -o c/%d.exr
     expect_exit 0 "${fake[@]}" "${still[@]}" --backend cuda -o cuda/%d.exr
-    for i in 0 1 2; do
-        expect_same c/$i.exr cuda/$i.exr
-    done
+    expect_same <(cat c/*) <(cat cuda/*)
     rm -r c cuda
 fi
 
