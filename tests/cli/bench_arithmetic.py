@@ -17,24 +17,17 @@ from harness.accuracy.truth import SAMPLE_ERROR  # noqa: E402
 from harness.measure.jobs import job, summarize  # noqa: E402
 from harness.measure.plan import Plan  # noqa: E402
 from harness.measure.rows import NONE, Target, judge  # noqa: E402
-from harness.measurements import compare, devices, predict, promise  # noqa: E402
+from harness.measurements import compare, promise  # noqa: E402
 from harness.page.section import sections  # noqa: E402
-from harness.rivals import povray, shapes  # noqa: E402
+from harness.rivals import povray  # noqa: E402
 from harness.run import pfm  # noqa: E402
-from harness.run.program import Problem, Program  # noqa: E402
+from harness.run.program import Program  # noqa: E402
 from harness.stability import methods  # noqa: E402
 from harness.triangles import leaks, rates  # noqa: E402
 
 
 def same(found, expected):
     assert found == expected, f"{found!r}, expected {expected!r}"
-
-
-def problem_of(call, *arguments):
-    try:
-        call(*arguments)
-    except Problem as problem:
-        return str(problem)
 
 
 # ---- rows, rounds and pictures
@@ -102,14 +95,6 @@ def test_comparison_of_two_studies():
     assert all(each["verdict"] == compare.SAME for each in compare.compare(few, {**few, **measured([110, 110])}))
 
 
-def test_devices_that_share_frames():
-    """One ends frames at 1, 2, 3 s, the other at 5 and 9 s: 1 and a quarter frames a second."""
-    frames = [{"backend": "c", "index": index, "began": {"trace": end - 0.5}, "seconds": {"trace": 0.5}}
-              for index, end in ((0, 1), (1, 5), (0, 2), (0, 3), (1, 9))]
-    same([devices.steady_rate(frames), devices.steady_rate(frames[:4]), devices.counts(3), devices.counts(8)],
-         [1.25, 0.0, [1, 2, 3], [1, 2, 4, 8]])
-
-
 # ---- accuracy
 
 def test_fronts_and_times_at_equal_error():
@@ -144,21 +129,6 @@ def test_pictures_are_read_and_compared():
     # The error that the reference's samples leave is what their unit test measures.
     stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
     assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
-
-
-# ---- speed
-
-def test_model_of_other_gpus():
-    """It finds the coefficients that made the times, and scales all but the fixed part."""
-    made = [{"scene": f"scene {i}", "rays": 10**6 * (1 + i * i % 7), "planes": 10 + 7 * i % 30, "lights": 4 + 97 * i % 300,
-             "shadow_tests": 10**7 * (1 + i * 5 % 11), "pixels": 640 * 480} for i in range(16)]
-    for point in made:
-        point["seconds"] = predict.predict([2e-5, 3e-12, 1e-12, 5e-12], point)
-    model = predict.evaluate(made)
-    assert len(model["errors"]) == 8 and max(map(abs, model["errors"].values())) < 1e-3 and model["spread"] < 1e-3, model
-    row = predict.table(made, model, 640e9, {**predict.GTX_1050, "lane_rate": 64e9})[0]
-    same(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), 10.0)
-    same([round(each, 6) for each in predict.non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])], [1.0, 0.0])
 
 
 # ---- stability
@@ -218,23 +188,6 @@ def test_any_leak_is_a_failure():
     same([(row["figure"], row["verdict"], row["reason"]) for row in plan.finished()],
          [(0.0, "aim", None), (3.0, "missed", None), (None, None, "no driver")])
     same((sorted(plan.failures), leaks.parse("c float, a CPU\n")), (["opencl: 2 leaks and 1 double hits"], None))
-
-
-# ---- other programs
-
-def test_solids_that_other_programs_are_told_of():
-    """They are closed, look outwards, and have all corners at the circumradius."""
-    for kind, count, corners in (("tetrahedron", 4, 3), ("cube", 6, 4), ("octahedron", 8, 3), ("dodecahedron", 12, 5), ("icosahedron", 20, 3)):
-        centre = [1, -2, 3]
-        faces = shapes.faces({"kind": kind, "centre": centre, "circumradius": 2, "rotation": [20, 30, 40]})
-        keys = [[tuple(round(x, 6) for x in corner) for corner in face] for face in faces]
-        edges = {edge for face in keys for edge in zip(face, face[1:] + face[:1])}
-        far = {round(math.dist(corner, centre), 9) for face in faces for corner in face}
-        normals = [shapes.cross(shapes.minus(f[1], f[0]), shapes.minus(f[2], f[0])) for f in faces]
-        same((kind, len(faces), {len(face) for face in faces}, far, edges), (kind, count, {corners}, {2.0}, {(b, a) for a, b in edges}))
-        assert all(shapes.dot(normal, shapes.minus(face[0], centre)) > 0 for normal, face in zip(normals, faces)), kind
-    parts = {"camera": {}, "floor": {}, "materials": {}, "lights": [], "solids": [{"kind": "cube", "rim": {}}]}
-    same(problem_of(shapes.checked, parts), "other programs cannot be told of rim")
 
 
 # ---- the harness
