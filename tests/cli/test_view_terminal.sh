@@ -68,6 +68,10 @@ expect_exit 0 "$hedron" render --quiet --frames "$frame" --backend c -o flight.p
 expect_exit 0 "$hedron" compare flight.png hedron-001.png --fail-above 0
 rm -f hedron-001.png
 
+# ---- two settings beside each other
+see blocks wait:finished 'keys:2' 'wait:difference' 'keys:f' 'wait:right *: double' wait:finished 'keys:2q' \
+    -- --backend c "${small[@]}"
+
 # ---- the scene's file is followed; a mistake is told with its place and leaves the picture
 expect_exit 0 "$hedron" new scene.json
 cp scene.json good.json
