@@ -17,13 +17,12 @@ from harness.accuracy.truth import SAMPLE_ERROR  # noqa: E402
 from harness.measure.jobs import job, summarize  # noqa: E402
 from harness.measure.plan import Plan  # noqa: E402
 from harness.measure.rows import NONE, Target, judge  # noqa: E402
-from harness.measurements import compare, promise  # noqa: E402
-from harness.page.section import sections  # noqa: E402
+from harness.measurements import compare  # noqa: E402
 from harness.rivals import povray  # noqa: E402
 from harness.run import pfm  # noqa: E402
 from harness.run.program import Program  # noqa: E402
 from harness.stability import methods  # noqa: E402
-from harness.triangles import leaks, rates  # noqa: E402
+from harness.triangles import leaks  # noqa: E402
 
 
 def same(found, expected):
@@ -152,32 +151,7 @@ def test_what_ours_may_never_do_is_a_failure():
         "shadows, face_lights, ours: 3 blocked of 9", "shadows, edge_lights, ours, in double: 3 blocked of 9"])
 
 
-def test_what_max_error_promises():
-    def drawn(*scenes_):
-        return sections({"promise": promise.PART}, [{"left_out": {}, "devices": [], "machine": {"name": "m"}, "promise": [
-            {"seed": 1, "options": [], "missed": missed, "stated": stated} for missed, stated in scenes_]}])
-    found = drawn((1.0, 2.0), (1.0, 4.0), (None, None))
-    same((found[0].notes, found[0].table[1]), (["Of 2 random scenes none missed more than was stated."], ["3", "2", "0", "0.3750", "0.5000"]))
-    same(drawn((3.0, 2.0))[0].notes, ["Of 1 random scenes 1 missed more than was stated."])
-
-
 # ---- triangles
-
-def test_rates_against_embree():
-    """The ratio of the medians, against the best of the ways that count; rays that meet something else are a failure."""
-    def parsed(share, leaking=0, odd=0):
-        rounds = zip((3e6, 5e6, 4e6), (9e6, 9e6, 9e6), (1e6, 8e6, 2e6))
-        return rates.parse(f"build avx2 8\nobject 1056\nsame primary 1056 single 1\nsame primary 1056 packets_of_8 {share}\n" + "".join(
-            f"rate primary 1056 hedron {a}\nrate primary 1056 single {b}\nrate primary 1056 packets_of_8 {c}\n" for a, b, c in rounds)
-            + f"aimed 1056 hedron 9 {leaking} {odd}\naimed 1056 single 9 0 3\nbuilt 1056 hedron 3\nbuilt 1056 embree 2\n")
-    good = parsed(0.995)
-    found = good["rates"]["primary"]
-    same((good["triangles"], good["lanes"], rates.against(found["hedron"], found["packets_of_8"])), (1056, 8, [1.5, 2.5, 2.0]))
-    same([rates.best_way(found, ways) for ways in (rates.BUNDLED, rates.ANY)], ["packets_of_8", "single"])
-    same([len(rates.failures({1000: each})) for each in (good, "why not", parsed(0.99), parsed(1, 0, 1))], [0, 0, 1, 1])
-    same(rates.failures({1000: parsed(1, 2)}), [
-        "of 9 rays aimed at edges and corners of 1 k triangles 2 leak and 0 cross the closed surface an odd number of times"])
-
 
 def test_any_leak_is_a_failure():
     def total(holes, doubles):

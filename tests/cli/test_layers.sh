@@ -23,20 +23,6 @@ END
 cat >"$work/exr.py" <<'END'
 import json, math, struct, sys, zlib
 
-def text(data, at):
-    end = data.index(b"\0", at)
-    return data[at:end].decode(), end + 1
-
-def header(data):
-    attributes, at = {}, 8
-    while data[at]:
-        name, at = text(data, at)
-        _, at = text(data, at)
-        size, = struct.unpack_from("<i", data, at)
-        attributes[name] = data[at + 4:at + 4 + size]
-        at += 4 + size
-    return attributes, at + 1
-
 def unpack(packed, size):
     if len(packed) == size:
         return packed
@@ -48,19 +34,22 @@ def unpack(packed, size):
     return bytes(out)
 
 def read(path):
-    data = open(path, "rb").read()
-    attributes, at = header(data)
+    data, attributes, at = open(path, "rb").read(), {}, 8
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        size, = struct.unpack_from("<i", rest)
+        attributes[name.decode()] = rest[4:4 + size]
+        at += len(name) + len(kind) + size + 6
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     assert attributes["compression"] == b"\3"
     channels, place, listed = {}, 0, attributes["channels"]
     while listed[place]:
-        name, place = text(listed, place)
-        kind, = struct.unpack_from("<i", listed, place)
-        channels[name] = ("ehf"[kind] if kind else "I", [])
-        place += 16
-    line = sum(width * struct.calcsize(kind) for kind, _ in channels.values())
-    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at):
+        name = listed[place:listed.index(b"\0", place)]
+        channels[name.decode()] = "Ihf"[listed[place + len(name) + 1]], []
+        place += len(name) + 17
+    line = sum(width * (2 if kind == "h" else 4) for kind, _ in channels.values())
+    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at + 1):
         y, size = struct.unpack_from("<2i", data, offset)
         lines = min(16, top + height - y)
         pixels, here = unpack(data[offset + 8:offset + 8 + size], line * lines), 0
