@@ -14,7 +14,7 @@ tool=$(dirname "$hedron")/bench/hedron_stability_methods
 expect_counts() {
     local expected=$1
     shift
-    expect_python "$expected" 'import json, re' 'from harness.stability import methods as m, table as t' \
+    expect_python "$expected" 'import json, re' 'from harness.stability import methods as m' \
         'r = json.load(open("out/stability.json", encoding="utf-8"))' \
         'def total(these, key): return sum(each[key] for each in these)
 def wrong(study, case, method, key, place=None):
@@ -47,11 +47,6 @@ expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "miss
     'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin)]' \
     'print([(*each[:4], wrong(*each[:5])) for each in some if wrong(*each[:5]) <= each[5]] + [each[:4] for each in none if wrong(*each)])'
 expect_svg out/stability_paths.svg out/stability_crossings.svg
-# The table names tests that there are.
-ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
-expect_counts 'True []' 'there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())' \
-    'named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_\w+", " ".join(each[-1] for each in (*t.PLACES.values(), *t.MORE.values()))))' \
-    'print(len(named) > 5, sorted(named - set(there)))'
 
 # ---- pictures: wherever a scene is and however large, it looks the same; a pixel may be off in so small a picture
 mkdir scenes

@@ -16,9 +16,9 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def png(name, *rows, srgb=True):
+def png(name, *rows, srgb=True, interlace=0):
     lines = b"".join(b"\0" + bytes(value for p in row for value in p) for row in rows)
-    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, interlace)
     with open(name, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head))
         file.write(chunk(b"sRGB", b"\0") if srgb else b"")
@@ -113,12 +113,11 @@ expect_output_json 'j["pixels"] == 0 and j["display"]["rmse"] is None and j["abo
 
 # ---- the heat map
 pictures '
-png("zero.png", [(0, 0, 0)] * 5)
-png("errors.png", [(0, 0, 0), (0, 1, 0), (4, 1, 2), (0, 0, 16), (128, 128, 128)])
-png("expected.png", [(0, 0, 0), (127, 31, 106), (198, 63, 76), (243, 120, 25), (247, 223, 90)])'
+png("zero.png", [(0, 0, 0)] * 2)
+png("errors.png", [(4, 1, 2), (0, 0, 16)])
+png("expected.png", [(198, 63, 76), (243, 120, 25)])'
 expect_exit 0 "$hedron" compare zero.png errors.png --diff maps/heat.png
 expect_silent_stderr
-expect_png maps/heat.png 5 1
 expect_exit 0 "$hedron" compare maps/heat.png expected.png --fail-above 0
 expect_files maps heat.png
 
@@ -144,12 +143,9 @@ expect_refusal 2 "$hedron" compare a.png half.png
 expect_stderr_contains 'a.png has 2 x 2 pixels, but half.png has 2 x 1; expected the same size'
 expect_refusal 2 "$hedron" compare a.png missing.png
 expect_stderr_contains 'missing.png'
-mkfifo pipe
-expect_refusal 2 "$hedron" compare pipe a.png
-expect_stderr_contains 'pipe: it is not a regular file'
-make_texture texture.data
-expect_refusal 2 "$hedron" compare texture.data texture.data
-expect_stderr_contains 'texture.data is neither PNG, OpenEXR nor PFM'
+pictures 'png("laced.png", [(7, 7, 7)], interlace=1)'
+expect_refusal 2 "$hedron" compare laced.png a.png
+expect_stderr_contains 'laced.png is an interlaced PNG'
 expect_refusal 2 "$hedron" compare a.png
 expect_refusal 2 "$hedron" compare a.png b.png a.png
 for value in -1 256 nan; do
