@@ -47,6 +47,11 @@ expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "miss
     'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin)]' \
     'print([(*each[:4], wrong(*each[:5])) for each in some if wrong(*each[:5]) <= each[5]] + [each[:4] for each in none if wrong(*each)])'
 expect_svg out/stability_paths.svg out/stability_crossings.svg
+# The table names tests that there are.
+ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
+expect_counts 'True []' 'from harness.stability import table as t' 'there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())' \
+    'named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_\w+", " ".join(each[-1] for each in (*t.PLACES.values(), *t.MORE.values()))))' \
+    'print(len(named) > 5, sorted(named - set(there)))'
 
 # ---- pictures: wherever a scene is and however large, it looks the same; a pixel may be off in so small a picture
 mkdir scenes
