@@ -12,34 +12,21 @@ from types import SimpleNamespace as Some
 PROJECT, HEDRON = map(Path, sys.argv[1:])
 sys.path.insert(0, str(PROJECT / "bench"))
 
-from harness.accuracy import points as accuracy_points, targets as accuracy_targets  # noqa: E402
 from harness.accuracy.front import cheapest, front, ratios, time_at  # noqa: E402
 from harness.accuracy.truth import SAMPLE_ERROR  # noqa: E402
-from harness.measure import kernel_rates  # noqa: E402
 from harness.measure.jobs import job, summarize  # noqa: E402
 from harness.measure.plan import Plan  # noqa: E402
 from harness.measure.rows import NONE, Target, judge  # noqa: E402
-from harness.measurements import bounds, compare, devices, predict, promise  # noqa: E402
-from harness.page.section import sections  # noqa: E402
-from harness.pipelines import order  # noqa: E402
-from harness.rivals import povray, shapes  # noqa: E402
+from harness.measurements import compare  # noqa: E402
+from harness.rivals import povray  # noqa: E402
 from harness.run import pfm  # noqa: E402
-from harness.run import devices as run_devices  # noqa: E402
-from harness.run.program import Problem, Program  # noqa: E402
-from harness.speed import timeline  # noqa: E402
+from harness.run.program import Program  # noqa: E402
 from harness.stability import methods  # noqa: E402
-from harness.triangles import leaks, rates, sweep  # noqa: E402
+from harness.triangles import leaks  # noqa: E402
 
 
 def same(found, expected):
     assert found == expected, f"{found!r}, expected {expected!r}"
-
-
-def problem_of(call, *arguments):
-    try:
-        call(*arguments)
-    except Problem as problem:
-        return str(problem)
 
 
 # ---- rows, rounds and pictures
@@ -107,22 +94,6 @@ def test_comparison_of_two_studies():
     assert all(each["verdict"] == compare.SAME for each in compare.compare(few, {**few, **measured([110, 110])}))
 
 
-def test_bound_of_the_official_example():
-    cpu, gpu = {"is_cpu": True, "name": "c"}, {"is_cpu": False, "name": "g", "driver": "sm_90", "compute_units": 2, "clock_mhz": 1000}
-    known = {"instructions_per_core_second": 1e9, "lanes": 4, "operations_per_test": 80, "operations_per_test_one_lane": 512}
-    result = {"bounds": known, "devices": [cpu], "machine": {"cores": 2}}
-    entry = {"scale": 4, "runs": [{"noisy": False, "frames": [{"warm_up": False, "shadow_tests": n} for n in (0, 2000000)]}]}
-    same([bounds.milliseconds(result, device, entry) for device in (cpu, gpu, {**gpu, "driver": "?"})], [20.0, 4.0, None])
-
-
-def test_devices_that_share_frames():
-    """One ends frames at 1, 2, 3 s, the other at 5 and 9 s: 1 and a quarter frames a second."""
-    frames = [{"backend": "c", "index": index, "began": {"trace": end - 0.5}, "seconds": {"trace": 0.5}}
-              for index, end in ((0, 1), (1, 5), (0, 2), (0, 3), (1, 9))]
-    same([devices.steady_rate(frames), devices.steady_rate(frames[:4]), devices.counts(3), devices.counts(8)],
-         [1.25, 0.0, [1, 2, 3], [1, 2, 4, 8]])
-
-
 # ---- accuracy
 
 def test_fronts_and_times_at_equal_error():
@@ -134,42 +105,6 @@ def test_fronts_and_times_at_equal_error():
     same(round(time_at(some, "rmse", 10 ** 0.5), 3), 31.623)  # a straight line of the logarithms
     same([round(ratio, 4) for _, ratio in ratios(some, made((1000, 0.5), (500, 10 ** 0.5), (20, 200), (30, 300)))], [0.05, 0.0632])
     same([cheapest(some, 30)["ms"], cheapest(some, 0.1), ratios([], some)], [10, None, []])
-
-
-def test_recommended_settings():
-    """The fastest of those as good as the grid; what hedron chooses by itself is none."""
-    made = [{"device": "c:0", "family": family, "name": name, "ms": ms, "rmse": error, "recommended": None}
-            for family, name, ms, error in (("grid", "grid 2", 4, 20), ("grid", "grid 4", 16, 10), ("deep", "deep 3", 5, 9.9),
-                                            ("adaptive", "adaptive 2", 3, 20), ("arithmetic", "fast", 1, 1), ("full", "full 3", 50, 9.9))]
-    accuracy_points.recommend(made)
-    same({each["name"]: each["recommended"] for each in made if each["recommended"]}, {"deep 3": "usual", "adaptive 2": "draft"})
-    same([accuracy_points.equal_error(made, "c:0"), accuracy_points.equal_error(made, "c:0", ("adaptive",), "grid")],
-         [[(9.9, 0.1)], [(20, 0.75)]])
-
-
-def test_accuracy_targets_are_of_the_worst_scene():
-    for truncation, arithmetic, expected in (
-            ({"a": (0.5, 0.9), "b": (0, 0.1)}, {"a": 0.0005, "b": 0}, [(0.5, "aim"), (1.8, "aim"), (99.95, "least")]),
-            ({"a": (1.5, 0.9), "b": (0.01, 0.1)}, {"a": 0.002, "b": 0}, [(1.5, "missed"), (10.0, "missed"), (99.8, "missed")]),
-            ({"a": (0.5, 0.9), "b": "no room"}, {}, [(None, "no room"), (None, "no room"), (None, "nothing was measured")])):
-        plan = Plan({}, {}, quick=True)
-        made = accuracy_targets.SceneTargets(plan, {"label": "c:0"}, [])
-        made.truncation = {name: found if isinstance(found, str) else {"measured": found[0], "bound": found[1]}
-                           for name, found in truncation.items()}
-        made.arithmetic = {name: {"above_1": share} for name, share in arithmetic.items()}
-        made.add_truncation()
-        made.add_arithmetic()
-        same([(row["figure"], row["verdict"] or row["reason"]) for row in plan.finished() if not row["what"].startswith(" ")], expected)
-
-
-def test_who_makes_the_reference():
-    """A GPU before a CPU, and nobody without double precision; its samples' error is what their unit test measures."""
-    for doubles, expected in ((("c", "cuda"), "cuda:0"), (("opencl", "c"), "c:0"), ((), None)):
-        found = run_devices.judge([{"label": f"{name}:0", "backend": name, "strict": True, "is_cpu": name != "cuda",
-                                    "has_double": name in doubles} for name in ("opencl", "c", "cuda")])
-        same(found and found["label"], expected)
-    stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
-    assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
 
 
 def test_pictures_are_read_and_compared():
@@ -190,50 +125,9 @@ def test_pictures_are_read_and_compared():
     small = povray.smaller((4, 2, [1, 2, 3, 2, 3, 4] + [1] * 6 + [3, 4, 5, 4, 5, 6] + [1] * 6), 2)
     pfm.write("b.pfm", *small)
     same(([*small[2]], [*pfm.read("b.pfm")[2]]), ([2.5, 3.5, 4.5, 1.0, 1.0, 1.0],) * 2)
-
-
-# ---- speed
-
-def test_which_instructions_are_operations():
-    for line in """32,1 vfmadd213ps (%rax){1to16},%zmm1,%zmm2
-16,1 vcmpltps %zmm1,%zmm2,%k1
-16,1 vmovaps %zmm1,%zmm2{%k1}
-0,0 vmovaps %zmm1,%zmm2
-0,0 vpxor %xmm0,%xmm0,%xmm0
-4,1 vpxor %xmm0,%xmm1,%xmm0
-2,1 vfmadd132ss %xmm0,%xmm1,%xmm2
-0,1 kandw %k1,%k2,%k3
-0,0 addq $64,%rax""".splitlines():
-        expected, *instruction = line.split()
-        same((line, "%d,%d" % kernel_rates.weigh(*instruction)), (line, expected))
-    code = [(0, "vfmadd213ps", "%zmm1,%zmm2,%zmm3"), (6, "vdivps", "%zmm1,%zmm2,%zmm3"), (12, "ret", "")]
-    same(kernel_rates.add_up(code, {0: 2, 6: 3}), {"instructions": 5, "operations": 112, "slots": 5, "divisions": 3})
-
-
-def test_timeline():
-    """The second frame is traced while the first is stored; of boxes that overlap each moment counts once."""
-    found = timeline.measure([{"frame": 0, "began": {"trace": 1, "store": 3}, "seconds": {"trace": 2, "store": 1}},
-                              {"frame": 1, "began": {"trace": 3, "store": 5, "copy": None}, "seconds": {"trace": 2, "store": 1, "copy": 0}}])
-    same((found["seconds"], found["slowest"], found["ratio_to_slowest"]), (5, "trace", 1.25))
-    same(found["stages"]["store"], {"busy_seconds": 2.0, "busy_share": 0.4, "work_seconds": 2})
-    same(timeline.busy_seconds([(0, 2, 0), (1, 2, 1), (5, 6, 2)]), 3.0)
-
-
-def test_model_of_other_gpus():
-    """It finds the coefficients that made the times, and scales all but the fixed part."""
-    made = [{"scene": f"scene {i}", "rays": 10**6 * (1 + i * i % 7), "planes": 10 + 7 * i % 30, "lights": 4 + 97 * i % 300,
-             "shadow_tests": 10**7 * (1 + i * 5 % 11), "pixels": 640 * 480} for i in range(16)]
-    for point in made:
-        point["seconds"] = predict.predict([2e-5, 3e-12, 1e-12, 5e-12], point)
-    model = predict.evaluate(made)
-    assert len(model["errors"]) == 8 and max(map(abs, model["errors"].values())) < 1e-3 and model["spread"] < 1e-3, model
-    row = predict.table(made, model, 640e9, {**predict.GTX_1050, "lane_rate": 64e9})[0]
-    same(round((row["target"] - 2e-5) / (row["measured"] - 2e-5), 2), 10.0)
-    same([round(each, 6) for each in predict.non_negative_fit([[1, 0], [1, 1]], [1.25, 0.75])], [1.0, 0.0])
-    for low, high, words in ((1.4, 11.6, "slower there than the report's program, over the whole range"), (0.9, 3.0, "likely slower"),
-                             (0.2, 1.0, "faster there than the report's program, over the whole range")):
-        said = predict.beside_report({"target": math.sqrt(low * high), "low": low, "high": high})
-        assert said.startswith("official: the report's program took 1100 ms on its GTX 1050;") and f": hedron is {words}" in said, said
+    # The error that the reference's samples leave is what their unit test measures.
+    stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
+    assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated
 
 
 # ---- stability
@@ -257,42 +151,7 @@ def test_what_ours_may_never_do_is_a_failure():
         "shadows, face_lights, ours: 3 blocked of 9", "shadows, edge_lights, ours, in double: 3 blocked of 9"])
 
 
-def test_what_max_error_promises():
-    def drawn(*scenes_):
-        return sections({"promise": promise.PART}, [{"left_out": {}, "devices": [], "machine": {"name": "m"}, "promise": [
-            {"seed": 1, "options": [], "missed": missed, "stated": stated} for missed, stated in scenes_]}])
-    found = drawn((1.0, 2.0), (1.0, 4.0), (None, None))
-    same((found[0].notes, found[0].table[1]), (["Of 2 random scenes none missed more than was stated."], ["3", "2", "0", "0.3750", "0.5000"]))
-    same(drawn((3.0, 2.0))[0].notes, ["Of 1 random scenes 1 missed more than was stated."])
-
-
 # ---- triangles
-
-def test_rates_against_embree():
-    """The ratio of the medians, against the best of the ways that count; rays that meet something else are a failure."""
-    def parsed(share, leaking=0, odd=0):
-        rounds = zip((3e6, 5e6, 4e6), (9e6, 9e6, 9e6), (1e6, 8e6, 2e6))
-        return rates.parse(f"build avx2 8\nobject 1056\nsame primary 1056 single 1\nsame primary 1056 packets_of_8 {share}\n" + "".join(
-            f"rate primary 1056 hedron {a}\nrate primary 1056 single {b}\nrate primary 1056 packets_of_8 {c}\n" for a, b, c in rounds)
-            + f"aimed 1056 hedron 9 {leaking} {odd}\naimed 1056 single 9 0 3\nbuilt 1056 hedron 3\nbuilt 1056 embree 2\n")
-    good = parsed(0.995)
-    found = good["rates"]["primary"]
-    same((good["triangles"], good["lanes"], rates.against(found["hedron"], found["packets_of_8"])), (1056, 8, [1.5, 2.5, 2.0]))
-    same([rates.best_way(found, ways) for ways in (rates.BUNDLED, rates.ANY)], ["packets_of_8", "single"])
-    same([len(rates.failures({1000: each})) for each in (good, "why not", parsed(0.99), parsed(1, 0, 1))], [0, 0, 1, 1])
-    same(rates.failures({1000: parsed(1, 2)}), [
-        "of 9 rays aimed at edges and corners of 1 k triangles 2 leak and 0 cross the closed surface an odd number of times"])
-    for objects, expected in (({1000: good}, (2.0, "aim")), ({}, (None, None))):
-        plan = Plan({}, {})
-        rates.add_comparison(plan, objects, "primary", 1000, rates.BUNDLED, rates.RATES[0][3])
-        same((plan.finished()[0]["figure"], plan.finished()[0]["verdict"]), expected)
-
-
-def test_where_brute_force_and_the_hierarchy_cross():
-    flat = [(100, 1.0), (10000, 1.0), (1000000, 2.0)]
-    same([sweep.crossover(brute, flat) for brute in ([(100, 0.1), (10000, 10.0)], [(100, 2.0), (10000, 200.0)],
-                                                     [(100, 0.1), (10000, 0.2)], [])], ["at about 1,000", "below 100", "beyond 10,000", None])
-
 
 def test_any_leak_is_a_failure():
     def total(holes, doubles):
@@ -303,35 +162,6 @@ def test_any_leak_is_a_failure():
     same([(row["figure"], row["verdict"], row["reason"]) for row in plan.finished()],
          [(0.0, "aim", None), (3.0, "missed", None), (None, None, "no driver")])
     same((sorted(plan.failures), leaks.parse("c float, a CPU\n")), (["opencl: 2 leaks and 1 double hits"], None))
-
-
-# ---- pipelines
-
-def test_orders_of_queues():
-    """Times for each ray of all levels, medians of the rounds, 40 of 8 bundles alive."""
-    product, appended = order.parse("build avx512 16\norder a.json 256 product 0 0 0 0 0\norder a.json 256 appended 60 40 8 12 16\n"
-                                    + "".join(f"time a.json 256 product 0 {one}e-6 0 0\ntime a.json 256 appended 1e-6 {two}e-6 0 {three}e-6\n"
-                                              for one, two, three in ((2, 2, 1), (2, 4, 1), (8, 9, 3))))["orders"]
-    same((product["rays"], product["lanes_alive"], round(product["ns_a_ray"]["all"], 6)), (100, None, 20.0))
-    same([round(value, 6) for value in appended["ns_a_ray"].values()], [10.0, 40.0, 0.0, 10.0, 60.0])
-    same((appended["lanes_alive"], appended["touched_a_bundle"], appended["met_a_bundle"]), (5.0, 1.5, 2.0))
-
-
-# ---- other programs
-
-def test_solids_that_other_programs_are_told_of():
-    """They are closed, look outwards, and have all corners at the circumradius."""
-    for kind, count, corners in (("tetrahedron", 4, 3), ("cube", 6, 4), ("octahedron", 8, 3), ("dodecahedron", 12, 5), ("icosahedron", 20, 3)):
-        centre = [1, -2, 3]
-        faces = shapes.faces({"kind": kind, "centre": centre, "circumradius": 2, "rotation": [20, 30, 40]})
-        keys = [[tuple(round(x, 6) for x in corner) for corner in face] for face in faces]
-        edges = {edge for face in keys for edge in zip(face, face[1:] + face[:1])}
-        far = {round(math.dist(corner, centre), 9) for face in faces for corner in face}
-        normals = [shapes.cross(shapes.minus(f[1], f[0]), shapes.minus(f[2], f[0])) for f in faces]
-        same((kind, len(faces), {len(face) for face in faces}, far, edges), (kind, count, {corners}, {2.0}, {(b, a) for a, b in edges}))
-        assert all(shapes.dot(normal, shapes.minus(face[0], centre)) > 0 for normal, face in zip(normals, faces)), kind
-    parts = {"camera": {}, "floor": {}, "materials": {}, "lights": [], "solids": [{"kind": "cube", "rim": {}}]}
-    same(problem_of(shapes.checked, parts), "other programs cannot be told of rim")
 
 
 # ---- the harness

@@ -14,18 +14,15 @@ script_line() {
 
 # expect_python EXPECTED STATEMENTS...: what they print.
 expect_python() {
-    local expected=$1 found
-    shift
-    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
-    if [[ $found != "$expected" ]]; then
-        fail "$* prints $found, expected $expected"
-    fi
+    local found
+    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "${@:2}")" 2>&1) || true
+    [[ $found == "$1" ]] || fail "${*:2} prints $found, expected $1"
 }
 
 # expect_value FILE EXPRESSION EXPECTED: what Python makes of the result `r`, its rows by key and device, and its
 # measurements by part, series, x and device.
 expect_value() {
-    expect_python "$3" 'import json, re' "def read(name): return open(name, encoding='utf-8').read()" "r = json.loads(read('$1'))" \
+    expect_python "$3" 'import json, os, re' "def read(name): return open(name, encoding='utf-8').read()" "r = json.loads(read('$1'))" \
         'rows = {row["key"] + " " + (row["device"] or "nowhere"): row for row in reversed(r.get("rows") or [])}' \
         'm = {(e.get("part"), e.get("series"), e.get("x"), e["device"]): e for e in r["measurements"]}' \
         'def ms(*key, what="trace_ms"): return round(m[key]["summary"][what]["median"], 6)' "print(json.dumps($2))"
@@ -46,9 +43,7 @@ print(svg.tagName, len(svg.getElementsByTagName("text")) > 0, len(svg.getElement
 
 # expect_bench_refusal CODE TEXT OPTIONS...: of the program `bench`.
 expect_bench_refusal() {
-    local expected=$1 text=$2
-    shift 2
-    expect_exit "$expected" timeout "$patience" "$bench" "$@"
-    expect_stderr_contains "$text"
+    expect_exit "$1" timeout "$patience" "$bench" "${@:3}"
+    expect_stderr_contains "$2"
     expect_stdout_lines 0
 }

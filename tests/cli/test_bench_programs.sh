@@ -23,25 +23,16 @@ expect_run speed --device c --quick --repeats 1 --parts headline,headline_film,m
 expect_stdout_contains 'CHANGED by --size 32x24'
 expect_value speed/speed.json '[rows["headline c:0"]["figure"] > 0, rows["headline c:0"]["verdict"], rows["headline c:0"]["count"] // 2, [rows["headline nowhere"][key] for key in ("least", "aim", "reason")], "math c:0" in rows]' \
     '[true, null, 2, [1, 0.4, "no H200 here"], false]'
-if [[ -x $build/bench/hedron_kernel_rates ]]; then
-    expect_python True "from harness.measure import kernel_rates, scenes; from harness.run.program import *; program = Program(Path('$hedron'))" \
-        'found = kernel_rates.run(program, [ROOT / "scenes/default.json", Path("speed/lights-200.json")], 0.01, 1)["rates"]' \
-        'print(min(found[key][0] for key in ("search:meeting", "light:lights-200", "peak:fma")) > 0)'
-fi
-if command -v ffmpeg >"$logs/which" && command -v ffprobe >"$logs/which"; then
+if has_ffmpeg; then
     expect_value speed/speed.json '[r["film"]["preset"], sorted({len(run["frames"]) for job in r["measurements"] for run in job["runs"] if job["output"] == "film.mp4"})]' \
         '["superfast", [4, 16]]'
 fi
-for scene in speed/lights-200 "$project"/bench/scenes/{headline,fullhd,few}; do
-    expect_exit 0 "$hedron" check "$scene.json"
-done
 # The scene of the classic example is the classic input, but for the texture and where frames go.
 use_official_input
 expect_exit 0 "$hedron" convert "$work/official.in" -o official.json
 expect_same <(jq -S 'del(.floor.texture, .output, ."$schema")' official.json) \
     <(jq -S 'del(.floor.texture, .output, ."$schema")' "$project/scenes/official.json")
 expect_bench_refusal 3 'no GPU whose lanes are known' predict speed/speed.json
-expect_bench_refusal 2 'not what bench/study speed writes' predict speed/lights-200.json
 
 # ---- accuracy: more samples are nearer to the reference, less depth is farther off; an equal picture is equally far
 expect_run accuracy --device c --quick --size 16x12 --parts settings,arithmetic,choices
@@ -51,49 +42,7 @@ expect_value accuracy/accuracy.json '(lambda rmse, truth: [rmse["grid 1"] > rmse
     '[true, true, true, true, true]'
 expect_value accuracy/accuracy.json '(lambda off: [off["double"], 0 < off["float"] < 0.1, off["triangles"] > off["float"]])({each["way"]: each["rmse"] for each in r["choices"]})' \
     '[0.0, true, true]'
-# The error is that of frame 0 against its reference.
-frame=("$hedron" render --quiet --backend c --frames 0 --size 16x12)
-"${frame[@]}" --reference --samples 16 --max-error "$(jq .truth.max_error accuracy/accuracy.json)" -o truth.pfm >"$logs/stdout"
-"${frame[@]}" --samples 4 -o grid.pfm >"$logs/stdout"
-expect_same <("$hedron" compare --json grid.pfm truth.pfm | jq '.display.rmse, .display.largest') \
-    <(jq '.points[] | select(.name == "grid 4") | .rmse, .largest' accuracy/accuracy.json)
 expect_svg accuracy/accuracy_c0_{rmse,largest}.svg
-
-# ---- accuracy in a study goes on where it was: with the same points, and nothing measured again but for a damaged reference
-expect_python "[4, [2, 2, 2, 2], []]
-[0, 8, True, True]
-[True, True]" "hedron = '$hedron'" 'import json
-from pathlib import Path
-from harness.accuracy import points, settings
-from harness.measure.plan import Plan
-from harness.run.program import Program
-every, settings.FAMILIES = settings.settings, {name: settings.FAMILIES[name] for name in ("grid", "depth")}
-settings.settings = lambda quick: {name: every(quick)[name][:2] for name in ("grid", "depth")}
-made, saves, memory, truth = [], [], points.empty_memory(), Path("study_truth.pfm").resolve()
-class Watched(Program):
-    def render(self, *arguments, **named):
-        made.append(arguments[3])
-        return super().render(*arguments, **named)
-device = {"label": "c:0", "backend": "c", "index": 0, "strict": True, "is_cpu": True, "name": "x", "reason": None}
-def measure(most=99):
-    def save():
-        saves.append(json.loads(json.dumps(memory)))
-        if len(saves) >= most:
-            raise KeyboardInterrupt
-    plan = Plan({"c:0": device}, {points.SCENE: None}, Watched(Path(hedron)), Path("arithmetic").resolve(), lambda *news: None, quick=True)
-    points.Points(plan, device, (16, 12), memory, truth, save).measure(2)
-try:
-    measure(3)
-except KeyboardInterrupt:
-    first, memory = len(made), saves[-1]
-measure()
-whole, done = len(made), json.loads(json.dumps(memory))
-measure()
-print([len(memory["points"]), [len(job["runs"]) for job in memory["jobs"].values()], memory["failures"]])
-print([sum("--reference" in options for options in made[first:]), whole - first + 3, len(made) == whole, memory == done])
-truth.write_bytes(b"damaged")
-measure()
-print([sum("--reference" in options for options in made[whole:]) > 1, len(made) - whole > 8])'
 
 # ---- triangles
 expect_run triangles --device c --quick --repeats 1 --most 1000 --parts rates,sweep,primary -- --size 32x24 --samples 1
@@ -116,19 +65,6 @@ if [[ -x $orders ]]; then
     expect_value pipelines/pipelines.json '(lambda found: [len(found), min(e["ns_a_ray"]["all"] for e in found) > 0, all(f["lanes_alive"] > e["lanes_alive"] if e["order"] == "uncompacted" else f["touched_a_bundle"] > e["touched_a_bundle"] for e in found for f in found if (e["scene"], e["batch"], f["order"]) == (f["scene"], f["batch"], "appended") and e["order"] in ("uncompacted", "touched"))])(r["queue_order"]["orders"])' \
         '[28, true, true]'
     expect_svg pipelines/queue_order.svg
-    # A recording has as many rays as the statistics say, and a colour for each.
-    expect_exit 0 "${frame[@]}" "$project/bench/scenes/few.json" --stats stats.jsonl -o few.png
-    jq '.image.width = 16 | .image.height = 12' "$project/bench/scenes/few.json" >few.json
-    expect_exit 0 "$orders" --record recording few.json
-    expect_python '[16, True, True, True]' 'import array, json, pathlib
-words, place, levels, numbers = array.array("i", pathlib.Path("recording").read_bytes()), 2, [], True
-while words[place]:
-    levels.append(words[place])
-    pixels = words[place + 1:place + 1 + 4 * levels[-1]:4]
-    numbers = numbers and 0 <= min(pixels) <= max(pixels) < words[0]
-    place += 1 + 4 * levels[-1]
-print([words[1], sum(levels) == sum(json.loads(pathlib.Path("stats.jsonl").read_text())["rays"].values()), numbers, place == len(words) - 1])'
-    expect_exit 2 "$orders" --record recording
     expect_exit 1 "$orders" no.json
 fi
 
@@ -164,28 +100,17 @@ chmod +x liar
 expect_exit 1 "$bench" promise --hedron liar --out out --first 215 --scenes 10
 expect_stdout_contains 'FAILED: --max-error, scene '
 
-# ---- a hedron without the other programs beside it: reasons, no figures; Ctrl-C leaves what was measured
+# ---- a hedron without the other programs beside it: reasons, no figures
 printf '#!/bin/sh\nexec "%s" "$@"\n' "$hedron" >alone
 chmod +x alone
 expect_exit 0 "${no_nvidia[@]}" "$bench" triangles --hedron alone --out out --device c --quick
 expect_stdout_contains 'here/hedron_model: ./dev build builds it'
 expect_stdout_contains 'here/tests/leak_hunt/hedron_leak_hunt: ./dev build builds it'
 expect_value out/triangles.json 'all(row["reason"] for row in r["rows"])' true
-start "$bench" pipelines --hedron "$hedron" --out out --device c --parts pipelines
-wait_until "$patience" pgrep -P "$pid" -f '^[^ ]*hedron render ' >"$logs/which"
-kill -INT -- "-$pid" || fail 'it was over before the signal'
-expect_end 130
-expect_stdout_contains Interrupted
-expect_value out/pipelines.json 'r["complete"]' false
 
 # ---- wrong usage
-for name in accuracy pipelines speed stability triangles; do
-    expect_bench_refusal 2 'a part that is none of' $name --hedron "$hedron" --out out --parts wrong
-    expect_bench_refusal 2 './dev build' $name --hedron no/hedron --out out
-done
-expect_bench_refusal 2 'is no size' accuracy --size 0x4
+expect_bench_refusal 2 'a part that is none of' accuracy --hedron "$hedron" --out out --parts wrong
+expect_bench_refusal 2 './dev build' speed --hedron no/hedron --out out
 expect_bench_refusal 2 'cannot stand after --' triangles -- --accel=brute
 expect_bench_refusal 2 'at least 3 frames' devices --frames 2
-expect_bench_refusal 2 'there is no scene file' devices none.json
-expect_bench_refusal 2 'invalid number' promise --scenes 0
 finish

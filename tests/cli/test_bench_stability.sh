@@ -14,7 +14,7 @@ tool=$(dirname "$hedron")/bench/hedron_stability_methods
 expect_counts() {
     local expected=$1
     shift
-    expect_python "$expected" 'import json, re' 'from harness.stability import methods as m, table as t' \
+    expect_python "$expected" 'import json, re' 'from harness.stability import methods as m' \
         'r = json.load(open("out/stability.json", encoding="utf-8"))' \
         'def total(these, key): return sum(each[key] for each in these)
 def wrong(study, case, method, key, place=None):
@@ -25,9 +25,8 @@ def wrong(study, case, method, key, place=None):
 # ---- rays, paths, segments, sums and pixels
 expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts crossings,paths,shadows,sums,touching --rays 60
 expect_stdout_contains 'kept so by'
-expect_counts '["stability", true, [], 660, 4200, ["100 %", "0 of 60"]]' \
-    'tried = [total(m.select(r["counts"], *which), "tried") for which in (("crossings", ["edges"], "ours_solids"), ("paths", None, "ours_solids"))]' \
-    'print(json.dumps([r["bench"], r["complete"], r["failures"], *tried, [[row["rate"], row["ours"]] for row in r["table"] if row["method"] == "sums of floats"][0]]))'
+expect_counts '["stability", true, [], ["100 %", "0 of 60"]]' \
+    'print(json.dumps([r["bench"], r["complete"], r["failures"], [[row["rate"], row["ours"]] for row in r["table"] if row["method"] == "sums of floats"][0]]))'
 # Ours is never wrong but at the cracks of a mesh, which are there for every method; and of paths in places that are no target.
 expect_counts 0.0 'print(sum(wrong("crossings", None, method, key, lambda e: e["case"] not in m.CRACKS) for method in ("ours_solids", "ours_triangles") for key in ("missed", "twice", "wrong", "misplaced"))
     + sum(wrong("paths", None, method, "lost") for method in ("ours_solids", "ours_triangles")) + wrong("paths", None, "ours_double", "strayed")
@@ -37,24 +36,20 @@ expect_counts True 'print(all(wrong("paths", None, method, "strayed", m.is_in_ta
 # What others lose: small triangles by a determinant below 1e-6, edges and corners, what is far away by world coordinates, paths
 # and shadows by an epsilon, lights on edges; and where they lose nothing.
 expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "missed", None, 0.001),
-    ("crossings", "t_junctions", "watertight_tie", "missed", None, 0.001),
     ("crossings", "interior", "moeller_trumbore_1e-6", "missed", lambda e: e["scale"] < 1e-3, 0.95),
     ("crossings", "corners", "watertight", "twice", m.is_at_origin, 0.02),
     ("crossings", "interior", "watertight_tie", "misplaced", lambda e: e["offset"] == 1e6, 0.2),
-    ("paths", None, "own_face", "lost", lambda e: e["offset"] == 1e6, 0), ("shadows", "edge_lights", "normalised", "blocked", None, 0.05),
+    ("shadows", "edge_lights", "normalised", "blocked", None, 0.05),
     ("shadows", "face_lights", "normalised_epsilon_1e-4", "opened", lambda e: e["scale"] == 1e-6, 0.1),
     ("shadows", "light_at_the_point", "unnormalised", "nan", None, 0.99), ("sums", "pixel", "float", "differing", None, 0.99)]' \
-    'some += [("crossings", "edges", method, "wrong", m.is_at_origin, 0.05) for method in ("moeller_trumbore_0", "baldwin_weber", "pluecker")]' \
-    'some += [("paths", None, method, "strayed", m.is_in_target, 0.2) for method in ("epsilon_1e-3", "epsilon_1e-4", "epsilon_4e-6", "waechter_binder")]' \
-    'some += [("touching", case, method, "off", m.is_at_origin, 0.05) for case in ("on_the_floor", "stacked", "side_by_side", "doubled")
-    for method in ("epsilon_1e-4", "relative_epsilon", "waechter_binder", "own_face", "moeller_trumbore_epsilon_1e-4")]' \
-    'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin),
-    ("touching", None, "own_face_with_gap", "off", lambda e: e["scale"] == 1 and e["offset"] == 0)]' \
+    'some += [("paths", None, "epsilon_1e-4", "strayed", m.is_in_target, 0.2), ("crossings", "edges", "pluecker", "wrong", m.is_at_origin, 0.05),
+     ("touching", "stacked", "relative_epsilon", "off", m.is_at_origin, 0.05)]' \
+    'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin)]' \
     'print([(*each[:4], wrong(*each[:5])) for each in some if wrong(*each[:5]) <= each[5]] + [each[:4] for each in none if wrong(*each)])'
 expect_svg out/stability_paths.svg out/stability_crossings.svg
 # The table names tests that there are.
 ctest --test-dir "$(dirname "$hedron")" -N >tests.txt
-expect_counts 'True []' 'there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())' \
+expect_counts 'True []' 'from harness.stability import table as t' 'there = re.findall(r"Test +#\d+: (\S+)", open("tests.txt").read())' \
     'named = set(re.findall(r"\b(?:unit|cli|conformance|leak_hunt)_\w+", " ".join(each[-1] for each in (*t.PLACES.values(), *t.MORE.values()))))' \
     'print(len(named) > 5, sorted(named - set(there)))'
 
@@ -68,7 +63,4 @@ expect_counts "[[], ['colour_above_1', 'light_of_1e30'], []]" 'refused = sorted(
     'print([r["failures"], refused, [e["scene"] for e in r["odd"] if e["nan"] or not e["as_it_should"] or e["outcome"][:7] not in ("rendere", "refused")
     or (e["like"] and e["near"] < 0.98 * e["pixels"]) or (e["geometry"] == "solids" and e["beside_near"] is not None and e["beside_near"] < 0.98 * e["pixels"])
     or (e["scene"] == "light_of_1e12" and not e["clamps"])]])'
-
-expect_exit 2 "$tool" wrong 1
-expect_exit 2 "$tool" sums 0
 finish

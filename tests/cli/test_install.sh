@@ -36,8 +36,7 @@ while IFS= read -r found; do
 done < <(grep -r -o --include='*.md' ']([^h#)][^)]*)' "$documents")
 expect_exit 0 "$installed" check "$documents"/scenes/*.json
 expect_stdout_contains 'five.json: fine'
-expect_exit 0 "${installed%/*}/hedron_model" sphere 12 -o sphere.obj
-rm sphere.obj
+expect_exit 0 "${installed%/*}/hedron_model" sphere 12
 
 # ---- the Debian packages have the same files, and name what they need
 if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; then
@@ -71,13 +70,9 @@ expect_picture() {
     rm -f picture.data
 }
 expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 3 -o expected.data
-for home in "$HOME" "$work/no/such/home"; do
-    bare=(PATH="$PATH" HOME="$home")
-    expect_picture
-    expect_silent_stderr
-done
-bare=()
-expect_picture --backend c
+bare=(PATH="$PATH" HOME="$work/no/such/home")
+expect_picture
+expect_silent_stderr
 if has_opencl; then
     bare=(PATH="$PATH" HOME="$HOME")
     expect_picture --backend opencl

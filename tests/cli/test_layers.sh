@@ -23,20 +23,6 @@ END
 cat >"$work/exr.py" <<'END'
 import json, math, struct, sys, zlib
 
-def text(data, at):
-    end = data.index(b"\0", at)
-    return data[at:end].decode(), end + 1
-
-def header(data):
-    attributes, at = {}, 8
-    while data[at]:
-        name, at = text(data, at)
-        _, at = text(data, at)
-        size, = struct.unpack_from("<i", data, at)
-        attributes[name] = data[at + 4:at + 4 + size]
-        at += 4 + size
-    return attributes, at + 1
-
 def unpack(packed, size):
     if len(packed) == size:
         return packed
@@ -48,19 +34,22 @@ def unpack(packed, size):
     return bytes(out)
 
 def read(path):
-    data = open(path, "rb").read()
-    attributes, at = header(data)
+    data, attributes, at = open(path, "rb").read(), {}, 8
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        size, = struct.unpack_from("<i", rest)
+        attributes[name.decode()] = rest[4:4 + size]
+        at += len(name) + len(kind) + size + 6
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     assert attributes["compression"] == b"\3"
     channels, place, listed = {}, 0, attributes["channels"]
     while listed[place]:
-        name, place = text(listed, place)
-        kind, = struct.unpack_from("<i", listed, place)
-        channels[name] = ("ehf"[kind] if kind else "I", [])
-        place += 16
-    line = sum(width * struct.calcsize(kind) for kind, _ in channels.values())
-    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at):
+        name = listed[place:listed.index(b"\0", place)]
+        channels[name.decode()] = "Ihf"[listed[place + len(name) + 1]], []
+        place += len(name) + 17
+    line = sum(width * (2 if kind == "h" else 4) for kind, _ in channels.values())
+    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at + 1):
         y, size = struct.unpack_from("<2i", data, offset)
         lines = min(16, top + height - y)
         pixels, here = unpack(data[offset + 8:offset + 8 + size], line * lines), 0
@@ -100,8 +89,6 @@ expect_exr all.exr '{n for n, (t, _) in c.items() if t == "h"} == set("RGBA")'
 expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.X", "normal.Y", "normal.Z", "object", "samples"}'
 expect_exit 0 "${render[@]}" --backend c --layers object --set output.bits=32 -o some.exr
 expect_exr some.exr '{n: t for n, (t, _) in c.items()} == dict.fromkeys(("A", "B", "G", "R", "object"), "f")'
-expect_exit 0 "$hedron" compare --json some.exr plain.pfm
-expect_output_json 'j["identical"] and j["channels"] == [] and j["most_different"] is None'
 
 # ---- what is in them
 expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3} and set(what("samples")) == {9}'
@@ -129,9 +116,6 @@ expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays
 expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o grid.exr
 expect_exit 0 "$hedron" compare --json adaptive.exr grid.exr
 expect_output_json 'len(j["channels"]) == 6 and all(c["largest"] == 0 for c in j["channels"])'
-expect_exit 0 "${render[@]}" --backend c --max-error 1.5 --layers bound,samples -o bound.exr
-expect_exr bound.exr 'set(what("samples")) == {9} and max(what("bound")) > 0'
-
 # ---- the same bytes from every backend
 expect_exit 0 "${render[@]}" --backend c --lanes 1 --threads 1 --pipeline wavefront --layers "$all" -o other.exr
 expect_same all.exr other.exr
@@ -150,13 +134,11 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     done
     expect_exit 0 "${fake[@]}" "${adaptive[@]}" --backend cuda -o other.exr
     expect_same adaptive.exr other.exr
-    # Frames under way do not get in each other's way.
+    # Frames under way are kept apart.
     still=("${render[@]}" --set camera.frames=3 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
     expect_exit 0 "${still[@]}" --backend c -o c/%d.exr
     expect_exit 0 "${fake[@]}" "${still[@]}" --backend cuda -o cuda/%d.exr
-    for i in 0 1 2; do
-        expect_same c/$i.exr cuda/$i.exr
-    done
+    expect_same <(cat c/*) <(cat cuda/*)
     rm -r c cuda
 fi
 

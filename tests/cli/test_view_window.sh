@@ -30,16 +30,7 @@ server=$!
 trap 'clean_up; kill "$server"' EXIT
 # await WHAT COMMAND...: until the command succeeds, 20 s at most.
 await() {
-    local what=$1 i
-    shift
-    for ((i = 0; i < 200; i++)); do
-        if "$@" >/dev/null 2>&1; then
-            return 0
-        fi
-        sleep 0.1
-    done
-    fail "$what did not come: $(cat errors 2>/dev/null)"
-    return 1
+    wait_until 20 "${@:2}" >/dev/null 2>&1 || fail "$1 did not come: $(cat errors 2>/dev/null)"
 }
 await 'the display' test -s display
 DISPLAY=:$(<display)
