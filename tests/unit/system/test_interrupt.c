@@ -4,7 +4,6 @@
 #include "system/interrupt.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -192,49 +191,20 @@ TEST(what_the_parent_ignored_stays_ignored_but_for_children) {
 }
 
 TEST(the_patience_is_a_time) {
-    static const char *const good[] = {"", "0.1", "86400", "2"};
-    static const char *const bad[] = {"0.0999", "86401", "1s", "x", "nan", "-1"};
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-        setenv("HEDRON_STOP_PATIENCE", good[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
+    static const struct {
+        const char *text;
+        bool is_good;
+    } patiences[] = {{"", true},       {"0.1", true}, {"86400", true}, {"0.0999", false},
+                     {"86401", false}, {"1s", false}, {"nan", false},  {"-1", false}};
+    for (size_t i = 0; i < sizeof patiences / sizeof *patiences; i++) {
+        setenv("HEDRON_STOP_PATIENCE", patiences[i].text, 1);
+        assert_int_equal(hd_interrupt_read_patience(&error),
+                         patiences[i].is_good ? HD_OK : HD_BAD_INPUT);
+        if (!patiences[i].is_good) {
+            expect_contains(error.message, patiences[i].text);
+            expect_contains(error.message, "expected seconds from 0.1 to 86400");
+        }
     }
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        setenv("HEDRON_STOP_PATIENCE", bad[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_BAD_INPUT);
-        expect_contains(error.message, bad[i]);
-        expect_contains(error.message, "expected seconds from 0.1 to 86400");
-    }
-    unsetenv("HEDRON_STOP_PATIENCE");
-    assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
-}
-
-/* ---- writers ---- */
-
-static int ends[2];
-
-static void *signal_soon(void *unused) {
-    pass(0.01);
-    kill(getpid(), SIGINT);
-    return unused;
-}
-
-static void wait_to_write(void) {
-    pthread_t other;
-    pthread_create(&other, NULL, signal_soon, NULL);
-    _exit(hd_wait_to_write(ends[1]) ? 96 : hd_interrupt_signal());
-}
-
-TEST(a_writer_waits_for_room_or_an_interrupt) {
-    static const char block[4096];
-    assert_int_equal(pipe(ends), 0);
-    assert_int_equal(fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
-    assert_true(hd_wait_to_write(ends[1]));
-    while (write(ends[1], block, sizeof block) > 0)
-        ;
-    assert_int_equal(outcome_of(wait_to_write), SIGINT);
-    close(ends[0]);
-    assert_true(hd_wait_to_write(ends[1])); /* it will fail */
-    close(ends[1]);
 }
 
 /* Shells start what runs in the background with some of these ignored. */
