@@ -10,7 +10,6 @@
 #include "unit_test.h"
 #include "wrapped.h"
 
-static const HdHierarchyOptions usual = {1.0F, 4};
 static HdError error;
 static HdThreadPool *pool;
 
@@ -53,13 +52,6 @@ static int end_pool(void **state) {
 }
 GROUP(start_pool, end_pool)
 
-static HdHierarchy build(const HdBox *boxes, int count, const HdHierarchyOptions *options) {
-    HdHierarchy hierarchy;
-    if (hd_hierarchy_build(&hierarchy, boxes, count, options, pool, &error) != HD_OK)
-        fail_msg("%s", error.message);
-    return hierarchy;
-}
-
 static double half_area(const HdBox *box) {
     const double x = (double)box->upper[0] - (double)box->lower[0];
     const double y = (double)box->upper[1] - (double)box->lower[1];
@@ -73,37 +65,80 @@ static double next_number(uint64_t *state) {
     return (double)(*state >> 40) * 0x1p-24;
 }
 
-/* Boxes with corners within `size` of a place in the cube of +-1. */
-static HdBox *random_boxes(int count, double size) {
-    uint64_t seed = (uint64_t)count;
-    HdBox *boxes = malloc((size_t)count * sizeof *boxes);
-    for (int i = 0; i < count; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            const double at = 2.0 * next_number(&seed) - 1.0;
-            const double extent = size * next_number(&seed);
-            boxes[i].lower[axis] = (float)at;
-            boxes[i].upper[axis] = (float)(at + extent);
-        }
-    return boxes;
+/* ---- boxes of many kinds ---- */
+
+enum { MANY = 60000, COUNT = 9000, DEEP = 17 * 6 };
+static HdBox boxes[MANY];
+
+/* `fill` makes box number i. */
+typedef struct Kind {
+    void (*fill)(HdBox *box, int i);
+    int count;
+    HdHierarchyOptions options;
+    int flat_axes;    /* bits */
+    bool is_unsorted; /* children do not lie in order of their centres */
+} Kind;
+
+static HdStatus try_to_build(HdHierarchy *hierarchy, const Kind *kind, HdThreadPool *threads) {
+    for (int i = 0; i < kind->count; i++) {
+        kind->fill(&boxes[i], i);
+        for (int axis = 0; axis < 3; axis++)
+            if (kind->flat_axes >> axis & 1)
+                boxes[i].upper[axis] = boxes[i].lower[axis];
+    }
+    return hd_hierarchy_build(hierarchy, boxes, kind->count, &kind->options, threads, &error);
 }
 
-/* Small boxes in few dense places of very different sizes. */
-static HdBox *clustered_boxes(int count) {
-    enum { CLUSTERS = 7 };
-    HdBox *boxes = malloc((size_t)count * sizeof *boxes);
-    uint64_t seed = 77;
-    for (int i = 0; i < count; i++) {
-        const int cluster = i % CLUSTERS;
-        const double spread = pow(0.2, cluster);
-        for (int axis = 0; axis < 3; axis++) {
-            uint64_t of_cluster = (uint64_t)(cluster * 3 + axis + 1) * 0x9E3779B97F4A7C15U;
-            const double centre = 2.0 * next_number(&of_cluster) - 1.0;
-            const double at = centre + spread * (next_number(&seed) - 0.5);
-            boxes[i].lower[axis] = (float)at;
-            boxes[i].upper[axis] = (float)(at + 0.05 * spread * next_number(&seed));
-        }
+static void small(HdBox *box, int i) {
+    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
+    for (int axis = 0; axis < 3; axis++) {
+        box->lower[axis] = (float)(next_number(&seed) - next_number(&seed));
+        box->upper[axis] = box->lower[axis] + 0.01F * (float)next_number(&seed);
     }
-    return boxes;
+}
+
+/* In few dense places of very different sizes. */
+static void clustered(HdBox *box, int i) {
+    const int cluster = i % 7;
+    const double spread = pow(0.2, cluster);
+    uint64_t of_cluster = (uint64_t)(cluster + 1) * 0x9E3779B97F4A7C15U;
+    uint64_t seed = (uint64_t)(i + 1) * 0x9E3779B97F4A7C15U;
+    for (int axis = 0; axis < 3; axis++) {
+        const double centre = 2.0 * next_number(&of_cluster) - 1.0;
+        const double at = centre + spread * (next_number(&seed) - 0.5);
+        box->lower[axis] = (float)at;
+        box->upper[axis] = (float)(at + 0.05 * spread * next_number(&seed));
+    }
+}
+
+static void identical(HdBox *box, int i) {
+    (void)i;
+    *box = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
+}
+
+/* Neither a box has an area, nor what holds them all. */
+static void points_in_a_line(HdBox *box, int i) {
+    const float y = (float)(i * 7919 % COUNT);
+    *box = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
+}
+
+/* From the smallest to the largest floats there are. */
+static void of_all_sizes(HdBox *box, int i) {
+    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
+    for (int axis = 0; axis < 3; axis++) {
+        const double size = ldexp(1.0, (int)(277.0 * next_number(&seed)) - 149);
+        box->lower[axis] = i == 1  ? FLT_MAX
+                           : i < 3 ? -FLT_MAX
+                                   : (float)(size * -next_number(&seed));
+        box->upper[axis] = i == 2 ? -FLT_MAX : i < 3 ? FLT_MAX : (float)(size * next_number(&seed));
+    }
+}
+
+/* Points on the axes, each 64 times nearer to the origin than the last: the outermost point is in a
+   bin of its own and all others share one, so that each split takes one point away. */
+static void deep(HdBox *box, int i) {
+    *box = (HdBox){{0}, {0}};
+    box->lower[i % 6 / 2] = box->upper[i % 6 / 2] = ldexpf(i % 2 == 0 ? 1.0F : -1.0F, -6 * (i / 6));
 }
 
 /* ---- what a hierarchy is to be ---- */
@@ -118,12 +153,9 @@ typedef struct Below {
 
 typedef struct Check {
     const HdHierarchy *hierarchy;
-    const HdBox *boxes;
-    HdHierarchyOptions options;
-    int next_node, next_item;
-    unsigned char *seen;
-    int empty_leaves;
-    bool sorted; /* whether children must lie in order of their centres */
+    const Kind *kind;
+    int next_node, next_item, empty_leaves;
+    bool seen[MANY];
 } Check;
 
 static Below nothing(void) {
@@ -158,13 +190,13 @@ static Below check_leaf(Check *check, int32_t child) {
         return below;
     }
     assert_int_equal(first, check->next_item);
-    assert_true(count <= check->options.most_in_leaf);
+    assert_true(count <= check->kind->options.most_in_leaf);
     check->next_item += count;
     for (int i = first; i < first + count; i++) {
         const int item = check->hierarchy->order[i];
         assert_false(check->seen[item]);
-        check->seen[item] = 1;
-        Below one = {.box = check->boxes[item], .items = 1};
+        check->seen[item] = true;
+        Below one = {.box = boxes[item], .items = 1};
         for (int axis = 0; axis < 3; axis++)
             one.lowest[axis] = one.highest[axis] =
                 (double)one.box.lower[axis] + (double)one.box.upper[axis];
@@ -175,7 +207,7 @@ static Below check_leaf(Check *check, int32_t child) {
 }
 
 static void check_order(const Check *check, const Below *left, const Below *right, int axis) {
-    if (!check->sorted || right->items == 0)
+    if (check->kind->is_unsorted || right->items == 0)
         return;
     /* Sums are rounded before they are compared. */
     const double largest = fmax(fabs(right->highest[axis]), fabs(left->lowest[axis]));
@@ -197,26 +229,11 @@ static Below check_node(Check *check, int number) {
     assert_in_range(node->axis, 0, 2);
     check_order(check, &sides[0], &sides[1], node->axis);
     all.depth++;
-    all.cost += (double)check->options.node_cost * half_area(&all.box);
+    all.cost += (double)check->kind->options.node_cost * half_area(&all.box);
     /* Otherwise it should have been a leaf; as far as floats tell. */
-    if (number > 0 && all.items <= check->options.most_in_leaf && all.depth < 60)
+    if (number > 0 && all.items <= check->kind->options.most_in_leaf && all.depth < 60)
         assert_true(all.cost <= half_area(&all.box) * all.items * (1.0 + 1e-5) + 1e-30);
     return all;
-}
-
-/* Everything that a hierarchy is to be; returns its expected cost for a ray that meets it. */
-static double check_all(const HdHierarchy *hierarchy, const HdBox *boxes, int count,
-                        const HdHierarchyOptions *options, bool sorted) {
-    Check check = {hierarchy, boxes, *options, 0, 0, calloc((size_t)count, 1), 0, sorted};
-    const Below all = check_node(&check, 0);
-    assert_int_equal(all.items, count);
-    assert_int_equal(check.next_item, count);
-    assert_int_equal(check.next_node, hierarchy->node_count);
-    assert_int_equal(all.depth, hierarchy->depth);
-    assert_true(hierarchy->depth <= HD_MAX_HIERARCHY_DEPTH);
-    assert_int_equal(check.empty_leaves, hierarchy->nodes[0].child[1] == ~0 ? 1 : 0);
-    free(check.seen);
-    return all.cost / half_area(&all.box);
 }
 
 /* ---- what a wide one is to be ---- */
@@ -306,28 +323,75 @@ static void check_widths(const HdHierarchy *hierarchy) {
     }
 }
 
+/* Builds all that a hierarchy is to be, and wide ones of it; `*cost` is what is expected for a ray
+   that meets it. */
+static HdHierarchy build(const Kind *kind, double *cost) {
+    static Check check;
+    HdHierarchy hierarchy;
+    if (try_to_build(&hierarchy, kind, pool) != HD_OK)
+        fail_msg("%s", error.message);
+    check = (Check){.hierarchy = &hierarchy, .kind = kind};
+    const Below all = check_node(&check, 0);
+    assert_int_equal(all.items, kind->count);
+    assert_int_equal(check.next_item, kind->count);
+    assert_int_equal(check.next_node, hierarchy.node_count);
+    assert_int_equal(all.depth, hierarchy.depth);
+    assert_true(hierarchy.depth <= HD_MAX_HIERARCHY_DEPTH);
+    assert_int_equal(check.empty_leaves, hierarchy.nodes[0].child[1] == ~0 ? 1 : 0);
+    check_widths(&hierarchy);
+    *cost = all.cost / half_area(&all.box);
+    return hierarchy;
+}
+
+/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. Flat
+   boxes are without a volume, without an area, without anything. */
+TEST(boxes_of_every_kind_are_divided) {
+    enum { DEEPEST = HD_MAX_HIERARCHY_DEPTH };
+    static const struct {
+        Kind kind;
+        int least_nodes, most_nodes, least_depth, most_depth;
+        double most_cost; /* as tried out */
+    } cases[] = {
+        {{small, COUNT, {0.0F, 15}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 1e3},
+        {{small, COUNT, {1.0F, 4}, 1, false}, 1, COUNT, 1, 30, 1e3},
+        {{small, COUNT, {1.0F, 4}, 6, false}, 1, COUNT, 1, 30, 1e3},
+        {{small, COUNT, {1.0F, 4}, 7, false}, 1, COUNT, 1, 30, 1e3},
+        {{small, COUNT, {1000.0F, 15}, 0, false}, 1, COUNT / 7, 1, 30, 1e9},
+        {{identical, COUNT, {1.0F, 4}, 0, false}, 1, COUNT, 1, 13, 1e9},
+        {{points_in_a_line, COUNT, {0.0F, 4}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 1e9},
+        {{of_all_sizes, COUNT, {1.0F, 4}, 0, true}, 1, COUNT, 1, DEEPEST, 1e9},
+        {{clustered, COUNT, {1.0F, 4}, 0, false}, 1, COUNT, 1, 30, 11.84},
+        {{deep, DEEP, {0.0F, 1}, 0, true}, 1, COUNT, DEEPEST, DEEPEST, 1e9},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double cost;
+        HdHierarchy hierarchy = build(&cases[i].kind, &cost);
+        assert_in_range(hierarchy.node_count, cases[i].least_nodes, cases[i].most_nodes);
+        assert_in_range(hierarchy.depth, cases[i].least_depth, cases[i].most_depth);
+        if (cost > cases[i].most_cost)
+            fail_msg("the cost of case %zu is %g", i, cost);
+        hd_hierarchy_free(&hierarchy);
+    }
+}
+
 TEST(any_number_of_boxes) {
     for (int count = 1; count <= 200; count++) {
-        const HdHierarchyOptions options = {1.0F, 1 + count % HD_MAX_LEAF};
-        HdBox *boxes = random_boxes(count, 0.5);
-        HdHierarchy hierarchy = build(boxes, count, &options);
-        check_all(&hierarchy, boxes, count, &options, true);
-        check_widths(&hierarchy);
+        double cost;
+        const Kind kind = {small, count, {1.0F, 1 + count % HD_MAX_LEAF}, 0, false};
+        HdHierarchy hierarchy = build(&kind, &cost);
         hd_hierarchy_free(&hierarchy);
-        free(boxes);
     }
 }
 
 TEST(same_for_any_number_of_threads) {
-    enum { MANY = 60000 };
-    static const int thread_counts[] = {1, 3};
-    HdBox *boxes = clustered_boxes(MANY);
-    HdHierarchy expected = build(boxes, MANY, &usual);
-    for (int i = 0; i < 2; i++) {
+    static const Kind kind = {clustered, MANY, {1.0F, 4}, 0, false};
+    double cost;
+    HdHierarchy expected = build(&kind, &cost);
+    for (int threads = 1; threads <= 3; threads += 2) {
         HdThreadPool *other;
         HdHierarchy hierarchy;
-        assert_int_equal(hd_thread_pool_create(&other, thread_counts[i], &error), HD_OK);
-        assert_int_equal(hd_hierarchy_build(&hierarchy, boxes, MANY, &usual, other, &error), HD_OK);
+        assert_int_equal(hd_thread_pool_create(&other, threads, &error), HD_OK);
+        assert_int_equal(try_to_build(&hierarchy, &kind, other), HD_OK);
         assert_int_equal(hierarchy.depth, expected.depth);
         assert_int_equal(hierarchy.node_count, expected.node_count);
         assert_memory_equal(hierarchy.order, expected.order, MANY * sizeof(int32_t));
@@ -337,149 +401,30 @@ TEST(same_for_any_number_of_threads) {
         hd_thread_pool_destroy(other);
     }
     hd_hierarchy_free(&expected);
-    free(boxes);
-}
-
-/* ---- boxes of many kinds: what the box `i` of COUNT is ---- */
-
-enum { COUNT = 9000 };
-
-static void small(HdBox *box, int i) {
-    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
-    for (int axis = 0; axis < 3; axis++) {
-        box->lower[axis] = (float)(next_number(&seed) - next_number(&seed));
-        box->upper[axis] = box->lower[axis] + 0.01F * (float)next_number(&seed);
-    }
-}
-
-static void identical(HdBox *box, int i) {
-    (void)i;
-    *box = (HdBox){{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
-}
-
-/* Neither a box has an area, nor what holds them all. */
-static void points_in_a_line(HdBox *box, int i) {
-    const float y = (float)(i * 7919 % COUNT);
-    *box = (HdBox){{0.5F, y, 0.25F}, {0.5F, y, 0.25F}};
-}
-
-/* From the smallest to the largest floats there are. */
-static void of_all_sizes(HdBox *box, int i) {
-    uint64_t seed = (uint64_t)i * 0x9E3779B97F4A7C15U;
-    for (int axis = 0; axis < 3; axis++) {
-        const double size = ldexp(1.0, (int)(277.0 * next_number(&seed)) - 149);
-        box->lower[axis] = i == 1  ? FLT_MAX
-                           : i < 3 ? -FLT_MAX
-                                   : (float)(size * -next_number(&seed));
-        box->upper[axis] = i == 2 ? -FLT_MAX : i < 3 ? FLT_MAX : (float)(size * next_number(&seed));
-    }
-}
-
-/* Nodes that cost nothing divide everything; nodes that cost too much nothing that may stay. Flat
-   boxes are without a volume, without an area, without anything. */
-TEST(boxes_of_every_kind_are_divided) {
-    static const struct {
-        void (*fill)(HdBox *box, int i);
-        HdHierarchyOptions options;
-        bool sorted;
-        int flat_axes, least_nodes, most_nodes, most_depth;
-    } kinds[] = {
-        {small, {0.0F, 15}, true, 0, COUNT - 1, COUNT - 1, 30},
-        {small, {1.0F, 4}, true, 1, 1, COUNT, 30},
-        {small, {1.0F, 4}, true, 6, 1, COUNT, 30},
-        {small, {1.0F, 4}, true, 7, 1, COUNT, 30},
-        {small, {1000.0F, 15}, true, 0, 1, COUNT / 7, 30},
-        {identical, {1.0F, 4}, true, 0, 1, COUNT, 13},
-        {points_in_a_line, {0.0F, 4}, true, 0, COUNT - 1, COUNT - 1, 30},
-        {of_all_sizes, {1.0F, 4}, false, 0, 1, COUNT, HD_MAX_HIERARCHY_DEPTH},
-    };
-    HdBox *boxes = malloc(COUNT * sizeof *boxes);
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        for (int i = 0; i < COUNT; i++) {
-            kinds[k].fill(&boxes[i], i);
-            for (int axis = 0; axis < 3; axis++)
-                if (kinds[k].flat_axes >> axis & 1)
-                    boxes[i].upper[axis] = boxes[i].lower[axis];
-        }
-        HdHierarchy hierarchy = build(boxes, COUNT, &kinds[k].options);
-        check_all(&hierarchy, boxes, COUNT, &kinds[k].options, kinds[k].sorted);
-        assert_in_range(hierarchy.node_count, kinds[k].least_nodes, kinds[k].most_nodes);
-        assert_in_range(hierarchy.depth, 1, kinds[k].most_depth);
-        hd_hierarchy_free(&hierarchy);
-    }
-    free(boxes);
-}
-
-enum { DEEP_BOXES = 17 * 6 };
-
-/* Points on the axes, each 64 times nearer to the origin than the last: the outermost point is in a
-   bin of its own and all others share one, so that each split takes one point away. */
-static void fill_deep(HdBox boxes[DEEP_BOXES]) {
-    for (int i = 0; i < DEEP_BOXES; i++) {
-        const int axis = i % 6 / 2;
-        boxes[i] = (HdBox){{0}, {0}};
-        boxes[i].lower[axis] = boxes[i].upper[axis] =
-            ldexpf(i % 2 == 0 ? 1.0F : -1.0F, -6 * (i / 6));
-    }
-}
-
-TEST(depth_is_bounded) {
-    HdBox boxes[DEEP_BOXES];
-    fill_deep(boxes);
-    const HdHierarchyOptions options = {0.0F, 1};
-    HdHierarchy hierarchy = build(boxes, DEEP_BOXES, &options);
-    check_all(&hierarchy, boxes, DEEP_BOXES, &options, false);
-    assert_int_equal(hierarchy.depth, HD_MAX_HIERARCHY_DEPTH);
-    check_widths(&hierarchy);
-    hd_hierarchy_free(&hierarchy);
-}
-
-/* For a ray that meets them; as tried out. */
-TEST(splits_are_cheap) {
-    HdBox *boxes = clustered_boxes(COUNT);
-    HdHierarchy hierarchy = build(boxes, COUNT, &usual);
-    assert_true(check_all(&hierarchy, boxes, COUNT, &usual, true) < 11.84);
-    check_widths(&hierarchy);
-    hd_hierarchy_free(&hierarchy);
-    free(boxes);
 }
 
 /* Leaves nothing where it does not succeed. */
 static HdStatus build_few(void) {
-    HdBox *boxes = random_boxes(6000, 0.1);
+    static const Kind kind = {small, 6000, {1.0F, 4}, 0, false};
     HdHierarchy hierarchy;
-    const HdStatus status = hd_hierarchy_build(&hierarchy, boxes, 6000, &usual, pool, &error);
+    HdWideHierarchy wide = {0};
+    HdStatus status = try_to_build(&hierarchy, &kind, pool);
     assert_int_equal(hierarchy.nodes != NULL, status == HD_OK);
     assert_int_equal(hierarchy.order != NULL, status == HD_OK);
-    hd_hierarchy_free(&hierarchy);
-    free(boxes);
-    return status;
-}
-
-TEST(tells_when_memory_runs_out) {
-    assert_true(fail_each(build_few) > 1);
-}
-
-static HdHierarchy clustered;
-
-static HdStatus widen(void) {
-    HdWideHierarchy wide;
-    const HdStatus status = hd_hierarchy_widen(&wide, &clustered, 8, &error);
-    assert_int_equal(wide.bounds != NULL && wide.child != NULL && wide.root_of != NULL,
-                     status == HD_OK);
-    assert_int_equal(wide.bounds == NULL && wide.child == NULL && wide.root_of == NULL,
-                     status != HD_OK);
+    if (status == HD_OK) {
+        status = hd_hierarchy_widen(&wide, &hierarchy, 8, &error);
+        assert_int_equal(wide.bounds != NULL, status == HD_OK);
+        assert_int_equal(wide.child != NULL, status == HD_OK);
+        assert_int_equal(wide.root_of != NULL, status == HD_OK);
+    }
     hd_wide_hierarchy_free(&wide);
+    hd_hierarchy_free(&hierarchy);
     return status;
 }
 
-/* Two at the start, one for the boxes, and at least once it has to grow. */
-TEST(widening_tells_when_memory_runs_out) {
-    HdBox *boxes = clustered_boxes(3000);
-    clustered = build(boxes, 3000, &usual);
-    assert_true(fail_each(widen) >= 4);
-    hd_hierarchy_free(&clustered);
-    free(boxes);
+/* To widen takes two at the start, one for the boxes, and at least once it has to grow. */
+TEST(tells_when_memory_runs_out) {
+    assert_true(fail_each(build_few) >= 5);
 }
 
 /* The last one: the signal stays. */
