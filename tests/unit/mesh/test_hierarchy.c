@@ -352,15 +352,15 @@ TEST(boxes_of_every_kind_are_divided) {
         int least_nodes, most_nodes, least_depth, most_depth;
         double most_cost; /* as tried out */
     } cases[] = {
-        {{small, COUNT, {0.0F, 15}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 1e3},
-        {{small, COUNT, {1.0F, 4}, 1, false}, 1, COUNT, 1, 30, 1e3},
-        {{small, COUNT, {1.0F, 4}, 6, false}, 1, COUNT, 1, 30, 1e3},
-        {{small, COUNT, {1.0F, 4}, 7, false}, 1, COUNT, 1, 30, 1e3},
+        {{small, COUNT, {0.0F, 15}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 0.0577},
+        {{small, COUNT, {1.0F, 4}, 1, false}, 1, COUNT, 1, 30, 38.9},
+        {{small, COUNT, {1.0F, 4}, 6, false}, 1, COUNT, 1, 30, 38.1},
+        {{small, COUNT, {1.0F, 4}, 7, false}, 1, COUNT, 1, 30, 37.7},
         {{small, COUNT, {1000.0F, 15}, 0, false}, 1, COUNT / 7, 1, 30, 1e9},
         {{identical, COUNT, {1.0F, 4}, 0, false}, 1, COUNT, 1, 13, 1e9},
         {{points_in_a_line, COUNT, {0.0F, 4}, 0, false}, COUNT - 1, COUNT - 1, 1, 30, 1e9},
-        {{of_all_sizes, COUNT, {1.0F, 4}, 0, true}, 1, COUNT, 1, DEEPEST, 1e9},
-        {{clustered, COUNT, {1.0F, 4}, 0, false}, 1, COUNT, 1, 30, 11.84},
+        {{of_all_sizes, COUNT, {1.0F, 4}, 0, true}, 1, COUNT, 1, DEEPEST, 67.9},
+        {{clustered, COUNT, {1.0F, 4}, 0, false}, 1, COUNT, 1, 30, 10.82},
         {{deep, DEEP, {0.0F, 1}, 0, true}, 1, COUNT, DEEPEST, DEEPEST, 1e9},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
