@@ -208,29 +208,3 @@ TEST(rays_that_end_are_bounded) {
         }
     }
 }
-
-/* Lights in both of the surface's sides where it is lit from behind: in every second lane. */
-TEST(lights_that_are_left_out_are_bounded) {
-    static const double colours[CHANNELS] = {0.5, 0.25, 1.0};
-    for (int channel = 0; channel < CHANNELS; channel++) {
-        double arriving = 0.5 * (double)channel_bounds[channel];
-        double limit = 4.0 * arriving * (0.75 * colours[channel] + 0.25);
-        Ends ends = ends_below((real)limit);
-        ONLY_TABLES_OF(&ends);
-        for (int i = 0; i < CHANNELS; i++)
-            ends.header.light_bound[i] = channel_bounds[i];
-        LaneMaterial material = no_material();
-        material.colour = vec3_splat(R(0.5), R(0.25), R(1.0));
-        material.diffuse = splat(R(0.5));
-        material.specular = splat(R(0.25));
-        material.transmission = splat(R(0.5));
-        material.lit_from_behind = eq_int(lane_numbers() & 1, splat_int(1));
-        vmask lit =
-            end_lights(SCENE_ARGUMENTS ends.alive, weights_of(channel), &material, &ends.sample);
-        for (int lane = 0; lane < HD_LANES; lane++) {
-            double diffuse = lane % 2 == 1 ? 0.75 : 0.5;
-            double bound = arriving * (lane + 1) * (diffuse * colours[channel] + 0.25);
-            expect_end(&ends, lit, lane, bound, bound < limit);
-        }
-    }
-}

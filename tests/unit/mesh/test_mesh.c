@@ -162,15 +162,11 @@ static void expect_normals(const HdMesh *mesh, int count, bool is_smooth) {
 /* Three faces meet at a corner with a right angle each, however they are cut into triangles. */
 TEST(smoothing_weights_by_angle_and_leaves_creases) {
     HdMesh mesh = make_cube();
-    smooth(&mesh, 91.0);
-    expect_normals(&mesh, 8, true);
-    /* Once more, over normals that are there. */
-    smooth(&mesh, 89.0);
-    expect_normals(&mesh, 24, false);
-    smooth(&mesh, 180.0);
-    expect_normals(&mesh, 8, true);
-    smooth(&mesh, 0.0);
-    expect_normals(&mesh, 24, false);
+    static const double creases[] = {91.0, 89.0, 180.0, 0.0};
+    for (int i = 0; i < 4; i++) { /* but for the first, over normals that are there */
+        smooth(&mesh, creases[i]);
+        expect_normals(&mesh, i % 2 == 0 ? 8 : 24, i % 2 == 0);
+    }
     hd_mesh_free(&mesh);
 }
 

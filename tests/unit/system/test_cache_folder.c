@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <glob.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <sys/resource.h>
@@ -17,16 +18,12 @@ static HdError error;
 static const char payload[] = "machine code\0with a NUL";
 static char entry_file[512];
 
-/* The only entry of the folder "cache". */
+/* The first entry of the folder "cache". */
 static const char *find_entry(void) {
-    DIR *entries = opendir("cache");
-    assert_non_null(entries);
-    entry_file[0] = '\0';
-    for (struct dirent *found = readdir(entries); found != NULL; found = readdir(entries))
-        if (found->d_name[0] != '.' && strcmp(found->d_name, "key") != 0)
-            snprintf(entry_file, sizeof entry_file, "cache/%s", found->d_name);
-    closedir(entries);
-    assert_string_not_equal(entry_file, "");
+    glob_t found;
+    assert_int_equal(glob("cache/*.entry", 0, NULL, &found), 0);
+    snprintf(entry_file, sizeof entry_file, "%s", found.gl_pathv[0]);
+    globfree(&found);
     return entry_file;
 }
 
@@ -96,9 +93,8 @@ TEST(texts_are_kept) {
     assert_int_equal(hd_cache_put_text("test", "block", "12345678", &error), HD_OK);
     assert_int_equal(hd_cache_get_text("test", "block", text, sizeof text, &error), HD_FAILED);
     assert_string_equal(text, "");
-    put("binary");
-    char longer[100];
-    assert_int_equal(hd_cache_get_text("test", "binary", longer, sizeof longer, &error), HD_FAILED);
+    assert_int_equal(hd_cache_put("test", "block", "1\0", 2, &error), HD_OK);
+    assert_int_equal(hd_cache_get_text("test", "block", text, sizeof text, &error), HD_FAILED);
 }
 
 /* ---- damage ---- */
@@ -253,8 +249,6 @@ TEST(a_folder_that_cannot_be_made_is_told) {
     assert_int_equal(get("a"), HD_UNAVAILABLE);
     assert_int_equal(hd_cache_put("test", "a", "x", 1, &error), HD_FAILED);
     expect_contains(error.message, "file/cache");
-    setenv("HEDRON_CACHE", "/proc/no/such", 1);
-    assert_int_equal(hd_cache_put("test", "a", "x", 1, &error), HD_FAILED);
     assert_int_equal(remove("file"), 0);
 }
 
@@ -291,17 +285,15 @@ static void make_file(const char *name, off_t size, int seconds_ago) {
     assert_int_equal(utimensat(AT_FDCWD, path, (const struct timespec[2]){then, then}, 0), 0);
 }
 
-/* The only files of the cache have the names, each with a space behind it. */
+/* The files of the cache have the names, in order and each with a space behind it. */
 static void expect_left(const char *names) {
-    char path[256];
-    int count = 0, length;
-    for (const char *at = names; *at != '\0'; at += length + 1, count++) {
-        length = (int)strcspn(at, " ");
-        snprintf(path, sizeof path, "cache/%.*s", length, at);
-        if (access(path, F_OK) != 0)
-            fail_msg("%s is gone", path);
-    }
-    assert_int_equal(count_entries("cache"), count);
+    char text[512] = "";
+    glob_t found;
+    assert_int_equal(glob("cache/*", 0, NULL, &found), 0);
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        strcat(strcat(text, found.gl_pathv[i] + strlen("cache/")), " ");
+    globfree(&found);
+    assert_string_equal(text, names);
 }
 
 static const char *stuck; /* cannot be removed */
@@ -325,13 +317,13 @@ TEST(the_longest_unused_go_first) {
     make_file("fresh.entry.tmp-1-0", 100, 10);
     make_file("stale.entry.tmp-2-0", 100, 4000);
     hd_cache_limit("cache", 1200);
-    expect_left("key foreign fresh.entry.tmp-1-0 o.entry mid.entry newest.entry ");
+    expect_left("foreign fresh.entry.tmp-1-0 key mid.entry newest.entry o.entry ");
     stuck = "o.entry";
     hd_cache_limit("cache", 1199);
     stuck = NULL;
-    expect_left("key foreign fresh.entry.tmp-1-0 o.entry newest.entry ");
+    expect_left("foreign fresh.entry.tmp-1-0 key newest.entry o.entry ");
     hd_cache_limit("cache", 400);
-    expect_left("key foreign fresh.entry.tmp-1-0 newest.entry ");
+    expect_left("foreign fresh.entry.tmp-1-0 key newest.entry ");
     hd_cache_limit("nowhere", 0);
 }
 

@@ -83,15 +83,11 @@ TEST(what_is_sent_comes_back) {
     struct stat found;
     assert_int_equal(stat("copy", &found), 0);
     assert_int_equal(found.st_size, SIZE);
-    free(bytes);
-}
-
-TEST(one_that_does_not_read_is_noticed) {
-    static const uint8_t bytes[1 << 20];
-    run("exec <&-; echo gone");
-    assert_false(hd_child_send(&child, bytes, sizeof bytes));
+    run("exec <&-; echo gone"); /* it does not read */
+    assert_false(hd_child_send(&child, bytes, SIZE));
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), "gone");
+    free(bytes);
 }
 
 /* Silence, or that it stands still; the look comes every 0.2 s. */
@@ -199,7 +195,7 @@ TEST(the_patience_is_whole_seconds) {
 }
 
 TEST(programs_are_found_in_order) {
-    static const char *const cases[][2] = {{"x:y:z:", "z/tool"}, {"x::z", "./tool"}};
+    static const char *const cases[][2] = {{"x:y:z:", "z/tool"}, {"x::z", "./tool"}, {"x:y", NULL}};
     char path[HD_MAX_PATH], old[HD_MAX_PATH];
     snprintf(old, sizeof old, "%s", getenv("PATH"));
     assert_true(mkdir("x", 0700) == 0 && mkdir("y", 0700) == 0 && mkdir("z", 0700) == 0);
@@ -207,15 +203,14 @@ TEST(programs_are_found_in_order) {
     write_bytes("y/tool", "", 0);
     write_bytes("z/tool", "", 0);
     write_bytes("tool", "", 0);
-    assert_true(chmod("y/tool", 0600) == 0 && chmod("z/tool", 0700) == 0);
-    assert_int_equal(chmod("tool", 0700), 0);
-    for (int i = 0; i < 2; i++) {
+    assert_true(chmod("z/tool", 0700) == 0 && chmod("tool", 0700) == 0);
+    for (int i = 0; i < 3; i++) {
         setenv("PATH", cases[i][0], 1);
-        assert_int_equal(hd_child_find("tool", path, &error), HD_OK);
-        assert_string_equal(path, cases[i][1]);
+        if (hd_child_find("tool", path, &error) == HD_OK)
+            assert_string_equal(path, cases[i][1]);
+        else
+            assert_null(cases[i][1]);
     }
-    setenv("PATH", "x:y", 1);
-    assert_int_equal(hd_child_find("tool", path, &error), HD_UNAVAILABLE);
     expect_contains(error.message, "found no program \"tool\" in PATH");
     unsetenv("PATH");
     assert_int_equal(hd_child_find("sh", path, &error), HD_OK);

@@ -39,12 +39,10 @@ static int begin(void **state) {
     synced_names[0] = '\0';
     calls = 0;
     error = (HdError){0};
-    return mkdir("a", 0777) != 0 || mkdir("a/b", 0777) != 0 || mkdir("a/c", 0777) != 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    return remove_folder("a");
+    mkdir("a", 0777);
+    mkdir("a/b", 0777);
+    mkdir("a/c", 0777);
+    return 0;
 }
 
 static void expect_synced(HdFolderSet *synced, const char *path, const char *names) {
@@ -102,5 +100,5 @@ TEST(a_folder_that_may_not_be_read_is_left_out) {
     assert_int_equal(chmod("a/b", 0700), 0);
 }
 
-EACH(begin, end)
+EACH(begin, NULL)
 REPLACE(fsync, answer_sync)

@@ -130,12 +130,6 @@ static void last_without_a_signal(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void be_woken(void) {
-    raise(SIGTERM);
-    raise(SIGALRM); /* as from the watching thread */
-    _exit(hd_interrupt_signal());
-}
-
 static void look_at_others(void) {
     static const int numbers[] = {SIGPIPE, SIGXFSZ, SIGHUP, SIGCHLD};
     for (int i = 0; i < 4; i++) {
@@ -168,8 +162,6 @@ static const struct {
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
     {"without a signal it may last", last_without_a_signal, "0.1", 0, ""},
-    {"it may last as long as patience", be_woken, "10", SIGTERM, ""},
-    {"it may last as long as the longest patience", be_woken, "86400", SIGTERM, ""},
 };
 
 TEST(signals_end_it_as_they_should) {

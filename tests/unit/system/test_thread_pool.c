@@ -4,10 +4,6 @@
 #include <errno.h>
 #include <fenv.h>
 #include <stdatomic.h>
-#include <unistd.h>
-
-#include <sys/resource.h>
-#include <sys/wait.h>
 
 #include "system/thread_pool.h"
 #include "system/warnings.h"
@@ -90,26 +86,4 @@ TEST(those_that_start_do_the_work) {
     expect_contains(error.message, "cannot start one of 3 threads: ");
     assert_false(hd_fallback_take(note));
     hd_thread_pool_destroy(NULL);
-}
-
-/* In a process of its own, which may not raise the hard limit. */
-static void check_stack(rlim_t soft_kib, rlim_t hard_kib, rlim_t expected_kib) {
-    const pid_t child = fork();
-    int code;
-    assert_true(child >= 0);
-    if (child == 0) {
-        struct rlimit limit = {soft_kib * 1024, hard_kib * 1024};
-        if (setrlimit(RLIMIT_STACK, &limit) != 0 || hd_check_stack(&error) != HD_OK)
-            _exit(3);
-        getrlimit(RLIMIT_STACK, &limit);
-        _exit(limit.rlim_cur == expected_kib * 1024 ? 0 : 2);
-    }
-    assert_int_equal(waitpid(child, &code, 0), child);
-    assert_int_equal(code, 0);
-}
-
-TEST(a_small_stack_is_made_larger) {
-    check_stack(256, 1024, 1024);
-    check_stack(1024, 8192, 1024);
-    check_stack(1025, 8192, 1025);
 }

@@ -128,28 +128,15 @@ TEST(lines_come_in_many_forms) {
 TEST(long_lines_and_comments_pass) {
     static char text[600000];
     static const size_t sizes[] = {HD_OBJ_MOST_LINE, 65536, 131072, 262144};
+    size_t used;
     for (size_t i = 0; i < 4 * sizeof sizes / sizeof *sizes; i++) {
-        const size_t length = sizes[i / 4] + i % 4 - 2;
-        memset(text, 'x', length);
+        used = sizes[i / 4] + i % 4 - 2;
+        memset(text, 'x', used);
         text[0] = '#';
-        const size_t used =
-            length + (size_t)sprintf(text + length, "\n%s#\nf 1 2 3\nf 1 2 9\nf 1 2 9\n", TRIANGLE);
+        used += (size_t)sprintf(text + used, "\n%s#\nf 1 2 3\nf 1 2 9\nf 1 2 9\n", TRIANGLE);
         expect_refused_bytes(text, used,
                              "a.obj: line 7: a face names vertex 9, and there are 3 vertices");
     }
-    /* Many lines, so that ends of lines fall on every place of the buffers. */
-    size_t used = 0;
-    while (used < 500000)
-        used += (size_t)sprintf(text + used, "v %zu 0.%zu 1\r\n", used, used % 977);
-    const size_t vertices = (size_t)(strrchr(text, 'v') - text);
-    used += (size_t)sprintf(text + used, "f -1 -2 -3\n");
-    HdMesh mesh = read_bytes(text, used);
-    assert_true(mesh.vertices[mesh.vertex_count - 1].x == (double)(float)vertices);
-    for (int i = 0; i < mesh.vertex_count - 1; i++)
-        assert_true(mesh.vertices[i].x < mesh.vertices[i + 1].x);
-    expect_corners(&mesh, 0, mesh.vertex_count - 1, mesh.vertex_count - 2, mesh.vertex_count - 3);
-    hd_mesh_free(&mesh);
-
     /* A long polygon, and one that is too long. */
     const int most = HD_OBJ_MOST_LINE / 6;
     used = 0;
@@ -159,7 +146,7 @@ TEST(long_lines_and_comments_pass) {
     used += (size_t)sprintf(text + used, "f");
     for (int i = 0; i < most - 1; i++)
         used += (size_t)sprintf(text + used, " %5d", i + 1);
-    mesh = read_bytes(text, used);
+    HdMesh mesh = read_bytes(text, used);
     assert_int_equal(mesh.triangle_count + mesh.degenerate_count, most - 3);
     hd_mesh_free(&mesh);
     while (used <= before + HD_OBJ_MOST_LINE + 8)
@@ -290,12 +277,6 @@ TEST(polygons_become_triangles) {
     const int32_t materials[5] = {0, 0, 1, 1, 1};
     assert_memory_equal(mesh.material_of, materials, sizeof materials);
     hd_mesh_free(&mesh);
-    /* The quadrilateral begins beside its inner corner: the other diagonal. */
-    mesh = read_text("v 4 -2 0\nv 1 0 0\nv 4 2 0\nv 0 0 0\nf 1 2 3 4\n");
-    expect_corners(&mesh, 0, 3, 0, 1);
-    expect_corners(&mesh, 1, 3, 1, 2);
-    hd_mesh_free(&mesh);
-
     static char text[100000];
     size_t used = 0;
     for (int i = 0; i < 1026; i++)
@@ -509,14 +490,6 @@ static void expect_note_of(const char *statements, const char *note) {
 #define BELOW    "in this file's folder or below it"
 #define RELATIVE "that counts from this file's folder"
 
-static void expect_library_note(const char *name, const char *shown, const char *expected) {
-    char statement[128], note[256];
-    snprintf(statement, sizeof statement, "mtllib %s\n", name);
-    snprintf(note, sizeof note, "a.obj: the material library '%s' is not read, expected a name %s",
-             shown, expected);
-    expect_note_of(statement, note);
-}
-
 TEST(libraries_stay_in_the_folder) {
     assert_int_equal(mkdir("sub", 0700), 0);
     assert_int_equal(mkdir("sub/deeper", 0700), 0);
@@ -531,12 +504,11 @@ TEST(libraries_stay_in_the_folder) {
                                     "expected a name in this file's folder or below it\n");
     hd_mesh_free(&mesh);
 
-    expect_library_note("x/../outer.mtl", "x/../outer.mtl", BELOW);
-    expect_library_note("sub\\..\\outer.mtl", "sub/../outer.mtl", BELOW);
-    char name[96];
-    snprintf(name, sizeof name, "%s/outer.mtl", test_folder);
-    expect_library_note(name, name, RELATIVE);
-    expect_library_note("c:\\a.mtl", "c:/a.mtl", RELATIVE);
+    expect_note_of(
+        "mtllib sub\\..\\outer.mtl\n",
+        "a.obj: the material library 'sub/../outer.mtl' is not read, expected a name " BELOW);
+    expect_note_of("mtllib c:\\a.mtl\n",
+                   "a.obj: the material library 'c:/a.mtl' is not read, expected a name " RELATIVE);
     expect_note_of("mtllib none.mtl\nmtllib none.mtl\n",
                    "a.obj: cannot read the material library none.mtl: No such file or directory");
     expect_note_of("mtllib sub\n",
@@ -621,6 +593,8 @@ TEST(memory_is_limited) {
         if (status == HD_OK) {
             least = least == 0 ? most : least;
             assert_int_equal(mesh.triangle_count, 3000);
+            for (int i = 0; i < mesh.vertex_count; i++)
+                assert_true(mesh.vertices[i].x == i / 3);
         } else {
             char expected[128];
             assert_int_equal(status, HD_BAD_INPUT);
