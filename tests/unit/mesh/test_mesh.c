@@ -206,14 +206,11 @@ TEST(odd_triangles_do_no_harm) {
     assert_int_equal(mesh.corner_normals[1][0], -1);
     assert_int_equal(mesh.corner_normals[1][2], -1);
     hd_mesh_free(&mesh);
-
     mesh = make_mesh(vertices, 46, (const int32_t(*)[3])corners, 43);
     smooth(&mesh, 180.0);
-    assert_int_equal(mesh.corner_normals[1][0], -1);
     for (int i = 0; i < mesh.normal_count; i++)
         expect_near(hd_length(mesh.normals[i]), 1.0, 1e-15);
     hd_mesh_free(&mesh);
-
     mesh = (HdMesh){0};
     smooth(&mesh, 30.0);
     assert_int_equal(mesh.normal_count, 0);

@@ -15,50 +15,13 @@
 
 static HdError error;
 
-/* ---- processes ---- */
-
-static char said[1000]; /* what the last one wrote to standard error */
-static double took;     /* its seconds */
-
-static void be(void (*act)(void), const int errors[2]) {
-    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
-    dup2(errors[1], STDERR_FILENO);
-    close(errors[0]);
-    hd_interrupt_install();
-    if (hd_interrupt_read_patience(&error) != HD_OK)
-        _exit(99);
-    act();
-    _exit(98);
-}
-
-/* How a process that does this ends: its exit code, or minus the signal. */
-static int outcome_of(void (*act)(void)) {
-    int errors[2], status = 0;
-    size_t size = 0;
-    ssize_t count;
-    const double start = hd_monotonic_seconds();
-    assert_int_equal(pipe(errors), 0);
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0)
-        be(act, errors);
-    close(errors[1]);
-    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
-        size += (size_t)count;
-    said[size] = '\0';
-    close(errors[0]);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    took = hd_monotonic_seconds() - start;
-    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-}
+/* ---- what processes do ---- */
 
 static void pass(double seconds) {
     struct timespec rest = {.tv_nsec = (long)(1e9 * seconds)};
     while (nanosleep(&rest, &rest) != 0)
         ;
 }
-
-/* ---- what they do ---- */
 
 static int number;
 
@@ -143,6 +106,45 @@ static void look_at_others(void) {
     _exit(hd_interrupt_signal());
 }
 
+/* ---- how they end ---- */
+
+static char said[1000]; /* what the last one wrote to standard error */
+static double took;     /* its seconds */
+
+static void be(void (*act)(void), const int errors[2]) {
+    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
+    if (act == look_at_others)
+        signal(SIGHUP, SIG_IGN); /* as by nohup */
+    dup2(errors[1], STDERR_FILENO);
+    close(errors[0]);
+    hd_interrupt_install();
+    if (hd_interrupt_read_patience(&error) != HD_OK)
+        _exit(99);
+    act();
+    _exit(98);
+}
+
+/* How a process that does this ends: its exit code, or minus the signal. */
+static int outcome_of(void (*act)(void)) {
+    int errors[2], status = 0;
+    size_t size = 0;
+    ssize_t count;
+    const double start = hd_monotonic_seconds();
+    assert_int_equal(pipe(errors), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        be(act, errors);
+    close(errors[1]);
+    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
+        size += (size_t)count;
+    said[size] = '\0';
+    close(errors[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    took = hd_monotonic_seconds() - start;
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
 static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
 
 static const struct {
@@ -161,6 +163,7 @@ static const struct {
     {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
+    {"what the parent ignored stays ignored, but for children", look_at_others, "", 0, ""},
     {"without a signal it may last", last_without_a_signal, "0.1", 0, ""},
 };
 
@@ -174,12 +177,6 @@ TEST(signals_end_it_as_they_should) {
             fail_msg("%s: it ended with %d, said '%s' and took %g s", cases[i].name, outcome, said,
                      took);
     }
-}
-
-TEST(what_the_parent_ignored_stays_ignored_but_for_children) {
-    signal(SIGHUP, SIG_IGN);
-    assert_int_equal(outcome_of(look_at_others), 0);
-    signal(SIGHUP, SIG_DFL);
 }
 
 TEST(the_patience_is_a_time) {

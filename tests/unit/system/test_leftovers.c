@@ -56,17 +56,6 @@ TEST(names_without_room_are_not_remembered) {
     assert_int_not_equal(access("long", F_OK), 0);
 }
 
-static pid_t start_group(void) {
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        for (;;)
-            pause();
-    }
-    assert_int_equal(setpgid(child, child), 0);
-    return child;
-}
-
 static void expect_killed(pid_t child) {
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
@@ -77,7 +66,12 @@ TEST(groups_are_killed_unless_they_are_forgotten) {
     pid_t groups[GROUPS];
     alarm(60); /* where nothing is killed */
     for (int i = 0; i < GROUPS; i++) {
-        groups[i] = start_group();
+        groups[i] = fork();
+        assert_true(groups[i] >= 0);
+        if (groups[i] == 0)
+            for (;;)
+                pause();
+        assert_int_equal(setpgid(groups[i], groups[i]), 0);
         hd_leftovers_add_group(groups[i]);
     }
     hd_leftovers_forget_group(groups[GROUPS - 1]);
