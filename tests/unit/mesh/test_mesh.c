@@ -109,27 +109,21 @@ TEST(angles_are_right) {
     expect_near(hd_angle(hd_vec3(1, 1, 0), hd_vec3(1, 1, 1e-9)), 1e-9 / sqrt(2.0), 1e-24);
 }
 
-/* A cube whose faces have vertices of their own: 24 vertices at 8 places, two triangles a face. */
+/* A cube whose 12 triangles have vertices of their own, at 8 places. */
 static HdMesh make_cube(void) {
-    HdVec3 vertices[24];
+    static const double sides[6][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
+    HdVec3 vertices[36];
     int32_t corners[12][3];
-    for (int face = 0; face < 6; face++) {
-        const int axis = face / 2;
-        const double side = face % 2 ? 1.0 : -1.0;
-        for (int i = 0; i < 4; i++) {
-            double at[3];
-            at[axis] = side;
-            at[(axis + 1) % 3] = (i == 1 || i == 2) ? side : -side;
-            at[(axis + 2) % 3] = i >= 2 ? 1.0 : -1.0;
-            vertices[4 * face + i] = hd_vec3(at[0], at[1], at[2]);
-        }
-        for (int i = 0; i < 2; i++) {
-            corners[2 * face + i][0] = 4 * face;
-            corners[2 * face + i][1] = 4 * face + 1 + i;
-            corners[2 * face + i][2] = 4 * face + 2 + i;
-        }
+    for (int i = 0; i < 36; i++) {
+        const int axis = i / 12;
+        double at[3];
+        at[axis] = i / 6 % 2 ? 1.0 : -1.0;
+        at[(axis + 1) % 3] = at[axis] * sides[i % 6][0];
+        at[(axis + 2) % 3] = sides[i % 6][1];
+        vertices[i] = hd_vec3(at[0], at[1], at[2]);
+        corners[i / 3][i % 3] = i;
     }
-    return make_mesh(vertices, 24, (const int32_t(*)[3])corners, 12);
+    return make_mesh(vertices, 36, (const int32_t(*)[3])corners, 12);
 }
 
 static HdVec3 face_normal(const HdMesh *mesh, int triangle) {

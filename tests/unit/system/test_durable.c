@@ -38,7 +38,6 @@ static int begin(void **state) {
     memset(answers, 0, sizeof answers);
     synced_names[0] = '\0';
     calls = 0;
-    error = (HdError){0};
     mkdir("a", 0777);
     mkdir("a/b", 0777);
     mkdir("a/c", 0777);

@@ -52,13 +52,6 @@ static void expect_refused(const char *text, const char *message) {
     expect_refused_bytes(text, strlen(text), message);
 }
 
-static void expect_corners(const HdMesh *mesh, int triangle, int a, int b, int c) {
-    assert_true(triangle < mesh->triangle_count);
-    assert_int_equal(mesh->corners[triangle][0], a);
-    assert_int_equal(mesh->corners[triangle][1], b);
-    assert_int_equal(mesh->corners[triangle][2], c);
-}
-
 TEST(everything_of_a_face_is_read) {
     HdMesh mesh = read_text("v -1.5 +2 .5e1 1.0\nv 1 0 0 0.5 0.5 0.5\nv\t0\t1\t-0.25E-1\n"
                             "vt 0.25 0.5 0\nvt 0.75\nvn 0 0 2\nvn 0 0 0\n"
@@ -72,9 +65,8 @@ TEST(everything_of_a_face_is_read) {
     assert_true(mesh.uvs[1][0] == 0.75 && mesh.uvs[1][1] == 0.0);
     assert_int_equal(mesh.normal_count, 2);
     assert_true(mesh.normals[0].z == 2.0);
-    expect_corners(&mesh, 0, 0, 1, 2);
-    expect_corners(&mesh, 1, 2, 1, 0);
-    expect_corners(&mesh, 2, 0, 1, 2);
+    const int32_t corners[3][3] = {{0, 1, 2}, {2, 1, 0}, {0, 1, 2}};
+    assert_memory_equal(mesh.corners, corners, sizeof corners);
     const int32_t uvs[3][3] = {{0, 1, -1}, {-1, 0, -1}, {1, -1, -1}};
     const int32_t normals[3][3] = {{0, 0, -1}, {-1, -1, 0}, {0, -1, -1}};
     assert_memory_equal(mesh.corner_uvs, uvs, sizeof uvs);
@@ -116,7 +108,7 @@ TEST(lines_come_in_many_forms) {
         HdMesh mesh = read_text(texts[i]);
         assert_int_equal(mesh.vertex_count, 3);
         assert_int_equal(mesh.triangle_count, 1);
-        expect_corners(&mesh, 0, 0, 1, 2);
+        assert_memory_equal(mesh.corners, ((int32_t[]){0, 1, 2}), sizeof *mesh.corners);
         assert_true(mesh.vertices[1].x == 1.0 && mesh.vertices[2].y == 1.0);
         assert_true(mesh.vertices[1].z == 0.0 && mesh.vertices[2].z == 0.0);
         assert_int_equal(notes.count, 0); /* a file that names no material lacks none */
@@ -167,7 +159,7 @@ TEST(files_that_cannot_be_read_are_told_apart) {
     char message[128];
     assert_int_equal(mkdir("folder", 0700), 0);
     assert_int_equal(mkfifo("pipe", 0600), 0);
-    for (int i = 0; i < (access("/proc/self/mem", R_OK) == 0 ? 4 : 3); i++) {
+    for (int i = 0; i < 4; i++) {
         HdMesh mesh;
         assert_int_equal(read_file(&mesh, files[i][0], much), HD_BAD_INPUT);
         snprintf(message, sizeof message, "cannot read the mesh %s: %s", files[i][0], files[i][1]);
@@ -267,11 +259,8 @@ TEST(polygons_become_triangles) {
         read_text("v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nusemtl a\nf 1 2 3 4\n"
                   "usemtl b\nf 4 3 2\nv 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf -4 -3 -2 -1\n");
     assert_int_equal(mesh.triangle_count, 5);
-    expect_corners(&mesh, 0, 0, 1, 2);
-    expect_corners(&mesh, 1, 0, 2, 3);
-    expect_corners(&mesh, 2, 3, 2, 1);
-    expect_corners(&mesh, 3, 4, 5, 6);
-    expect_corners(&mesh, 4, 4, 6, 7);
+    const int32_t corners[5][3] = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {4, 5, 6}, {4, 6, 7}};
+    assert_memory_equal(mesh.corners, corners, sizeof corners);
     const int32_t materials[5] = {0, 0, 1, 1, 1};
     assert_memory_equal(mesh.material_of, materials, sizeof materials);
     hd_mesh_free(&mesh);
