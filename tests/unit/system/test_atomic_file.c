@@ -16,12 +16,6 @@ static const char *comes_between; /* is moved to `to`, or where that is NULL rem
 static const char *to;
 static int glances, holder = -1; /* the lock's, closed after so many */
 
-static int syncs;
-static int count_sync(int descriptor) {
-    syncs++;
-    return real_fsync(descriptor);
-}
-
 static int lock_late(int descriptor, int operation) {
     if (glances > 0 && --glances == 0)
         close(holder);
@@ -88,16 +82,6 @@ static void open_for(HdAtomicFile *file, const char *path) {
     fputs("new", file->stream);
 }
 
-TEST(only_what_is_to_last_is_synced) {
-    HdAtomicFile file;
-    open_for(&file, "fleeting");
-    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    assert_int_equal(syncs, 0);
-    open_for(&file, "durable");
-    assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
-    assert_int_equal(syncs, 2); /* its folder, too */
-}
-
 static void expect_failure(HdAtomicFile *file, const char *message) {
     assert_int_equal(hd_atomic_file_commit(file, HD_DURABLE, &error), HD_FAILED);
     expect_contains(error.message, message);
@@ -151,5 +135,4 @@ TEST(names_that_do_not_fit_are_refused) {
         assert_int_equal(hd_atomic_file_open(&file, no_files[i], &error), HD_BAD_INPUT);
 }
 
-REPLACE(fsync, count_sync)
 REPLACE(flock, lock_late)

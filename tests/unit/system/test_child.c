@@ -44,15 +44,28 @@ static void expect_end(bool is_good, const char *words) {
     expect_none();
 }
 
-TEST(it_tells_how_it_ended) {
-    run("exit 0");
-    expect_end(true, "exit code 0");
-    run("exit 3");
-    expect_end(false, "exit code 3");
-    run("kill -9 $$");
-    expect_end(false, "signal 9");
-    run("exec >&- 2>&-; sleep 0.1; exit 4"); /* closes its output before it ends */
-    expect_end(false, "exit code 4");
+/* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
+TEST(it_tells_how_it_ended_and_what_was_said) {
+    static const struct {
+        const char *script, *how, *said;
+    } cases[] = {
+        {"exit 3", "exit code 3", "(nothing)"},
+        {"kill -9 $$", "signal 9", "(nothing)"},
+        /* It closes its output before it ends. */
+        {"exec >&- 2>&-; sleep 0.1; exit 4", "exit code 4", "(nothing)"},
+        {"printf ' a\\nb \\r\\n\\n'", "exit code 0", " a\nb"},
+        {"printf '\\n \\n'", "exit code 0", "(nothing)"},
+        {"kill -HUP $$; echo here; kill -PIPE $$; echo there", "signal 13", "here"},
+    };
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGHUP, SIG_IGN);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run(cases[i].script);
+        expect_end(strcmp(cases[i].how, "exit code 0") == 0, cases[i].how);
+        assert_string_equal(hd_child_said(&child), cases[i].said);
+    }
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
 }
 
 TEST(what_is_sent_comes_back) {
@@ -70,24 +83,11 @@ TEST(what_is_sent_comes_back) {
     struct stat found;
     assert_int_equal(stat("copy", &found), 0);
     assert_int_equal(found.st_size, SIZE);
-    free(bytes);
-}
-
-TEST(words_end_without_line_breaks) {
-    run("printf ' a\\nb \\r\\n\\n'");
-    expect_end(true, "exit code 0");
-    assert_string_equal(hd_child_said(&child), " a\nb");
-    run("printf '\\n \\n'");
-    expect_end(true, "exit code 0");
-    assert_string_equal(hd_child_said(&child), "(nothing)");
-}
-
-TEST(one_that_does_not_read_is_noticed) {
-    static const uint8_t bytes[1 << 20];
-    run("exec <&-; echo gone");
-    assert_false(hd_child_send(&child, bytes, sizeof bytes));
+    run("exec <&-; echo gone"); /* it does not read */
+    assert_false(hd_child_send(&child, bytes, SIZE));
     expect_end(true, "exit code 0");
     assert_string_equal(hd_child_said(&child), "gone");
+    free(bytes);
 }
 
 /* Silence, or that it stands still; the look comes every 0.2 s. */
@@ -142,17 +142,6 @@ TEST(a_lock_and_three_streams_are_all_it_has) {
     close(other);
 }
 
-/* What was ignored, such as by nohup, stays ignored; our own handling of lost readers does not. */
-TEST(signals_are_as_usual) {
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGHUP, SIG_IGN);
-    run("kill -HUP $$; echo here; kill -PIPE $$; echo there");
-    expect_end(false, "signal 13");
-    assert_string_equal(hd_child_said(&child), "here");
-    signal(SIGPIPE, SIG_DFL);
-    signal(SIGHUP, SIG_DFL);
-}
-
 TEST(the_whole_group_is_stopped) {
     int ends[2];
     char byte;
@@ -183,24 +172,30 @@ TEST(one_that_cannot_start_is_told) {
 }
 
 TEST(the_patience_is_whole_seconds) {
-    static const char *const wrong[] = {"0", "-1", "86401", "1.5", "1s", "x"};
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        setenv("HEDRON_FFMPEG_PATIENCE", wrong[i], 1);
-        assert_int_equal(start("exit 0", NULL, -1), HD_BAD_INPUT);
-        expect_contains(error.message, wrong[i]);
-    }
-    static const char *const good[] = {"", "1", "86400"};
-    static const int seconds[] = {HD_CHILD_PATIENCE_S, 1, 86400};
-    for (int i = 0; i < 3; i++) {
-        setenv("HEDRON_FFMPEG_PATIENCE", good[i], 1);
-        run("exit 0");
-        assert_int_equal(child.patience_s, seconds[i]);
-        expect_end(true, "exit code 0");
+    static const struct {
+        const char *text;
+        int seconds; /* 0: it is refused */
+    } cases[] = {{"", HD_CHILD_PATIENCE_S},
+                 {"1", 1},
+                 {"86400", 86400},
+                 {"0", 0},
+                 {"86401", 0},
+                 {"1.5", 0},
+                 {"1s", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        setenv("HEDRON_FFMPEG_PATIENCE", cases[i].text, 1);
+        if (start("exit 0", NULL, -1) == HD_OK) {
+            assert_int_equal(child.patience_s, cases[i].seconds);
+            expect_end(true, "exit code 0");
+            continue;
+        }
+        assert_int_equal(cases[i].seconds, 0);
+        expect_contains(error.message, cases[i].text);
     }
 }
 
 TEST(programs_are_found_in_order) {
-    static const char *const cases[][2] = {{"x:y:z:", "z/tool"}, {"x::z", "./tool"}};
+    static const char *const cases[][2] = {{"x:y:z:", "z/tool"}, {"x::z", "./tool"}, {"x:y", NULL}};
     char path[HD_MAX_PATH], old[HD_MAX_PATH];
     snprintf(old, sizeof old, "%s", getenv("PATH"));
     assert_true(mkdir("x", 0700) == 0 && mkdir("y", 0700) == 0 && mkdir("z", 0700) == 0);
@@ -208,15 +203,14 @@ TEST(programs_are_found_in_order) {
     write_bytes("y/tool", "", 0);
     write_bytes("z/tool", "", 0);
     write_bytes("tool", "", 0);
-    assert_true(chmod("y/tool", 0600) == 0 && chmod("z/tool", 0700) == 0);
-    assert_int_equal(chmod("tool", 0700), 0);
-    for (int i = 0; i < 2; i++) {
+    assert_true(chmod("z/tool", 0700) == 0 && chmod("tool", 0700) == 0);
+    for (int i = 0; i < 3; i++) {
         setenv("PATH", cases[i][0], 1);
-        assert_int_equal(hd_child_find("tool", path, &error), HD_OK);
-        assert_string_equal(path, cases[i][1]);
+        if (hd_child_find("tool", path, &error) == HD_OK)
+            assert_string_equal(path, cases[i][1]);
+        else
+            assert_null(cases[i][1]);
     }
-    setenv("PATH", "x:y", 1);
-    assert_int_equal(hd_child_find("tool", path, &error), HD_UNAVAILABLE);
     expect_contains(error.message, "found no program \"tool\" in PATH");
     unsetenv("PATH");
     assert_int_equal(hd_child_find("sh", path, &error), HD_OK);

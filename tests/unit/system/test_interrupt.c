@@ -4,7 +4,6 @@
 #include "system/interrupt.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -16,50 +15,13 @@
 
 static HdError error;
 
-/* ---- processes ---- */
-
-static char said[1000]; /* what the last one wrote to standard error */
-static double took;     /* its seconds */
-
-static void be(void (*act)(void), const int errors[2]) {
-    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
-    dup2(errors[1], STDERR_FILENO);
-    close(errors[0]);
-    hd_interrupt_install();
-    if (hd_interrupt_read_patience(&error) != HD_OK)
-        _exit(99);
-    act();
-    _exit(98);
-}
-
-/* How a process that does this ends: its exit code, or minus the signal. */
-static int outcome_of(void (*act)(void)) {
-    int errors[2], status = 0;
-    size_t size = 0;
-    ssize_t count;
-    const double start = hd_monotonic_seconds();
-    assert_int_equal(pipe(errors), 0);
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0)
-        be(act, errors);
-    close(errors[1]);
-    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
-        size += (size_t)count;
-    said[size] = '\0';
-    close(errors[0]);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    took = hd_monotonic_seconds() - start;
-    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-}
+/* ---- what processes do ---- */
 
 static void pass(double seconds) {
     struct timespec rest = {.tv_nsec = (long)(1e9 * seconds)};
     while (nanosleep(&rest, &rest) != 0)
         ;
 }
-
-/* ---- what they do ---- */
 
 static int number;
 
@@ -131,12 +93,6 @@ static void last_without_a_signal(void) {
     _exit(hd_interrupt_signal());
 }
 
-static void be_woken(void) {
-    raise(SIGTERM);
-    raise(SIGALRM); /* as from the watching thread */
-    _exit(hd_interrupt_signal());
-}
-
 static void look_at_others(void) {
     static const int numbers[] = {SIGPIPE, SIGXFSZ, SIGHUP, SIGCHLD};
     for (int i = 0; i < 4; i++) {
@@ -148,6 +104,45 @@ static void look_at_others(void) {
     kill(getpid(), SIGHUP);
     pass(0.002);
     _exit(hd_interrupt_signal());
+}
+
+/* ---- how they end ---- */
+
+static char said[1000]; /* what the last one wrote to standard error */
+static double took;     /* its seconds */
+
+static void be(void (*act)(void), const int errors[2]) {
+    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
+    if (act == look_at_others)
+        signal(SIGHUP, SIG_IGN); /* as by nohup */
+    dup2(errors[1], STDERR_FILENO);
+    close(errors[0]);
+    hd_interrupt_install();
+    if (hd_interrupt_read_patience(&error) != HD_OK)
+        _exit(99);
+    act();
+    _exit(98);
+}
+
+/* How a process that does this ends: its exit code, or minus the signal. */
+static int outcome_of(void (*act)(void)) {
+    int errors[2], status = 0;
+    size_t size = 0;
+    ssize_t count;
+    const double start = hd_monotonic_seconds();
+    assert_int_equal(pipe(errors), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        be(act, errors);
+    close(errors[1]);
+    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
+        size += (size_t)count;
+    said[size] = '\0';
+    close(errors[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    took = hd_monotonic_seconds() - start;
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
@@ -168,9 +163,8 @@ static const struct {
     {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
     {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
     {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
+    {"what the parent ignored stays ignored, but for children", look_at_others, "", 0, ""},
     {"without a signal it may last", last_without_a_signal, "0.1", 0, ""},
-    {"it may last as long as patience", be_woken, "10", SIGTERM, ""},
-    {"it may last as long as the longest patience", be_woken, "86400", SIGTERM, ""},
 };
 
 TEST(signals_end_it_as_they_should) {
@@ -185,56 +179,21 @@ TEST(signals_end_it_as_they_should) {
     }
 }
 
-TEST(what_the_parent_ignored_stays_ignored_but_for_children) {
-    signal(SIGHUP, SIG_IGN);
-    assert_int_equal(outcome_of(look_at_others), 0);
-    signal(SIGHUP, SIG_DFL);
-}
-
 TEST(the_patience_is_a_time) {
-    static const char *const good[] = {"", "0.1", "86400", "2"};
-    static const char *const bad[] = {"0.0999", "86401", "1s", "x", "nan", "-1"};
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-        setenv("HEDRON_STOP_PATIENCE", good[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
+    static const struct {
+        const char *text;
+        bool is_good;
+    } patiences[] = {{"", true},       {"0.1", true}, {"86400", true}, {"0.0999", false},
+                     {"86401", false}, {"1s", false}, {"nan", false},  {"-1", false}};
+    for (size_t i = 0; i < sizeof patiences / sizeof *patiences; i++) {
+        setenv("HEDRON_STOP_PATIENCE", patiences[i].text, 1);
+        assert_int_equal(hd_interrupt_read_patience(&error),
+                         patiences[i].is_good ? HD_OK : HD_BAD_INPUT);
+        if (!patiences[i].is_good) {
+            expect_contains(error.message, patiences[i].text);
+            expect_contains(error.message, "expected seconds from 0.1 to 86400");
+        }
     }
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        setenv("HEDRON_STOP_PATIENCE", bad[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_BAD_INPUT);
-        expect_contains(error.message, bad[i]);
-        expect_contains(error.message, "expected seconds from 0.1 to 86400");
-    }
-    unsetenv("HEDRON_STOP_PATIENCE");
-    assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
-}
-
-/* ---- writers ---- */
-
-static int ends[2];
-
-static void *signal_soon(void *unused) {
-    pass(0.01);
-    kill(getpid(), SIGINT);
-    return unused;
-}
-
-static void wait_to_write(void) {
-    pthread_t other;
-    pthread_create(&other, NULL, signal_soon, NULL);
-    _exit(hd_wait_to_write(ends[1]) ? 96 : hd_interrupt_signal());
-}
-
-TEST(a_writer_waits_for_room_or_an_interrupt) {
-    static const char block[4096];
-    assert_int_equal(pipe(ends), 0);
-    assert_int_equal(fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
-    assert_true(hd_wait_to_write(ends[1]));
-    while (write(ends[1], block, sizeof block) > 0)
-        ;
-    assert_int_equal(outcome_of(wait_to_write), SIGINT);
-    close(ends[0]);
-    assert_true(hd_wait_to_write(ends[1])); /* it will fail */
-    close(ends[1]);
 }
 
 /* Shells start what runs in the background with some of these ignored. */
