@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The classic task's contract: input, keys, standard output, frame files; wrong input gives exit code 2, a sentence, no
-# file. Every kind of mistake is a matter of the unit tests (input/test_classic_errors).
+# file. Every kind of mistake is a matter of the unit tests (tests/unit/input/test_classic.c).
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
