@@ -10,7 +10,7 @@ build=$(realpath "${2:?the build folder is the second argument}")
 ! is_sanitized || skip "nothing can be preloaded before a sanitizer"
 export HEDRON_CACHE=$work/cache
 
-# ---- Mesa's rusticl on llvmpipe, which ./dev test fetches into the build folder
+# ---- Mesa's rusticl on llvmpipe, which ./dev test --all fetches into the build folder
 rusticl=$build/../opencl-rusticl
 libraries=$(dirname "$(cat "$rusticl/vendors/rusticl.icd" 2>"$logs/which" || true)")
 rusticl=(env -C "$rusticl" OCL_ICD_VENDORS="$rusticl/vendors" RUSTICL_ENABLE=llvmpipe LD_LIBRARY_PATH="$libraries")

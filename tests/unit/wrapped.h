@@ -11,7 +11,7 @@
 #include "device/backend.h"
 #include "device/opencl/devices.h"
 
-/* X(type, name, parameters, arguments). CMakeLists.txt names the same. */
+/* X(type, name, parameters, arguments), from which CMakeLists.txt takes the names. */
 #define HD_WRAPPED(X)                                                                              \
     X(int, fsync, (int descriptor), (descriptor))                                                  \
     X(int, flock, (int descriptor, int operation), (descriptor, operation))                        \
