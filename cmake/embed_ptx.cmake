@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # PTX of the CUDA kernels, for users without an NVRTC, made by NVRTC 12: the last that compiles for a Pascal
-# card. ./dev test fetches one. Where there is none, or with -DHEDRON_NVRTC12=OFF, no PTX is embedded.
+# card. ./dev test --all fetches one. Where there is none, or with -DHEDRON_NVRTC12=OFF, no PTX is embedded.
 set(HEDRON_NVRTC12 ${PROJECT_SOURCE_DIR}/build/nvrtc12/nvidia/cuda_nvrtc/lib/libnvrtc.so.12
     CACHE FILEPATH "NVRTC 12 for the PTX that is embedded and for the compile tests")
 

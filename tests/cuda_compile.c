@@ -2,9 +2,9 @@
 /* Compiles the kernels for an NVIDIA architecture, without a device, and tells what they need of
    it:
 
-       cuda_compile --arch 61 [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
+       cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] [--wavefront] [--refracts]
                     [--lit-from-behind] [--many-lights] [--meshes] [--surveyed] [--block N]
-                    [--planes N] [--depth N] [--log] [--cubin FILE]
+                    [--registers N]
 
    Exits 0 when they compile and no convergence barrier is saved to a register (docs/lost-light.md),
    1 otherwise, 77 when no NVRTC here knows the architecture. */
@@ -21,8 +21,7 @@ enum { SKIPPED = 77, USAGE = 2 };
 typedef struct Options {
     int arch;
     int registers; /* 0: as many as suit */
-    const char *nvrtc, *cubin;
-    bool show_log;
+    const char *nvrtc;
     HdKernelShape shape;
 } Options;
 
@@ -34,89 +33,63 @@ static bool parse(Options *options, int argc, char **argv) {
                   .group_size = 128,
                   .needs = {.plane_bound = 32, .depth_bound = 16, .small_tables = true}},
     };
+    HdKernelShape *shape = &options->shape;
+    const struct {
+        const char *name;
+        bool *flag;
+    } flags[] = {{"--wavefront", &shape->wavefront},
+                 {"--refracts", &shape->needs.refracts},
+                 {"--lit-from-behind", &shape->needs.lit_from_behind},
+                 {"--many-lights", &shape->needs.many_lights},
+                 {"--surveyed", &shape->needs.surveyed}};
+    const struct {
+        const char *name;
+        int *number;
+    } numbers[] = {{"--arch", &options->arch},
+                   {"--block", &shape->group_size},
+                   {"--registers", &options->registers}};
     for (int i = 1; i < argc; i++) {
-        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        bool is_known = true;
         if (strcmp(argv[i], "--double") == 0)
-            options->shape.precision = HD_PRECISION_DOUBLE;
+            shape->precision = HD_PRECISION_DOUBLE;
         else if (strcmp(argv[i], "--fast") == 0)
-            options->shape.math = HD_MATH_FAST;
-        else if (strcmp(argv[i], "--wavefront") == 0)
-            options->shape.wavefront = true;
-        else if (strcmp(argv[i], "--refracts") == 0)
-            options->shape.needs.refracts = true;
-        else if (strcmp(argv[i], "--lit-from-behind") == 0)
-            options->shape.needs.lit_from_behind = true;
-        else if (strcmp(argv[i], "--many-lights") == 0)
-            options->shape.needs.many_lights = true;
-        else if (strcmp(argv[i], "--surveyed") == 0)
-            options->shape.needs.surveyed = true;
+            shape->math = HD_MATH_FAST;
         else if (strcmp(argv[i], "--meshes") == 0)
-            options->shape.needs.node_stack_bound = 32;
-        else if (strcmp(argv[i], "--log") == 0)
-            options->show_log = true;
-        else if (!value)
-            return false;
-        else if (strcmp(argv[i], "--arch") == 0)
-            options->arch = atoi(argv[++i]);
-        else if (strcmp(argv[i], "--nvrtc") == 0)
+            shape->needs.node_stack_bound = 32;
+        else if (strcmp(argv[i], "--nvrtc") == 0 && i + 1 < argc)
             options->nvrtc = argv[++i];
-        else if (strcmp(argv[i], "--block") == 0)
-            options->shape.group_size = atoi(argv[++i]);
-        else if (strcmp(argv[i], "--registers") == 0)
-            options->registers = atoi(argv[++i]);
-        else if (strcmp(argv[i], "--planes") == 0)
-            options->shape.needs.plane_bound = hd_kernel_bound(atoi(argv[++i]));
-        else if (strcmp(argv[i], "--depth") == 0)
-            options->shape.needs.depth_bound = hd_kernel_bound(atoi(argv[++i]));
-        else if (strcmp(argv[i], "--cubin") == 0)
-            options->cubin = argv[++i];
         else
+            is_known = false;
+        for (int k = 0; !is_known && k < 5; k++)
+            if (strcmp(argv[i], flags[k].name) == 0)
+                is_known = *flags[k].flag = true;
+        for (int k = 0; !is_known && k < 3; k++)
+            if (strcmp(argv[i], numbers[k].name) == 0 && i + 1 < argc) {
+                *numbers[k].number = atoi(argv[++i]);
+                is_known = true;
+            }
+        if (!is_known)
             return false;
     }
-    options->shape.register_limit =
-        hd_register_limit(&options->shape, options->arch, options->registers);
+    shape->register_limit = hd_register_limit(shape, options->arch, options->registers);
     return options->arch > 0;
 }
 
-/* The number before `unit` in a line of the assembler's report; -1: there is none. */
-static int number_before(const char *line, const char *end, const char *unit) {
-    const char *at = strstr(line, unit);
-    if (!at || at >= end)
-        return -1;
-    while (at > line && at[-1] == ' ')
-        at--;
-    const char *digits = at;
-    while (digits > line && digits[-1] >= '0' && digits[-1] <= '9')
-        digits--;
-    return digits < at ? atoi(digits) : -1;
-}
-
-typedef struct Usage {
-    int registers, stack, spill_stores, spill_loads;
-} Usage;
-
-/* The report names a kernel ("Compiling entry function 'X'"), then tells what it uses. */
-static Usage kernel_usage(const char *log, const char *kernel) {
-    Usage usage = {-1, -1, -1, -1};
+/* What the assembler's report says that a kernel uses, in the lines after "Compiling entry function
+   'X'": registers, bytes of stack frame, of spill stores and of spill loads. */
+static bool find_usage(const char *log, const char *kernel, int usage[4]) {
     char heading[80];
     snprintf(heading, sizeof heading, "entry function '%s'", kernel);
-    const char *line = strstr(log, heading);
-    for (int i = 0; line && i < 6; i++) {
-        const char *end = strchr(line, '\n');
-        if (!end)
-            end = line + strlen(line);
-        if (i > 0 && strstr(line, "entry function") && strstr(line, "entry function") < end)
-            break;
-        int *const values[] = {&usage.registers, &usage.stack, &usage.spill_stores,
-                               &usage.spill_loads};
-        static const char *const units[] = {" registers", " bytes stack frame",
-                                            " bytes spill stores", " bytes spill loads"};
-        for (int k = 0; k < 4; k++)
-            if (*values[k] < 0)
-                *values[k] = number_before(line, end, units[k]);
-        line = *end ? end + 1 : NULL;
-    }
-    return usage;
+    const char *at = strstr(log, heading);
+    const char *stack = at != NULL ? strstr(at, "bytes stack frame") : NULL;
+    const char *used = at != NULL ? strstr(at, "Used ") : NULL;
+    if (stack == NULL || used == NULL)
+        return false;
+    while (strchr(" 0123456789", stack[-1]) != NULL)
+        stack--;
+    return sscanf(used, "Used %d registers", &usage[0]) == 1 &&
+           sscanf(stack, " %d bytes stack frame, %d bytes spill stores, %d bytes spill loads",
+                  &usage[1], &usage[2], &usage[3]) == 3;
 }
 
 static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCode *code) {
@@ -129,16 +102,14 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
         const char *kernel = hd_kernel_name(&options->shape, (HdKernel)i);
         if (kernel == NULL)
             continue;
-        Usage usage = kernel_usage(code->log, kernel);
+        int usage[4] = {-1, -1, -1, -1};
+        complete = find_usage(code->log, kernel, usage) && complete;
         printf("%s: %d registers, %d bytes of stack, spills of %d bytes stored and %d loaded\n",
-               kernel, usage.registers, usage.stack, usage.spill_stores, usage.spill_loads);
-        complete = complete && usage.registers >= 0 && usage.stack >= 0;
+               kernel, usage[0], usage[1], usage[2], usage[3]);
     }
     if (!complete)
         fprintf(stderr, "cuda_compile: the assembler's report is not as expected:\n%s\n",
                 code->log);
-    if (options->show_log)
-        printf("%s\n", code->log);
     return complete;
 }
 
@@ -147,70 +118,45 @@ static bool report(const Options *options, const HdNvrtc *nvrtc, const HdCudaCod
 enum { INSTRUCTION_BYTES = 16, OPCODE_MASK = 0xfff, OPEN_BARRIER = 0x945, SAVE_BARRIER = 0x355 };
 enum { NO_REGISTER = 0xff, BARRIER_REGISTERS = 16 };
 
-typedef struct Barriers {
-    bool used[BARRIER_REGISTERS];
-    int saved;
-} Barriers;
-
 /* Bits 16 to 23 name what an instruction writes: of BSSY a barrier, of BMOV a register. */
-static void count_barriers(Barriers *barriers, const unsigned char *text, size_t size) {
-    for (size_t at = 0; at + INSTRUCTION_BYTES <= size; at += INSTRUCTION_BYTES) {
-        uint32_t word;
-        memcpy(&word, text + at, sizeof word);
-        unsigned int opcode = word & OPCODE_MASK, target = word >> 16 & 0xff;
-        if (opcode == OPEN_BARRIER)
-            barriers->used[target % BARRIER_REGISTERS] = true;
-        barriers->saved += opcode == SAVE_BARRIER && target != NO_REGISTER;
-    }
-}
-
-static Barriers barriers_of(const HdCudaCode *code) {
+static bool check_barriers(const HdCudaCode *code) {
     const unsigned char *image = (const unsigned char *)code->image;
-    Barriers barriers = {0};
+    bool is_used[BARRIER_REGISTERS] = {false};
+    int used = 0, saved = 0;
     Elf64_Ehdr header;
     memcpy(&header, image, sizeof header);
     for (int i = 0; i < header.e_shnum; i++) {
         Elf64_Shdr section;
         memcpy(&section, image + header.e_shoff + (size_t)i * sizeof section, sizeof section);
-        if (section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR) != 0)
-            count_barriers(&barriers, image + section.sh_offset, section.sh_size);
+        const bool is_code =
+            section.sh_type == SHT_PROGBITS && (section.sh_flags & SHF_EXECINSTR) != 0;
+        for (size_t at = 0; is_code && at + INSTRUCTION_BYTES <= section.sh_size;
+             at += INSTRUCTION_BYTES) {
+            uint32_t word;
+            memcpy(&word, image + section.sh_offset + at, sizeof word);
+            const unsigned int opcode = word & OPCODE_MASK, target = word >> 16 & 0xff;
+            if (opcode == OPEN_BARRIER && !is_used[target % BARRIER_REGISTERS]) {
+                is_used[target % BARRIER_REGISTERS] = true;
+                used++;
+            }
+            saved += opcode == SAVE_BARRIER && target != NO_REGISTER;
+        }
     }
-    return barriers;
-}
-
-static bool check_barriers(const HdCudaCode *code) {
-    Barriers barriers = barriers_of(code);
-    int used = 0;
-    for (int i = 0; i < BARRIER_REGISTERS; i++)
-        used += barriers.used[i];
-    printf("%d convergence barriers, %d saved to registers\n", used, barriers.saved);
+    printf("%d convergence barriers, %d saved to registers\n", used, saved);
     if (used == 0)
         fprintf(stderr, "cuda_compile: the machine code has no convergence barriers, so their "
                         "instructions are not known here\n");
-    if (barriers.saved > 0)
+    if (saved > 0)
         fprintf(stderr, "cuda_compile: branches and loops are too deep within each other; see "
                         "docs/lost-light.md\n");
-    return used > 0 && barriers.saved == 0;
-}
-
-static bool write_cubin(const char *path, const HdCudaCode *code) {
-    FILE *file = fopen(path, "wb");
-    bool ok = file && fwrite(code->image, 1, code->size, file) == code->size;
-    if (file && fclose(file) != 0)
-        ok = false;
-    if (!ok)
-        fprintf(stderr, "cuda_compile: cannot write %s\n", path);
-    return ok;
+    return used > 0 && saved == 0;
 }
 
 int main(int argc, char **argv) {
     static HdError error;
     Options options;
     if (!parse(&options, argc, argv)) {
-        fprintf(stderr, "usage: cuda_compile --arch N [--nvrtc LIBRARY] [--double] [--fast] "
-                        "[--wavefront] [--refracts] [--lit-from-behind] [--many-lights] [--meshes] "
-                        "[--surveyed] [--block N] [--registers N] [--planes N] [--depth N] [--log] "
-                        "[--cubin FILE]\n");
+        fprintf(stderr, "cuda_compile: called wrongly; see the head of tests/cuda_compile.c\n");
         return USAGE;
     }
     HdNvrtc nvrtc;
@@ -231,8 +177,6 @@ int main(int argc, char **argv) {
         ok = report(&options, &nvrtc, &code);
         if (options.arch >= 70)
             ok = check_barriers(&code) && ok;
-        if (options.cubin)
-            ok = write_cubin(options.cubin, &code) && ok;
         hd_cuda_code_free(&code);
     }
     hd_nvrtc_close(&nvrtc);

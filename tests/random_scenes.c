@@ -10,68 +10,39 @@
    it is called wrongly, 77 where the backend has no such device. */
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "certify/random_test.h"
+#include "options.h"
 #include "system/machine.h"
-
-enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 typedef struct Options {
     const HdBackend *backend;
-    int device;
+    int device, precision, pipeline;
     HdRandomTest test;
 } Options;
 
-static int index_of(const char *name, const char *const *names) {
-    for (int i = 0; names[i] != NULL; i++)
-        if (strcmp(name, names[i]) == 0)
-            return i;
-    return -1;
-}
-
-static bool parse_option(Options *options, const char *name, const char *value) {
-    static const char *const precisions[] = {"float", "double", NULL};
-    HdRandomTest *test = &options->test;
-    const struct {
-        const char *name;
-        int *number;
-    } numbers[] = {{"--device", &options->device},
-                   {"--lanes", &test->options.lanes},
-                   {"--block", &test->options.block},
-                   {"--registers", &test->options.registers},
-                   {"--ptx", &test->options.test.ptx_arch},
-                   {"--scenes", &test->scenes},
-                   {"--kind", &test->kind},
-                   {"--threads", &test->threads}};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (strcmp(name, numbers[i].name) == 0)
-            return (*numbers[i].number = atoi(value)) >= 0;
-    int choice = -1;
-    if (strcmp(name, "--backend") == 0)
-        return (options->backend = hd_backend_find(value)) != NULL;
-    if (strcmp(name, "--seed") == 0)
-        return sscanf(value, "%" SCNu64, &test->seed) == 1;
-    if (strcmp(name, "--precision") == 0 && (choice = index_of(value, precisions)) >= 0)
-        test->options.precision = (HdPrecision)choice;
-    else if (strcmp(name, "--pipeline") == 0 && (choice = index_of(value, hd_pipeline_names)) >= 0)
-        test->options.pipeline = (HdPipeline)choice;
-    return choice >= 0;
-}
-
 static bool parse(Options *options, int count, char **arguments) {
-    for (int i = 1; i < count; i++) {
-        if (strcmp(arguments[i], "--general") == 0) {
-            options->test.general = true;
-            continue;
-        }
-        if (i + 1 >= count || !parse_option(options, arguments[i], arguments[i + 1])) {
-            fprintf(stderr, "hedron_random_scenes: not understood: %s\n", arguments[i]);
-            return false;
-        }
-        i++;
-    }
+    HdRandomTest *test = &options->test;
+    const Option list[] = {
+        {"--backend", .backend = &options->backend},
+        {"--device", .number = &options->device},
+        {"--precision", .number = &options->precision, .choices = precision_names},
+        {"--pipeline", .number = &options->pipeline, .choices = hd_pipeline_names},
+        {"--lanes", .number = &test->options.lanes},
+        {"--block", .number = &test->options.block},
+        {"--registers", .number = &test->options.registers},
+        {"--ptx", .number = &test->options.test.ptx_arch},
+        {"--seed", .seed = &test->seed},
+        {"--scenes", .number = &test->scenes},
+        {"--kind", .number = &test->kind},
+        {"--threads", .number = &test->threads},
+        {"--general", .flag = &test->general},
+        {.name = NULL},
+    };
+    if (!parse_options(list, count, arguments))
+        return false;
+    test->options.precision = (HdPrecision)options->precision;
+    test->options.pipeline = (HdPipeline)options->pipeline;
     return true;
 }
 
@@ -86,8 +57,8 @@ static int run(const HdRandomTest *test) {
     if (result.text[0] != '\0')
         printf("DIFFERENT %s\n", result.text);
     printf("%s, %s: %d scenes from seed %" PRIu64 ", %d different, %.1f scenes/s\n",
-           test->device->name, test->options.precision == HD_PRECISION_FLOAT ? "float" : "double",
-           result.scenes, test->seed, result.different, result.scenes / seconds);
+           test->device->name, precision_names[test->options.precision], result.scenes, test->seed,
+           result.different, result.scenes / seconds);
     return status == HD_OK && result.different == 0 ? 0 : 1;
 }
 
@@ -96,7 +67,8 @@ int main(int count, char **arguments) {
     HdError error;
     int found = 0;
     Options options = {.backend = &hd_backend_c,
-                       .test = {.scenes = 240, .kind = -1, .options.pipeline = HD_PIPELINE_MEGA}};
+                       .pipeline = HD_PIPELINE_MEGA,
+                       .test = {.scenes = 240, .kind = -1}};
     if (!parse(&options, count, arguments))
         return EXIT_USAGE;
     if (hd_backend_enumerate(options.backend, devices, HD_MAX_DEVICES, &found, &error) != HD_OK ||

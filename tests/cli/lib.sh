@@ -23,9 +23,11 @@ unset CDPATH XDG_CACHE_HOME # hedron's own cache is where HEDRON_CACHE says, els
 work=$(mktemp -d "${TMPDIR:-/tmp}/hedron-cli-XXXXXX")
 logs=$work/logs # what the last command wrote: logs/stdout, logs/stderr
 export HOME=$work/home
-mkdir "$logs" "$HOME" "$work/here"
+mkdir "$logs" "$HOME" "$work/here" "$work/no_vendors"
+: | tee "$logs/stdout" >"$logs/stderr"
 cd "$work/here" || exit 1
 
+last_command=none
 failures=0
 finished=0
 code=0
@@ -43,11 +45,9 @@ trap clean_up EXIT
 
 finish() {
     finished=1
-    if ((failures > 0)); then
-        echo "$failures expectations failed" >&2
-        exit 1
-    fi
-    exit 0
+    ((failures > 0)) || exit 0
+    echo "$failures expectations failed" >&2
+    exit 1
 }
 
 # lanes_there PRECISION: the numbers of lanes that plain C takes on this processor.
@@ -64,16 +64,15 @@ lanes_there() {
 }
 
 skip() {
+    ((failures == 0)) || finish
     echo "skipped: $*"
     finished=1
     exit 77
 }
 
-# The programs under bench/ are written in it.
 need_python() {
-    if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which"; then
+    python3 -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>"$logs/which" ||
         skip "there is no python3 of version 3.10 or newer"
-    fi
 }
 
 # The line of the script, not of this file, that led here.
@@ -87,18 +86,14 @@ script_line() {
     done
 }
 
+# With the last command, and what it said.
 fail() {
     failures=$((failures + 1))
-    echo "FAILED $(script_line): $*" >&2
-}
-
-show_logs() {
-    echo "  command: $last_command" >&2
-    {
-        head -c 600 "$logs/stdout" | sed 's/^/  stdout: /'
-        head -c 600 "$logs/stderr" | sed 's/^/  stderr: /'
-    } >&2
-}
+    echo "FAILED $(script_line): $*"
+    echo "  command: $last_command"
+    head -c 600 "$logs/stdout" | sed 's/^/  stdout: /'
+    head -c 600 "$logs/stderr" | sed 's/^/  stderr: /'
+} >&2
 
 # Runs a command; what it wrote and its exit code are kept. Standard input is passed on.
 run() {
@@ -109,51 +104,28 @@ run() {
 
 # expect_exit CODE COMMAND...
 expect_exit() {
-    local expected=$1
-    shift
-    run "$@"
-    if ((code != expected)); then
-        fail "exit code $code, expected $expected"
-        show_logs
-    fi
+    run "${@:2}"
+    (($1 == code)) || fail "exit code $code, expected $1"
 }
 
 # expect_stdout_lines COUNT [REGEX]: so many lines, each of which matches as a whole.
 expect_stdout_lines() {
-    local lines bad
-    lines=$(wc -l <"$logs/stdout")
-    if ((lines != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
-        fail "standard output has $lines whole lines, expected $1 and nothing else"
-        show_logs
+    if (($(wc -l <"$logs/stdout") != $1)) || [[ -s $logs/stdout && -n $(tail -c 1 "$logs/stdout") ]]; then
+        fail "standard output has $(wc -l <"$logs/stdout") whole lines, expected $1 and nothing else"
     fi
-    if [[ $# -gt 1 ]]; then
-        bad=$(grep -c -v -x -E -e "$2" "$logs/stdout" || true)
-        if ((bad != 0)); then
-            fail "$bad lines of standard output do not match $2"
-            show_logs
-        fi
-    fi
+    (($# == 1)) || ! grep -q -v -x -E -e "$2" "$logs/stdout" || fail "a line of standard output does not match $2"
 }
 
 expect_stdout_contains() {
-    if ! grep -q -F -e "$1" "$logs/stdout"; then
-        fail "standard output lacks '$1'"
-        show_logs
-    fi
+    grep -q -F -e "$1" "$logs/stdout" || fail "standard output lacks '$1'"
 }
 
 expect_stderr_contains() {
-    if ! grep -q -F -i -e "$1" "$logs/stderr"; then
-        fail "standard error lacks '$1'"
-        show_logs
-    fi
+    grep -q -F -i -e "$1" "$logs/stderr" || fail "standard error lacks '$1'"
 }
 
 expect_silent_stderr() {
-    if [[ -s $logs/stderr ]]; then
-        fail "standard error is not empty"
-        show_logs
-    fi
+    [[ ! -s $logs/stderr ]] || fail "standard error is not empty"
 }
 
 # Exactly one line, which begins with the program's name and says something.
@@ -161,16 +133,13 @@ expect_sentence() {
     if (($(wc -l <"$logs/stderr") != 1)) || ! grep -q -E '^hedron: .{10,}$' "$logs/stderr" ||
         [[ -n $(tail -c 1 "$logs/stderr") ]]; then
         fail "standard error is not one sentence"
-        show_logs
     fi
 }
 
 # expect_refusal CODE COMMAND...: that exit code at once, one sentence, and nothing on standard output.
 expect_refusal() {
-    local expected=$1
-    shift
-    expect_exit "$expected" timeout "$patience" "$@"
-    if ((code == expected)); then
+    expect_exit "$1" timeout "$patience" "${@:2}"
+    if ((code == $1)); then
         expect_sentence
         expect_stdout_lines 0
     fi
@@ -182,15 +151,11 @@ expect_files() {
     shift
     expected=$(if (($# > 0)); then printf '%s\n' "$@" | sort; fi)
     found=$(find "$folder" -mindepth 1 -printf '%P\n' 2>&1 | sort)
-    if [[ $found != "$expected" ]]; then
-        fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
-    fi
+    [[ $found == "$expected" ]] || fail "$folder holds '${found//$'\n'/ }', expected '${expected//$'\n'/ }'"
 }
 
 expect_same() {
-    if ! cmp -s -- "$1" "$2"; then
-        fail "$1 and $2 differ, expected the same bytes"
-    fi
+    cmp -s -- "$1" "$2" || fail "$1 and $2 differ, expected the same bytes"
 }
 
 expect_different() {
@@ -199,35 +164,17 @@ expect_different() {
     fi
 }
 
-# A number as four bytes, little endian: int32 NUMBER [big]
-int32() {
-    local shift text='' shifts=(0 8 16 24)
-    if [[ ${2:-little} == big ]]; then
-        shifts=(24 16 8 0)
-    fi
-    for shift in "${shifts[@]}"; do
-        text+=$(printf '\\%03o' $(($1 >> shift & 255)))
-    done
-    # shellcheck disable=SC2059 # the octal escapes are the format
-    printf "$text"
-}
-
 # The number in four bytes from an offset of a file: number_at FILE OFFSET [big]
 number_at() {
-    local endian=${3:-little}
-    od -A n -t u4 -j "$2" -N 4 --endian="$endian" "$1" | tr -d ' '
+    od -A n -t u4 -j "$2" -N 4 --endian="${3:-little}" "$1" | tr -d ' '
 }
 
 # expect_data FILE WIDTH HEIGHT: a whole picture in the data format.
 expect_data() {
-    local size
     if [[ ! -f $1 ]]; then
         fail "there is no file $1"
-        return
-    fi
-    size=$(stat -c %s "$1")
-    if ((size != 8 + $2 * $3 * 4)); then
-        fail "$1 has $size bytes, expected $((8 + $2 * $3 * 4))"
+    elif (($(stat -c %s "$1") != 8 + $2 * $3 * 4)); then
+        fail "$1 has $(stat -c %s "$1") bytes, expected $((8 + $2 * $3 * 4))"
     elif (($(number_at "$1" 0) != $2 || $(number_at "$1" 4) != $3)); then
         fail "the head of $1 says $(number_at "$1" 0) x $(number_at "$1" 4), expected $2 x $3"
     fi
@@ -248,20 +195,9 @@ expect_png() {
 
 # Writes a chequered texture of 4 x 4 pixels in the data format.
 make_texture() {
-    local y x
-    {
-        int32 4
-        int32 4
-        for y in 0 1 2 3; do
-            for x in 0 1 2 3; do
-                if (((x + y) % 2 == 0)); then
-                    printf '\377\377\377\377'
-                else
-                    printf '\040\200\100\000'
-                fi
-            done
-        done
-    } >"$1"
+    local white='\377\377\377\377' green='\040\200\100\000'
+    local row=$white$green$white$green other=$green$white$green$white
+    printf '%b' '\4\0\0\0\4\0\0\0' "$row$other$row$other" >"$1"
 }
 
 # The task's own example, with the texture that it names in the home folder.
@@ -274,11 +210,27 @@ use_official_input() {
 small=(--size 32x24 --samples 1 --depth 2)
 # No graphics card of NVIDIA for this command, neither through CUDA nor through OpenCL.
 no_nvidia=(env CUDA_VISIBLE_DEVICES=)
-export small no_nvidia
+# Nor any OpenCL.
+nothing=(env CUDA_VISIBLE_DEVICES= OCL_ICD_VENDORS="$work/no_vendors")
+export small no_nvidia nothing project
 
 # True where some backend has a GPU that the command above does not hide.
 has_other_gpu() {
     "${no_nvidia[@]}" "$hedron" devices | grep -q '^ *GPU,'
+}
+
+# True where films can be made.
+has_ffmpeg() {
+    command -v ffmpeg && command -v ffprobe
+} >/dev/null
+
+# fake NAME BODY: a program of that name in a folder that with_tools has the system search first.
+with_tools=(env PATH="$work/tools:$PATH")
+export with_tools
+fake() {
+    mkdir -p "$work/tools"
+    printf '#!%s\n%s\n' "$(command -v bash)" "$2" >"$work/tools/$1"
+    chmod +x "$work/tools/$1"
 }
 
 is_sanitized() {
@@ -292,13 +244,15 @@ has_opencl() {
 # wait_until SECONDS COMMAND...: true as soon as the command succeeds, false when time is up.
 wait_until() {
     local end=$((SECONDS + $1))
-    shift
-    until "$@"; do
-        if ((SECONDS > end)); then
-            return 1
-        fi
+    until "${@:2}"; do
+        ((SECONDS <= end)) || return 1
         sleep 0.01
     done
+}
+
+# wait_for WHAT COMMAND...: until it succeeds, and no longer than the patience lasts.
+wait_for() {
+    wait_until "$patience" "${@:2}" || fail "waited in vain for $1"
 }
 
 # In a group of its own, so that the shell does not have it ignore SIGINT. Sets `pid`.
@@ -314,6 +268,11 @@ is_gone() {
     ! kill -0 "$1" 2>/dev/null
 }
 
+# send SIGNAL TARGET: where the target is gone already, the test would show nothing.
+send() {
+    kill "-$1" -- "$2" 2>/dev/null || fail 'it was over before the signal'
+}
+
 # Seconds after which a program is taken to hang: more than any of them takes on a slow and busy machine.
 patience=300
 
@@ -321,56 +280,32 @@ patience=300
 expect_end() {
     if ! wait_until "$patience" is_gone "$pid"; then
         fail "still running after $patience s"
-        show_logs
         kill -KILL -- "-$pid" 2>/dev/null || true
     fi
     code=0
     wait "$pid" 2>/dev/null || code=$?
-    if ((code != $1)); then
-        fail "exit code $code, expected $1"
-        show_logs
-    fi
-}
-
-works() {
-    pgrep -P "$pid" -f '^[^ ]*hedron(_[a-z_]+ | render )' >/dev/null || is_gone "$pid"
-}
-
-# interrupt_at_work BENCH...: Ctrl-C while a program that it measures runs.
-interrupt_at_work() {
-    start "$@"
-    wait_until "$patience" works || fail 'it measures nothing'
-    kill -INT -- "-$pid" 2>/dev/null || fail 'it was over before the signal'
-    expect_end 130
+    ((code == $1)) || fail "exit code $code, expected $1"
 }
 
 # expect_output_json EXPRESSION: true of `j`, the JSON on standard output.
 expect_output_json() {
-    if ! python3 -B -c "import json, math, sys
+    python3 -B -c "import json, math, sys
 j = json.load(open(sys.argv[1]))
-sys.exit(not ($1))" "$logs/stdout"; then
-        fail "JSON: not $1"
-        show_logs
-    fi
+sys.exit(not ($1))" "$logs/stdout" || fail "JSON: not $1"
 }
 
-# expect_svg FILE: a picture with text in it, and no bars.
-expect_svg() {
-    local found
-    found=$(python3 -c 'import sys, xml.dom.minidom as xml
-svg = xml.parse(sys.argv[1]).documentElement
-print(svg.tagName, len(svg.getElementsByTagName("text")) > 0, len(svg.getElementsByTagName("rect")))' "$1" 2>&1) || true
-    if [[ $found != 'svg True 1' ]]; then # the paper
-        fail "$1 is no chart: $found"
-    fi
+# use_fake_cuda BUILD: for the commands from here on CUDA's driver and compiler are those of the tests, and there is no OpenCL.
+use_fake_cuda() {
+    nvrtc=$1/tests/fake_cuda/libnvrtc.so.12
+    [[ -e $nvrtc ]] || skip "no compiler of C++ is here that could build the kernels"
+    export OCL_ICD_VENDORS=$work/no_vendors
+    export LD_LIBRARY_PATH=$1/tests/fake_cuda${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+    export HEDRON_CACHE=$work/cache HEDRON_NVRTC=$nvrtc
 }
 
-# expect_python EXPECTED STATEMENTS...: what they print.
-expect_python() {
-    local expected=$1 found
-    shift
-    found=$(PYTHONPATH=$project/bench python3 -B -c "$(printf '%s\n' "$@")" 2>&1) || true
-    if [[ $found != "$expected" ]]; then
-        fail "$* prints $found, expected $expected"
-    fi
+# take BUILD TEXT FOR: ${driver[@]} runs a command with an OpenCL whose compiler takes one text of the kernels for another.
+take() {
+    # shellcheck disable=SC2034 # for the scripts
+    driver=("${no_nvidia[@]}" LD_PRELOAD="$1/tests/failing/libfailing_opencl.so" FAILING_OPENCL_TEXT="$2"
+        FAILING_OPENCL_FOR="$3")
 }

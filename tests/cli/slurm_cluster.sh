@@ -97,8 +97,6 @@ cluster_is_decided() {
 
 try_to_start_cluster() {
     local node
-    stop_daemons
-    rm -rf -- "$cluster"
     mkdir -p "$cluster"/{munge,state,log}
     write_slurm_configuration
     head -c 1024 /dev/urandom >"$cluster/munge/key"
@@ -114,29 +112,11 @@ try_to_start_cluster() {
     wait_until 180 cluster_is_decided && daemons_run
 }
 
-# What kept the daemons from starting: the first fatal errors, else the first others.
-why_no_cluster() {
-    local kind
-    for kind in fatal error; do
-        if grep -r -h -i -m 2 "$kind" "$cluster/log" >"$logs/why"; then
-            head -n 4 "$logs/why" | tr '\n' ';'
-            return
-        fi
-    done
-    echo "no error in the logs"
-}
-
-# Skips the test where the daemons do not start, such as for lack of a permission. Another program may
-# take a port between the search and the start; then others are tried.
+# Skips the test where the daemons do not start, such as for lack of a permission.
 start_cluster() {
     export SLURM_CONF=$cluster/slurm.conf
-    for _ in 1 2 3; do
-        if try_to_start_cluster; then
-            return
-        fi
-        grep -r -q -i 'address already in use' "$cluster/log" || break
-    done
-    skip "Slurm does not start here: $(why_no_cluster)"
+    try_to_start_cluster ||
+        skip "Slurm does not start here: $(grep -r -h -i -m 2 -E 'fatal|error' "$cluster/log" | head -n 4 | tr '\n' ';')"
 }
 
 # What belongs to the cluster: its daemons, and what they have started. The search itself has nothing of
@@ -164,7 +144,7 @@ stop_daemons() {
 
 # Jobs first, for the daemons leave them alone. True where nothing had to be killed.
 stop_cluster() {
-    local left process
+    local process
     if ((${#cluster_pids[@]} > 0)) && daemons_run; then
         scancel --full --user="$(id -un)" 2>"$logs/scancel" || true
         wait_until 60 queue_is_empty || true
@@ -173,8 +153,7 @@ stop_cluster() {
     if wait_until 60 no_cluster_processes; then
         return 0
     fi
-    left=$(cluster_processes)
-    for process in $left; do
+    for process in $(cluster_processes); do
         echo "left: $process $(tr '\0' ' ' <"/proc/$process/cmdline" 2>/dev/null)" >&2
         kill -KILL "$process" 2>/dev/null || true
     done

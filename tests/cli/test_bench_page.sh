@@ -1,35 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The page of bench/study as a browser shows it, of the results of machines that lie in bench/results: what it says
-# first, and that nothing of it is cut off, tiny, hidden or of another colour at 400, 1280 and 1920 pixels, light and dark.
+# first, and that nothing of it is cut off, or tiny at 400, 1280 and 1920 pixels, light and dark.
 set -euo pipefail
-# shellcheck source=lib.sh
-source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+# shellcheck source=bench_lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/bench_lib.sh"
 
-need_python
-for browser in chromium chromium-browser google-chrome none; do
-    if command -v "$browser" >"$logs/which"; then
-        break
-    fi
-done
-if [[ $browser == none ]]; then
-    echo "skipped: there is no Chromium (Debian's package chromium)"
-    exit 77
-fi
-
-# ---- a result of this program's kernels with pictures beside others' without
+# ---- a result of this program's kernels beside another's
 "$hedron" devices --json >devices.json
-"$hedron" render --quiet --backend c --frames 0 --size 32x18 --samples 1 -o picture.png >"$logs/stdout"
 mkdir out results
 cat >make.py <<'PYTHON'
-import base64, json, sys
+import json, sys
 r = json.load(open(f"{sys.argv[1]}/amd-epyc-2-cores.json", encoding="utf-8"))
 r["hedron"]["kernels"] = json.load(open("devices.json", encoding="utf-8"))["kernels"]
-png = base64.b64encode(open("picture.png", "rb").read()).decode()
-off = {"rmse": 1.5, "largest": 20, "above_1": 0.25}
-r["gallery"] = {"size": [32, 18], "entries": [
-    {"name": "A draft", "device": "c:0", "options": ["--samples", "1"], "png": png},
-    {"name": "Where it is off", "device": "c:0", "options": ["--samples", "1"], "off": off, "png": png}]}
 json.dump(r, open("out/study.json", "w", encoding="utf-8"))
 other = json.load(open(f"{sys.argv[1]}/nvidia-h100.json", encoding="utf-8"))
 other["hedron"]["kernels"] = "of other kernels"
@@ -41,61 +24,45 @@ page=out/report.html
 
 # ---- what it says first are figures of the results
 cat >figures.py <<'PYTHON'
-import json, re, sys
+import json, re
 from pathlib import Path
-from statistics import median, mean
-page = open(sys.argv[1], encoding="utf-8").read()
+from statistics import mean, median
+def read(name):
+    return Path(name).read_text(encoding="utf-8")
+page, own, h100 = read("out/report.html"), json.loads(read("out/study.json")), json.loads(read("results/nvidia-h100.json"))
 answer = page[page.index('<p class="answer">'):]
 answer = answer[:answer.index("</p>")]
 said = re.findall(r'data-figure="(\w+)" data-value="([^"]+)">([^<]*)<', answer)
-found = [json.loads(Path(name).read_text(encoding="utf-8")) for name in sys.argv[2:]]
-def runs(entry):
-    return [run for run in entry["runs"] if not run["noisy"]] or entry["runs"]
-def ms(result, part, label, stages=("trace",), x=None, series=("", "bvh")):
-    """{x: milliseconds} by the raw seconds."""
-    return {e["x"]: median(1e3 * e["scale"] * mean(sum(f["seconds"][s] for s in stages) for f in run["frames"] if not f["warm_up"])
-                           for run in runs(e))
-            for e in result["measurements"] if (e["part"], e["device"]) == (part, label) and e["runs"] and e["series"] in series}
-wanted = {}
-h100 = next(r for r in found if r["machine"]["name"] == "H100 and 16 cores")
-frame = {label: ms(h100, "official", label, ("prepare", "trace", "copy"))[0] for label in ("cuda:0", "opencl:0", "c:0")}
-gpu, cpu = min(frame["cuda:0"], frame["opencl:0"]), frame["c:0"]
-wanted |= {"gpu_ms": gpu, "cpu_ms": cpu, "gpu_to_cpu": cpu / gpu, "frames_alike": 0}
-for r in found:
-    if r["pictures"] and r["pictures"]["same"]:
-        wanted["frames_alike"] += r["pictures"]["compared"]
-own = found[0]
-points = own["accuracy"]["cpu"]["points"]
-good = [p for p in points if p["rmse"] <= 5 and p["family"] != "arithmetic"]
-best = min(good, key=lambda p: p["ms"])
-wanted["ms_at_error"] = best["ms"]
-compared = [e for e in own["stability"]["precision"] if e["what"] == "float against double"]
-wanted["float_off"] = 100 * (1 - sum(e["near"] for e in compared) / sum(e["pixels"] for e in compared))
+def ms(label):
+    """Milliseconds of the official example on the H100's machine, by the raw seconds."""
+    entry = next(e for e in h100["measurements"] if (e["part"], e["device"]) == ("official", label))
+    return median(1e3 * entry["scale"] * mean(sum(f["seconds"][s] for s in ("prepare", "trace", "copy")) for f in run["frames"] if not f["warm_up"])
+                  for run in [run for run in entry["runs"] if not run["noisy"]] or entry["runs"])
+gpu, cpu = min(ms("cuda:0"), ms("opencl:0")), ms("c:0")
+wanted = {"gpu_ms": gpu, "cpu_ms": cpu, "gpu_to_cpu": cpu / gpu,
+          "frames_alike": sum(r["pictures"]["compared"] for r in (own, h100) if r["pictures"] and r["pictures"]["same"])}
 values = {name: float(value) for name, value, _ in said}
-wrong = [name for name, value in wanted.items() if name not in values or abs(values[name] - value) > 1e-9 * abs(value)]
-def digits(words):
-    return float(re.match(r"[\d.]+", words)[0]) * {"s": 1000, "M": 1e6, "k": 1e3}.get(words.rsplit(" ", 1)[-1], 1)
-wrong += [f"{name}: {value} is told as {words}" for name, value, words in said
-          if abs(digits(words) - float(value)) > 0.006 * float(value)]
+wrong = [name for name, value in wanted.items() if abs(values.get(name, -1) - value) > 1e-9 * abs(value)]
 told = re.sub("<[^>]+>", "", answer)
-print(wrong, f"take {' '.join(best['options'])}:" in told, len(said) >= 15, page.index('<p class="answer">') < page.index("<h2"),
+print(wrong, len(said) >= 15, page.index('<p class="answer">') < page.index("<h2"),
       "\u201cH100 and 16 cores\u201d \u2020" in told, "EPYC \u2020" in page)
 PYTHON
-expect_python '[] True True True True False' 'import runpy, sys' \
-    "sys.argv = ['', '$page', 'out/study.json', 'results/nvidia-h100.json']" \
-    'runpy.run_path("figures.py")'
+expect_python '[] True True True False' "$(cat figures.py)"
+
+for browser in chromium chromium-browser google-chrome none; do
+    ! command -v "$browser" >"$logs/which" || break
+done
+if ((failures == 0)) && [[ $browser == none ]]; then
+    skip "there is no Chromium (Debian's package chromium)"
+fi
 
 # ---- as it is shown: one start of the browser, in which frames are its screens
 cat >look.js <<'JAVASCRIPT'
-const wrong = [], seen = {}, heights = {400: 860, 1280: 720, 1920: 1080}
+const wrong = [], heights = {400: 860, 1280: 720, 1920: 1080}
 let left = 6
 function light(colour) {
     const [r, g, b] = colour.match(/[\d.]+/g).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
     return 0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-function contrast(one, other) {
-    const [a, b] = [light(one), light(other)].sort((p, q) => q - p)
-    return (a + 0.05) / (b + 0.05)
 }
 function look(width, scheme, view) {
     const page = view.document, say = words => wrong.push(`${width} ${scheme}: ${words}`), style = e => view.getComputedStyle(e)
@@ -104,21 +71,14 @@ function look(width, scheme, view) {
     if (answer.bottom > heights[width]) say(`the answer ends at ${answer.bottom}`)
     const paper = style(page.body).backgroundColor
     if ((light(paper) > 0.5) != (scheme == 'light')) say(`the paper is ${paper}`)
-    for (const e of page.querySelectorAll('p, figcaption, h2, td, summary'))
-        if (e.checkVisibility() && !e.classList.contains('wrong') && contrast(style(e).color, paper) < 4.5)
-            say(`${style(e).color} on ${paper}: ${e.textContent.slice(0, 40)}`)
-    const pictures = [...page.querySelectorAll('img')]
-    if (pictures.length != 2 || pictures.some(e => e.clientWidth < 200 || e.naturalWidth != 32)) say('pictures are not as they should be')
     const figures = [...page.querySelectorAll('figure[id]')]
     if (figures.length < 15) say(`${figures.length} charts`)
-    if (figures[0].compareDocumentPosition(pictures[0]) & 4) say('charts come before pictures')
     for (const figure of figures) {
         const drawn = [...figure.querySelectorAll('svg')].filter(e => e.checkVisibility() && e.clientWidth > 0)
         const it = `${figure.id}: `
         if (drawn.length != 1) { say(it + `${drawn.length} drawings`); continue }
         const svg = drawn[0], box = svg.getBoundingClientRect(), scale = box.width / svg.viewBox.baseVal.width
         if (box.left < 0 || box.right > width || box.height < 80) say(it + `${box.left} to ${box.right}, ${box.height} high`)
-        if (figure.querySelector('svg rect')) say(it + 'there are bars')
         const texts = [...svg.querySelectorAll('text')].map(e => [e.textContent, e.getBoundingClientRect()])
         for (const e of svg.querySelectorAll('text'))
             if (scale * parseFloat(e.getAttribute('font-size')) < 12) { say(it + `'${e.textContent}' is tiny`); break }
@@ -128,21 +88,14 @@ function look(width, scheme, view) {
                 if (Math.min(at.right, there.right) - Math.max(at.left, there.left) > 2 &&
                     Math.min(at.bottom, there.bottom) - Math.max(at.top, there.top) > 5) say(it + `'${words}' is on '${others}'`)
         })
-        for (const mark of svg.querySelectorAll('g[class]')) {
-            const colour = style(mark).color, device = (mark.textContent.match(/^(\w+:\d .*?)(, |:)/) || [])[1]
-            if (contrast(colour, paper) < 3) say(it + `${colour} on ${paper}`)
-            if (device && mark.getAttribute('class').startsWith('k')) ((seen[device] ||= {})[mark.getAttribute('class')] ||= []).push(figure.id)
-        }
     }
-    const last = page.body.lastElementChild
-    if (last.id != 'machines' || last.open) say('the machines are not folded away at the end')
 }
 for (const width of [400, 1280, 1920]) for (const scheme of ['light', 'dark']) {
     const frame = document.createElement('iframe')
     frame.style.cssText = `width:${width}px;height:${heights[width]}px;border:0;color-scheme:${scheme}`
     frame.onload = () => {
         look(width, scheme, frame.contentWindow)
-        if (--left == 0) document.body.innerHTML = '<pre></pre>', document.querySelector('pre').textContent = JSON.stringify({wrong, seen})
+        if (--left == 0) document.body.innerHTML = '<pre></pre>', document.querySelector('pre').textContent = JSON.stringify(wrong)
     }
     frame.srcdoc = page
     document.body.append(frame)
@@ -156,7 +109,6 @@ PYTHON
 expect_exit 0 timeout 300 "$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$work/browser" \
     --virtual-time-budget=60000 --dump-dom "file://$PWD/screens.html"
 cp "$logs/stdout" seen.html
-expect_python '[] True []' 'import html, json, re' 'page = open("seen.html", encoding="utf-8").read()' \
-    'found = json.loads(html.unescape(re.search("<pre>(.*)</pre>", page, re.S)[1]))' \
-    'print(found["wrong"][:20], len(found["seen"]) > 5, [(name, colours) for name, colours in found["seen"].items() if len(colours) != 1])'
+expect_python '[]' 'import html, json, re' 'page = open("seen.html", encoding="utf-8").read()' \
+    'print(json.loads(html.unescape(re.search("<pre>(.*)</pre>", page, re.S)[1]))[:20])'
 finish

@@ -16,10 +16,9 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def png(name, *rows, bits=8, srgb=True, colour=2, interlace=0):
-    code = ">%d" + ("B" if bits <= 8 else "H")
-    lines = b"".join(b"\0" + b"".join(struct.pack(code % len(p), *p) for p in row) for row in rows)
-    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, colour, 0, 0, interlace)
+def png(name, *rows, srgb=True, interlace=0):
+    lines = b"".join(b"\0" + bytes(value for p in row for value in p) for row in rows)
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, interlace)
     with open(name, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head))
         file.write(chunk(b"sRGB", b"\0") if srgb else b"")
@@ -43,86 +42,52 @@ png("a.png", [(10, 20, 30), (0, 0, 0)], [(200, 0, 0), (5, 6, 7)])
 png("b.png", [(10, 20, 30), (0, 1, 0)], [(203, 0, 0), (5, 6, 16)])'
 expect_exit 0 "$hedron" compare --json a.png b.png
 expect_silent_stderr
-expect_output_json 'j["first"] == {"file": "a.png", "format": "PNG", "bits": 8, "not_finite": 0}'
-expect_output_json 'j["second"]["file"] == "b.png" and j["curve"] == "srgb" and j["pixels"] == 4'
-expect_output_json 'j["width"] == 2 and j["height"] == 2 and not j["identical"]'
-expect_output_json 'abs(j["display"]["rmse"] - math.sqrt(91 / 12)) < 1e-12'
-expect_output_json 'abs(j["display"]["psnr"] - 20 * math.log10(255 / math.sqrt(91 / 12))) < 1e-12'
-expect_output_json 'abs(j["display"]["mean"] - 13 / 12) < 1e-12 and j["display"]["p999"] == 9'
-expect_output_json 'j["display"]["largest"] == 9'
-expect_output_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
-expect_output_json 'j["above_1"] == 0.5 and j["above_8"] == 0.25'
-curve='lambda c: ((c / 255 + 0.055) / 1.055) ** 2.4'
-expect_output_json "abs(j['linear']['largest'] - ($curve)(203) + ($curve)(200)) < 1e-12"
-expect_output_json 'j["linear"]["at"] == {"x": 0, "y": 1, "channel": "red"}'
+expect_output_json 'j["first"] == {"file": "a.png", "format": "PNG", "bits": 8, "not_finite": 0} and j["second"]["file"] == "b.png"'
+expect_output_json '[j[key] for key in ("curve", "pixels", "width", "height", "identical", "above_1", "above_8")] == ["srgb", 4, 2, 2, False, 0.5, 0.25]'
+expect_output_json 'abs(j["display"]["rmse"] - math.sqrt(91 / 12)) < 1e-12 and j["display"]["p999"] == j["display"]["largest"] == 9'
+expect_output_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"} and j["linear"]["at"] == {"x": 0, "y": 1, "channel": "red"}'
 expect_exit 0 "$hedron" compare a.png b.png
 expect_silent_stderr
-for line in 'first   a.png: PNG, 8 bits, 2 x 2 pixels' 'curve   srgb' '  at x, y                      1, 1 blue' \
-    'pixels off by > 1                   50 %'; do
+for line in 'first   a.png: PNG, 8 bits, 2 x 2 pixels' '  at x, y                      1, 1 blue' 'pixels off by > 1                   50 %'; do
     expect_stdout_contains "$line"
 done
 
 # ---- the limit is on the largest display error, and what it is may stand
-for limit in 0 1 8.999 8.9999999; do
-    expect_exit 1 "$hedron" compare a.png b.png --fail-above "$limit"
-    expect_sentence
-    expect_stderr_contains 'the largest error is 9 of 255, at x 1, y 1 in blue'
-    expect_stdout_contains 'RMSE'
-done
-for limit in 9 9.0 255; do
-    expect_exit 0 "$hedron" compare a.png b.png --fail-above "$limit"
-    expect_silent_stderr
-done
-expect_exit 1 "$hedron" compare --json a.png b.png --fail-above 3
-expect_output_json 'j["display"]["largest"] == 9'
-expect_exit 0 "$hedron" compare a.png a.png --fail-above 0
+expect_exit 1 "$hedron" compare a.png b.png --fail-above 8.9999999
+expect_sentence
+expect_stderr_contains 'the largest error is 9 of 255, at x 1, y 1 in blue'
+expect_stdout_contains 'RMSE'
+expect_exit 0 "$hedron" compare a.png b.png --fail-above 9
+expect_silent_stderr
+expect_exit 0 "$hedron" compare a.png a.png
 expect_stdout_contains 'The pictures are identical.'
 expect_exit 0 "$hedron" compare --json a.png a.png --fail-above 0
-expect_output_json 'j["identical"] and j["display"]["psnr"] is None and j["linear"]["psnr"] is None'
-expect_output_json 'j["display"]["at"] is None and j["display"]["largest"] == 0'
+expect_output_json 'j["identical"] and j["display"]["psnr"] is None and j["display"]["at"] is None and j["display"]["largest"] == 0'
 
-# ---- 16 bits, and PNG beside PFM, whose values above 1 no PNG holds
+# ---- PNG beside PFM, whose values above 1 no PNG holds
 pictures '
-png("deep.png", [(2570, 5140, 7710), (0, 0, 0)], [(51400, 0, 0), (1285, 1542, 1800)], bits=16)
 pfm("bright.pfm", [(1, 0.5, 7), (-3, 0, 0)])
 pfm("white.pfm", [(1, 0.5, 1), (0, 0, 0)])
 png("half.png", [(255, 188, 255), (0, 0, 0)])
 png("plain.png", [(255, 128, 255), (0, 0, 0)], srgb=False)'
-expect_exit 0 "$hedron" compare --json a.png deep.png
-expect_output_json 'j["second"]["bits"] == 16 and abs(j["display"]["largest"] - 1 / 257) < 1e-15'
-expect_output_json 'j["display"]["at"] == {"x": 1, "y": 1, "channel": "blue"}'
-expect_exit 0 "$hedron" compare --json bright.pfm white.pfm
-expect_output_json 'j["display"]["largest"] == 0 and j["linear"]["largest"] == 6 and not j["identical"]'
-expect_output_json 'j["display"]["psnr"] is None and abs(j["linear"]["mean"] - 9 / 6) < 1e-12'
-for order in 'bright.pfm half.png' 'half.png bright.pfm'; do
-    # shellcheck disable=SC2086 # two names
-    expect_exit 0 "$hedron" compare --json $order --fail-above 0.5
-    expect_output_json 'j["curve"] == "srgb" and 0 < j["linear"]["largest"] < 0.003'
-    expect_output_json '0 < j["display"]["largest"] < 0.5 and j["display"]["at"]["channel"] == "green"'
-done
+expect_exit 0 "$hedron" compare --json half.png bright.pfm --fail-above 0.5
+expect_output_json 'j["curve"] == "srgb" and 0 < j["linear"]["largest"] < 0.003'
+expect_output_json '0 < j["display"]["largest"] < 0.5 and j["display"]["at"]["channel"] == "green"'
 
-# ---- OpenEXR: in float the same as PFM, in half the nearest; the same bytes from every backend
-frame=(render --quiet --size 70x40 --samples 1 --depth 3 --frames 0)
-expect_exit 0 "$hedron" "${frame[@]}" --backend c -o true.pfm -o half.exr
+# ---- OpenEXR: in float the same as PFM, in half the nearest
+frame=(render --quiet --size 70x40 --samples 1 --depth 3 --frames 0 --backend c)
+expect_exit 0 "$hedron" "${frame[@]}" -o true.pfm -o half.exr
 if [[ ! -s half.exr ]]; then
     echo "not tested: OpenEXR, for this build has none"
 else
-    expect_exit 0 "$hedron" "${frame[@]}" --backend c --lanes 1 --set output.bits=32 -o float.exr
-    expect_exit 0 "$hedron" compare --json true.pfm float.exr
-    expect_output_json 'j["identical"] and j["second"]["format"] == "OpenEXR" and j["second"]["bits"] == 32'
     expect_exit 0 "$hedron" compare --json true.pfm half.exr
     expect_output_json 'j["second"]["bits"] == 16 and not j["identical"] and 0 < j["linear"]["largest"] < 0.002'
-    if has_opencl; then
-        expect_exit 0 "$hedron" "${frame[@]}" --backend opencl -o other.exr
-        expect_same half.exr other.exr
-    fi
     head -c 3000 half.exr >cut.exr
     expect_refusal 2 "$hedron" compare true.pfm cut.exr
     expect_stderr_contains 'cannot read cut.exr as OpenEXR'
 fi
-expect_refusal 2 "$hedron" "${frame[@]}" --backend c --set output.bits=32 -o deep.png
+expect_refusal 2 "$hedron" "${frame[@]}" --set output.bits=32 -o deep.png
 expect_stderr_contains 'deep.png cannot have 32 bits a channel: expected output.bits 8 or 16'
-rm -f ./*.exr true.pfm
 
 # ---- curves: what the files say, or else --curve
 expect_exit 0 "$hedron" compare --json bright.pfm plain.png --fail-above 0.51
@@ -133,27 +98,6 @@ for curve in linear srgb; do
     expect_exit 0 "$hedron" compare --json plain.png half.png --curve "$curve"
     expect_output_json "j['curve'] == '$curve' and j['display']['largest'] == 60"
 done
-expect_output_json 'abs(j["linear"]["largest"] - 0.287) < 0.001'
-expect_exit 0 "$hedron" compare --json white.pfm bright.pfm --curve linear
-expect_output_json 'j["curve"] == "linear"'
-
-# ---- what the program itself writes: a rounding to 8 bits is half a step
-for bits in 8 16; do
-    expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 0 -o own.png -o own.pfm \
-        --set "output.bits=$bits"
-    expect_exit 0 "$hedron" compare --json own.png own.pfm --fail-above 0.5
-    expect_output_json "j['pixels'] == 768 and j['display']['largest'] > 0.4 / (1 if $bits == 8 else 257)"
-    expect_output_json "$bits == 8 or j['display']['largest'] < 0.6 / 257"
-done
-
-# ---- other kinds of PNG: grey, with alpha; an interlaced one
-pictures '
-png("grey.png", [(7,), (9,)], colour=0)
-png("alpha.png", [(7, 7, 7, 0), (9, 9, 9, 99)], colour=6)
-png("laced.png", [(7, 7, 7)], interlace=1)'
-expect_exit 0 "$hedron" compare grey.png alpha.png --fail-above 0
-expect_refusal 2 "$hedron" compare laced.png grey.png
-expect_stderr_contains 'laced.png is an interlaced PNG'
 
 # ---- NaN and infinity
 pictures '
@@ -163,32 +107,23 @@ pfm("worse.pfm", [(0, 0, 0), (0, 0, -inf)])'
 expect_exit 1 "$hedron" compare --json white.pfm wrong.pfm
 expect_sentence
 expect_stderr_contains '0 values of white.pfm and 2 of wrong.pfm are NaN or infinite'
-expect_output_json 'j["second"]["not_finite"] == 2 and j["pixels"] == 1 and j["display"]["largest"] == 0'
-expect_output_json 'not j["identical"]'
-expect_exit 1 "$hedron" compare wrong.pfm wrong.pfm
-expect_stdout_contains 'NaN or infinite                        2                   2'
+expect_output_json 'j["second"]["not_finite"] == 2 and j["pixels"] == 1 and j["display"]["largest"] == 0 and not j["identical"]'
 expect_exit 1 "$hedron" compare --json wrong.pfm worse.pfm --fail-above 255
 expect_output_json 'j["pixels"] == 0 and j["display"]["rmse"] is None and j["above_1"] is None'
 
 # ---- the heat map
 pictures '
-png("zero.png", [(0, 0, 0)] * 5)
-png("errors.png", [(0, 0, 0), (0, 1, 0), (4, 1, 2), (0, 0, 16), (128, 128, 128)])
-png("expected.png", [(0, 0, 0), (127, 31, 106), (198, 63, 76), (243, 120, 25), (247, 223, 90)])
-png("expected-nan.png", [(0, 255, 255), (0, 0, 0)])'
+png("zero.png", [(0, 0, 0)] * 2)
+png("errors.png", [(4, 1, 2), (0, 0, 16)])
+png("expected.png", [(198, 63, 76), (243, 120, 25)])'
 expect_exit 0 "$hedron" compare zero.png errors.png --diff maps/heat.png
 expect_silent_stderr
-expect_png maps/heat.png 5 1
 expect_exit 0 "$hedron" compare maps/heat.png expected.png --fail-above 0
-expect_exit 1 "$hedron" compare zero.png errors.png --diff heat.png --fail-above 1
-expect_same heat.png maps/heat.png
-expect_exit 1 "$hedron" compare white.pfm wrong.pfm --diff heat.png
-expect_exit 0 "$hedron" compare heat.png expected-nan.png --fail-above 0
 expect_files maps heat.png
 
 # No input is replaced, by whatever name, and nothing is left of a map that fails.
 ln a.png link.png
-for name in a.png ./a.png link.png "$PWD/b.png"; do
+for name in link.png "$PWD/b.png"; do
     cp a.png "$work/a.png"
     expect_refusal 2 "$hedron" compare a.png b.png --diff "$name"
     expect_stderr_contains 'would replace the picture'
@@ -198,81 +133,42 @@ rm link.png
 expect_refusal 2 "$hedron" compare a.png b.png --diff heat.pfm
 expect_stderr_contains '.png'
 expect_exit 0 "$hedron" render --quiet --backend c --frames 0 --samples 1 --size 160x120 -o one.png
-expect_exit 0 "$hedron" render --quiet --backend c --frames 0 --samples 2 --size 160x120 -o two.png
-last_command='compare with a limit on the size of files'
-code=0
-(
-    ulimit -f 1
-    "$hedron" compare one.png two.png --diff full/heat.png
-) >"$logs/stdout" 2>"$logs/stderr" || code=$?
-if ((code != 1)); then
-    fail "exit code $code, expected 1"
-    show_logs
-fi
-expect_stderr_contains 'cannot write full/heat.png'
-expect_files full
-pictures '
-rows = [[(i % 251, i % 7, 0)] * 40 for i in range(40)]
-png("whole.png", *rows)
-data = open("whole.png", "rb").read()
-open("damaged.png", "wb").write(data[:len(data) // 2])'
-expect_refusal 2 "$hedron" compare whole.png damaged.png --diff full/heat.png
+head -c 2000 one.png >damaged.png
+expect_refusal 2 "$hedron" compare one.png damaged.png --diff full/heat.png
 expect_stderr_contains 'damaged.png'
 expect_files full
 
 # ---- what cannot be compared
 expect_refusal 2 "$hedron" compare a.png half.png
 expect_stderr_contains 'a.png has 2 x 2 pixels, but half.png has 2 x 1; expected the same size'
-expect_refusal 2 "$hedron" compare half.png zero.png
 expect_refusal 2 "$hedron" compare a.png missing.png
 expect_stderr_contains 'missing.png'
-expect_refusal 2 "$hedron" compare missing.png a.png
-expect_refusal 2 "$hedron" compare a.png .
-mkfifo pipe
-expect_refusal 2 "$hedron" compare pipe a.png
-expect_stderr_contains 'pipe: it is not a regular file'
-make_texture texture.data
-expect_refusal 2 "$hedron" compare texture.data texture.data
-expect_stderr_contains 'texture.data is neither PNG, OpenEXR nor PFM'
-head -c 20 bright.pfm >short.pfm
-expect_refusal 2 "$hedron" compare bright.pfm short.pfm
-expect_stderr_contains 'short.pfm has 20 bytes, expected 36 for 2 x 1 pixels'
-expect_refusal 2 "$hedron" compare
+pictures 'png("laced.png", [(7, 7, 7)], interlace=1)'
+expect_refusal 2 "$hedron" compare laced.png a.png
+expect_stderr_contains 'laced.png is an interlaced PNG'
 expect_refusal 2 "$hedron" compare a.png
 expect_refusal 2 "$hedron" compare a.png b.png a.png
-for value in '' -1 256 nan 1x; do
+for value in -1 256 nan; do
     expect_refusal 2 "$hedron" compare a.png b.png --fail-above "$value"
     expect_stderr_contains --fail-above
 done
 expect_refusal 2 "$hedron" compare a.png b.png --curve gamma
-expect_refusal 2 "$hedron" compare a.png b.png --size 1x1
 
 # ---- figures that nobody gets
 for form in '' --json; do
-    last_command="compare $form > /dev/full"
-    code=0
-    # shellcheck disable=SC2086 # an option or none
-    "$hedron" compare a.png a.png $form >/dev/full 2>"$logs/stderr" || code=$?
-    if ((code != 1)); then
-        fail "exit code $code, expected 1"
-    fi
+    expect_exit 1 bash -c "'$hedron' compare a.png a.png $form >/dev/full"
     expect_sentence
 done
 
-# ---- size does not matter: 65535 rows, and 65535 columns, in 256 MiB of address space
+# ---- size does not matter: 65535 rows in 256 MiB of address space
 pictures '
-for name, width, height in ("tall", 3, 65535), ("wide", 65535, 3):
-    png(name + ".png", *[[(0, 0, 0)] * width] * height)
-    pfm(name + ".pfm", *[[(0, 0, 0)] * width] * (height - 1), [(0, 0, 0)] * (width - 1) + [(0, 0, 1)])'
+png("tall.png", *[[(0, 0, 0)] * 3] * 65535)
+pfm("tall.pfm", *[[(0, 0, 0)] * 3] * 65534, [(0, 0, 0), (0, 0, 0), (0, 0, 1)])'
 # The address sanitizer reserves far more for itself.
 limit='ulimit -v 262144'
 if grep -q -a -F __asan_init "$hedron"; then
     limit=true
 fi
-for name in tall wide; do
-    expect_exit 0 bash -c "$limit; exec '$hedron' compare --json $name.png $name.pfm --diff $name-heat.png"
-    expect_output_json 'j["display"]["largest"] == 255 and j["display"]["at"]["channel"] == "blue"'
-    expect_output_json '(j["display"]["at"]["x"], j["display"]["at"]["y"]) in ((2, 65534), (65534, 2))'
-done
-
+expect_exit 0 bash -c "$limit; exec '$hedron' compare --json tall.png tall.pfm --diff heat.png"
+expect_output_json 'j["display"]["largest"] == 255 and j["display"]["at"] == {"x": 2, "y": 65534, "channel": "blue"}'
 finish

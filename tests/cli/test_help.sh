@@ -1,71 +1,50 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The help of each command mentions every option; --version and a standard output that is full.
+# The help of each command mentions every option, as does the man page, which every formatter takes without warnings.
 set -euo pipefail
 # shellcheck source=lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# expect_help OPTIONS COMMAND...: the help has these options and no others.
+# expect_help OPTIONS WORD...: the help that hedron gives for these words has these options and no others.
 expect_help() {
-    local expected=$1 found
-    shift
-    expect_exit 0 "$@" </dev/null
+    local expected found
+    expect_exit 0 "$hedron" "${@:2}" </dev/null
     expect_silent_stderr
     expect_stdout_contains 'Usage'
     found=$(sed -n 's/^  \(-[a-zA-Z], \)*\(--[a-z-]*\) .*/\2/p' "$logs/stdout" | sort | tr '\n' ' ')
-    expected=$(tr -s ' ' '\n' <<<"$expected" | sort | tr '\n' ' ')
-    if [[ $found != "$expected" ]]; then
-        fail "the help has '$found', expected '$expected'"
-        show_logs
-    fi
-    if grep -q -E '.{121}|[[:space:]]$' "$logs/stdout"; then
-        fail "the help has a line of more than 120 characters, or one that ends in white space"
-    fi
+    expected=$(tr -s ' \n' '\n' <<<"$1" | sort | tr '\n' ' ')
+    [[ $found == "$expected" ]] || fail "the help has '$found', expected '$expected'"
+    ! grep -q -E '.{121}|[[:space:]]$' "$logs/stdout" || fail 'a line is longer than 120, or ends in white space'
 }
 
-rendering='--stats --verbose --quiet --backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --frames --size --samples --depth
-    --cutoff --aa --max-error --help --version'
-rendering=$(tr -s ' \n' '  ' <<<"$rendering")
-classic="--no-sync --gpu --cpu --default --variant ${rendering% }"
-render="--no-sync --frame-lines --output --layers --set --again --crop --reference ${rendering% }"
-
+viewing='--backend --device --lanes --threads --pipeline --block --grid --max-launch --geometry --divisions --accel --precision
+    --math --size --samples --depth --cutoff --aa --max-error --help'
+rendering="$viewing --stats --verbose --quiet --frames --version --no-sync"
 for option in --help -h help; do
-    expect_help "$classic" "$hedron" "$option"
+    expect_help "$rendering --gpu --cpu --default --variant" "$option"
 done
-# Each variable that the program reads is explained, in the help and in the man page.
-variables=$(grep -rh -o 'getenv("HEDRON_[A-Z_]*")' "$cli_folder"/../../src | grep -o 'HEDRON_[A-Z_]*' | sort -u)
-((${#variables} > 0)) || fail "the sources read no variables"
+for usage in render view new check convert devices selftest tune compare help complete --default '[OPTIONS] < INPUT'; do
+    expect_stdout_contains "hedron $usage"
+done
+for words in 'render -h' 'help render' 'render --size 1x1 --help'; do
+    # shellcheck disable=SC2086 # a command and its arguments
+    expect_help "$rendering --frame-lines --output --layers --set --again --crop --reference" $words
+done
+expect_help "$viewing --terminal --set" view --help
+expect_help '--help --json' devices --help
+expect_help '--help --schema --json' check --help
+expect_help '--help --output --variant' convert --help
+expect_help '--help --json --diff --fail-above --curve' compare --help
+expect_help '--help' new --help
+
+# ---- each variable that the program reads is explained, in the help and in the man page
+variables=$(grep -rh -o 'getenv("HEDRON_[A-Z_]*")' "$project/src" | grep -o 'HEDRON_[A-Z_]*' | sort -u)
 for form in help 'help man'; do
     # shellcheck disable=SC2086 # one or two words
     expect_exit 0 "$hedron" $form
     for variable in $variables; do
         expect_stdout_contains "$variable"
     done
-done
-for command in "$hedron render --help" "$hedron render -h" "$hedron help render" \
-    "$hedron render --size 1x1 --help"; do
-    # shellcheck disable=SC2086 # a command and its arguments
-    expect_help "$render" $command
-    expect_stdout_contains '-o, --output'
-done
-for command in "$hedron devices --help" "$hedron devices -h" "$hedron help devices"; do
-    # shellcheck disable=SC2086
-    expect_help '--help --json' $command
-done
-expect_help '--help --schema --json' "$hedron" check --help
-expect_help '--help --schema --json' "$hedron" help check
-expect_help '--help --output --variant' "$hedron" convert --help
-expect_help '--help --output --variant' "$hedron" help convert
-expect_help '--help --json --diff --fail-above --curve' "$hedron" compare --help
-expect_help '--terminal --set --size --samples --depth --cutoff --aa --max-error --backend --device --lanes --threads
-    --pipeline --block --grid --max-launch --geometry --divisions --accel --precision --math --help' "$hedron" view --help
-expect_help '--help' "$hedron" new --help
-expect_help '--help' "$hedron" complete --help
-expect_help '--help' "$hedron" help --help
-expect_help '--help' "$hedron" help help
-run "$hedron" --help
-for usage in render view new check convert devices selftest tune compare help complete --default '[OPTIONS] < INPUT'; do
-    expect_stdout_contains "hedron $usage"
 done
 
 # ---- scenes: every key of the schema; the small scene in the text is one
@@ -82,15 +61,9 @@ expect_exit 0 "$hedron" check small.json
 rm small.json
 
 expect_refusal 2 "$hedron" help nonsense
-expect_refusal 2 "$hedron" help --gpu
-expect_refusal 2 "$hedron" help render devices
-
-for command in "$hedron --version" "$hedron render --version"; do
-    # shellcheck disable=SC2086
-    expect_exit 0 $command
-    expect_stdout_lines 1 'hedron [0-9]+\.[0-9]+\.[0-9]+'
-    expect_silent_stderr
-done
+expect_exit 0 "$hedron" render --version
+expect_stdout_lines 1 'hedron [0-9]+\.[0-9]+\.[0-9]+'
+expect_silent_stderr
 
 # Without arguments at a terminal it is the help, too.
 if script -q -e -c true /dev/null </dev/null >"$logs/script" 2>&1; then
@@ -100,5 +73,23 @@ else
     echo "not tested: a terminal, for there is no program 'script'"
 fi
 
-expect_files .
+# ---- the man page
+expect_exit 0 "$hedron" help man
+cp "$logs/stdout" "$work/hedron.1"
+# formatted COMMAND...: the page as text; the formatter has nothing to complain about.
+formatted() {
+    expect_exit 0 "$@" "$work/hedron.1"
+    expect_silent_stderr
+    sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$logs/stdout" | tr -s ' \n' '  ' >"$work/page"
+    for word in NAME SYNOPSIS DESCRIPTION COMMANDS 'EXIT STATUS' EXAMPLES 'hedron render scene.json -o out/%04d.png -o film.mkv' \
+        '130, 143' 'hedron convert' check devices selftest tune compare $rendering --output --layers --set; do
+        grep -q -F -e "$word" "$work/page" || fail "the man page lacks '$word'"
+    done
+}
+if command -v groff >"$logs/which"; then
+    formatted groff -man -Tascii -ww
+fi
+if command -v man >"$logs/which" && man --warnings -l "$work/hedron.1" >"$logs/man" 2>&1; then
+    formatted env MANWIDTH=100 man --warnings -l
+fi
 finish

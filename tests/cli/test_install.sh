@@ -14,18 +14,10 @@ prefix=$work/prefix
 unset DESTDIR
 expect_exit 0 cmake --install "$build" --prefix "$prefix"
 installed=$(find "$prefix" -path '*/bin/hedron' -type f)
-if [[ ! -x $installed ]]; then
-    fail "no program was installed"
-    installed=$hedron
-fi
-for script in hedron-submit hedron-task hedron-report; do
-    if [[ ! -x ${installed%/*}/$script ]]; then
-        fail "there is no $script beside the program"
-    fi
+for file in "$installed" "${installed%/*}"/hedron-{submit,task,report}; do
+    [[ -x $file ]] || fail "there is no program '$file'"
 done
-if [[ -z $(find "$prefix" -type f -name LICENSE) ]]; then
-    fail "no LICENSE was installed"
-fi
+[[ -n $(find "$prefix" -type f -name LICENSE) ]] || fail "no LICENSE was installed"
 if ! grep -q -a __tsan_init "$hedron"; then
     expect_same "$prefix/share/man/man1/hedron.1" <("$hedron" help man)
 fi
@@ -44,8 +36,7 @@ while IFS= read -r found; do
 done < <(grep -r -o --include='*.md' ']([^h#)][^)]*)' "$documents")
 expect_exit 0 "$installed" check "$documents"/scenes/*.json
 expect_stdout_contains 'five.json: fine'
-expect_exit 0 "${installed%/*}/hedron_model" sphere 12 -o sphere.obj
-rm sphere.obj
+expect_exit 0 "${installed%/*}/hedron_model" sphere 12
 
 # ---- the Debian packages have the same files, and name what they need
 if command -v cpack >"$logs/which" && command -v dpkg-shlibdeps >"$logs/which"; then
@@ -70,28 +61,21 @@ else
     echo "not tested: the package, for there is no cpack or no dpkg-shlibdeps"
 fi
 
-# A bare environment: nothing but PATH, a home folder that is empty or not there, and the root folder.
-small+=(--quiet)
-expect_exit 0 "$hedron" render --backend c "${small[@]}" --frames 3 -o expected.data
-for home in "$HOME" "$work/no/such/home"; do
+# expect_picture OPTION...: of the installed program, in the root folder, with nothing in its environment but what `bare` has.
+expect_picture() {
     cd /
-    expect_exit 0 env -i PATH="$PATH" HOME="$home" "$installed" render "${small[@]}" --frames 3 \
-        -o "$work/here/picture.data"
-    expect_silent_stderr
+    expect_exit 0 env -i "${bare[@]}" "$installed" render --quiet "${small[@]}" --frames 3 -o "$work/here/picture.data" "$@"
     cd "$work/here"
     expect_same picture.data expected.data
     rm -f picture.data
-done
-cd /
-expect_exit 0 env -i "$installed" render --backend c "${small[@]}" --frames 3 -o "$work/here/picture.data"
-cd "$work/here"
-expect_same picture.data expected.data
+}
+expect_exit 0 "$hedron" render --quiet --backend c "${small[@]}" --frames 3 -o expected.data
+bare=(PATH="$PATH" HOME="$work/no/such/home")
+expect_picture
+expect_silent_stderr
 if has_opencl; then
-    cd /
-    expect_exit 0 env -i PATH="$PATH" HOME="$HOME" "$installed" render --backend opencl "${small[@]}" \
-        --frames 3 -o "$work/here/picture.data"
-    cd "$work/here"
-    expect_same picture.data expected.data
+    bare=(PATH="$PATH" HOME="$HOME")
+    expect_picture --backend opencl
 fi
 
 finish

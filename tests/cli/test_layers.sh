@@ -9,7 +9,7 @@ build=${2:?the build folder is the second argument}
 cat >"$work/scene.json" <<'END'
 {
   "hedron": 1,
-  "image": {"width": 67, "height": 45, "samples": 3, "depth": 3},
+  "image": {"width": 50, "height": 34, "samples": 3, "depth": 3},
   "camera": {"field_of_view": 60, "eye": [4, -4, 2.5], "target": [0.3, 0, 0]},
   "background": [0.125, 0.25, 0.5],
   "materials": {"a": {"diffuse": 0.7, "reflection": 0.2}},
@@ -23,20 +23,6 @@ END
 cat >"$work/exr.py" <<'END'
 import json, math, struct, sys, zlib
 
-def text(data, at):
-    end = data.index(b"\0", at)
-    return data[at:end].decode(), end + 1
-
-def header(data):
-    attributes, at = {}, 8
-    while data[at]:
-        name, at = text(data, at)
-        _, at = text(data, at)
-        size, = struct.unpack_from("<i", data, at)
-        attributes[name] = data[at + 4:at + 4 + size]
-        at += 4 + size
-    return attributes, at + 1
-
 def unpack(packed, size):
     if len(packed) == size:
         return packed
@@ -48,19 +34,22 @@ def unpack(packed, size):
     return bytes(out)
 
 def read(path):
-    data = open(path, "rb").read()
-    attributes, at = header(data)
+    data, attributes, at = open(path, "rb").read(), {}, 8
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        size, = struct.unpack_from("<i", rest)
+        attributes[name.decode()] = rest[4:4 + size]
+        at += len(name) + len(kind) + size + 6
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     assert attributes["compression"] == b"\3"
     channels, place, listed = {}, 0, attributes["channels"]
     while listed[place]:
-        name, place = text(listed, place)
-        kind, = struct.unpack_from("<i", listed, place)
-        channels[name] = ("ehf"[kind] if kind else "I", [])
-        place += 16
-    line = sum(width * struct.calcsize(kind) for kind, _ in channels.values())
-    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at):
+        name = listed[place:listed.index(b"\0", place)]
+        channels[name.decode()] = "Ihf"[listed[place + len(name) + 1]], []
+        place += len(name) + 17
+    line = sum(width * (2 if kind == "h" else 4) for kind, _ in channels.values())
+    for offset in struct.unpack_from("<%dQ" % ((height + 15) // 16), data, at + 1):
         y, size = struct.unpack_from("<2i", data, offset)
         lines = min(16, top + height - y)
         pixels, here = unpack(data[offset + 8:offset + 8 + size], line * lines), 0
@@ -100,44 +89,33 @@ expect_exr all.exr '{n for n, (t, _) in c.items() if t == "h"} == set("RGBA")'
 expect_exr all.exr '{n for n, (t, _) in c.items() if t == "f"} == {"Z", "normal.X", "normal.Y", "normal.Z", "object", "samples"}'
 expect_exit 0 "${render[@]}" --backend c --layers object --set output.bits=32 -o some.exr
 expect_exr some.exr '{n: t for n, (t, _) in c.items()} == dict.fromkeys(("A", "B", "G", "R", "object"), "f")'
-expect_exit 0 "$hedron" compare --json some.exr plain.pfm
-expect_output_json 'j["identical"] and j["channels"] == [] and j["most_different"] is None'
 
 # ---- what is in them
 expect_exr all.exr 'set(what("object")) == {0, 1, 2, 3} and set(what("samples")) == {9}'
-expect_exr all.exr 'all((z == math.inf) == (o == 0) and z > 2 for z, o in zip(what("Z"), what("object")))'
 # The floor lies 3.5 below the eye and looks up; its farthest corner is 2 * sqrt(18) + sqrt(2) away by the ground.
-expect_exr all.exr 'all(3.5 < z < math.hypot(3.5, math.hypot(6, 6)) and abs(n - 1) < 1e-6
-    for z, n, o in zip(what("Z"), what("normal.Z"), what("object")) if o == 3)'
-expect_exr all.exr 'all(abs(math.hypot(*n) - (o > 0)) < 1e-6
-    for *n, o in zip(what("normal.X"), what("normal.Y"), what("normal.Z"), what("object")))'
+expect_exr all.exr 'all((z == math.inf) == (o == 0) and z > 2 and abs(math.hypot(*n) - (o > 0)) < 1e-6
+    and (o != 3 or 3.5 < z < math.hypot(3.5, math.hypot(6, 6)) and abs(n[2] - 1) < 1e-6)
+    for z, o, *n in zip(*map(what, ("Z", "object", "normal.X", "normal.Y", "normal.Z"))))'
 # Coverage comes in ninths. Where it is none, the colour is the background's, and only there and in part in between.
-expect_exr all.exr 'all(abs(a * 9 - round(a * 9)) < 0.01 for a in what("A")) and len(set(what("A"))) == 10'
-expect_exr all.exr 'all(rgb == [0.125, 0.25, 0.5] for *rgb, a in zip(what("R"), what("G"), what("B"), what("A")) if a == 0)'
-expect_exr all.exr 'all(o == 0 for o, a in zip(what("object"), what("A")) if a == 0)'
-expect_exr all.exr 'all(o > 0 for o, a in zip(what("object"), what("A")) if a == 1)'
+expect_exr all.exr 'len(set(what("A"))) == 10 and all(abs(a * 9 - round(a * 9)) < 0.01 and
+    (o == 0 and rgb == [0.125, 0.25, 0.5] if a == 0 else a < 1 or o > 0) for a, o, *rgb in zip(*map(what, ("A", "object", *"RGB"))))'
 # With triangles the same things have the same numbers.
 expect_exit 0 "${render[@]}" --backend c --layers "$all" --geometry triangles -o triangles.exr
 expect_exit 0 "$hedron" compare --json all.exr triangles.exr
 expect_output_json '{c["name"]: c["largest"] for c in j["channels"]}["object"] == 0'
 expect_output_json '0 < {c["name"]: c["largest"] for c in j["channels"]}["Z"] < 1e-4'
 # A part of the picture has the layers of that part.
-expect_exit 0 "${render[@]}" --backend c --layers "$all" --crop 20x11+30+17 -o part.exr
-expect_exr part.exr 'all(c[name][1] == [row[30:50] for row in read("all.exr")[name][1][17:28]] for name in c)'
+expect_exit 0 "${render[@]}" --backend c --layers "$all" --crop 20x11+26+17 -o part.exr
+expect_exr part.exr 'all(c[name][1] == [row[26:46] for row in read("all.exr")[name][1][17:28]] for name in c)'
 
 # ---- adaptive sampling: what pixels took, and what was left out of them, are what the statistics say
 adaptive=("${render[@]}" --aa adaptive --max-error 1.5 --samples 4 --layers "$all,bound")
 expect_exit 0 "${adaptive[@]}" --backend c -o adaptive.exr --stats lines.jsonl
-expect_exr adaptive.exr 'sum(what("samples")) == json.load(open("lines.jsonl"))["rays"]["primary"]'
-expect_exr adaptive.exr 'set(what("samples")) == {1, 16}'
-expect_exr adaptive.exr 'abs(max(what("bound")) - json.load(open("lines.jsonl"))["missing"]["largest"]) < 1e-6'
-expect_exr adaptive.exr '0 < max(what("bound")) <= 1.5'
+expect_exr adaptive.exr '(lambda line, bound: sum(what("samples")) == line["rays"]["primary"] and set(what("samples")) == {1, 16}
+    and 0 < bound <= 1.5 and abs(bound - line["missing"]["largest"]) < 1e-6)(json.load(open("lines.jsonl")), max(what("bound")))'
 expect_exit 0 "${render[@]}" --samples 4 --layers depth,normal,object -o grid.exr
 expect_exit 0 "$hedron" compare --json adaptive.exr grid.exr
 expect_output_json 'len(j["channels"]) == 6 and all(c["largest"] == 0 for c in j["channels"])'
-expect_exit 0 "${render[@]}" --backend c --max-error 1.5 --layers bound,samples -o bound.exr
-expect_exr bound.exr 'set(what("samples")) == {9} and max(what("bound")) > 0'
-
 # ---- the same bytes from every backend
 expect_exit 0 "${render[@]}" --backend c --lanes 1 --threads 1 --pipeline wavefront --layers "$all" -o other.exr
 expect_same all.exr other.exr
@@ -156,13 +134,11 @@ if [[ -e $build/tests/fake_cuda/libnvrtc.so.12 ]]; then
     done
     expect_exit 0 "${fake[@]}" "${adaptive[@]}" --backend cuda -o other.exr
     expect_same adaptive.exr other.exr
-    # Frames under way do not get in each other's way.
-    still=("${render[@]}" --set camera.frames=5 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
+    # Frames under way are kept apart.
+    still=("${render[@]}" --set camera.frames=3 --set 'camera.eye={"r0": 5, "z0": 2, "phi_frequency": 1}' --layers "$all")
     expect_exit 0 "${still[@]}" --backend c -o c/%d.exr
     expect_exit 0 "${fake[@]}" "${still[@]}" --backend cuda -o cuda/%d.exr
-    for i in 0 1 2 3 4; do
-        expect_same c/$i.exr cuda/$i.exr
-    done
+    expect_same <(cat c/*) <(cat cuda/*)
     rm -r c cuda
 fi
 
@@ -176,8 +152,6 @@ expect_stdout_contains 'normal.X             only in the first'
 python3 -c 'import sys; sys.stdout.buffer.write(open("all.exr", "rb").read().replace(b"object\0", b"obje\x1bt\0"))' >odd.exr
 expect_exit 0 "$hedron" compare all.exr odd.exr
 expect_stdout_contains 'obje\u001bt'
-expect_exit 0 "$hedron" compare all.exr all.exr
-expect_stdout_contains 'The pictures are identical.'
 
 # ---- what cannot be
 expect_refusal 2 "${render[@]}" --layers depth -o a.png

@@ -8,23 +8,19 @@ model=$(realpath "$2")/hedron_model
 
 # One sentence of the program's own, nothing on standard output: expect_model_refusal CODE WHAT ARGUMENT...
 expect_model_refusal() {
-    local expected=$1 what=$2
-    shift 2
-    expect_exit "$expected" timeout "$patience" "$model" "$@"
+    expect_exit "$1" timeout "$patience" "$model" "${@:3}"
     expect_stdout_lines 0
-    expect_stderr_contains "$what"
+    expect_stderr_contains "$2"
     if (($(grep -c -E '^hedron_model: .{10,}$' "$logs/stderr") != 1 || $(wc -l <"$logs/stderr") != 1)); then
         fail "standard error is not one sentence"
-        show_logs
     fi
 }
 
-# Prints the number of vertices, of triangles, of directed edges that do not occur exactly once in each
-# direction, and whether the volume that the triangles enclose is positive.
+# Prints the number of directed edges that do not occur exactly once in each direction, and whether the volume that the
+# triangles enclose is positive.
 measure() {
     awk '$1 == "v" { n++; for (i = 0; i < 3; i++) p[n, i] = $(2 + i) }
         $1 == "f" {
-            f++
             for (i = 0; i < 3; i++) edges[$(2 + i), $(2 + (i + 1) % 3)]++
             a = $2; b = $3; c = $4
             volume += p[a, 0] * (p[b, 1] * p[c, 2] - p[b, 2] * p[c, 1])
@@ -36,8 +32,8 @@ measure() {
                 split(edge, ends, SUBSEP)
                 bad += edges[edge] != 1 || edges[ends[2], ends[1]] != 1
             }
-            print n, f, bad + 0, (volume > 0 ? "positive" : "not positive")
-        }' "$1"
+            print bad + 0, (volume > 0 ? "positive" : "not positive")
+        }'
 }
 
 # expect_model KIND WANTED VERTICES TRIANGLES: what is said and what is there, and hedron takes all of it.
@@ -69,73 +65,38 @@ JSON
 
 # ---- every kind, from the fewest triangles on
 expect_model sphere 12 8 12
-expect_model sphere 1000 488 972
 expect_model sphere 20000 10088 20172
 expect_model knot 12 9 18
-expect_model knot 150 75 150
-expect_model knot 20000 10000 20000
 expect_model soup 12 36 12
 expect_model soup 20000 60000 20000
 
 # ---- closed, and seen from outside counterclockwise
 for kind in sphere knot; do
-    for triangles in 150 3000; do
-        "$model" "$kind" "$triangles" >closed.obj
-        found=$(measure closed.obj)
-        if [[ $found != *' 0 positive' ]]; then
-            fail "$kind $triangles has '$found' vertices, triangles, open edges and volume"
-        fi
-    done
+    expect_same <("$model" "$kind" 3000 | measure) <(echo '0 positive')
 done
 
-# ---- the same bytes every time, to standard output too
-for kind in sphere knot soup; do
-    expect_exit 0 "$model" "$kind" 20000
-    if [[ $kind == sphere ]]; then
-        expect_different "$logs/stdout" knot.obj
-    fi
-    expect_same "$logs/stdout" "$kind.obj"
-done
 rm ./*.obj
 
 # ---- wrong usage
-expect_model_refusal 2 'expected KIND and TRIANGLES'
 expect_model_refusal 2 'expected KIND and TRIANGLES' knot
 expect_model_refusal 2 '"teapot" is an unknown kind' teapot 100
-for triangles in 11 10000001 1e3 -5 '' 4294967396 99999999999999999999 100x; do
-    [[ $triangles == -* ]] || expect_model_refusal 2 "TRIANGLES is \"$triangles\"" knot "$triangles"
+for triangles in 11 10000001 1e3 '' 4294967396; do
+    expect_model_refusal 2 "TRIANGLES is \"$triangles\"" knot "$triangles"
 done
 expect_model_refusal 2 '-5 is an unknown option' knot -5
 expect_model_refusal 2 '"100" is too much' knot 100 100
-expect_model_refusal 2 'after -o' knot 100 -o
 expect_model_refusal 2 'after -o' knot 100 -o a.obj -o b.obj
-expect_model_refusal 2 'expected the name of a file' knot 100 -o ''
 expect_model_refusal 2 'is not a regular file' knot 100 -o .
-expect_exit 0 "$model" --help
-expect_silent_stderr
-expect_stdout_contains 'Usage: hedron_model KIND TRIANGLES'
 
 # ---- what cannot be written is told, and leaves what was there
 if [[ -c /dev/full ]]; then
-    for triangles in 12 20000; do
-        code=0
-        "$model" knot "$triangles" >/dev/full 2>"$logs/stderr" || code=$?
-        ((code == 1)) || fail "exit code $code with a full disk, expected 1"
-        expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
-        code=0
-        "$model" --help >/dev/full 2>"$logs/stderr" || code=$?
-        ((code == 1)) || fail "exit code $code of the help with a full disk, expected 1"
-        expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
-    done
+    expect_exit 1 bash -c "'$model' knot 12 >/dev/full"
+    expect_stderr_contains 'hedron_model: cannot write to standard output: No space left'
 fi
 echo old >old.obj
-code=0
-(ulimit -f 100 && "$model" knot 20000 -o old.obj) 2>"$logs/stderr" || code=$?
-((code == 1)) || fail "exit code $code beyond the limit of a file's size, expected 1"
+expect_exit 1 bash -c "ulimit -f 100; '$model' knot 20000 -o old.obj"
 expect_stderr_contains 'hedron_model: cannot write old.obj: File too large'
-if [[ $(cat old.obj) != old ]]; then
-    fail "old.obj is not what it was"
-fi
+expect_same old.obj <(echo old)
 start "$model" soup 10000000 -o late.obj
 wait_until "$patience" compgen -G 'late.obj.tmp-*' >/dev/null || fail "there is no temporary file"
 kill -INT "$pid"
@@ -149,13 +110,6 @@ expect_same knot.obj "$project/scenes/knot.obj"
 expect_exit 0 "$hedron" check "$project/scenes/knot.json"
 expect_silent_stderr
 expect_stdout_lines 1 '.*/knot\.json: fine, 1 solid, 1 mesh of 8000 triangles in 1 place, .*'
-expect_exit 0 "$hedron" render --quiet --backend c "$project/scenes/knot.json" "${small[@]}" --frames 0 -o knot.data
-expect_silent_stderr
-expect_data knot.data 32 24
-expect_exit 0 "$model" knot 30000 -o many.obj
-expect_exit 0 "$hedron" render --quiet --backend c "$project/scenes/knot.json" "${small[@]}" --frames 0 -o many.data \
-    --set "meshes[0].file=$PWD/many.obj"
-expect_different knot.data many.data
 
 # ---- of clear air, nothing of the model is seen; all its images together take a depth beyond 60
 render_far() {
@@ -166,7 +120,4 @@ render_far() {
 render_far -o none.data --set 'meshes=[]'
 render_far -o clear.data --set 'materials."apricot glass"={"transmission": 1}'
 expect_same clear.data none.data
-render_far -o tinted.data --set 'materials."apricot glass"={"transmission": 0.99}'
-expect_different tinted.data none.data
-
 finish

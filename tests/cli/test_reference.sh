@@ -8,8 +8,5 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 need_python
 run python3 -B "$project/tests/reference/compare_scenes.py" "$hedron" 7 20
 cat "$logs/stdout"
-if ((code != 0)); then
-    fail "the tracer has other pixels"
-    cat "$logs/stderr" >&2
-fi
+((code == 0)) || fail "the tracer has other pixels: $(<"$logs/stderr")"
 finish

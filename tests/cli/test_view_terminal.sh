@@ -20,13 +20,14 @@ see() {
     shift
     expect_exit "${expected_code:-0}" "${no_nvidia[@]}" "$cli_folder/in_terminal" 80x24 "$answer" screen "${steps[@]}" \
         -- "$hedron" view --terminal "$@"
+    cp "$logs/stdout" said
 }
 
 # expect_view PICTURE OPTION...: what 'hedron render' makes of the camera that was printed last.
 expect_view() {
     local picture=$1 camera
     shift
-    camera=$(sed -n 's/^"camera": //p' "$logs/stdout" | tail -n 1)
+    camera=$(sed -n 's/^"camera": //p' said | tail -n 1)
     expect_exit 0 "${no_nvidia[@]}" "$hedron" render --quiet --again --frames 0 -o view.png --set "camera=$camera" "$@"
     expect_exit 0 "$hedron" compare view.png "$picture" --fail-above 0
     expect_stdout_contains identical
@@ -50,11 +51,8 @@ see blocks wait:finished 'keys:fpc' wait:saved 'keys:]m' 'keys:pc' wait:saved ke
     -- --backend c "${small[@]}"
 grep -q 'double, depth 15, adaptive, 3 x 3 samples' screen || fail "the settings are not on the screen"
 deeper=(--backend c --size 48x36 --samples 3 --depth 15 --precision double)
-cp "$logs/stdout" printed
 expect_view hedron-001.png --backend c "${small[@]}" --precision double
-cp printed "$logs/stdout"
 expect_view hedron-002.png "${deeper[@]}"
-cp printed "$logs/stdout"
 expect_view hedron-003.png "${deeper[@]}" --aa adaptive
 
 # ---- a picture that takes minutes, of passes that hang together, is given up for a key
@@ -82,11 +80,8 @@ head -n 5 good.json >torn.json
 see blocks wait:finished 'sh:cp wrong.json scene.json' 'wait:circumradius is -1' 'sh:cp torn.json scene.json' \
     'wait:scene.json:6' 'sh:sed "s/\"kind\": *\"cube\"/\"kind\": \"icosahedron\"/" good.json >scene.json' wait:moving \
     keys:pc wait:saved keys:q -- scene.json --backend c "${small[@]}"
-cp "$logs/stdout" printed
 expect_stdout_contains scene-001.png
-camera=$(sed -n 's/^"camera": //p' printed)
-expect_exit 0 "$hedron" render --quiet scene.json --frames 0 --backend c "${small[@]}" --set "camera=$camera" -o view.png
-expect_exit 0 "$hedron" compare view.png scene-001.png --fail-above 0
+expect_view scene-001.png scene.json --backend c "${small[@]}"
 
 # ---- what terminals say of themselves
 see kitty wait:finished keys:q -- --backend c "${small[@]}"

@@ -30,37 +30,13 @@ server=$!
 trap 'clean_up; kill "$server"' EXIT
 # await WHAT COMMAND...: until the command succeeds, 20 s at most.
 await() {
-    local what=$1 i
-    shift
-    for ((i = 0; i < 200; i++)); do
-        if "$@" >/dev/null 2>&1; then
-            return 0
-        fi
-        sleep 0.1
-    done
-    fail "$what did not come: $(cat errors 2>/dev/null)"
-    return 1
+    wait_until 20 "${@:2}" >/dev/null 2>&1 || fail "$1 did not come: $(cat errors 2>/dev/null)"
 }
 await 'the display' test -s display
 DISPLAY=:$(<display)
 export DISPLAY
 unset WAYLAND_DISPLAY
 export SDL_VIDEODRIVER=x11 DBUS_SESSION_BUS_ADDRESS=unix:path=/nonexistent # nothing is waited for that is not there
-
-# The keys go to the window under the pointer, for there is no window manager.
-start_view() {
-    "${no_nvidia[@]}" "$hedron" view "$@" >said 2>errors &
-    view=$!
-    await 'the window' xdotool search --name '^hedron$'
-    xdotool mousemove 640 400
-}
-
-end_view() {
-    local ended=0
-    xdotool key q
-    wait "$view" || ended=$?
-    ((ended == 0)) || fail "the view ended with $ended: $(<errors)"
-}
 
 # expect_saved NUMBER OPTION...: the picture with that number is what 'hedron render' makes of the camera.
 expect_saved() {
@@ -74,32 +50,25 @@ expect_saved() {
     expect_stdout_contains identical
 }
 
-# ---- keys and mouse, on plain C and on OpenCL
-backends=(c)
-if has_opencl; then
-    backends+=(opencl)
-fi
-for backend in "${backends[@]}"; do
-    start_view --backend "$backend" "${small[@]}"
-    xdotool key Right Up d plus
-    xdotool mousedown 1 mousemove 700 380 mouseup 1 click 4
-    xdotool key c p
-    expect_saved 001 "${small[@]}"
-    rm -f hedron-001.png
-    end_view
-done
-
-# ---- settings, the split view and the help are drawn
-start_view --backend c "${small[@]}"
-xdotool key p c
+# ---- keys and mouse, which go to the window under the pointer, for there is no window manager
+"${no_nvidia[@]}" "$hedron" view --backend c "${small[@]}" >said 2>errors &
+view=$!
+await 'the window' xdotool search --name '^hedron$'
+xdotool mousemove 640 400
+xdotool key Right Up d plus
+xdotool mousedown 1 mousemove 700 380 mouseup 1 click 4
+xdotool key c p
 expect_saved 001 "${small[@]}"
 import -window root still.png
 (($(identify -format '%k' still.png) > 500)) || fail "the window shows no picture"
+
+# ---- settings, the split view and the help are drawn
 xdotool key f bracketright m x p
 expect_saved 002 --size 96x54 --samples 3 --depth 15 --precision double --aa adaptive
 xdotool key 2 x h
 sleep 1
 import -window root split.png
 expect_different still.png split.png
-end_view
+xdotool key q
+wait "$view" || fail "the view ended with $?: $(<errors)"
 finish

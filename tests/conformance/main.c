@@ -10,7 +10,9 @@
    --brief so do kernels of a scene's own, beside all frames without, processors with more lanes
    than they take by themselves, and the variants that differ from another only in how the work is
    cut, which are left out in double; with more lanes than that no scene has kernels of its own;
-   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. With
+   with fewer none has them in plain C, and where kernels are compiled no frame is surveyed. In
+   double, where kernels are compiled, it leaves out all lanes but one and those, unless --lanes
+   asks for others, and CPUs that work as GPUs do. With
    --ptx 61 CUDA compiles to PTX for compute_61, of which the driver makes machine code for the
    device: so the text for a Pascal card runs on any newer one.
 
@@ -23,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../options.h"
 #include "base/hash.h"
 #include "certify/golden.h"
 #include "device/renderer.h"
@@ -32,11 +35,10 @@
 #include "truths.h"
 #include "variants.h"
 
-enum { MAX_FRAMES = 64, MAX_NAME = 64, LANE_COUNTS = 4, ALL = -1 };
+enum { MAX_FRAMES = 64, MAX_NAME = 64 };
 /* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.
  */
 enum { OWN_BUILDS = 8 };
-enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
 
 static const char usage[] =
     "usage: hedron_conformance [--write-golden FILE] [--math strict|fast]\n"
@@ -44,11 +46,6 @@ static const char usage[] =
     "                          [--precision float|double] [--threads 1|2]\n"
     "                          [--one-build] [--few] [--brief] [--pictures FOLDER]\n"
     "                          [--ptx ARCHITECTURE] (of CUDA; 61: compute_61, a Pascal card's)\n";
-static const char *const precision_names[2] = {"float", "double"};
-static const char *const math_names[2] = {"strict", "fast"};
-static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
-static const char *const thread_names[] = {"1", "2"};
-static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 
 /* Which frames are rendered; those that are surveyed have kernels of their own. */
 typedef enum Frames { FEW, NOT_SURVEYED, EVERY } Frames;
@@ -62,7 +59,7 @@ typedef struct Options {
     const char *write_golden, *pictures;
     const HdBackend *backend; /* NULL: all */
     int lanes, precision;     /* an index into lane_counts, an HdPrecision; or ALL */
-    int threads;              /* an index into thread_names; or ALL */
+    int threads;              /* one less than there are; or ALL */
     bool one_build, few, brief;
     int math;
     int ptx_arch; /* 0: machine code */
@@ -265,6 +262,9 @@ static void check_lanes(const HdDevice *device, HdPrecision precision, const Opt
             .pipeline = HD_PIPELINE_MEGA,
         };
         bool compiles = device->is_cpu && !needs_no_build(device);
+        if (options->brief && options->lanes == ALL && compiles &&
+            precision == HD_PRECISION_DOUBLE && i > 0 && lane_counts[i] != most_for_all)
+            continue;
         bool has_own = compiles ? lane_counts[i] == OWN_BUILDS
                                 : !options->brief || lane_counts[i] == most_for_all;
         bool own_builds = !options->one_build && lane_counts[i] <= most_for_all && has_own;
@@ -285,7 +285,8 @@ static void check_variants(const HdDevice *device, HdPrecision precision, const 
                            Golden *golden, Tally *tally) {
     for (int i = 0; i < variant_count; i++) {
         const Variant *variant = &variants[i];
-        bool only_cut = options->brief && (variant->frames & ONLY_CUT) != 0;
+        bool only_cut = options->brief &&
+                        ((variant->frames & ONLY_CUT) != 0 || variant->kind == FOR_CPUS_AS_GPUS);
         if (options->lanes != ALL || !variant_suits(variant, device) ||
             (only_cut && precision == HD_PRECISION_DOUBLE))
             continue;
@@ -315,50 +316,27 @@ static void check_backend(const HdBackend *backend, const Options *options, Gold
         check_device(&devices[i], options, golden, tally);
 }
 
-static bool parse_option(Options *options, const char *name, const char *value) {
-    if (strcmp(name, "--write-golden") == 0)
-        return (options->write_golden = value) != NULL;
-    if (strcmp(name, "--pictures") == 0)
-        return (options->pictures = value) != NULL;
-    if (strcmp(name, "--backend") == 0)
-        return (options->backend = hd_backend_find(value)) != NULL;
-    if (strcmp(name, "--math") == 0)
-        return (options->math = choose(value, math_names, 2)) >= 0;
-    if (strcmp(name, "--lanes") == 0)
-        return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
-    if (strcmp(name, "--precision") == 0)
-        return (options->precision = choose(value, precision_names, 2)) >= 0;
-    if (strcmp(name, "--threads") == 0)
-        return (options->threads = choose(value, thread_names, 2)) >= 0;
-    if (strcmp(name, "--ptx") == 0) {
+static bool parse(Options *options, int count, char **arguments) {
+    static const char *const maths[] = {"strict", "fast", NULL}, *const threads[] = {"1", "2",
+                                                                                     NULL};
+    const Option list[] = {
+        {"--write-golden", .text = &options->write_golden},
+        {"--pictures", .text = &options->pictures},
+        {"--backend", .backend = &options->backend},
+        {"--math", .number = &options->math, .choices = maths},
+        {"--lanes", .number = &options->lanes, .choices = lane_names},
+        {"--precision", .number = &options->precision, .choices = precision_names},
+        {"--threads", .number = &options->threads, .choices = threads},
+        {"--ptx", .number = &options->ptx_arch},
+        {"--one-build", .flag = &options->one_build},
+        {"--few", .flag = &options->few},
+        {"--brief", .flag = &options->brief},
+        {.name = NULL},
+    };
+    if (!parse_options(list, count, arguments))
+        return false;
+    if (options->ptx_arch > 0)
         options->backend = &hd_backend_cuda;
-        return (options->ptx_arch = atoi(value)) > 0;
-    }
-    return false;
-}
-
-static bool parse_options(Options *options, int count, char **arguments) {
-    for (int i = 1; i < count; i++) {
-        if (strcmp(arguments[i], "--one-build") == 0) {
-            options->one_build = true;
-            continue;
-        }
-        if (strcmp(arguments[i], "--few") == 0) {
-            options->few = true;
-            continue;
-        }
-        if (strcmp(arguments[i], "--brief") == 0) {
-            options->brief = true;
-            continue;
-        }
-        const char *value = i + 1 < count ? arguments[i + 1] : NULL;
-        if (value == NULL || !parse_option(options, arguments[i], value)) {
-            fprintf(stderr, "hedron_conformance: not understood: %s %s\n", arguments[i],
-                    value == NULL ? "" : value);
-            return false;
-        }
-        i++;
-    }
     return true;
 }
 
@@ -373,7 +351,7 @@ int main(int count, char **arguments) {
     Options options = {.math = HD_MATH_STRICT, .lanes = ALL, .precision = ALL, .threads = ALL};
     Golden golden = {0};
     Tally tally = {0};
-    if (!parse_options(&options, count, arguments)) {
+    if (!parse(&options, count, arguments)) {
         fputs(usage, stderr);
         return EXIT_USAGE;
     }

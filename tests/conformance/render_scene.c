@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "certify/render_scene.h"
 #include "input/check.h"
@@ -12,13 +11,6 @@ _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);
     fprintf(stderr, "%s: %s\n", what, error->message);
     exit(1);
-}
-
-int choose(const char *name, const char *const *names, int count) {
-    for (int i = 0; i < count; i++)
-        if (strcmp(name, names[i]) == 0)
-            return i;
-    return -1;
 }
 
 int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]) {

@@ -19,9 +19,6 @@ typedef struct Target {
     char label[1024]; /* for messages */
 } Target;
 
-/* The index of the name, or -1. */
-int choose(const char *name, const char *const *names, int count);
-
 /* The devices of a backend; where they cannot be listed the reason is printed, and there are none.
  */
 int find_devices(const HdBackend *backend, HdDevice devices[HD_MAX_DEVICES]);

@@ -85,7 +85,6 @@ void check_first_hits(Check *check) {
     HdScene scene;
     HdCamera camera;
     int compared[3] = {0}, partly = 0;
-    begin(check);
     if (!check->target->first_hits)
         return;
     build(&scene, &camera);

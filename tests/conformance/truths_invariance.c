@@ -9,14 +9,12 @@
 #include "certify/scene_builder.h"
 #include "scene/camera.h"
 #include "scene/triangulate/scene.h"
-#include "truth_check.h"
 #include "truths.h"
 
 enum { WIDTH = 48, HEIGHT = 36, SIDE = 32 };
 
 /* Truths that are yes or no. */
 static void expect_true(Check *check, const char *truth, bool holds) {
-    begin(check);
     expect(check, truth, 0, 0, holds ? 1.0 : 0.0, 1.0);
 }
 
@@ -125,7 +123,6 @@ static void check_quarter_turn(Check *check) {
             for (int c = 0; c < 3; c++)
                 different += fabs(channel_of(&after, j, SIDE - 1 - i, c) -
                                   channel_of(&before, i, j, c)) > 1e-3;
-    begin(check);
     expect_compared(check, "a quarter turn turns the picture", MOST_DIFFERENT - different, 0);
     hd_frame_free(&before);
     hd_frame_free(&after);
@@ -159,17 +156,26 @@ static HdFrame render_lit(const Check *check, int first_light, double power) {
     return render_last(check, &scene, &camera);
 }
 
+/* Every value of a picture is as many times another one's; returns how many are above 1. */
+static int expect_times(Check *check, const char *truth, const HdFrame *found, double power,
+                        const HdFrame *before) {
+    int bright = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            for (int c = 0; c < 3; c++) {
+                const double expected = power * channel_of(before, x, y, c);
+                bright += expected > 1.0;
+                expect(check, truth, x, y, channel_of(found, x, y, c), expected);
+            }
+    return bright;
+}
+
 /* Sums of floats depend on the order in their last digits alone. */
 static void check_light_order(Check *check) {
     HdFrame before = render_lit(check, 0, 1.0);
     for (int first = 1; first < LIGHTS; first += 2) {
         HdFrame after = render_lit(check, first, 1.0);
-        begin(check);
-        for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++)
-                for (int c = 0; c < 3; c++)
-                    expect(check, "another order of the lights", x, y, channel_of(&after, x, y, c),
-                           channel_of(&before, x, y, c));
+        expect_times(check, "another order of the lights", &after, 1.0, &before);
         hd_frame_free(&after);
     }
     hd_frame_free(&before);
@@ -179,17 +185,8 @@ static void check_light_order(Check *check) {
 static void check_doubled_light(Check *check) {
     HdFrame before = render_lit(check, 0, 1.0);
     for (double power = 2.0; power <= 512.0; power *= 16.0) {
-        int bright = 0;
         HdFrame after = render_lit(check, 0, power);
-        begin(check);
-        for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++)
-                for (int c = 0; c < 3; c++) {
-                    const double expected = power * channel_of(&before, x, y, c);
-                    bright += expected > 1.0;
-                    expect(check, "light of more power", x, y, channel_of(&after, x, y, c),
-                           expected);
-                }
+        int bright = expect_times(check, "light of more power", &after, power, &before);
         expect_compared(check, "light of more power, above 1", bright, 1);
         hd_frame_free(&after);
     }
@@ -267,7 +264,6 @@ static void check_energy(Check *check, double shares) {
     scene.floor.material = build_material(grey(1.0), shares, 0.0);
     scene.floor.material.ambient = 1.0 - shares;
     HdFrame frame = render_last(check, &scene, &camera);
-    begin(check);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             const double found = red(&frame, x, y);
@@ -305,7 +301,6 @@ static void check_small_step(Check *check) {
         camera.eye.z += i * 3e-6;
         frames[i] = render_last(check, &scene, &camera);
     }
-    begin(check);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             for (int c = 0; c < 3; c++) {

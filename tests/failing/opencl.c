@@ -7,28 +7,45 @@
    it in the text of a program.
    FAILING_OPENCL_NAME is what each device says is its name, and with FAILING_OPENCL_LIES a driver
    claims a hundred devices more than it has, and texts of all the memory that there is, which it
-   then writes to. */
+   then writes to.
+   With FAILING_OPENCL_NS the devices are GPUs whose queues have no profiling, each work item takes
+   so many nanoseconds, and the clock only goes on, to the end of all that is queued, while the host
+   waits for it. At its end the program appends to the file FAILING_OPENCL_REPORT how many launches
+   there were and how many of them took more than 50 ms. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
+#include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
+
+#include "real.h"
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations" /* what 1.2 had is what is used */
 
-static atomic_int calls;
+static atomic_int calls, launches, too_long;
+static atomic_long now = 1, over = 1; /* nanoseconds */
 
-static int number_of(const char *name, int otherwise) {
-    const char *text = getenv(name);
-    return text != NULL ? atoi(text) : otherwise;
+/* The kernel is asked for other clocks: the loader's lock may be held by who wants the time. */
+int clock_gettime(clockid_t clock, struct timespec *time) {
+    if (clock != CLOCK_MONOTONIC || getenv("FAILING_OPENCL_NS") == NULL)
+        return (int)syscall(SYS_clock_gettime, clock, time);
+    *time = (struct timespec){now / 1000000000, now % 1000000000};
+    return 0;
+}
+
+__attribute__((destructor)) static void report(void) {
+    const char *name = getenv("FAILING_OPENCL_REPORT");
+    int file = name != NULL && launches > 0 ? open(name, O_WRONLY | O_CREAT | O_APPEND, 0666) : -1;
+    if (file >= 0 && dprintf(file, "%d %d\n", launches, too_long) > 0)
+        close(file);
 }
 
 /* What the call is to fail with, or CL_SUCCESS. */
@@ -36,7 +53,7 @@ static cl_int failure_of(const char *function) {
     const char *failing = getenv("FAILING_OPENCL"), *mark = getenv("FAILING_OPENCL_HANGS");
     if (failing == NULL || strcmp(failing, function) != 0)
         return CL_SUCCESS;
-    int past = atomic_fetch_add(&calls, 1) + 1 - number_of("FAILING_OPENCL_AT", 1);
+    long past = atomic_fetch_add(&calls, 1) + 1 - number_of("FAILING_OPENCL_AT", 1);
     if (past < 0 || past >= number_of("FAILING_OPENCL_TIMES", INT_MAX))
         return CL_SUCCESS;
     if (mark != NULL) {
@@ -44,40 +61,52 @@ static cl_int failure_of(const char *function) {
         for (;;)
             pause();
     }
-    return number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
+    return (cl_int)number_of("FAILING_OPENCL_CODE", CL_OUT_OF_RESOURCES);
 }
 
 /* Those that return a code, and those that return a handle and the code by their last argument. */
 #define CODED(name, parameters, arguments)                                                         \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         return failure != CL_SUCCESS ? failure : real arguments;                                   \
     }
 /* Those that wait do so even then: nobody may use memory that a copy still reads. */
 #define WAITING(name, parameters, arguments)                                                       \
     cl_int name parameters {                                                                       \
         cl_int(*real) parameters;                                                                  \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         cl_int code = real arguments;                                                              \
+        now = over;                                                                                \
         return failure != CL_SUCCESS ? failure : code;                                             \
     }
 #define MADE(type, name, parameters, arguments)                                                    \
     type name parameters {                                                                         \
         type(*real) parameters;                                                                    \
-        void *found = dlsym(RTLD_NEXT, #name);                                                     \
         cl_int failure = failure_of(#name);                                                        \
-        memcpy(&real, &found, sizeof real);                                                        \
+        find_real(#name, &real);                                                                   \
         if (failure == CL_SUCCESS)                                                                 \
             return real arguments;                                                                 \
         if (code != NULL)                                                                          \
             *code = failure;                                                                       \
         return NULL;                                                                               \
     }
+
+/* No queue has these where there is no profiling. */
+static cl_command_queue_properties offered(cl_command_queue_properties wanted) {
+    return getenv("FAILING_OPENCL_NS") != NULL && wanted != 0 ? ~(cl_command_queue_properties)0
+                                                              : wanted;
+}
+
+static cl_command_queue queued(cl_command_queue queue, size_t items) {
+    long length = number_of("FAILING_OPENCL_NS", 0) * (long)items;
+    over = (over > now ? over : now) + length;
+    launches++;
+    too_long += length > 50000000;
+    return queue;
+}
 
 typedef void(CL_CALLBACK *OnContext)(const char *, const void *, size_t, void *);
 typedef void(CL_CALLBACK *OnProgram)(cl_program, void *);
@@ -88,9 +117,8 @@ CODED(clGetPlatformIDs, (cl_uint capacity, cl_platform_id *list, cl_uint *count)
 cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint capacity,
                       cl_device_id *list, cl_uint *count) {
     cl_int (*real)(cl_platform_id, cl_device_type, cl_uint, cl_device_id *, cl_uint *);
-    void *found = dlsym(RTLD_NEXT, "clGetDeviceIDs");
     cl_int failure = failure_of("clGetDeviceIDs");
-    memcpy(&real, &found, sizeof real);
+    find_real("clGetDeviceIDs", &real);
     cl_int code = failure != CL_SUCCESS ? failure : real(platform, type, capacity, list, count);
     if (code == CL_SUCCESS && count != NULL && getenv("FAILING_OPENCL_LIES") != NULL)
         *count += 100;
@@ -112,11 +140,14 @@ static cl_int answer(const char *text, size_t room, void *value, size_t *size) {
 cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t room, void *value,
                        size_t *size) {
     cl_int (*real)(cl_device_id, cl_device_info, size_t, void *, size_t *);
-    void *found = dlsym(RTLD_NEXT, "clGetDeviceInfo");
     const char *name = getenv("FAILING_OPENCL_NAME");
-    memcpy(&real, &found, sizeof real);
-    return name != NULL && what == CL_DEVICE_NAME ? answer(name, room, value, size)
-                                                  : real(device, what, room, value, size);
+    find_real("clGetDeviceInfo", &real);
+    if (name != NULL && what == CL_DEVICE_NAME)
+        return answer(name, room, value, size);
+    cl_int code = real(device, what, room, value, size);
+    if (getenv("FAILING_OPENCL_NS") != NULL && what == CL_DEVICE_TYPE && value != NULL)
+        *(cl_device_type *)value = CL_DEVICE_TYPE_GPU;
+    return code;
 }
 
 MADE(cl_context, clCreateContext,
@@ -126,7 +157,7 @@ MADE(cl_context, clCreateContext,
 MADE(cl_command_queue, clCreateCommandQueue,
      (cl_context context, cl_device_id device, cl_command_queue_properties properties,
       cl_int *code),
-     (context, device, properties, code))
+     (context, device, offered(properties), code))
 
 /* The caller's, with every `from` replaced. */
 static char *replaced(const char *text, const char *from, const char *by) {
@@ -148,9 +179,8 @@ static char *replaced(const char *text, const char *from, const char *by) {
 cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const char **texts,
                                      const size_t *lengths, cl_int *code) {
     cl_program (*real)(cl_context, cl_uint, const char **, const size_t *, cl_int *);
-    void *found = dlsym(RTLD_NEXT, "clCreateProgramWithSource");
     const char *from = getenv("FAILING_OPENCL_TEXT"), *by = getenv("FAILING_OPENCL_FOR");
-    memcpy(&real, &found, sizeof real);
+    find_real("clCreateProgramWithSource", &real);
     if (from == NULL || by == NULL)
         return real(context, count, texts, lengths, code);
     char *text = replaced(texts[0], from, by);
@@ -187,7 +217,7 @@ CODED(clEnqueueNDRangeKernel,
       (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
        const size_t *global, const size_t *local, cl_uint count, const cl_event *waits,
        cl_event *event),
-      (queue, kernel, dimensions, offset, global, local, count, waits, event))
+      (queued(queue, global[0]), kernel, dimensions, offset, global, local, count, waits, event))
 WAITING(clWaitForEvents, (cl_uint count, const cl_event *events), (count, events))
 CODED(clFlush, (cl_command_queue queue), (queue))
 WAITING(clFinish, (cl_command_queue queue), (queue))

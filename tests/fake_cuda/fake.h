@@ -87,7 +87,9 @@ typedef struct FakeLaunch {
 
 /* Queues a launch, whose arguments become the queue's. */
 HdCuResult fake_queue_launch(HdCuStream stream, FakeLaunch launch);
-bool fake_is_idle(void);
+
+/* Tells of what is queued, for something is freed. */
+void fake_expect_idle(void);
 
 /* ---- launches (launch.c, fibers.c) ---- */
 

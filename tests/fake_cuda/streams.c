@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Streams and events. What is queued is carried out as late as possible: when somebody waits for
-   it. So memory that is used again too early, and a wait that is missing, shows. FAKE_CUDA_EAGER
-   carries everything out at once. Time passes only while kernels run: what they take, or
-   FAKE_CUDA_THREAD_NS nanoseconds for each of their threads. With FAKE_CUDA_SKIPS they do nothing,
-   in no time. */
+   it. So memory that is used again too early, and a wait that is missing, shows. Time passes only
+   while kernels run: what they take, or FAKE_CUDA_THREAD_NS nanoseconds for each of their threads.
+   With FAKE_CUDA_SKIPS they do nothing, in no time. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>
@@ -122,11 +121,12 @@ static void carry_out(Operation *operation) {
     free(operation->launch.arguments);
 }
 
-bool fake_is_idle(void) {
+void fake_expect_idle(void) {
+    bool is_idle = true;
     for (int i = 0; i < queued; i++)
-        if (!queue[i].done)
-            return false;
-    return true;
+        is_idle = is_idle && queue[i].done;
+    if (!is_idle)
+        fake_misuse(HD_CU_SUCCESS, "something was freed that may be in use");
 }
 
 static void run_all(void) {
@@ -150,8 +150,6 @@ static HdCuResult put(Operation operation) {
     if (queued == MAX_OPERATIONS)
         return fake_misuse(HD_CU_ERROR_OUT_OF_MEMORY, "nobody waits for what is queued");
     queue[queued++] = operation;
-    if (getenv("FAKE_CUDA_EAGER") != NULL)
-        run_all();
     return fake_lost();
 }
 
@@ -233,8 +231,7 @@ HdCuResult cuStreamCreate(HdCuStream *stream, unsigned int flags) {
 
 HdCuResult cuStreamDestroy_v2(HdCuStream stream) {
     FAKE_CALL(cuStreamDestroy);
-    if (!fake_is_idle())
-        fake_misuse(HD_CU_SUCCESS, "something was freed that may be in use");
+    fake_expect_idle();
     HdCuResult code = check_stream(stream);
     fake_forget(FAKE_STREAM, stream);
     return code;
@@ -278,8 +275,7 @@ HdCuResult cuEventCreate(HdCuEvent *event, unsigned int flags) {
 
 HdCuResult cuEventDestroy_v2(HdCuEvent event) {
     FAKE_CALL(cuEventDestroy);
-    if (!fake_is_idle())
-        fake_misuse(HD_CU_SUCCESS, "something was freed that may be in use");
+    fake_expect_idle();
     HdCuResult code = check_event(event, false);
     fake_forget(FAKE_EVENT, event);
     return code;

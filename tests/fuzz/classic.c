@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "scene_work.h"
 #include "system/path.h"
 
 static char *print(const HdSceneFile *input, size_t *size) {

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "scene/scene.h"
 
 /* 0, as libFuzzer wants it. Ends the process where the library broke its contract. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -26,5 +27,17 @@ void fuzz_expect(int holds, const char *what);
 /* What may come of wrong input: never a failure of the machine, as a wrong size of memory would be.
  */
 void fuzz_expect_input_status(HdStatus status, const HdError *error);
+
+/* Reads the mesh at the path in 64 MiB, smooths it and builds its hierarchy, as loading a scene
+   does, and ends the process where the mesh is not sound (mesh_work.c). */
+void fuzz_read_mesh(const char *path);
+
+/* Renders the last frame of a valid scene, a few pixels of it in both precisions, where it has few
+   lights. Ends the process where a valid scene is refused (scene_work.c). */
+void fuzz_render_scene(const HdScene *scene);
+
+/* Puts the check sums of all chunks right, which a fuzzer does not find by itself, and returns how
+   many pixels the head promises; 0: there is no head (png_sums.c). */
+uint64_t fuzz_mend_png(unsigned char *bytes, size_t size);
 
 #endif

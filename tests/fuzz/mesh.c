@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "mesh_work.h"
 
 static const char library[] = "newmtl a\nKd 0.5 0.6 0.7\nmap_Kd a.png\n"
                               "newmtl b\nillum 7\nd 0.2\nNi 1.5\nKs 0.1 0.1 0.1\n";

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#include "mesh_work.h"
+#include "fuzz.h"
 
 #include <math.h>
 
 #include "base/problems.h"
-#include "fuzz.h"
 #include "mesh/obj/read.h"
 #include "system/thread_pool.h"
 

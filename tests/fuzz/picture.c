@@ -6,7 +6,6 @@
 #include "image/difference.h"
 #include "image/png.h"
 #include "image/row_reader.h"
-#include "png_sums.h"
 
 /* Reading more takes the campaign's time. */
 enum { MOST_PIXELS = 1 << 20 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "png_sums.h"
+#include "fuzz.h"
 
 #include <zlib.h>
 

@@ -12,7 +12,6 @@
 #include "base/problems.h"
 #include "fuzz.h"
 #include "input/write.h"
-#include "scene_work.h"
 
 static HdStatus parse(HdSceneFile *file, const char *text, size_t size, HdError *error) {
     HdProblems notes = {.count = 0};

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_work.h"
+#include "fuzz.h"
 
 #include "device/renderer.h"
-#include "fuzz.h"
 #include "scene/camera.h"
 #include "tables/tables.h"
 

@@ -32,13 +32,6 @@ const Placement placements[PLACEMENT_COUNT] = {
     {"another mesh 400 away", 30, {1e3, 0, 0}, {-70, 110, 5}, 400},
 };
 
-static void *allocate(size_t count, size_t size) {
-    void *memory = calloc(count, size);
-    if (memory == NULL)
-        abort();
-    return memory;
-}
-
 static HdMaterial nothing(void) {
     return (HdMaterial){.colour = hd_vec3(1.0, 1.0, 1.0),
                         .mirror_tint = hd_vec3(1.0, 1.0, 1.0),
@@ -131,12 +124,11 @@ static void add_meshes(Hunt *hunt) {
         build_mirrors(&scene->meshes[1], hunt->side, WALL_DEPTH, &scene->meshes[0],
                       placement->rotation_degrees, &mirror, &hunt->random);
     } else {
-        if (hunt->kind == HUNT_ROOM)
-            build_room(&scene->meshes[0], hunt->side, roughness, &mirror, &hunt->random);
-        else if (hunt->kind == HUNT_WEDGE)
-            build_wedge(&scene->meshes[0], hunt->side, &mirror, &hunt->random);
-        else
-            build_sheets(&scene->meshes[0], hunt->side, roughness, &passing, &hunt->random);
+        build_skin(&scene->meshes[0],
+                   hunt->kind == HUNT_ROOM    ? SKIN_ROOM
+                   : hunt->kind == HUNT_WEDGE ? SKIN_WEDGE
+                                              : SKIN_SHEETS,
+                   hunt->side, roughness, is_room(hunt->kind) ? &mirror : &passing, &hunt->random);
         unturn(&scene->meshes[0], placement->rotation_degrees);
         scene->meshes[0].materials[0].is_opaque_to_shadows = hunt->kind == HUNT_SHADE;
     }
@@ -158,8 +150,8 @@ void hunt_begin(Hunt *hunt, HuntKind kind, const Placement *placement, int side,
     size_t count = (size_t)side * (size_t)side;
     *hunt = (Hunt){.kind = kind, .placement = placement, .side = side, .random = seed};
     hunt->surfaces = kind == HUNT_MIRRORS ? 1 : 2;
-    hunt->pixels = allocate(count, sizeof *hunt->pixels);
-    hunt->is_lit = allocate(count, sizeof *hunt->is_lit);
+    hunt->pixels = hunt_allocate(count, sizeof *hunt->pixels);
+    hunt->is_lit = hunt_allocate(count, sizeof *hunt->is_lit);
     build_scene(&hunt->scene, side, side, 1, 8, 0, has_light(kind));
     hunt->scene.background = hd_vec3(GLOW, GLOW, 0.0);
     if (kind == HUNT_MIRRORS) {

@@ -7,7 +7,7 @@
 #include "../../scenes/models/random.h"
 #include "scene/platonic.h"
 
-static void *allocate(size_t count, size_t size) {
+void *hunt_allocate(size_t count, size_t size) {
     void *memory = calloc(count, size);
     if (memory == NULL)
         abort();
@@ -20,10 +20,10 @@ HdVec3 hunt_pixel_ray(int side, int x, int y) {
 }
 
 static void make_room(HdMesh *mesh, int vertices, int triangles, const HdMaterial *material) {
-    mesh->vertices = allocate((size_t)vertices, sizeof *mesh->vertices);
-    mesh->corners = allocate((size_t)triangles, sizeof *mesh->corners);
+    mesh->vertices = hunt_allocate((size_t)vertices, sizeof *mesh->vertices);
+    mesh->corners = hunt_allocate((size_t)triangles, sizeof *mesh->corners);
     mesh->material_count = 1;
-    mesh->materials = allocate(1, sizeof *mesh->materials);
+    mesh->materials = hunt_allocate(1, sizeof *mesh->materials);
     mesh->materials[0] = (HdMeshMaterial){.material = *material, .picture = -1, .passes_as = -1};
 }
 
@@ -111,39 +111,6 @@ static double depth_of_sheet(int side, int sheet, int steps, double height) {
     return sheet == FRONT ? 2.5 - away : 2.5 + away;
 }
 
-void build_sheets(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
-                  uint64_t *random) {
-    int n = vertices_of_side(side);
-    make_room(mesh, 2 * n * n, 4 * (n - 1) * (n - 1), material);
-    for (int sheet = FRONT; sheet <= BACK; sheet++) {
-        for (int j = 0; j < n; j++)
-            for (int i = 0; i < n; i++) {
-                double height = random_between(random, -1.0, 1.0) * roughness;
-                double depth = depth_of_sheet(side, sheet, steps_to_rim(n, i, j), height);
-                mesh->vertices[mesh->vertex_count++] = hd_scale(vertex_ray(side, i, j), depth);
-            }
-        add_sheet(mesh, n, sheet, random);
-    }
-}
-
-void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
-                uint64_t *random) {
-    int n = vertices_of_side(side);
-    make_room(mesh, 2 * n * n, 4 * (n - 1) * (n - 1) + 8 * (n - 1), material);
-    for (int sheet = FRONT; sheet <= BACK; sheet++) {
-        for (int j = 0; j < n; j++)
-            for (int i = 0; i < n; i++) {
-                double height = random_between(random, -1.0, 1.0) * roughness;
-                HdVec3 ray = vertex_ray(side, i, j);
-                double depth = 2.0 + height * 2.0 * HUNT_TANGENT / side;
-                mesh->vertices[mesh->vertex_count++] =
-                    sheet == FRONT ? hd_vec3(2.0 * ray.x, -1.0, 2.0 * ray.z) : hd_scale(ray, depth);
-            }
-        add_sheet(mesh, n, sheet, random);
-    }
-    add_walls(mesh, n);
-}
-
 /* Of row j of n, the first of which is the edge. The nearer to it, the smaller are the triangles.
  */
 static HdVec3 wedge_vertex(int n, int sheet, int i, int j) {
@@ -153,16 +120,32 @@ static HdVec3 wedge_vertex(int n, int sheet, int i, int j) {
     return hd_vec3(3.0 * across - 1.5, 2.5 - away, sheet == FRONT ? height : -height);
 }
 
-void build_wedge(HdMesh *mesh, int side, const HdMaterial *material, uint64_t *random) {
+static HdVec3 skin_vertex(HuntSkin skin, int side, int sheet, int i, int j, double height) {
+    int n = vertices_of_side(side);
+    HdVec3 ray = vertex_ray(side, i, j);
+    if (skin == SKIN_WEDGE)
+        return wedge_vertex(n, sheet, i, j);
+    if (skin == SKIN_SHEETS)
+        return hd_scale(ray, depth_of_sheet(side, sheet, steps_to_rim(n, i, j), height));
+    return sheet == FRONT ? hd_vec3(2.0 * ray.x, -1.0, 2.0 * ray.z)
+                          : hd_scale(ray, 2.0 + height * 2.0 * HUNT_TANGENT / side);
+}
+
+/* Sheets have vertices in common where they meet; the others have walls between them. */
+void build_skin(HdMesh *mesh, HuntSkin skin, int side, double roughness, const HdMaterial *material,
+                uint64_t *random) {
     int n = vertices_of_side(side);
     make_room(mesh, 2 * n * n, 4 * (n - 1) * (n - 1) + 8 * (n - 1), material);
     for (int sheet = FRONT; sheet <= BACK; sheet++) {
         for (int j = 0; j < n; j++)
-            for (int i = 0; i < n; i++)
-                mesh->vertices[mesh->vertex_count++] = wedge_vertex(n, sheet, i, j);
+            for (int i = 0; i < n; i++) {
+                double height = random_between(random, -1.0, 1.0) * roughness;
+                mesh->vertices[mesh->vertex_count++] = skin_vertex(skin, side, sheet, i, j, height);
+            }
         add_sheet(mesh, n, sheet, random);
     }
-    add_walls(mesh, n);
+    if (skin != SKIN_SHEETS)
+        add_walls(mesh, n);
 }
 
 /* ---- a triangle a pixel ---- */
@@ -213,8 +196,8 @@ void build_mirrors(HdMesh *mesh, int side, double depth, const HdMesh *target,
                    HdVec3 rotation_degrees, const HdMaterial *material, uint64_t *random) {
     int count = side * side;
     make_room(mesh, 3 * count, count, material);
-    mesh->normals = allocate((size_t)count, sizeof *mesh->normals);
-    mesh->corner_normals = allocate((size_t)count, sizeof *mesh->corner_normals);
+    mesh->normals = hunt_allocate((size_t)count, sizeof *mesh->normals);
+    mesh->corner_normals = hunt_allocate((size_t)count, sizeof *mesh->corner_normals);
     mesh->normal_count = count;
     for (int i = 0; i < count; i++) {
         int x = i % side, y = i / side;

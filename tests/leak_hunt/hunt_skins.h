@@ -5,6 +5,7 @@
 #ifndef HD_LEAK_HUNT_SKINS_H
 #define HD_LEAK_HUNT_SKINS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "scene/scene.h"
@@ -18,16 +19,18 @@ enum { HUNT_RIM = 8 };
 /* As far as y = 1; pixels are counted from the top left one. */
 HdVec3 hunt_pixel_ray(int side, int x, int y);
 
-/* The skin of two sheets, about y = 2 and y = 3, joined at y = 2.5; `roughness` is in pixels. */
-void build_sheets(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
-                  uint64_t *random);
+/* Zeroed memory, or the end of the program. */
+void *hunt_allocate(size_t count, size_t size);
 
-/* A room about the eye, whose far wall is as rough and like the back sheet. */
-void build_room(HdMesh *mesh, int side, double roughness, const HdMaterial *material,
+typedef enum HuntSkin {
+    SKIN_SHEETS, /* two sheets, about y = 2 and y = 3, joined at y = 2.5 */
+    SKIN_ROOM,   /* a room about the eye, whose far wall is as rough and like the back sheet */
+    SKIN_WEDGE   /* a smooth one whose floor and ceiling meet at 10 degrees at y = 2.5 */
+} HuntSkin;
+
+/* `roughness` is in pixels. */
+void build_skin(HdMesh *mesh, HuntSkin skin, int side, double roughness, const HdMaterial *material,
                 uint64_t *random);
-
-/* A room about the eye whose floor and ceiling meet at 10 degrees at y = 2.5. */
-void build_wedge(HdMesh *mesh, int side, const HdMaterial *material, uint64_t *random);
 
 /* A small triangle at y = `depth` in the middle of each chosen pixel. */
 void build_spots(HdMesh *mesh, int side, const bool *chosen, double depth,

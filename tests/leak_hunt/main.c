@@ -7,8 +7,6 @@
 
    Ends with 0 where there are none, 1 where there are some or rendering fails, 2 where it is called
    wrongly, and 77 where nothing of the backend in --backend opens. */
-#include <ctype.h>
-#include <errno.h>
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,12 +14,12 @@
 #include <string.h>
 
 #include "../conformance/render_scene.h"
+#include "../options.h"
 #include "certify/render_scene.h"
 #include "hunt.h"
 #include "input/check.h"
 
-enum { LANE_COUNTS = 4, PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES, ALL = -1 };
-enum { EXIT_USAGE = 2, EXIT_SKIPPED = 77 };
+enum { PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES };
 
 /* Few rays go into small pictures, so that there are still some for every scene and renderer. */
 enum { TINY_SIDE = 33, SMALL_SIDE = 65, LARGE_SIDE = 257 };
@@ -31,16 +29,13 @@ static const char usage[] =
     "usage: hedron_leak_hunt RAYS [--backend cuda|opencl|c]\n"
     "                        [--precision float|double] [--lanes 1|4|8|16] [--seed N]\n"
     "RAYS may be written as 1e9\n";
-static const char *const precision_names[2] = {"float", "double"};
-static const char *const lane_names[LANE_COUNTS] = {"1", "4", "8", "16"};
-static const int lane_counts[LANE_COUNTS] = {1, 4, 8, 16};
 static const HdPipeline pipelines[PIPELINES] = {HD_PIPELINE_MEGA, HD_PIPELINE_WAVEFRONT};
 
 typedef struct Options {
     double rays;
     const HdBackend *backend; /* NULL: all */
     int precision, lanes;     /* an HdPrecision, an index into lane_counts; or ALL */
-    uint32_t seed;
+    int seed;
 } Options;
 
 typedef struct Total {
@@ -54,7 +49,7 @@ typedef struct Party {
     int count;
     HdPrecision precision;
     int side;
-    uint32_t seed;
+    int seed;
     double share; /* of rays for each renderer, placement and kind */
 } Party;
 
@@ -193,39 +188,22 @@ static bool parse_rays(const char *text, double *rays) {
     return end != text && *end == '\0' && *rays >= 1.0 && *rays <= 1e15;
 }
 
-static bool parse_seed(const char *text, uint32_t *seed) {
-    char *end;
-    errno = 0;
-    unsigned long value = strtoul(text, &end, 10);
-    *seed = (uint32_t)value;
-    return isdigit((unsigned char)*text) && *end == '\0' && errno == 0 && value <= UINT32_MAX;
-}
-
-static bool parse_option(Options *options, const char *name, const char *value) {
-    if (strcmp(name, "--backend") == 0)
-        return (options->backend = hd_backend_find(value)) != NULL;
-    if (strcmp(name, "--precision") == 0)
-        return (options->precision = choose(value, precision_names, 2)) >= 0;
-    if (strcmp(name, "--lanes") == 0)
-        return (options->lanes = choose(value, lane_names, LANE_COUNTS)) >= 0;
-    if (strcmp(name, "--seed") == 0)
-        return parse_seed(value, &options->seed);
-    return false;
-}
-
-static bool parse_options(Options *options, int count, char **arguments) {
-    if (count < 2 || count % 2 != 0 || !parse_rays(arguments[1], &options->rays))
-        return false;
-    for (int i = 2; i < count; i += 2)
-        if (!parse_option(options, arguments[i], arguments[i + 1]))
-            return false;
-    return true;
+static bool parse(Options *options, int count, char **arguments) {
+    const Option list[] = {
+        {"--backend", .backend = &options->backend},
+        {"--precision", .number = &options->precision, .choices = precision_names},
+        {"--lanes", .number = &options->lanes, .choices = lane_names},
+        {"--seed", .number = &options->seed},
+        {.name = NULL},
+    };
+    return count > 1 && parse_rays(arguments[1], &options->rays) &&
+           parse_options(list, count - 1, arguments + 1);
 }
 
 int main(int count, char **arguments) {
     Options options = {.precision = ALL, .lanes = ALL};
     Total total = {{0}, 0};
-    if (!parse_options(&options, count, arguments)) {
+    if (!parse(&options, count, arguments)) {
         fputs(usage, stderr);
         return EXIT_USAGE;
     }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders random scenes by hedron and by tracer.py, and compares them pixel by pixel.
+"""Renders random scenes by hedron, in float and double, and by tracer.py, and compares them pixel by pixel.
 
     compare_scenes.py HEDRON FIRST_SEED COUNT
 
 What belongs to a seed stays in the current folder: SEED.json, the files that it names, and the pictures
-SEED.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top. Ends
+SEED-float.pfm, SEED-double.pfm and SEED-own.pfm. Tells of each scene that differs its seed and the first pixel from the top. Ends
 with 1 where more than a few pixels of all scenes differ.
 """
 import array
@@ -17,7 +17,7 @@ from pathlib import Path
 import tracer
 from random_scenes import HEIGHT, WIDTH, Maker
 
-RELATIVE, ABSOLUTE = 1e-6, 1e-7
+TOLERANCES = {"float": 1e-4, "double": 1e-6}  # relative; a tenth of it absolute
 SHARE_ALLOWED = 0.0005  # of all pixels: an edge may pass a sample so closely that rounding decides
 
 
@@ -30,7 +30,7 @@ def values_of(path):
     return values
 
 
-def compared(first, second):
+def compared(first, second, tolerance):
     """The pixels that differ, as (y, x, values, values), and the largest difference of the others."""
     a, b = values_of(first), values_of(second)
     if len(a) != 3 * WIDTH * HEIGHT or len(b) != len(a):
@@ -38,7 +38,7 @@ def compared(first, second):
     differing, largest = [], 0
     for i in range(0, len(a), 3):
         pixels = list(a[i:i + 3]), list(b[i:i + 3])
-        if all(abs(p - q) <= ABSOLUTE + RELATIVE * max(abs(p), abs(q)) for p, q in zip(*pixels)):
+        if all(abs(p - q) <= tolerance * (0.1 + max(abs(p), abs(q))) for p, q in zip(*pixels)):
             largest = max(largest, *(abs(p - q) for p, q in zip(*pixels)))
         else:
             differing.append((HEIGHT - 1 - i // 3 // WIDTH, i // 3 % WIDTH, *pixels))
@@ -46,14 +46,16 @@ def compared(first, second):
 
 
 def rendered(hedron, seed, folder):
-    """The two pictures of the scene of a seed."""
+    """The pictures of the scene of a seed: the tracer's, and hedron's by precision."""
     keys, frame = Maker(seed, folder).scene()
-    scene, theirs, own = (folder / f"{seed}{end}" for end in (".json", ".pfm", "-own.pfm"))
+    scene, own = (folder / f"{seed}{end}" for end in (".json", "-own.pfm"))
+    theirs = {precision: folder / f"{seed}-{precision}.pfm" for precision in TOLERANCES}
     scene.write_text(json.dumps(keys, indent=1) + "\n")
-    subprocess.run([hedron, "render", "--quiet", "--backend", "c", "--precision", "double",
-                    "--frames", str(frame), "-o", theirs, scene], check=True, stdout=subprocess.DEVNULL)
+    for precision, path in theirs.items():
+        subprocess.run([hedron, "render", "--quiet", "--backend", "c", "--precision", precision,
+                        "--frames", str(frame), "-o", path, scene], check=True, stdout=subprocess.DEVNULL)
     tracer.write_pfm(own, tracer.Scene(scene, frame).picture())
-    return theirs, own
+    return own, theirs
 
 
 def main():
@@ -61,16 +63,22 @@ def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     first, count = int(sys.argv[2]), int(sys.argv[3])
-    total, largest = 0, 0
+    total, largest = dict.fromkeys(TOLERANCES, 0), dict.fromkeys(TOLERANCES, 0)
     for seed in range(first, first + count):
-        differing, most = compared(*rendered(sys.argv[1], seed, Path(".")))
-        total, largest = total + len(differing), max(largest, most)
-        if differing:
-            y, x, theirs, own = differing[0]
-            print(f"seed {seed}: {len(differing)} pixels differ, the first at {x}, {y}: {theirs}, not {own}")
+        own, theirs = rendered(sys.argv[1], seed, Path("."))
+        for precision, tolerance in TOLERANCES.items():
+            differing, most = compared(theirs[precision], own, tolerance)
+            total[precision] += len(differing)
+            largest[precision] = max(largest[precision], most)
+            if differing:
+                y, x, pixel, expected = differing[0]
+                print(f"seed {seed}, {precision}: {len(differing)} pixels differ, the first at {x}, {y}: "
+                      f"{pixel}, not {expected}")
     pixels = count * WIDTH * HEIGHT
-    print(f"{total} of {pixels} pixels differ; the others by {largest:.3g} at most")
-    sys.exit(total > SHARE_ALLOWED * pixels)
+    for precision in TOLERANCES:
+        print(f"{precision}: {total[precision]} of {pixels} pixels differ; "
+              f"the others by {largest[precision]:.3g} at most")
+    sys.exit(max(total.values()) > SHARE_ALLOWED * pixels)
 
 
 if __name__ == "__main__":

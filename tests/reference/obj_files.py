@@ -17,15 +17,14 @@ class Model:
     def __init__(self, path):
         self.path, self.faces, self.libraries = path, [], []
         points = {"v": [], "vt": [], "vn": []}
-        faces, name = [], "default"
+        faces, name = [], None
         for line in path.read_text("utf-8").splitlines():
             word, _, rest = line.strip().partition(" ")
             if word in points:
                 numbers = [single(float(number)) for number in rest.split()]
                 points[word].append(tuple(numbers[:3] if word != "vt" else (numbers + [0.0])[:2]))
             elif word == "f":
-                here = [len(own) for own in points.values()]
-                faces.append((name, [self.corner(text, here) for text in rest.split()]))
+                faces.append((name, [self.corner(text) for text in rest.split()]))
             elif word == "usemtl":
                 name = rest.strip()
             elif word == "mtllib":
@@ -36,11 +35,9 @@ class Model:
             self.faces += [(name, (corners[0], b, c)) for b, c in zip(corners[1:], corners[2:])]
 
     @staticmethod
-    def corner(text, here):
+    def corner(text):
         """The three numbers of a corner, from 0; None where it has none."""
-        numbers = (text.split("/") + ["", ""])[:3]
-        return [None if not number else int(number) - 1 if int(number) > 0 else count + int(number)
-                for number, count in zip(numbers, here)]
+        return [int(number) - 1 if number else None for number in (text.split("/") + ["", ""])[:3]]
 
     def statements(self):
         """Of each material of the libraries its statements, by name."""

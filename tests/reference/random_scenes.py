@@ -107,11 +107,11 @@ class Maker:
         return width, height
 
     def floor(self, cutting):
-        """A quadrilateral below the solids, or one that cuts them."""
-        level, slope = 0.1 if cutting else -1.5, self.number(-0.05, 0.05)
+        """A quadrilateral below the solids, or a steeper one that cuts them; either side of it may be above."""
+        level, slope = (0.1, self.number(-0.5, 0.5)) if cutting else (-1.5, self.number(-0.05, 0.05))
         square = [(-3, 3), (3, 3), (3, -3), (-3, -3)]
         corners = [[coordinate + self.number(-0.5, 0.5) for coordinate in corner] for corner in square]
-        keys = {"corners": [[x, y, level + slope * (x - y)] for x, y in corners],
+        keys = {"corners": [[x, y, level + slope * (x - y)] for x, y in corners[::1 if slope > 0 else -1]],
                 "material": self.material(alike=True)}
         if self.chance(0.7):
             name = f"{self.name}-floor.data"

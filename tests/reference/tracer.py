@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Renders a scene file to a PFM by docs/model.md and docs/formats.md alone: what hedron is compared with.
-
-    tracer.py SCENE.json PICTURE.pfm [FRAME]
 
 It is slow, in double, and knows nothing of how hedron computes. Textures are those of the data format.
 """
@@ -244,10 +241,7 @@ class Floor:
         self.material = materials[keys["material"]]
         self.texture = None
         if "texture" in keys:
-            name = keys["texture"]["file"]
-            if name.startswith("builtin:"):
-                raise ValueError(f"{name} is not known here")
-            self.texture = Texture(folder / name, keys["texture"].get("curve", "srgb"), False)
+            self.texture = Texture(folder / keys["texture"]["file"], keys["texture"]["curve"], False)
 
     def holds(self, point):
         """Whether a point of the plane is within the border."""
@@ -456,8 +450,6 @@ class Scene:
         path = Path(path)
         keys = json.loads(path.read_text("utf-8"))
         image = keys.get("image", {})
-        if image.get("max_error", 0) != 0 or image.get("aa", "grid") != "grid":
-            raise ValueError(f"{path}: image.max_error and image.aa are not known here")
         self.width, self.height = image.get("width", 640), image.get("height", 480)
         self.samples, self.depth = image.get("samples", 3), image.get("depth", 8)
         self.cutoff, self.exposure = image.get("cutoff", 0), image.get("exposure", 1)
@@ -585,15 +577,3 @@ def write_pfm(path, rows):
     if sys.byteorder == "big":
         values.byteswap()
     Path(path).write_bytes(f"PF\n{len(rows[0])} {len(rows)}\n-1.0\n".encode() + values.tobytes())
-
-
-def main():
-    """The command line."""
-    if len(sys.argv) not in (3, 4):
-        sys.exit(__doc__)
-    scene = Scene(sys.argv[1], int(sys.argv[3]) if len(sys.argv) == 4 else 0)
-    write_pfm(sys.argv[2], scene.picture())
-
-
-if __name__ == "__main__":
-    main()

@@ -6,7 +6,6 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "device/kernel_cache.h"
 #include "device/probe_operands.h"
@@ -20,13 +19,10 @@ static struct {
     bool fails;             /* to render */
     bool renders_wrongly;   /* a bit of the picture's last number is wrong */
     bool is_right_in_waves; /* not by the wavefront */
-    bool refuses_binary;    /* what comes from the cache */
     bool hides_binary;      /* gives none away */
     bool adds_wrongly;      /* in every precision */
     bool divides_wrongly;   /* but by fused operations */
     const char *options;
-    int slow_milliseconds; /* more, for each frame of the device with this number */
-    int slow_index;
     /* What a frame's tracing is said to take; NULL: what it took. */
     double (*trace_seconds)(const HdRenderOptions *options);
     /* Opening fails where it says so; NULL: never. */
@@ -34,7 +30,10 @@ static struct {
     /* Called at each of these points, with the device's number, on the thread that is there; may
        wait, or let the device fail. NULL: nothing happens. */
     HdStatus (*event)(FakePoint point, int index, HdError *error);
-    atomic_int opened, probed, compiled, loaded, rendered;
+    atomic_int opened, probed, compiled, loaded, rendered, dropped;
+    /* Of the kernels that were built last. */
+    atomic_bool divides_by_fma;
+    char key[HD_KERNEL_KEY_LENGTH];
 } fake;
 
 typedef struct FakeRenderer {
@@ -44,10 +43,6 @@ typedef struct FakeRenderer {
     int index;
     HdRenderOptions options;
 } FakeRenderer;
-
-static HdStatus fake_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
-    return hd_backend_enumerate(&hd_backend_c, devices, capacity, count, error);
-}
 
 static HdStatus fake_event(FakePoint point, int index, HdError *error) {
     return fake.event != NULL ? fake.event(point, index, error) : HD_OK;
@@ -91,15 +86,16 @@ static void fake_build(FakeRenderer *renderer) {
     size_t size;
     const char *options = fake.options != NULL ? fake.options : "";
     renderer->is_built = true;
-    if (hd_kernel_cache_find(&renderer->kernels, source, sizeof source, options, "1", &binary,
-                             &size)) {
-        assert_int_equal(size, 4);
+    fake.divides_by_fma = renderer->kernels.shape.rounds_by_fma;
+    const bool is_found = hd_kernel_cache_find(&renderer->kernels, source, sizeof source, options,
+                                               "1", &binary, &size);
+    if (fake.event == NULL)
+        memcpy(fake.key, renderer->kernels.key, sizeof fake.key);
+    if (is_found) {
         assert_memory_equal(binary, "fake", 4);
         free(binary);
         fake.loaded++;
-        if (!fake.refuses_binary)
-            return;
-        hd_kernel_cache_refuse(&renderer->kernels, "it does not like them");
+        return;
     }
     fake.compiled++;
     hd_kernel_cache_compiled(&renderer->kernels, fake_read, NULL, "nobody", 0.001);
@@ -118,44 +114,36 @@ static HdStatus fake_upload(void *state, const HdSceneTables *tables, HdError *e
 
 static HdStatus fake_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
                             HdError *error) {
-    FakeRenderer *renderer = state;
-    HdStatus status = fake_event(FAKE_SUBMIT, renderer->index, error);
-    return status != HD_OK ? status
-                           : hd_backend_submit(&hd_backend_c, renderer->c, tables, wish, error);
+    (void)tables, (void)wish; /* plain C has nothing to do yet */
+    return fake_event(FAKE_SUBMIT, ((FakeRenderer *)state)->index, error);
 }
 
 static HdStatus fake_collect(void *state, const HdFrameTables *tables, HdFrame *frame,
                              HdError *error) {
     FakeRenderer *renderer = state;
-    const struct timespec pause = {.tv_nsec = 1000000L * fake.slow_milliseconds};
     fake.rendered++;
-    if (renderer->index == fake.slow_index)
-        nanosleep(&pause, NULL);
-    HdError failure;
-    HdStatus event = fake_event(FAKE_COLLECT, renderer->index, &failure);
-    HdStatus status = hd_backend_c.functions->collect(renderer->c, tables, frame, error);
-    if (event != HD_OK) {
-        *error = failure;
-        return event;
-    }
-    if (fake.fails)
-        return hd_fail(error, HD_FAILED, "it fails");
-    if (status == HD_OK && fake.trace_seconds != NULL)
+    HdStatus status = fake_event(FAKE_COLLECT, renderer->index, error);
+    if (status == HD_OK && fake.fails)
+        status = hd_fail(error, HD_FAILED, "it fails");
+    if (status == HD_OK)
+        status = hd_backend_c.functions->collect(renderer->c, tables, frame, error);
+    if (status != HD_OK)
+        return status;
+    if (fake.trace_seconds != NULL)
         frame->trace_seconds = fake.trace_seconds(&renderer->options);
     bool is_right = fake.is_right_in_waves && hd_pipeline_is_wavefront(renderer->options.pipeline);
-    if (status == HD_OK && fake.renders_wrongly && !is_right) {
-        uint32_t bits;
-        float *last = &frame->rgb[(size_t)frame->width * (size_t)frame->height * 3 - 1];
-        memcpy(&bits, last, sizeof bits);
-        bits ^= 1;
-        memcpy(last, &bits, sizeof bits);
-    }
-    return status;
+    if (fake.renders_wrongly && !is_right)
+        *(unsigned char *)&frame->rgb[frame->width * frame->height * 3 - 1] ^= 1;
+    return HD_OK;
+}
+
+static void fake_drop(void *state) {
+    (void)state;
+    fake.dropped++;
 }
 
 static HdKernelCache *fake_kernels(void *state) {
-    FakeRenderer *renderer = state;
-    return &renderer->kernels;
+    return &((FakeRenderer *)state)->kernels;
 }
 
 /* In float. */
@@ -183,8 +171,7 @@ static void fake_probe_key(void *state, char *text, size_t capacity) {
 }
 
 static void fake_describe(const void *renderer, char *text, int capacity) {
-    (void)renderer;
-    (void)capacity;
+    (void)renderer, (void)capacity;
     text[0] = '\0';
 }
 
@@ -199,6 +186,7 @@ static const HdRendererFunctions fake_functions = {
     .upload = fake_upload,
     .submit = fake_submit,
     .collect = fake_collect,
+    .drop = fake_drop,
     .kernels = fake_kernels,
     .probe = fake_probe,
     .probe_key = fake_probe_key,
@@ -209,7 +197,6 @@ static const HdRendererFunctions fake_functions = {
 static const HdBackend fake_backend = {
     .name = "fake",
     .functions = &fake_functions,
-    .enumerate = fake_enumerate,
 };
 
 static inline HdDevice fake_device(void) {

@@ -17,6 +17,7 @@
 #include "unit_test.h"
 
 enum { MOST_FILES = 200, MOST_TESTS = 100, MOST_STARTS = 16, MOST_PROGRAMS = 8 };
+enum { PASSED = 42 }; /* the exit code of a file's process, which a stray exit(0) does not have */
 
 typedef struct File {
     const char *path;
@@ -39,7 +40,7 @@ static int program_count;
 const char *unit_project, *unit_program;
 
 static void refuse(const char *what) {
-    fprintf(stderr, "unit tests: too many %s for the table\n", what);
+    fprintf(stderr, "unit tests: %s\n", what);
     abort();
 }
 
@@ -50,12 +51,14 @@ static File *file_of(const char *path) {
         if (strcmp(files[i].path, path) == 0)
             return &files[i];
     if (file_count == MOST_FILES)
-        refuse("files");
+        refuse("too many files");
     File *file = &files[file_count++];
     const char *name = strstr(path, "tests/unit/");
     name = name != NULL ? name + strlen("tests/unit/") : path;
     const char *stem = strstr(name, "test_");
-    stem = stem != NULL ? stem + strlen("test_") : name;
+    if (stem == NULL)
+        refuse("files without test_ in their name");
+    stem += strlen("test_");
     file->path = path;
     snprintf(file->name, sizeof file->name, "%.*s%.*s", (int)(stem - name - 5), name,
              (int)(strlen(stem) - 2), stem);
@@ -66,7 +69,7 @@ void unit_add_test(const char *path, const char *name, CMUnitTestFunction test, 
                    UnitFixture teardown) {
     File *file = file_of(path);
     if (file->test_count == MOST_TESTS)
-        refuse("tests");
+        refuse("too many tests in a file");
     file->has_own_fixture[file->test_count] = setup != NULL || teardown != NULL;
     file->tests[file->test_count++] = (struct CMUnitTest){
         .name = name, .test_func = test, .setup_func = setup, .teardown_func = teardown};
@@ -87,13 +90,13 @@ void unit_set_each(const char *path, UnitFixture setup, UnitFixture teardown) {
 void unit_add_start(const char *path, void (*start)(void)) {
     File *file = file_of(path);
     if (file->start_count == MOST_STARTS)
-        refuse("starts");
+        refuse("too many starts in a file");
     file->starts[file->start_count++] = start;
 }
 
 void unit_add_program(const char *name, int (*program)(void)) {
     if (program_count == MOST_PROGRAMS)
-        refuse("programs");
+        refuse("too many programs");
     programs[program_count].name = name;
     programs[program_count++].program = program;
 }
@@ -141,6 +144,17 @@ static void show(int told) {
     fflush(stdout);
 }
 
+static void show_skipped(int told) {
+    char line[512];
+    lseek(told, 0, SEEK_SET);
+    FILE *lines = fdopen(dup(told), "r");
+    while (lines != NULL && fgets(line, sizeof line, lines) != NULL)
+        if (strncmp(line, "[  SKIPPED ] ", 13) == 0 && strstr(line, "test(s)") == NULL)
+            printf("  skipped   %s", line + 13);
+    if (lines != NULL)
+        fclose(lines);
+}
+
 static bool is_wanted(const File *file, const char *test, int count, char **filters) {
     char name[400];
     snprintf(name, sizeof name, "%s %s", file->name, test);
@@ -176,7 +190,7 @@ static int run_chosen(File *file, int count, char **filters) {
                                    file->group_teardown);
 }
 
-/* Whether the tests of the file pass. */
+/* Whether the tests of the file pass. Its name is there while it runs, for one that hangs. */
 static bool run_file(File *file, int count, char **filters) {
     int status = 0;
     const int told = memfd_create("told", 0);
@@ -187,17 +201,18 @@ static bool run_file(File *file, int count, char **filters) {
         dup2(told, STDOUT_FILENO);
         dup2(told, STDERR_FILENO);
         close(told);
-        exit(run_chosen(file, count, filters) == 0 ? 0 : 1);
+        exit(run_chosen(file, count, filters) == 0 ? PASSED : 1);
     }
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
-    const bool passed = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const bool passed = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == PASSED;
     if (!passed) {
         show(told);
         if (WIFSIGNALED(status))
             printf("ended by signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
-        printf("FAILED      %s; alone: %s %s '%s '\n", file->name, unit_program, unit_project,
-               file->name);
+        printf("FAILED      %s; alone: ./dev test %s\n", file->name, file->name);
+    } else {
+        show_skipped(told);
     }
     close(told);
     return passed;

@@ -49,7 +49,8 @@ extern const char *unit_program;
     }                                                                                              \
     AT_START(replace_##function)
 
-/* What runs once before and after all tests of the file; the last one counts. */
+/* What runs once before and after all tests of the file, which do not see its state; the last GROUP
+ * counts. */
 #define GROUP(setup, teardown)                                                                     \
     UNIT_REGISTER(setup##_##teardown, unit_set_group(__BASE_FILE__, setup, teardown))
 /* What runs before and after each TEST of the file. */

@@ -11,7 +11,7 @@
 #include "device/backend.h"
 #include "device/opencl/devices.h"
 
-/* X(type, name, parameters, arguments). CMakeLists.txt names the same. */
+/* X(type, name, parameters, arguments), from which CMakeLists.txt takes the names. */
 #define HD_WRAPPED(X)                                                                              \
     X(int, fsync, (int descriptor), (descriptor))                                                  \
     X(int, flock, (int descriptor, int operation), (descriptor, operation))                        \
@@ -21,6 +21,7 @@
        void *context),                                                                             \
       (thread, attributes, begin, context))                                                        \
     X(void *, hd_large_allocate, (size_t bytes), (bytes))                                          \
+    X(double, hd_monotonic_seconds, (void), ())                                                    \
     X(const HdBackend *, hd_backend_find, (const char *name), (name))                              \
     X(const HdBackend *, hd_backend_always_there, (void), ())                                      \
     X(cl_int, clGetPlatformIDs, (cl_uint capacity, cl_platform_id * platforms, cl_uint * count),   \

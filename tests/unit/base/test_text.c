@@ -1,48 +1,39 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/text.h"
 
-#include <string.h>
+#include <limits.h>
+#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/problems.h"
 #include "unit_test.h"
 
-static void expect_escaped(const char *text, const char *expected) {
-    char out[80];
-    assert_int_equal(hd_escape(text, out, sizeof out), strlen(text));
-    assert_string_equal(out, expected);
-    assert_int_equal(hd_escape(expected, out, sizeof out), strlen(expected));
-    assert_string_equal(out, expected);
-}
-
-TEST(test_controls) {
-    expect_escaped("", "");
-    expect_escaped("a\x1b[31m\a\n\t\x7f~", "a\\u001b[31m\\u0007\\u000a\\u0009\\u007f~");
-    expect_escaped("\xc2\x80\xc2\x9f\xc2\xa0", "\\u0080\\u009f\xc2\xa0");
-    expect_escaped("a\xe2\x80\xae"
-                   "b\xe2\x80\xa8\xe2\x81\xa6\xe2\x81\xa9",
-                   "a\\u202eb\\u2028\\u2066\\u2069");
-    expect_escaped("\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa",
-                   "\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa");
-}
-
-TEST(test_what_is_not_utf8) {
-    expect_escaped("\x9b[2J", "\\x9b[2J"); /* an escape sequence where there are 8 bits */
-    expect_escaped("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
-    expect_escaped("\xc3", "\\xc3");
-    expect_escaped("\xe2\x82", "\\xe2\\x82");
-    expect_escaped("\xc0\x9b\xc1\xbf", "\\xc0\\x9b\\xc1\\xbf");
-    expect_escaped("\xe0\x82\x9b", "\\xe0\\x82\\x9b"); /* U+009B with a byte too many */
-    expect_escaped("\xed\xa0\x80", "\\xed\\xa0\\x80");
-    expect_escaped("\xf4\x90\x80\x80\xff", "\\xf4\\x90\\x80\\x80\\xff");
+TEST(test_controls_and_what_is_not_utf8_are_escaped) {
+    static const char *const rows[][2] = {
+        {"a\x1b[31m\a\n\t\x7f~", "a\\u001b[31m\\u0007\\u000a\\u0009\\u007f~"},
+        {"\xc2\x80\xc2\x9f\xc2\xa0", "\\u0080\\u009f\xc2\xa0"},
+        {"-\xe2\x80\xae-\xe2\x80\xa8\xe2\x81\xa6\xe2\x81\xa9", "-\\u202e-\\u2028\\u2066\\u2069"},
+        {"\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa",
+         "\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa"},
+        {"\x9b[2J", "\\x9b[2J"}, /* an escape sequence where there are 8 bits */
+        {"\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80"},
+        {"\xc3", "\\xc3"},
+        {"\xe2\x82", "\\xe2\\x82"},
+        {"\xc0\x9b\xc1\xbf", "\\xc0\\x9b\\xc1\\xbf"},
+        {"\xe0\x82\x9b", "\\xe0\\x82\\x9b"}, /* U+009B with a byte too many */
+        {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
+        {"\xf4\x90\x80\x80\xff", "\\xf4\\x90\\x80\\x80\\xff"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int k = 0; k < 2; k++) { /* what is escaped stays */
+            char out[80];
+            assert_int_equal(hd_escape(rows[i][k], out, sizeof out), strlen(rows[i][k]));
+            assert_string_equal(out, rows[i][1]);
+        }
 }
 
 TEST(test_cut) {
     char out[8];
-    assert_int_equal(hd_escape("ab\x1b"
-                               "c",
-                               out, 8),
-                     2);
+    assert_int_equal(hd_escape("ab\x1b-", out, 8), 2);
     assert_string_equal(out, "ab");
     assert_int_equal(hd_escape("abcdef\xc3\xa9", out, 8), 6);
     assert_string_equal(out, "abcdef");
@@ -61,13 +52,61 @@ TEST(test_errors_and_problems) {
     hd_problem(&problems, "%s is wrong", "a\nhedron: all is well\x1b");
     hd_problems_status(&problems, "b", &error);
     assert_string_equal(error.message, "b: a\\u000ahedron: all is well\\u001b is wrong");
-}
-
-TEST(test_longest_error) {
-    static HdError error;
-    static char text[sizeof error.message + 10];
-    memset(text, '\x1b', sizeof text - 1);
-    hd_fail(&error, HD_BAD_INPUT, "%s", text);
+    static char longest[sizeof error.message + 10];
+    memset(longest, '\x1b', sizeof longest - 1);
+    hd_fail(&error, HD_BAD_INPUT, "%s", longest);
     assert_true(strlen(error.message) > sizeof error.message - 8);
     assert_null(strchr(error.message, '\x1b'));
+}
+
+TEST(test_distances_are_edits) {
+    static const struct {
+        const char *a, *b;
+        int distance;
+    } rows[] = {{"", "", 0},
+                {"render", "render", 0},
+                {"", "abc", 3},
+                {"rendr", "render", 1},
+                {"kitten", "sitting", 3},
+                {"0123456789012345678901234567890", "0", 30}, /* the longest */
+                {"01234567890123456789012345678901", "0", INT_MAX}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal(hd_edit_distance(rows[i].a, rows[i].b), rows[i].distance);
+        assert_int_equal(hd_edit_distance(rows[i].b, rows[i].a), rows[i].distance);
+    }
+}
+
+TEST(test_the_nearest_is_kept) {
+    static const char *const names[] = {"render", "check", "devices", "help", "man"};
+    static const char *const rows[][2] = {
+        {"redner", "render"}, {"device", "devices"}, {"men", "man"}, {"hxxp", ""}, {"r", ""}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        HdNearest best = {.word = rows[i][0]};
+        for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+            hd_nearest_offer(&best, names[k]);
+        assert_string_equal(best.name != NULL ? best.name : "", rows[i][1]);
+    }
+}
+
+TEST(test_numbers_read_back) {
+    static const struct {
+        double value;
+        const char *exact, *brief;
+    } numbers[] = {{0.1, "0.1", "0.1"},
+                   {0.07, "0.07", "0.07"}, /* 16 digits would be one too many */
+                   {1e12, "1000000000000", "1e12"},
+                   {1e-12, "1e-12", "1e-12"},
+                   {-1e6, "-1000000", "-1e6"},
+                   {0.1 + 0.2, "0.30000000000000004", "0.30000000000000004"},
+                   {-0.0, "-0.0", "-0"},
+                   {1e300, "1e+300", "1e300"}};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        char text[HD_NUMBER_SIZE];
+        hd_exact_number(numbers[i].value, text);
+        assert_string_equal(text, numbers[i].exact);
+        assert_true(strtod(text, NULL) == numbers[i].value);
+        hd_short_number(numbers[i].value, text);
+        assert_string_equal(text, numbers[i].brief);
+        assert_true(strtod(text, NULL) == numbers[i].value);
+    }
 }

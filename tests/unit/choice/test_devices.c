@@ -5,7 +5,6 @@
 #include "choice/devices.h"
 
 #include "device/self_test_scenes.h"
-#include "fake_backend.h"
 #include "system/machine.h"
 #include "test_folder.h"
 #include "wrapped.h"
@@ -15,11 +14,20 @@ static HdRenderOptions options;
 static HdScene scene;
 static HdJob job;
 static HdDeviceTeam team;
+static HdCandidates candidates;
+
+/* Each look at the clock takes a millisecond. */
+static double read_clock(void) {
+    static double now;
+    return now += 1e-3;
+}
+REPLACE(hd_monotonic_seconds, read_clock)
 
 /* ---- the registry ---- */
 
 enum { NEAR, FAR, C, MOST = 40 };
 
+static bool is_missing; /* what is there cannot be opened */
 static struct {
     HdDevice list[MOST];
     int count, asked;
@@ -37,22 +45,18 @@ static HdStatus list_devices(int backend, HdDevice *devices, int capacity, int *
                : hd_fail(failure, there[backend].status, "its driver is ill");
 }
 
-static HdStatus list_near(HdDevice *devices, int capacity, int *count, HdError *failure) {
-    return list_devices(NEAR, devices, capacity, count, failure);
-}
-
-static HdStatus list_far(HdDevice *devices, int capacity, int *count, HdError *failure) {
-    return list_devices(FAR, devices, capacity, count, failure);
-}
-
-static HdStatus list_c(HdDevice *devices, int capacity, int *count, HdError *failure) {
-    return list_devices(C, devices, capacity, count, failure);
-}
+#define LISTING(name, backend)                                                                     \
+    static HdStatus name(HdDevice *devices, int capacity, int *count, HdError *failure) {          \
+        return list_devices(backend, devices, capacity, count, failure);                           \
+    }
+LISTING(list_near, NEAR)
+LISTING(list_far, FAR)
+LISTING(list_c, C)
 
 static HdStatus open_c(const HdDevice *device, const HdRenderOptions *asked, void **renderer,
                        HdError *failure) {
-    return fake.is_missing ? hd_fail(failure, HD_UNAVAILABLE, "it is missing")
-                           : hd_backend_c.functions->open(device, asked, renderer, failure);
+    return is_missing ? hd_fail(failure, HD_UNAVAILABLE, "it is missing")
+                      : hd_backend_c.functions->open(device, asked, renderer, failure);
 }
 
 static HdRendererFunctions c_functions;
@@ -65,10 +69,10 @@ static const HdBackend c = {.name = "c",
                             .enumerate = list_c};
 
 static const HdBackend *find_backend(const char *name) {
-    for (int i = 0; i < HD_BACKEND_COUNT; i++)
-        if (strcmp(hd_backends[i]->name, name) == 0)
-            return hd_backends[i];
-    return NULL;
+    int i = 0;
+    while (i < HD_BACKEND_COUNT && strcmp(hd_backends[i]->name, name) != 0)
+        i++;
+    return i < HD_BACKEND_COUNT ? hd_backends[i] : NULL;
 }
 REPLACE(hd_backend_find, find_backend)
 
@@ -84,17 +88,16 @@ static void replace_backends(void) {
 }
 AT_START(replace_backends)
 
-/* Returns the device, to be changed. */
 static HdDevice *add(int backend, const char *name, int units) {
     const int index = there[backend].count++;
     HdDevice *device = &there[backend].list[index];
     *device = (HdDevice){.index = index,
+                         .driver = "driver 1",
                          .compute_units = units,
                          .clock_mhz = 1000,
                          .has_wide_atomics = true,
                          .is_cpu = backend == C};
     snprintf(device->name, sizeof device->name, "%s", name);
-    snprintf(device->driver, sizeof device->driver, "driver 1");
     return device;
 }
 
@@ -105,7 +108,7 @@ static int begin(void **state) {
     near.needs_no_driver = far.needs_no_driver = false;
     setenv("HEDRON_CACHE", "off", 1);
     memset(there, 0, sizeof there);
-    memset(&fake, 0, sizeof fake);
+    is_missing = false;
     options = (HdRenderOptions){.threads = 1};
     if (hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error) != HD_OK)
         return 1;
@@ -123,32 +126,57 @@ static int end(void **state) {
 
 /* ---- what comes of it ---- */
 
-/* "near:0 far:1"; or the message. */
-static const char *opened_by(const HdDeviceWish *wish, HdStatus status) {
-    static char text[1024];
-    HdDeviceWish whole = *wish;
-    whole.options = &options;
-    whole.job = &job;
+/* Of what came last: "near:0 far:1"; or the message. */
+static char names[1024];
+
+static void add_name(int number, const HdDevice *device) {
+    const size_t length = number > 0 ? strlen(names) : 0;
+    snprintf(names + length, sizeof names - length, "%s%s:%d", number > 0 ? " " : "",
+             device->backend->name, device->index);
+}
+
+static const char *told(HdStatus status, HdStatus expected) {
+    assert_int_equal(status, expected);
+    return status == HD_OK ? names : error.message;
+}
+
+static const char *opened_by(HdDeviceWish wish, HdStatus expected) {
+    wish.options = &options;
+    wish.job = &job;
     hd_close_devices(&team);
-    assert_int_equal(hd_open_devices(&team, &whole, &error), status);
-    if (status != HD_OK) {
-        assert_int_equal(team.count, 0);
-        return error.message;
-    }
-    text[0] = '\0';
+    const HdStatus status = hd_open_devices(&team, &wish, &error);
+    assert_true(status == HD_OK || team.count == 0);
     for (int i = 0; i < team.count; i++) {
-        const size_t length = strlen(text);
         assert_non_null(team.list[i].renderer);
-        snprintf(text + length, sizeof text - length, "%s%s:%d", i > 0 ? " " : "",
-                 team.list[i].device.backend->name, team.list[i].device.index);
+        add_name(i, &team.list[i].device);
     }
-    return text;
+    return told(status, expected);
+}
+
+static const char *found_by(HdDeviceWish wish, HdStatus expected) {
+    wish.options = &options;
+    wish.job = &job;
+    const HdStatus status = hd_candidates_find(&candidates, &wish, &error);
+    for (int i = 0; i < candidates.count; i++)
+        add_name(i, &candidates.list[i].device);
+    return told(status, expected);
+}
+
+static const char *named(const char *backend, const char *device, HdStatus expected) {
+    static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
+    int count;
+    const HdStatus status = hd_devices_named(backend, device, devices, &count, &error);
+    for (int i = 0; i < count; i++)
+        add_name(i, &devices[i]);
+    return told(status, expected);
 }
 
 #define expect_opened(expected, ...)                                                               \
-    assert_string_equal(opened_by(&(HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
+    assert_string_equal(opened_by((HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
+#define expect_found(expected, ...)                                                                \
+    assert_string_equal(found_by((HdDeviceWish){__VA_ARGS__}, HD_OK), expected)
 #define expect_failure(status, part, ...)                                                          \
-    expect_contains(opened_by(&(HdDeviceWish){__VA_ARGS__}, status), part)
+    expect_contains(opened_by((HdDeviceWish){__VA_ARGS__}, status), part)
 
 /* ---- one ---- */
 
@@ -165,163 +193,125 @@ TEST(gpus_come_first_then_the_fastest) {
     assert_string_equal(team.why, "the best device of the backend named by --backend");
     there[NEAR].status = HD_OK;
     add(NEAR, "Old", 1);
-    HdCandidates candidates;
-    const HdDeviceWish gpu = {.kind = HD_PREFER_GPU, .options = &options, .job = &job};
-    assert_int_equal(hd_candidates_find(&candidates, &gpu, &error), HD_OK);
-    static const char *const order[] = {"Old",      "Fast", "Cool", "Slow", "Processor by driver",
-                                        "Processor"};
-    assert_int_equal(candidates.count, 6);
-    for (int i = 0; i < 6; i++)
-        assert_string_equal(candidates.list[i].device.name, order[i]);
+    expect_found("near:0 far:2 far:3 far:1 far:0 c:0", .kind = HD_PREFER_GPU);
     assert_int_equal(candidates.compared, 4);
     assert_true(candidates.is_free && candidates.frame_seconds > 0.0);
+    expect_failure(HD_UNAVAILABLE, "no device can do this: Old: it is not a CPU",
+                   .kind = HD_ONLY_CPU, .backend = "near");
 }
 
 TEST(names_are_numbers_and_parts_of_names) {
+    static const char *const found[][3] = {{"near:1", "near:1", NULL}, {"GIGA", "far:0", "far"},
+                                           {"0", "far:0", "far"},      {"0", "near:0", NULL},
+                                           {"1", "near:1", NULL},      {"proc", "c:0", NULL}};
+    static const char *const none[] = {"near:2", "near:x", "1\xc3\xa9"};
     add(NEAR, "Turbo 10", 1);
     add(NEAR, "Giga 20", 9);
     add(FAR, "Giga 30", 9);
     expect_opened("near:0", .device = "turbo");
     assert_string_equal(team.why,
                         "named by --device; passed over: far: no device of that number or name");
-    expect_opened("near:1", .device = "near:1");
-    expect_opened("far:0", .device = "GIGA", .backend = "far");
-    expect_opened("far:0", .device = "0", .backend = "far");
-    expect_opened("near:0", .device = "0");
-    expect_opened("near:1", .device = "1");
-    expect_opened("c:0", .device = "proc");
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++)
+        expect_opened(found[i][1], .device = found[i][0], .backend = found[i][2]);
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        expect_failure(HD_UNAVAILABLE, "near: no device of that", .device = none[i]);
     expect_failure(HD_UNAVAILABLE,
                    "no device can do this (asked for device '30 '): near: no device of that number "
                    "or name",
                    .device = "30 ");
     expect_contains(error.message, "; see 'hedron devices'");
-    expect_failure(HD_UNAVAILABLE, "near: no device of that", .device = "near:2");
     expect_failure(HD_BAD_INPUT, "--device is 'near:1', but --backend is 'far'", .device = "near:1",
                    .backend = "far");
-    expect_failure(HD_UNAVAILABLE, "near: no device", .device = "near:x");
-    expect_failure(HD_UNAVAILABLE, "near: no device", .device = "1\xc3\xa9");
 }
 
-TEST(a_small_job_asks_no_driver) {
-    add(NEAR, "Turbo", 9);
-    expect_opened("c:0", .kind = HD_WANT_ANY);
-    assert_int_equal(there[NEAR].asked, 0);
-    expect_contains(team.why, "it needs about ");
-    expect_contains(team.why, " s, less than other devices take to start");
-    assert_string_equal(team.note, "");
-}
-
-/* Nobody has so many frames in a quarter of a second. */
-TEST(a_large_job_compares_all_but_processors_by_drivers) {
-    HdCandidates candidates;
-    HdDeviceWish any = {.options = &options, .job = &job};
-    job.frame_count = 1 << 24;
+TEST(a_small_job_asks_no_driver_and_a_large_one_compares_devices) {
     add(NEAR, "Turbo", 9);
     add(FAR, "Processor by driver", 9)->is_cpu = true;
-    assert_int_equal(hd_candidates_find(&candidates, &any, &error), HD_OK);
-    assert_int_equal(candidates.count, 2);
+    expect_opened("c:0", .kind = HD_WANT_ANY);
+    assert_int_equal(there[NEAR].asked, 0);
+    assert_string_equal(team.why, "it needs about 0.003 s, less than other devices take to start");
+    assert_string_equal(team.note, "");
+    job.frame_count = 1 << 24;
+    expect_found("near:0 c:0", .kind = HD_WANT_ANY);
     assert_int_equal(candidates.compared, 2);
     assert_true(candidates.is_free);
-    assert_string_equal(candidates.list[1].device.name, "Processor");
-    any.device = "c:0";
-    assert_int_equal(hd_candidates_find(&candidates, &any, &error), HD_OK);
+    expect_found("c:0", .device = "c:0");
     assert_int_equal(candidates.compared, 0);
     assert_false(candidates.is_free);
 }
 
-TEST(more_devices_than_there_is_room_for) {
-    HdCandidates candidates;
-    const HdDeviceWish gpu = {.backend = "near", .options = &options, .job = &job};
-    for (int i = 0; i < MOST; i++)
-        add(NEAR, "Card", 1 + i % 20);
-    assert_int_equal(hd_candidates_find(&candidates, &gpu, &error), HD_OK);
-    assert_int_equal(candidates.count, HD_MAX_CANDIDATES);
-    for (int i = 0; i < HD_MAX_CANDIDATES; i++)
-        assert_int_equal(candidates.list[i].device.index, 19 - i / 2 + (i % 2) * 20);
-}
-
 TEST(a_gpu_that_is_passed_over_is_told) {
+    static const char passed[] =
+        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is passed over: it "
+        "computes wrongly: 1 + 1; --math fast would take it, for other bytes";
     HdDevice *broken = add(NEAR, "Broken", 9);
     snprintf(broken->unusable, sizeof broken->unusable, "no compiler is here");
     snprintf(add(FAR, "Wrong", 9)->not_strict, 100, "it computes wrongly: 1 + 1");
     there[C].list[0].is_cpu = true;
     job.frame_count = 1 << 24;
-    HdCandidates candidates;
-    HdDeviceWish wish = {.options = &options, .job = &job};
-    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
-    assert_string_equal(candidates.passed,
-                        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is "
-                        "passed over: it computes wrongly: 1 + 1; --math fast would take it, for "
-                        "other bytes");
+    expect_found("c:0", .kind = HD_WANT_ANY);
+    assert_string_equal(candidates.passed, passed);
     assert_string_equal(candidates.reasons,
                         "Broken: no compiler is here; Wrong: it computes wrongly: 1 + 1");
     expect_opened("c:0", .kind = HD_PREFER_GPU);
-    assert_string_equal(team.note,
-                        "near:0 (Broken) is passed over: no compiler is here; far:0 (Wrong) is "
-                        "passed over: it computes wrongly: 1 + 1; --math fast would take it, for "
-                        "other bytes; no suitable GPU was found; tracing with c on Processor");
+    assert_memory_equal(team.note, passed, sizeof passed - 1);
+    assert_string_equal(team.note + sizeof passed - 1,
+                        "; no suitable GPU was found; tracing with c on Processor");
     expect_contains(team.why, "no GPU can do this; passed over: Broken: no compiler is here; ");
     /* Whose own wish rules them out need not be told. */
     options.lanes = 4;
-    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    expect_found("c:0", .kind = HD_WANT_ANY);
     assert_string_equal(candidates.passed, "");
     options.lanes = 1;
-    wish.backend = "far";
-    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_UNAVAILABLE);
+    assert_string_equal(found_by((HdDeviceWish){.backend = "far"}, HD_UNAVAILABLE),
+                        "no device can do this: Wrong: it computes wrongly: 1 + 1");
     assert_string_equal(candidates.passed, "");
-    assert_string_equal(error.message, "no device can do this: Wrong: it computes wrongly: 1 + 1");
     there[FAR].status = HD_FAILED;
-    wish.backend = NULL;
-    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    expect_found("c:0", .kind = HD_WANT_ANY);
     expect_contains(candidates.passed, "; far is passed over: its driver is ill");
     there[FAR].status = HD_UNAVAILABLE;
-    assert_int_equal(hd_candidates_find(&candidates, &wish, &error), HD_OK);
+    expect_found("c:0", .kind = HD_WANT_ANY);
     assert_null(strstr(candidates.passed, "far"));
     expect_contains(candidates.reasons, "; far: its driver is ill");
-}
-
-TEST(only_a_cpu_is_no_gpu) {
-    add(NEAR, "Turbo", 9);
-    expect_failure(HD_UNAVAILABLE, "no device can do this: Turbo: it is not a CPU",
-                   .kind = HD_ONLY_CPU, .backend = "near");
 }
 
 /* ---- several ---- */
 
 TEST(a_list_names_each_once) {
+    static const char *const wrong[][2] = {
+        {"near:1,giga", "--device is 'near:1,giga', which names near:1 (Giga) twice"},
+        {"near:1,,c:0", "'near:1,,c:0', which has an empty part"},
+        {"near:1,", "which has an empty part"},
+        {"c:0,all", "--device is 'c:0,all', but 'all' stands alone"}};
+    static const char *const several[] = {"near:0,c:0", "all"};
     add(NEAR, "Turbo", 9);
     add(NEAR, "Giga", 9);
     expect_opened("near:1 c:0 near:0", .device = "near:1,c:0,turbo");
-    expect_failure(HD_BAD_INPUT, "--device is 'near:1,giga', which names near:1 (Giga) twice",
-                   .device = "near:1,giga");
-    expect_failure(HD_BAD_INPUT, "'near:1,,c:0', which has an empty part", .device = "near:1,,c:0");
-    expect_failure(HD_BAD_INPUT, "which has an empty part", .device = "near:1,");
-    expect_failure(HD_BAD_INPUT, "--device is 'c:0,all', but 'all' stands alone",
-                   .device = "c:0,all");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        expect_failure(HD_BAD_INPUT, wrong[i][1], .device = wrong[i][0]);
     expect_failure(HD_UNAVAILABLE, "(asked for device '2'): near: no device of that",
                    .device = "near:0,near:2");
-    expect_failure(HD_BAD_INPUT, "--device is 'near:0,c:0', expected one device",
-                   .device = "near:0,c:0", .is_for_one = true);
-    expect_failure(HD_BAD_INPUT, "--device is 'all', expected one device", .device = "all",
-                   .is_for_one = true);
+    for (int i = 0; i < 2; i++)
+        expect_failure(HD_BAD_INPUT, "', expected one device", .device = several[i],
+                       .is_for_one = true);
 }
 
-TEST(a_list_has_an_end) {
-    char list[8 * HD_MOST_TRACERS + 8] = "";
-    near.needs_no_driver = far.needs_no_driver =
-        true; /* nothing is remembered of their arithmetic */
+TEST(more_devices_than_there_is_room_for) {
+    char list[8 * HD_MOST_TRACERS + 8] = "near:0";
+    near.needs_no_driver = far.needs_no_driver = true; /* there is no verdict to read */
     for (int i = 0; i < MOST; i++)
-        add(NEAR, "Card", 1), add(FAR, "Chip", 1);
-    for (int i = 0; i < HD_MOST_TRACERS + 1; i++) {
-        const size_t length = strlen(list);
-        snprintf(list + length, sizeof list - length, "%s%s:%d", i > 0 ? "," : "",
-                 i < MOST ? "near" : "far", i % MOST);
-    }
+        add(NEAR, "Card", 1 + i % 20), add(FAR, "Chip", 1);
+    found_by((HdDeviceWish){.backend = "near"}, HD_OK);
+    assert_int_equal(candidates.count, HD_MAX_CANDIDATES);
+    for (int i = 0; i < HD_MAX_CANDIDATES; i++)
+        assert_int_equal(candidates.list[i].device.index, 19 - i / 2 + (i % 2) * 20);
+    for (int i = 1; i < HD_MOST_TRACERS + 1; i++)
+        snprintf(list + strlen(list), 9, ",%s:%d", i < MOST ? "near" : "far", i % MOST);
     expect_failure(HD_BAD_INPUT, "--device names more than 64 devices", .device = list);
     *strrchr(list, ',') = '\0';
-    opened_by(&(HdDeviceWish){.device = list}, HD_OK);
+    opened_by((HdDeviceWish){.device = list}, HD_OK);
     assert_int_equal(team.count, HD_MOST_TRACERS);
-    opened_by(&(HdDeviceWish){.device = "all"}, HD_OK);
+    opened_by((HdDeviceWish){.device = "all"}, HD_OK);
     assert_int_equal(team.count, HD_MOST_TRACERS);
 }
 
@@ -339,7 +329,7 @@ TEST(all_are_those_that_can_do_it) {
     snprintf(there[FAR].list[1].unusable, 100, "no compiler is here");
     expect_opened("near:0 near:1 c:0", .device = "all");
     assert_string_equal(team.note, "far:1 (Giga) is left out: no compiler is here");
-    fake.is_missing = true;
+    is_missing = true;
     expect_failure(HD_UNAVAILABLE,
                    "no device can do this: near:0 (Turbo) is left out: near: it is missing; "
                    "near:1 (Turbo) is left out: near: it is missing; far:0 ",
@@ -350,49 +340,40 @@ TEST(all_are_those_that_can_do_it) {
                    .backend = "far");
 }
 
-/* A core of plain C's goes to each GPU. */
-TEST(plain_c_leaves_cores_to_gpus) {
-    char text[256];
-    const int all = hd_processor_count();
+TEST(plain_c_leaves_a_core_to_each_gpu) {
     options.threads = 0;
     for (int gpus = 0; gpus < 3; gpus++) {
-        opened_by(&(HdDeviceWish){.device = "all"}, HD_OK);
+        char text[256], expected[64];
+        const int left = hd_processor_count() - gpus, threads = left > 1 ? left : 1;
+        opened_by((HdDeviceWish){.device = "all"}, HD_OK);
         assert_int_equal(team.count, gpus + 1);
         hd_renderer_describe(team.list[gpus].renderer, text, sizeof text);
-        const int threads = all - gpus > 1 ? all - gpus : 1;
-        char expected[64];
         snprintf(expected, sizeof expected, "%d thread%s", threads, threads == 1 ? "" : "s");
         expect_contains(text, expected);
         add(NEAR, "Turbo", 9);
     }
 }
 
-/* ---- lists of what is there ---- */
-
 TEST(devices_are_named_whatever_they_can_do) {
-    static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
-    int count;
     snprintf(add(NEAR, "Turbo", 9)->unusable, 100, "no compiler is here");
     add(NEAR, "Giga", 9);
     there[FAR].status = HD_FAILED;
-    assert_int_equal(hd_devices_named(NULL, NULL, devices, &count, &error), HD_OK);
-    assert_int_equal(count, 3);
-    assert_string_equal(devices[0].name, "Turbo");
-    assert_string_equal(devices[2].name, "Processor");
-    assert_int_equal(hd_devices_named("near", "all", devices, &count, &error), HD_OK);
-    assert_int_equal(count, 2);
-    assert_int_equal(hd_devices_named(NULL, "giga", devices, &count, &error), HD_OK);
-    assert_int_equal(count, 1);
-    assert_string_equal(devices[0].name, "Giga");
-    assert_int_equal(hd_devices_named(NULL, "near:0", devices, &count, &error), HD_OK);
-    assert_int_equal(count, 1);
-    assert_int_equal(hd_devices_named("c", "near:0", devices, &count, &error), HD_BAD_INPUT);
-    assert_int_equal(hd_devices_named(NULL, "7", devices, &count, &error), HD_UNAVAILABLE);
-    assert_string_equal(error.message,
+    assert_string_equal(named(NULL, NULL, HD_OK), "near:0 near:1 c:0");
+    assert_string_equal(named("near", "all", HD_OK), "near:0 near:1");
+    assert_string_equal(named(NULL, "giga", HD_OK), "near:1");
+    assert_string_equal(named(NULL, "near:0", HD_OK), "near:0");
+    named("c", "near:0", HD_BAD_INPUT);
+    assert_string_equal(named(NULL, "7", HD_UNAVAILABLE),
                         "there is no such device ('7'): near: no device of that number or name; "
                         "far: its driver is ill");
-    assert_int_equal(hd_devices_named("far", NULL, devices, &count, &error), HD_UNAVAILABLE);
-    assert_string_equal(error.message, "there is no such device: far: its driver is ill");
+    assert_string_equal(named("far", NULL, HD_UNAVAILABLE),
+                        "there is no such device: far: its driver is ill");
+}
+
+TEST(every_backend_is_found_by_its_name) {
+    assert_ptr_equal(real_hd_backend_find("cuda"), &hd_backend_cuda);
+    assert_null(real_hd_backend_find("d"));
+    assert_ptr_equal(real_hd_backend_always_there(), &hd_backend_c);
 }
 
 EACH(begin, end)

@@ -10,12 +10,13 @@
 #include "unit_test.h"
 
 /* Every ray has `children` rays that go on, which a launch appends with those of its group: places
-   of rays that do not live are filled too. */
+   of rays that do not live are filled too. Negative: as trees of a scene with a bound, which widen
+   at first and then get thinner for hundreds of levels. */
 typedef struct Account {
     const HdWavePlan *plan;
     const HdWaveRun *frame;
-    int children; /* negative: see rays_going_on */
-    char *waits;  /* 1 for each place of the queue whose ray is still to be traced */
+    int children;
+    char *waits; /* 1 for each place of the queue whose ray is still to be traced */
     int64_t traced, steps;
     unsigned taken;
     int next_item;   /* the first one that is not stored */
@@ -23,15 +24,6 @@ typedef struct Account {
     int batch_samples;
 } Account;
 
-static void leave_queue(Account *account, const HdWaveStep *step) {
-    for (int i = step->first; i < step->first + step->count; i++) {
-        assert_true(account->waits[i]);
-        account->waits[i] = 0;
-    }
-}
-
-/* Negative `children`: as trees of a scene with a bound, which widen at first and then get thinner
-   for hundreds of levels. */
 static int rays_going_on(const Account *account, const HdWaveStep *step) {
     int grain = account->frame->grain, groups = (step->count + grain - 1) / grain;
     if (step->level >= account->frame->depth)
@@ -57,8 +49,10 @@ static void trace(Account *account, const HdWaveStep *step) {
         assert_false(account->waits[i]); /* nor is it one of those that are being read */
         account->waits[i] = 1;
     }
-    if (step->level > 0)
-        leave_queue(account, step);
+    for (int i = step->first; step->level > 0 && i < step->first + step->count; i++) {
+        assert_true(account->waits[i]);
+        account->waits[i] = 0;
+    }
     account->traced += step->count;
     account->steps++;
     account->taken += (unsigned)going_on;
@@ -76,8 +70,10 @@ static void store(Account *account, const HdWaveStep *step) {
 /* What one launch may have. */
 static int launch_rays = HD_MOST_LAUNCH_WORK;
 
+static int64_t steps; /* of the last frame */
+
 /* Runs a frame; returns the number of rays traced. */
-static int64_t run(size_t bytes, const HdWaveRun *frame, int children, int64_t *steps) {
+static int64_t run(size_t bytes, const HdWaveRun *frame, int children) {
     HdError error;
     HdWaveNeeds needs = {
         .bytes = bytes,
@@ -99,75 +95,46 @@ static int64_t run(size_t bytes, const HdWaveRun *frame, int children, int64_t *
     assert_int_equal(run.step.action, HD_WAVE_IS_DONE);
     assert_int_equal(account.next_item, frame->items);
     free(account.waits);
-    if (steps != NULL)
-        *steps = account.steps;
+    steps = account.steps;
     return account.traced;
 }
 
-/* Whole groups on each level, since the account rounds up to them only where they are split. */
-TEST(all_rays_are_traced_in_any_memory) {
-    static const size_t budgets[] = {1, 5000, 20000, 100000, 1 << 20, 1 << 28};
-    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
-        for (int depth = 0; depth <= 6; depth++)
-            for (int children = 0; children <= 2; children++) {
-                HdWaveRun frame = {.items = 24, .samples_per_item = 4, .depth = depth, .grain = 4};
-                int64_t expected = 0, of_level = 96;
-                for (int level = 0; level <= depth; level++, of_level *= children)
-                    expected += of_level;
-                assert_int_equal(run(budgets[b], &frame, children, NULL), expected);
-            }
-}
-
-TEST(groups_that_do_not_fit_evenly_never_overlap) {
-    static const size_t budgets[] = {1, 3000, 50000, 1 << 20};
-    for (size_t b = 0; b < sizeof budgets / sizeof *budgets; b++)
-        for (int depth = 0; depth <= 5; depth++) {
-            HdWaveRun frame = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
-            run(budgets[b], &frame, 2, NULL);
-            run(budgets[b], &frame, 1, NULL);
-        }
-}
-
-TEST(launches_of_any_size_trace_all_rays) {
-    static const int sizes[] = {1, 5, 32, 40, 150};
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        launch_rays = sizes[i];
-        all_rays_are_traced_in_any_memory(state);
-        groups_that_do_not_fit_evenly_never_overlap(state);
+/* The account tells rays that overlap; it rounds up to groups only where they are split, so that
+   it counts those of whole groups on each level. */
+TEST(all_rays_are_traced_in_any_memory_by_launches_of_any_size) {
+    static const int sizes[] = {1, 5, 32, 40, 150, HD_MOST_LAUNCH_WORK};
+    static const size_t budgets[] = {1, 3000, 5000, 20000, 50000, 100000, 1 << 20, 1 << 28};
+    for (size_t i = 0; i < 6 * 8 * 7 * 3; i++) {
+        const int depth = (int)(i / 3 % 7), children = (int)(i % 3);
+        const size_t bytes = budgets[i / 21 % 8];
+        const HdWaveRun even = {.items = 24, .samples_per_item = 4, .depth = depth, .grain = 4},
+                        uneven = {.items = 23, .samples_per_item = 9, .depth = depth, .grain = 32};
+        int64_t expected = 0, of_level = 96;
+        for (int level = 0; level <= depth; level++, of_level *= children)
+            expected += of_level;
+        launch_rays = sizes[i / 168];
+        assert_int_equal(run(bytes, &even, children), expected);
+        run(bytes, &uneven, children);
     }
-    launch_rays = HD_MOST_LAUNCH_WORK;
 }
 
-TEST(launches_have_at_most_their_size) {
-    HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
-    int64_t steps;
+/* In launches of at most their size, and enough memory, each level is a step for each. Of a deep
+   tree a level's rest would make all levels below it again, so that levels are taken whole. */
+TEST(room_decides_how_many_steps_there_are) {
+    const HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
+    run(1 << 24, &frame, 1);
+    assert_int_equal(steps, 6);
+    run(20000, &frame, 1);
+    const int64_t few = steps;
+    run(1, &frame, 1);
+    assert_true(few > 6 && steps > few);
     launch_rays = 64;
-    run(1 << 24, &frame, 1, &steps);
+    run(1 << 24, &frame, 1);
     assert_int_equal(steps, 4 * 6);
     launch_rays = HD_MOST_LAUNCH_WORK;
-}
-
-TEST(enough_memory_takes_a_step_a_level) {
-    HdWaveRun frame = {.items = 64, .samples_per_item = 4, .depth = 5, .grain = 32};
-    int64_t steps, few, many;
-    run(1 << 24, &frame, 1, &steps);
-    assert_int_equal(steps, 6);
-    run(20000, &frame, 1, &few);
-    run(1, &frame, 1, &many);
-    assert_true(few > steps && many > few);
-}
-
-/* A level's rest would make all levels below it again. */
-TEST(levels_of_deep_trees_are_taken_whole) {
-    HdWaveRun frame = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
-    int64_t steps;
-    run((1 << 25) / 13 * 12, &frame, -1, &steps);
+    const HdWaveRun deep = {.items = 20000, .samples_per_item = 4, .depth = 500, .grain = 128};
+    run((1 << 25) / 13 * 12, &deep, -1);
     assert_in_range(steps, 9 * 100, 9 * 110); /* nine batches, which live for 103 levels */
-}
-
-TEST(the_least_queue_takes_a_bundle_at_a_time) {
-    for (int levels = 1; levels <= 40; levels++)
-        assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
 }
 
 /* The places of a level that is done serve the next one. */
@@ -183,6 +150,11 @@ TEST(rays_go_below_those_that_made_them) {
 }
 
 TEST(plans_keep_to_their_budget) {
+    const HdWaveNeeds few = {
+        .bytes = 1 << 28, .depth = 4, .grain = 32, .samples = 1000, .samples_at_once = 10};
+    assert_int_equal(hd_wave_plan(&few).sum_stride, 1000);
+    for (int levels = 1; levels <= 40; levels++)
+        assert_int_equal(wave_fitting(wave_least_capacity(levels, 4), levels, 4), 4);
     for (int depth = 1; depth <= 1000; depth = depth * 3 + 1)
         for (size_t bytes = 1 << 26; bytes <= (size_t)1 << 30; bytes *= 4) {
             HdWaveNeeds needs = {.bytes = bytes,
@@ -206,49 +178,28 @@ TEST(plans_keep_to_their_budget) {
 
 /* A device that refuses memory is asked for less, until it is as little as the least. */
 TEST(a_refused_queue_is_halved) {
-    HdWaveNeeds needs = {
-        .bytes = 9 << 20, .depth = 8, .grain = 128, .samples = 1 << 20, .samples_at_once = 16};
-    size_t before = hd_wave_plan(&needs).bytes[0];
+    HdWaveNeeds needs = {.bytes = 9 << 20};
     static const size_t expected[] = {9 << 19, 9 << 18, 9 << 17, HD_WAVE_LEAST_BYTES};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         assert_true(hd_wave_halve(&needs));
         assert_int_equal(needs.bytes, expected[i]);
-        assert_true(hd_wave_plan(&needs).bytes[0] < before);
-        before = hd_wave_plan(&needs).bytes[0];
     }
     assert_false(hd_wave_halve(&needs));
-    assert_int_equal(needs.bytes, HD_WAVE_LEAST_BYTES);
     needs.bytes = 1;
     assert_false(hd_wave_halve(&needs));
     assert_int_equal(needs.bytes, 1);
-}
-
-TEST(a_cut_queue_is_told) {
     char text[128];
     hd_wave_tell_cut(33554432, text, sizeof text);
     assert_string_equal(text, ", the queue cut to 33.6 MB, for more memory was refused");
-    hd_wave_tell_cut(33554432, text, 8);
-    assert_string_equal(text, ", the q");
-}
-
-TEST(few_samples_take_no_more_room) {
-    const HdWaveNeeds needs = {.bytes = 1 << 28,
-                               .precision = HD_PRECISION_FLOAT,
-                               .depth = 4,
-                               .grain = 32,
-                               .samples = 1000,
-                               .samples_at_once = 10};
-    assert_int_equal(hd_wave_plan(&needs).sum_stride, 1000);
 }
 
 TEST(launches_have_the_groups_that_they_need) {
-    HdWavePlan plan = {.queue_stride = 1000, .sum_stride = 3000};
-    assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
-    assert_int_equal(hd_wave_groups(&plan, 128, 5), 5);
-    plan = (HdWavePlan){.queue_stride = 3000, .sum_stride = 1000};
-    assert_int_equal(hd_wave_groups(&plan, 128, 0), 24);
-    plan.queue_stride = 1 << 30;
-    assert_int_equal(hd_wave_groups(&plan, 128, 0), 1 << 15);
+    static const int cases[][4] = {
+        {1000, 3000, 0, 24}, {1000, 3000, 5, 5}, {3000, 1000, 0, 24}, {1 << 30, 1000, 0, 1 << 15}};
+    for (int i = 0; i < 4; i++) {
+        const HdWavePlan plan = {.queue_stride = cases[i][0], .sum_stride = cases[i][1]};
+        assert_int_equal(hd_wave_groups(&plan, 128, cases[i][2]), cases[i][3]);
+    }
 }
 
 /* The last test: a signal is remembered. */

@@ -1,216 +1,123 @@
 /* SPDX-License-Identifier: MIT */
+/* Beside what is read of each kind of JPEG (test_picture.c). */
 #define _XOPEN_SOURCE 700
 
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <jpeglib.h>
 
-#include "base/hash.h"
-#include "image/picture.h"
-#include "unit_test.h"
+#include "picture_files.h"
 
-enum { MAX_BYTES = 65536, SIDE = 24 };
+enum { SIDE = 24 };
 
-typedef struct Bytes {
-    unsigned char *at; /* owned */
-    unsigned long size;
-} Bytes;
+static HdError error;
+static unsigned char bytes[65536];
 
-/* Scans of a grey picture that have all bits of their coefficients. */
-static const jpeg_scan_info whole_bits[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
+/* A copy of its own size lets the sanitizer see a read past the end. */
+static void check_refused(const unsigned char *file, size_t size, const char *part) {
+    HdTexture texture;
+    unsigned char *copy = malloc(size);
+    assert_non_null(copy);
+    memcpy(copy, file, size);
+    assert_int_equal(hd_texture_decode(&texture, copy, size, "a.jpg", HD_CURVE_SRGB, &error),
+                     HD_BAD_INPUT);
+    assert_null(texture.texels);
+    expect_contains(error.message, "a.jpg");
+    expect_contains(error.message, part);
+    free(copy);
+}
 
-/* A picture of SIDE x SIDE pixels, whose pixel (x, y) has `channels` values made of a few primes;
-   `flat`: all of them 10, 100, 200, 50. */
-static Bytes encode(J_COLOR_SPACE space, int channels, bool flat, bool progressive) {
-    static const JSAMPLE values[4] = {10, 100, 200, 50};
+TEST(texels_come_off_the_curve) {
+    HdTexture linear, srgb;
+    uint16_t decoded[256];
+    const size_t size = load_texture_file("jpeg_444", bytes, sizeof bytes);
+    hd_curve_decode8(HD_CURVE_SRGB, decoded);
+    assert_int_equal(hd_texture_decode(&linear, bytes, size, "a", HD_CURVE_LINEAR, &error), HD_OK);
+    assert_int_equal(hd_texture_decode(&srgb, bytes, size, "a", HD_CURVE_SRGB, &error), HD_OK);
+    for (int i = 0; i < linear.width * linear.height * 3; i++)
+        assert_int_equal(srgb.texels[i], decoded[linear.texels[i] / 257]);
+    hd_texture_clear(&linear);
+    hd_texture_clear(&srgb);
+}
+
+TEST(cut_files_are_refused) {
+    static const char *const names[] = {"jpeg_444", "jpeg_progressive"};
+    for (int i = 0; i < 2; i++) {
+        const size_t whole = load_texture_file(names[i], bytes, sizeof bytes);
+        for (size_t size = 3; size < whole; size++)
+            check_refused(bytes, size, "");
+        check_refused(bytes, whole - 20, "cannot read a.jpg as JPEG: Premature end of JPEG");
+        /* The end is there, but pixels are not. */
+        memcpy(bytes + whole - 20, "\xff\xd9", 2);
+        check_refused(bytes, whole - 18, "premature end of data segment");
+    }
+}
+
+TEST(hostile_files_are_refused) {
+    const size_t size = load_texture_file("jpeg_444", bytes, sizeof bytes);
+    unsigned char *frame = bytes; /* its head, then its length, bits, height and width */
+    while (frame[0] != 0xff || frame[1] != 0xc0)
+        frame++;
+    frame[4] = 12;
+    check_refused(bytes, size, "Unsupported JPEG data precision 12");
+    frame[4] = 8;
+    memset(frame + 5, 0xff, 4);
+    check_refused(bytes, size, "Maximum supported image dimension is 65500 pixels");
+    memset(frame + 5, 0xf0, 4);
+    check_refused(bytes, size, "61680 x 61680 pixels, expected at most 268435456 in all");
+    memset(frame + 5, 0x30, 4);
+    check_refused(bytes, size, "premature end of data segment");
+    memset(frame + 5, 0, 4);
+    check_refused(bytes, size, "Empty JPEG image");
+}
+
+/* A picture of SIDE x SIDE pixels, into `bytes`; returns its size. One that is grey has two scans,
+   each with all bits of its coefficients. */
+static unsigned long encode(J_COLOR_SPACE space, int channels) {
+    static const jpeg_scan_info whole_bits[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
     struct jpeg_compress_struct jpeg;
     struct jpeg_error_mgr errors;
-    Bytes bytes = {NULL, 0};
+    unsigned char *encoded = bytes;
+    unsigned long size = sizeof bytes;
     JSAMPLE row[SIDE * 4];
     JSAMPROW rows[1] = {row};
     jpeg.err = jpeg_std_error(&errors);
     jpeg_create_compress(&jpeg);
-    jpeg_mem_dest(&jpeg, &bytes.at, &bytes.size);
+    jpeg_mem_dest(&jpeg, &encoded, &size);
     jpeg.image_width = jpeg.image_height = SIDE;
     jpeg.input_components = channels;
     jpeg.in_color_space = space;
     jpeg_set_defaults(&jpeg);
-    jpeg_set_quality(&jpeg, 100, TRUE);
-    if (progressive && channels == 1) {
-        jpeg.scan_info = whole_bits;
-        jpeg.num_scans = 2;
-    } else if (progressive)
-        jpeg_simple_progression(&jpeg);
+    jpeg.scan_info = channels == 1 ? whole_bits : NULL;
+    jpeg.num_scans = channels == 1 ? 2 : 0;
     jpeg_start_compress(&jpeg, TRUE);
     for (int y = 0; y < SIDE; y++) {
         for (int i = 0; i < SIDE * channels; i++)
-            row[i] = flat ? values[i % channels] : (JSAMPLE)(i * 7 + y * y * 3);
+            row[i] = (JSAMPLE)(i * 7 + y * y * 3);
         jpeg_write_scanlines(&jpeg, rows, 1);
     }
     jpeg_finish_compress(&jpeg);
     jpeg_destroy_compress(&jpeg);
-    return bytes;
-}
-
-static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
-                       HdError *error) {
-    /* A copy of its own size lets the sanitizer see a read past the end. */
-    unsigned char *copy = malloc(size + 1);
-    assert_non_null(copy);
-    memcpy(copy, bytes, size);
-    unsigned char *least = realloc(copy, size);
-    assert_non_null(least);
-    const HdStatus status =
-        hd_texture_decode(texture, least, size, "a.jpg", HD_CURVE_LINEAR, error);
-    assert_true((status == HD_OK) == (texture->texels != NULL));
-    free(least);
-    return status;
-}
-
-static void expect_flat(Bytes bytes, int red, int green, int blue) {
-    const int expected[3] = {red, green, blue};
-    HdError error = {0};
-    HdTexture texture;
-    assert_int_equal(decode(&texture, bytes.at, bytes.size, &error), HD_OK);
-    assert_int_equal(texture.width, SIDE);
-    assert_int_equal(texture.height, SIDE);
-    for (int i = 0; i < SIDE * SIDE * 3; i++)
-        expect_near(texture.texels[i] / 257.0, expected[i % 3], 1.0);
-    hd_texture_clear(&texture);
-    free(bytes.at);
-}
-
-TEST(grey_and_colours_are_read) {
-    expect_flat(encode(JCS_GRAYSCALE, 1, true, false), 10, 10, 10);
-    expect_flat(encode(JCS_RGB, 3, true, false), 10, 100, 200);
-    expect_flat(encode(JCS_RGB, 3, true, true), 10, 100, 200);
-}
-
-static void check_refused(const unsigned char *bytes, size_t size, const char *part) {
-    HdError error = {0};
-    HdTexture texture;
-    assert_int_equal(decode(&texture, bytes, size, &error), HD_BAD_INPUT);
-    expect_contains(error.message, "a.jpg");
-    expect_contains(error.message, part);
+    assert_ptr_equal(encoded, bytes);
+    return size;
 }
 
 TEST(print_colours_are_refused) {
-    Bytes bytes = encode(JCS_CMYK, 4, true, false);
-    check_refused(bytes.at, bytes.size,
-                  "is a JPEG of 4 colours (4 are those of print, CMYK), "
-                  "expected 1 or 3");
-    free(bytes.at);
-}
-
-TEST(texels_come_off_the_curve) {
-    HdError error = {0};
-    HdTexture linear, srgb;
-    uint16_t decoded[256];
-    Bytes bytes = encode(JCS_RGB, 3, false, false);
-    assert_int_equal(
-        hd_texture_decode(&linear, bytes.at, bytes.size, "a.jpg", HD_CURVE_LINEAR, &error), HD_OK);
-    assert_int_equal(hd_texture_decode(&srgb, bytes.at, bytes.size, "a.jpg", HD_CURVE_SRGB, &error),
-                     HD_OK);
-    hd_curve_decode8(HD_CURVE_SRGB, decoded);
-    for (int i = 0; i < SIDE * SIDE * 3; i++)
-        assert_int_equal(srgb.texels[i], decoded[linear.texels[i] / 257]);
-    hd_texture_clear(&linear);
-    hd_texture_clear(&srgb);
-    free(bytes.at);
-}
-
-/* What `djpeg -nosmooth -dct int` makes of the files, times 257. */
-TEST(every_libjpeg_makes_the_same_texels) {
-    static const struct {
-        const char *name;
-        uint64_t hash;
-    } files[] = {
-        {"jpeg_grey", UINT64_C(0x5dbe58cec83d2d6f)},
-        {"jpeg_444", UINT64_C(0x7a826930a8f8e845)},
-        {"jpeg_422", UINT64_C(0xe9664413da8bca87)},
-        {"jpeg_420", UINT64_C(0x0de0eebb0d6c817d)},
-        {"jpeg_440", UINT64_C(0x25272527f8536a6d)},
-        {"jpeg_progressive", UINT64_C(0xbc100507f1d086a7)},
-    };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        HdError error = {0};
-        HdTexture texture;
-        char path[4096];
-        unsigned char bytes[MAX_BYTES];
-        snprintf(path, sizeof path, "%s/tests/fuzz/corpus/texture/%s", unit_project, files[i].name);
-        FILE *file = fopen(path, "rb");
-        assert_non_null(file);
-        const size_t size = fread(bytes, 1, sizeof bytes, file);
-        fclose(file);
-        /* The first byte is the fuzz target's own. */
-        assert_int_equal(decode(&texture, bytes + 1, size - 1, &error), HD_OK);
-        const uint64_t hash =
-            hd_hash_bytes(HD_HASH_START, texture.texels,
-                          (size_t)texture.width * (size_t)texture.height * 3 * sizeof(uint16_t));
-        if (hash != files[i].hash)
-            fail_msg("%s has the hash 0x%016llx", files[i].name, (unsigned long long)hash);
-        hd_texture_clear(&texture);
-    }
-}
-
-TEST(cut_files_are_refused) {
-    for (int progressive = 0; progressive < 2; progressive++) {
-        HdError error = {0};
-        HdTexture texture;
-        Bytes bytes = encode(JCS_RGB, 3, false, progressive);
-        for (size_t size = 3; size < bytes.size; size++)
-            assert_int_equal(decode(&texture, bytes.at, size, &error), HD_BAD_INPUT);
-        check_refused(bytes.at, bytes.size / 2, "cannot read a.jpg as JPEG: Premature end of JPEG");
-        /* The end is there, but pixels are not. */
-        memcpy(bytes.at + bytes.size / 2, "\xff\xd9", 2);
-        check_refused(bytes.at, bytes.size / 2 + 2, "premature end of data segment");
-        free(bytes.at);
-    }
-}
-
-/* The place of the frame's head: its length, bits, height and width follow. */
-static unsigned char *find_frame(Bytes bytes) {
-    for (size_t i = 0; i + 1 < bytes.size; i++)
-        if (bytes.at[i] == 0xff && (bytes.at[i + 1] == 0xc0 || bytes.at[i + 1] == 0xc2))
-            return bytes.at + i;
-    fail_msg("%s", "no frame in the file");
-    return NULL;
-}
-
-TEST(hostile_files_are_refused) {
-    Bytes bytes = encode(JCS_RGB, 3, false, false);
-    unsigned char *frame = find_frame(bytes);
-    frame[4] = 12;
-    check_refused(bytes.at, bytes.size, "Unsupported JPEG data precision 12");
-    frame[4] = 8;
-    memset(frame + 5, 0xff, 4);
-    check_refused(bytes.at, bytes.size, "Maximum supported image dimension is 65500 pixels");
-    memset(frame + 5, 0xf0, 4);
-    check_refused(bytes.at, bytes.size, "61680 x 61680 pixels, expected at most 268435456 in all");
-    memset(frame + 5, 0x30, 4);
-    check_refused(bytes.at, bytes.size, "premature end of data segment");
-    memset(frame + 5, 0, 4);
-    check_refused(bytes.at, bytes.size, "Empty JPEG image");
-    free(bytes.at);
+    const unsigned long size = encode(JCS_CMYK, 4);
+    check_refused(bytes, size,
+                  "is a JPEG of 4 colours (4 are those of print, CMYK), expected 1 or 3");
 }
 
 /* The last scan of a progressive file over and over: each costs the time of the whole picture.
    Those that bring no bits of their own are errors without a limit. */
 TEST(endless_scans_are_refused) {
-    Bytes bytes = encode(JCS_GRAYSCALE, 1, false, true);
-    size_t last = bytes.size;
-    while (bytes.at[last - 1] != 0xff || bytes.at[last] != 0xda)
+    size_t size = encode(JCS_GRAYSCALE, 1) - 2, last = size;
+    while (bytes[last] != 0xff || bytes[last + 1] != 0xda)
         last--;
-    last--;
-    const size_t length = bytes.size - 2 - last;
-    unsigned char *many = malloc(last + 100 * length + 2);
-    assert_non_null(many);
-    memcpy(many, bytes.at, last);
-    for (size_t i = 0; i < 100; i++)
-        memcpy(many + last + i * length, bytes.at + last, length);
-    memcpy(many + last + 100 * length, "\xff\xd9", 2);
-    check_refused(many, last + 100 * length + 2, "more than 64 scans");
-    free(many);
-    free(bytes.at);
+    const size_t length = size - last;
+    assert_true(size + 100 * length + 2 <= sizeof bytes);
+    for (int i = 0; i < 100; i++, size += length)
+        memcpy(bytes + size, bytes + last, length);
+    memcpy(bytes + size, "\xff\xd9", 2);
+    check_refused(bytes, size + 2, "more than 64 scans");
 }

@@ -1,168 +1,114 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
-
 #include <stdlib.h>
 
+#include "base/trigonometry.h"
 #include "mesh/polygon.h"
 #include "unit_test.h"
 
-enum { MOST = 4096 };
+enum { MOST = HD_MAX_CONCAVE_CORNERS };
 
 static HdVec3 corners[MOST];
 static int32_t triangles[MOST][3];
 
+/* Twice its area long. */
+static HdVec3 normal_of(const int32_t triangle[3]) {
+    const HdVec3 a = corners[triangle[0]];
+    return hd_cross(hd_sub(corners[triangle[1]], a), hd_sub(corners[triangle[2]], a));
+}
+
 static double area_of(int count) {
     double sum = 0.0;
-    for (int i = 0; i < count; i++) {
-        const HdVec3 a = corners[triangles[i][0]];
-        const HdVec3 across =
-            hd_cross(hd_sub(corners[triangles[i][1]], a), hd_sub(corners[triangles[i][2]], a));
-        sum += hd_length(across) / 2.0;
-    }
+    for (int i = 0; i < count; i++)
+        sum += hd_length(normal_of(triangles[i])) / 2.0;
     return sum;
 }
 
-/* Puts a flat outline into a plane, turned so that each axis has its turn. */
-static void set_outline(const double (*outline)[2], int count, int turn, bool is_reversed) {
+/* Puts a flat outline, begun at its corner `first`, into a plane, turned so that each axis has its
+   turn. */
+static void set_outline(const double (*outline)[2], int count, int first, int turn,
+                        bool is_reversed) {
     for (int i = 0; i < count; i++) {
-        const double *at = outline[is_reversed ? count - 1 - i : i];
+        const int k = (i + first) % count;
+        const double *at = outline[is_reversed ? count - 1 - k : k];
         const HdVec3 flat[3] = {
             {at[0], at[1], 0.1 * at[0]}, {0.1 * at[0], at[0], at[1]}, {at[1], 0.1 * at[0], at[0]}};
         corners[i] = flat[turn];
     }
 }
 
-/* Begins the outline at another corner. */
-static void rotate(int count, int first) {
-    static HdVec3 old[MOST];
-    memcpy(old, corners, (size_t)count * sizeof *corners);
-    for (int i = 0; i < count; i++)
-        corners[i] = old[(i + first) % count];
-}
-
 /* Every triangle has the polygon's sense, and all together its area: so they do not overlap. */
 static void expect_cut_from(const double (*outline)[2], int count, int first, double area) {
-    for (int turn = 0; turn < 3; turn++) {
-        for (int way = 0; way < 2; way++) {
-            set_outline(outline, count, turn, way == 1);
-            rotate(count, first);
-            assert_true(hd_polygon_cut(corners, count, triangles));
-            expect_near(area_of(count - 2), area * sqrt(1.01), 1e-12 * area);
-            for (int i = 0; i < count - 2; i++) {
-                const HdVec3 a = corners[triangles[i][0]];
-                const HdVec3 normal = hd_cross(hd_sub(corners[triangles[i][1]], a),
-                                               hd_sub(corners[triangles[i][2]], a));
-                const double sense = turn == 0 ? normal.z : turn == 1 ? normal.x : normal.y;
-                assert_true(way == 0 ? sense > 0.0 : sense < 0.0);
-            }
+    for (int i = 0; i < 6; i++) {
+        const int turn = i / 2;
+        const bool is_reversed = i % 2 != 0;
+        set_outline(outline, count, first, turn, is_reversed);
+        assert_true(hd_polygon_cut(corners, count, triangles));
+        expect_near(area_of(count - 2), area * sqrt(1.01), 1e-12 * area);
+        for (int k = 0; k < count - 2; k++) {
+            const HdVec3 normal = normal_of(triangles[k]);
+            const double sense = turn == 0 ? normal.z : turn == 1 ? normal.x : normal.y;
+            assert_true(is_reversed ? sense < 0.0 : sense > 0.0);
         }
     }
 }
 
-static void expect_cut(const double (*outline)[2], int count, double area) {
-    const int most = count <= 240 ? 20 : 1;
-    for (int first = 0; first < count && first < most; first++)
-        expect_cut_from(outline, count, first, area);
-}
-
-#define expect_cut_of(outline, area)                                                               \
-    expect_cut((const double(*)[2])(outline), (int)(sizeof(outline) / sizeof *(outline)), (area))
-
-TEST(convex_polygons_become_fans) {
-    const double square[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const double hexagon[6][2] = {{1, 0}, {3, 0}, {4, 2}, {3, 4}, {1, 4}, {0, 2}};
-    expect_cut_of(square, 4.0);
-    expect_cut_of(hexagon, 12.0);
-    set_outline(hexagon, 6, 0, false);
-    assert_true(hd_polygon_cut(corners, 6, triangles));
-    for (int i = 0; i < 4; i++) {
-        assert_int_equal(triangles[i][0], 0);
-        assert_int_equal(triangles[i][1], i + 1);
-        assert_int_equal(triangles[i][2], i + 2);
-    }
-}
-
-TEST(concave_quadrilaterals_are_cut_within) {
-    const double arrow[4][2] = {{0, 0}, {4, -2}, {1, 0}, {4, 2}};
-    expect_cut_of(arrow, 2.0);
-}
-
-TEST(concave_polygons_lose_their_ears) {
-    const double letter_u[8][2] = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
-    const double spiral[16][2] = {{0, 0}, {7, 0}, {7, 7}, {0, 7}, {0, 6}, {6, 6}, {6, 1}, {1, 1},
-                                  {1, 4}, {4, 4}, {4, 3}, {2, 3}, {2, 2}, {5, 2}, {5, 5}, {0, 5}};
-    /* A square with a square hole, to which a bridge leads: two places come up twice. */
-    const double with_hole[10][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
-                                     {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
-    /* A bridge whose ends bend inwards. */
-    const double bridged[13][2] = {{0, 0},   {2, 24}, {19, 5}, {20, 1},  {18, 11},
-                                   {10, 17}, {3, 25}, {6, 22}, {10, 17}, {18, 11},
-                                   {30, 0},  {0, 30}, {1, 14}};
-    /* A corner in the middle of a side: no triangle may be flat. */
-    const double with_middle[5][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const double u_with_middle[9][2] = {{0, 0}, {1.5, 0}, {3, 0}, {3, 3}, {2, 3},
-                                        {2, 1}, {1, 1},   {1, 3}, {0, 3}};
-    expect_cut_of(letter_u, 7.0);
-    expect_cut_of(u_with_middle, 7.0);
-    expect_cut_of(spiral, 31.0);
-    expect_cut_of(with_hole, 12.0);
-    expect_cut_of(bridged, 106.0);
-    expect_cut_of(with_middle, 4.0);
-}
-
-/* A star of `count` corners whose radius alternates; it is a fan of no corner. */
-static double make_star(int count, double (*outline)[2]) {
+static void expect_cut(const double (*outline)[2], int count) {
     double area = 0.0;
-    for (int i = 0; i < count; i++) {
-        const double angle = 2.0 * 3.14159265358979323846 * i / count;
-        const double radius = i % 2 ? 1.0 : 2.0;
-        outline[i][0] = radius * cos(angle);
-        outline[i][1] = radius * sin(angle);
-    }
     for (int i = 0; i < count; i++) {
         const double *a = outline[i], *b = outline[(i + 1) % count];
         area += (a[0] * b[1] - a[1] * b[0]) / 2.0;
     }
-    return area;
+    for (int first = 0; first < count && first < (count <= 20 ? 20 : 1); first++)
+        expect_cut_from(outline, count, first, area);
 }
 
-/* A band that winds outwards: hardly any corner is an ear at a time. */
-TEST(long_spirals_are_cut) {
-    enum { STEPS = 120, COUNT = 2 * STEPS };
-    double outline[COUNT][2], area = 0.0;
-    for (int i = 0; i < STEPS; i++) {
-        const double angle = i * 0.4, radius = 2.0 + 0.3 * angle;
-        outline[i][0] = radius * cos(angle);
-        outline[i][1] = radius * sin(angle);
-        outline[COUNT - 1 - i][0] = (radius - 0.8) * cos(angle);
-        outline[COUNT - 1 - i][1] = (radius - 0.8) * sin(angle);
+/* x and y of each corner; the first two are convex. */
+static const char *const outlines[] = {
+    "0 0  2 0  2 2  0 2",
+    "1 0  3 0  4 2  3 4  1 4  0 2",
+    /* An arrow, a U, a spiral. */
+    "0 0  4 -2  1 0  4 2",
+    "0 0  3 0  3 3  2 3  2 1  1 1  1 3  0 3",
+    "0 0  7 0  7 7  0 7  0 6  6 6  6 1  1 1  1 4  4 4  4 3  2 3  2 2  5 2  5 5  0 5",
+    /* A square with a square hole, to which a bridge leads: two places come up twice. */
+    "0 0  4 0  4 4  0 4  0 0  1 1  1 3  3 3  3 1  1 1",
+    /* A bridge whose ends bend inwards. */
+    "0 0  2 24  19 5  20 1  18 11  10 17  3 25  6 22  10 17  18 11  30 0  0 30  1 14",
+    /* A corner in the middle of a side: no triangle may be flat. */
+    "0 0  1 0  2 0  2 2  0 2",
+    "0 0  1.5 0  3 0  3 3  2 3  2 1  1 1  1 3  0 3",
+};
+
+TEST(polygons_are_cut_and_convex_ones_become_fans) {
+    for (size_t i = 0; i < sizeof outlines / sizeof *outlines; i++) {
+        double outline[16][2];
+        int count = 0;
+        for (char *at = (char *)outlines[i]; *at != '\0'; count++) {
+            outline[count][0] = strtod(at, &at);
+            outline[count][1] = strtod(at, &at);
+        }
+        expect_cut((const double(*)[2])outline, count);
+        set_outline((const double(*)[2])outline, count, 0, 0, false);
+        assert_true(hd_polygon_cut(corners, count, triangles));
+        for (int k = 0; k < count - 2 && i < 2; k++) {
+            const int32_t expected[3] = {0, k + 1, k + 2};
+            assert_memory_equal(triangles[k], expected, sizeof expected);
+        }
     }
-    for (int i = 0; i < COUNT; i++) {
-        const double *a = outline[i], *b = outline[(i + 1) % COUNT];
-        area += (a[0] * b[1] - a[1] * b[0]) / 2.0;
-    }
-    expect_cut((const double(*)[2])outline, COUNT, area);
 }
 
-TEST(large_polygons_have_a_limit) {
+/* Stars of few and of as many corners as may be, whose radius alternates: they are fans of no
+   corner. */
+TEST(large_stars_are_cut) {
     static double outline[MOST][2];
-    for (int count = 10; count <= HD_MAX_CONCAVE_CORNERS; count += 169) {
-        const int even = count - count % 2;
-        const double area = make_star(even, outline);
-        expect_cut((const double(*)[2])outline, even, area);
+    for (int count = 10; count <= MOST; count += MOST - 10) {
+        for (int i = 0; i < count; i++) {
+            const double angle = 2.0 * HD_PI * i / count, radius = i % 2 ? 1.0 : 2.0;
+            outline[i][0] = radius * cos(angle);
+            outline[i][1] = radius * sin(angle);
+        }
+        expect_cut((const double(*)[2])outline, count);
     }
-    expect_cut((const double(*)[2])outline, HD_MAX_CONCAVE_CORNERS,
-               make_star(HD_MAX_CONCAVE_CORNERS, outline));
-    make_star(HD_MAX_CONCAVE_CORNERS + 2, outline);
-    set_outline((const double(*)[2])outline, HD_MAX_CONCAVE_CORNERS + 2, 0, false);
-    assert_false(hd_polygon_cut(corners, HD_MAX_CONCAVE_CORNERS + 2, triangles));
-    /* A convex one has none. */
-    for (int i = 0; i < MOST; i++) {
-        const double angle = 2.0 * 3.14159265358979323846 * i / MOST;
-        corners[i] = hd_vec3(cos(angle), sin(angle), 0.0);
-    }
-    assert_true(hd_polygon_cut(corners, MOST, triangles));
-    expect_near(area_of(MOST - 2), 3.14159265358979323846, 1e-5);
 }
 
 /* Whatever the corners are, there are as many triangles, of corners that are there. */

@@ -37,7 +37,7 @@ static int note_sync(int descriptor) {
         return -1;
     const char *name = strrchr(path, '/') + 1;
     if (S_ISDIR(found.st_mode))
-        note(strcmp(name, "out") == 0 ? "D" : strcmp(name, "in") == 0 ? "I" : "U");
+        note(strcmp(name, "out") == 0 ? "D" : "U");
     else {
         snprintf(event, sizeof event, "F%.1s%s", name, strstr(name, ".tmp-") == NULL ? "!" : "");
         note(event);
@@ -84,10 +84,11 @@ static int begin(void **state) {
 static int end(void **state) {
     (void)state;
     hd_publisher_free(publisher);
+    publisher = NULL;
     return 0;
 }
 
-static HdStatus add_to(const char *folder, int number, bool was_finished) {
+static HdStatus add_one(int number, bool was_finished) {
     HdAtomicFile files[HD_MAX_OUTPUTS];
     float rgb[3];
     char path[100];
@@ -96,7 +97,7 @@ static HdStatus add_to(const char *folder, int number, bool was_finished) {
     for (int i = 0; i < HD_MAX_OUTPUTS; i++)
         files[i].lock = -1;
     if (!was_finished) {
-        snprintf(path, sizeof path, "%s/%d.data", folder, number);
+        snprintf(path, sizeof path, "out/%d.data", number);
         assert_int_equal(hd_atomic_file_open(&files[0], path, &error), HD_OK);
         fputs("bytes", files[0].stream);
         assert_int_equal(hd_atomic_file_close(&files[0], &error), HD_OK);
@@ -108,12 +109,14 @@ static HdStatus add_to(const char *folder, int number, bool was_finished) {
     return status;
 }
 
-static HdStatus add(int number) {
-    return add_to("out", number, false);
+static void add(int first, int last) {
+    for (int i = first; i <= last; i++)
+        assert_int_equal(add_one(i, false), HD_OK);
 }
 
-static HdStatus settle(void) {
-    return hd_publisher_settle(publisher, &error);
+static void settle(const char *expected) {
+    assert_int_equal(hd_publisher_settle(publisher, &error), HD_OK);
+    assert_string_equal(events, expected);
 }
 
 /* The numbers of the frames that are there under their names; nothing else is. */
@@ -127,110 +130,59 @@ static void expect_there(const char *numbers) {
 }
 
 TEST(bytes_come_before_names_and_names_before_words) {
-    for (int i = 1; i <= 3; i++)
-        assert_int_equal(add(i), HD_OK);
+    add(1, 3);
     assert_string_equal(events, "");
     assert_int_equal(count_entries("out"), 3); /* under other names */
     assert_int_not_equal(access("out/1.data", F_OK), 0);
-    assert_int_equal(settle(), HD_OK);
-    assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3");
+    settle("F1 F2 F3 D U T1 T2 T3");
     expect_there("123");
-    assert_int_equal(settle(), HD_OK); /* nothing waits */
-    assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3");
-    assert_int_equal(add(4), HD_OK);
-    assert_int_equal(settle(), HD_OK); /* what is above the folder is there */
-    assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3 F4 D T4");
+    settle("F1 F2 F3 D U T1 T2 T3"); /* nothing waits */
+    add(4, 4);
+    settle("F1 F2 F3 D U T1 T2 T3 F4 D T4"); /* what is above the folder is there */
+    /* Finished frames are synced by name, for which every folder is. */
+    events[0] = '\0';
+    assert_int_equal(add_one(2, true), HD_OK);
+    settle("D T2+");
 }
 
-TEST(as_many_wait_as_may) {
-    for (int i = 1; i <= 4; i++)
-        assert_int_equal(add(i), HD_OK);
-    assert_string_equal(events, "F1 F2 F3 D U T1 T2 T3");
-    hd_publisher_free(publisher);
-    publisher = NULL;
-    expect_there("123"); /* the one that waited is gone */
+/* Of three frames. The failure of the earliest one counts. */
+TEST(a_failure_ends_it_there) {
+    static const char no_listener[] = "nobody listens";
+    static const struct {
+        int fails_at, tell_fails_at; /* as above */
+        const char *blocked, *why, *events, *there;
+    } cases[] = {
+        {2, -1, NULL, "cannot write out/2.data to the disk: Input/output error", "F1 F2 D U T1",
+         "1"},
+        {4, -1, NULL, "cannot write out to the disk: Input/output error", "F1 F2 F3 D", "123"},
+        {-1, -1, "out/2.data", "out/2.data", "F1 F2 F3 D U T1", "12"},
+        {-1, 2, NULL, no_listener, "F1 F2 F3 D U T1 T2", "123"},
+        {3, 1, NULL, no_listener, "F1 F2 F3 D U T1", "12"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        end(NULL);
+        begin(NULL);
+        add(1, 3);
+        fails_at = cases[i].fails_at;
+        tell_fails_at = cases[i].tell_fails_at;
+        if (cases[i].blocked != NULL)
+            mkdir(cases[i].blocked, 0777);
+        assert_int_not_equal(hd_publisher_settle(publisher, &error), HD_OK);
+        expect_contains(error.message, cases[i].why);
+        assert_string_equal(events, cases[i].events);
+        expect_there(cases[i].there);
+    }
 }
 
-TEST(without_durability_nothing_is_synced) {
-    plan.durability = HD_FLEETING;
-    hd_publisher_free(publisher);
-    assert_int_equal(hd_publisher_create(&publisher, &plan, &error), HD_OK);
-    assert_int_equal(add(1), HD_OK);
-    assert_int_equal(settle(), HD_OK);
-    assert_string_equal(events, "T1");
-    expect_there("1");
-}
-
-TEST(finished_frames_are_synced_by_name) {
-    write_bytes("out/1.data", "x", 1);
-    assert_int_equal(add_to("out", 1, true), HD_OK);
-    assert_int_equal(add(2), HD_OK);
-    assert_int_equal(settle(), HD_OK);
-    assert_string_equal(events, "F2 D U T1+ T2");
-}
-
-TEST(every_folder_is_synced) {
-    outputs.list[0].name = "out/in/%d.data";
-    mkdir("out/in", 0777);
-    assert_int_equal(add_to("out/in", 1, false), HD_OK);
-    assert_int_equal(settle(), HD_OK);
-    assert_string_equal(events, "F1 I D U T1");
-}
-
-TEST(a_disk_that_says_no_ends_it_at_that_frame) {
-    for (int i = 1; i <= 3; i++)
-        assert_int_equal(add(i), HD_OK);
-    fails_at = 2;
-    assert_int_equal(settle(), HD_FAILED);
-    expect_contains(error.message, "cannot write out/2.data to the disk: Input/output error");
-    assert_string_equal(events, "F1 F2 D U T1");
-    expect_there("1");
-}
-
-TEST(names_that_are_not_on_the_disk_are_not_told) {
-    assert_int_equal(add(1), HD_OK);
-    assert_int_equal(add(2), HD_OK);
-    fails_at = 3;
-    assert_int_equal(settle(), HD_FAILED);
-    expect_contains(error.message, "cannot write out to the disk: Input/output error");
-    assert_string_equal(events, "F1 F2 D");
-}
-
-TEST(a_name_that_is_taken_ends_it_there) {
-    for (int i = 1; i <= 3; i++)
-        assert_int_equal(add(i), HD_OK);
-    mkdir("out/2.data", 0777);
-    assert_int_not_equal(settle(), HD_OK);
-    expect_contains(error.message, "out/2.data");
-    assert_string_equal(events, "F1 F2 F3 D U T1");
-    expect_there("12");
-}
-
-TEST(who_does_not_listen_ends_it_with_names_given) {
-    for (int i = 1; i <= 3; i++)
-        assert_int_equal(add(i), HD_OK);
-    tell_fails_at = 2;
-    assert_int_equal(settle(), HD_FAILED);
+TEST(a_frame_too_many_settles_those_before) {
+    add(1, 3);
+    tell_fails_at = 1;
+    assert_int_equal(add_one(4, false), HD_FAILED);
     assert_string_equal(error.message, "nobody listens");
-    assert_string_equal(events, "F1 F2 F3 D U T1 T2");
     expect_there("123");
-}
-
-TEST(the_first_failure_counts) {
-    for (int i = 1; i <= 3; i++)
-        assert_int_equal(add(i), HD_OK);
-    fails_at = 3;
-    tell_fails_at = 1; /* an earlier frame */
-    assert_int_equal(settle(), HD_FAILED);
-    assert_string_equal(error.message, "nobody listens");
-    assert_int_equal(add(4), HD_OK);
-    tell_fails_at = 4;
-    assert_int_equal(add(5), HD_OK);
-    assert_int_equal(add(6), HD_OK);
-    assert_int_equal(add(7), HD_FAILED); /* which settles those before */
-    hd_publisher_free(publisher);
-    publisher = NULL;
-    expect_there("12456");
+    tell_fails_at = -1;
+    add(5, 8);
+    end(NULL);
+    expect_there("123567"); /* the one that waited is gone */
 }
 
 EACH(begin, end)

@@ -16,7 +16,7 @@ static HdError error;
 static int numbers[FRAMES] = {2, 3, 5, 7, 11};
 static const HdFrameList frames = {.frames = numbers, .count = FRAMES};
 
-static HdOutputPlan plan_with(const char *first, const char *second, int bits) {
+static HdOutputPlan plan_of(const char *first, const char *second, int bits) {
     const HdOutputStyle style = {.picture = {.curve = HD_CURVE_SRGB, .bits = bits},
                                  .frames_per_second = 30};
     const char *const names[] = {first, second};
@@ -26,10 +26,6 @@ static HdOutputPlan plan_with(const char *first, const char *second, int bits) {
                      HD_OK);
     hd_outputs_mark(&plan, 12345, true);
     return plan;
-}
-
-static HdOutputPlan plan_of(const char *first, const char *second) {
-    return plan_with(first, second, 8);
 }
 
 static HdFrame make_frame(int number) {
@@ -60,12 +56,18 @@ static void write_frame(const HdOutputPlan *plan, int index, int number) {
     hd_frame_free(&frame);
 }
 
+static HdOutputPlan write_frames(const char *name) {
+    const HdOutputPlan plan = plan_of(name, NULL, 8);
+    for (int i = 0; i < FRAMES; i++)
+        write_frame(&plan, 0, numbers[i]);
+    return plan;
+}
+
 static void expect_finished(const HdOutputPlan *plan, int expected) {
     HdResume resume;
     assert_int_equal(hd_resume_find(&resume, plan, &frames, &error), HD_OK);
     assert_int_equal(resume.finished_count, expected);
     assert_int_equal(resume.missing.count, FRAMES - expected);
-    assert_ptr_equal(resume.all, &frames);
     for (int i = 0; i < resume.first_missing; i++)
         assert_true(resume.is_finished[i]);
     assert_true(resume.first_missing == FRAMES || !resume.is_finished[resume.first_missing]);
@@ -75,71 +77,54 @@ static void expect_finished(const HdOutputPlan *plan, int expected) {
     hd_resume_free(&resume);
 }
 
-TEST(frames_with_the_right_mark_are_finished) {
-    HdOutputPlan plan = plan_of("a/%d.png", NULL);
+TEST(whole_pictures_with_the_right_mark_are_finished) {
+    HdOutputPlan plan = plan_of("a/%d.png", NULL, 8);
     expect_finished(&plan, 0);
-    for (int i = 0; i < FRAMES; i++) {
-        write_frame(&plan, 0, numbers[i]);
-        expect_finished(&plan, i + 1);
-    }
+    write_frame(&plan, 0, numbers[3]);
+    expect_finished(&plan, 1);
+    write_frames("a/%d.png");
+    expect_finished(&plan, FRAMES);
     plan.fingerprint++;
     expect_finished(&plan, 0);
     plan.fingerprint--;
-    expect_finished(&plan, FRAMES);
-    /* A frame under another's name. */
-    assert_int_equal(rename("a/2.png", "a/3.png"), 0);
+    assert_int_equal(rename("a/2.png", "a/3.png"), 0); /* under another's name */
     expect_finished(&plan, FRAMES - 2);
-}
-
-TEST(files_of_other_kinds_are_not) {
-    HdOutputPlan plan = plan_of("b/%d.png", NULL);
-    for (int i = 0; i < FRAMES; i++)
-        write_frame(&plan, 0, numbers[i]);
-    assert_int_equal(truncate("b/2.png", 0), 0);
-    assert_int_equal(unlink("b/3.png"), 0);
-    assert_int_equal(mkdir("b/3.png", 0777), 0);
-    assert_int_equal(unlink("b/5.png"), 0);
-    assert_int_equal(mkfifo("b/5.png", 0600), 0);
+    assert_int_equal(unlink("a/3.png"), 0);
+    assert_int_equal(mkfifo("a/3.png", 0600), 0);
+    assert_int_equal(truncate("a/5.png", 0), 0);
     expect_finished(&plan, FRAMES - 3);
 }
 
 TEST(what_must_be_rendered_anyway_is_not) {
-    const HdOutputPlan marks = plan_of("c/%d.png", NULL);
-    for (int i = 0; i < FRAMES; i++)
-        write_frame(&marks, 0, numbers[i]);
-    HdOutputPlan plan = plan_of("c/%d.png", "c/%d.pfm");
-    expect_finished(&plan, 0);
-    plan = plan_of("c/%d.png", "c/%d.data");
-    expect_finished(&plan, 0);
-    plan = plan_of("c/%d.png", "c/film.mkv");
-    expect_finished(&plan, FRAMES);
-    plan = plan_with("c/%d.png", "c/film.mkv", 16);
-    expect_finished(&plan, 0);
-    plan = marks;
-    hd_outputs_mark(&plan, marks.fingerprint, false);
-    expect_finished(&plan, 0);
-    const char *const name = "c/%d.png";
-    assert_int_equal(hd_outputs_settle(&plan, &name, 1, &marks.style, FRAMES, &error), HD_OK);
-    expect_finished(&plan, 0); /* it is not marked */
-    plan = plan_of("c/film.mkv", NULL);
-    expect_finished(&plan, 0);
-    plan = plan_of("c/2.png", NULL);
+    static const struct {
+        const char *first, *second;
+        int bits, finished;
+    } cases[] = {{"c/%d.png", "c/%d.pfm", 8, 0},
+                 {"c/%d.png", "c/film.mkv", 8, FRAMES},
+                 {"c/%d.png", "c/film.mkv", 16, 0},
+                 {"c/%d.png", "d/%d.png", 8, 1}, /* all of a frame's must be there */
+                 {"c/film.mkv", NULL, 8, 0},
+                 {"c/2.png", NULL, 8, 0}};
+    HdOutputPlan plan = write_frames("c/%d.png");
+    const HdOutputPlan two = plan_of("c/%d.png", "d/%d.png", 8);
+    write_frame(&two, 1, numbers[1]);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const HdOutputPlan other = plan_of(cases[i].first, cases[i].second, cases[i].bits);
+        expect_finished(&other, cases[i].finished);
+    }
+    hd_outputs_mark(&plan, plan.fingerprint, false);
     expect_finished(&plan, 0);
 }
 
-TEST(all_pictures_of_a_frame_must_be_there) {
-    const HdOutputPlan plan = plan_of("d/%d.png", "e/%d.png");
-    for (int i = 0; i < FRAMES; i++)
-        write_frame(&plan, 0, numbers[i]);
-    expect_finished(&plan, 0);
-    write_frame(&plan, 1, numbers[1]);
-    expect_finished(&plan, 1);
-}
-
+/* From the first output that is no film. */
 TEST(a_frame_is_read_back_as_it_was_encoded) {
-    const HdOutputPlan plan = plan_of("f/film.mkv", "f/%d.png");
+    const char *const names[] = {"f/a.mkv", "f/b.mkv", "f/%d.png"};
+    HdOutputPlan plan = write_frames("f/%d.png");
+    const HdOutputStyle style = plan.style;
+    assert_int_equal(hd_outputs_settle(&plan, names, 3, &style, FRAMES, &error), HD_OK);
+    hd_outputs_mark(&plan, 12345, true);
+    expect_finished(&plan, FRAMES);
     HdFrame made = make_frame(7), read = make_frame(0);
-    write_frame(&plan, 1, 7);
     assert_int_equal(hd_frame_add_rgba(&made, &error), HD_OK);
     assert_int_equal(hd_frame_add_rgba(&read, &error), HD_OK);
     hd_frame_encode(&made, HD_CURVE_SRGB);
@@ -150,20 +135,5 @@ TEST(a_frame_is_read_back_as_it_was_encoded) {
     assert_int_equal(hd_resume_load(&plan, 7, &read, &error), HD_FAILED);
     expect_contains(error.message, "frame 7 of f/%d.png was finished, but has changed since");
     hd_frame_free(&made);
-    hd_frame_free(&read);
-}
-
-TEST(films_before_the_pictures_are_passed_over) {
-    const char *const names[] = {"g/a.mkv", "g/b.mkv", "g/%d.png"};
-    const HdOutputPlan pictures = plan_of("g/%d.png", NULL);
-    HdOutputPlan plan;
-    HdFrame read = make_frame(0);
-    for (int i = 0; i < FRAMES; i++)
-        write_frame(&pictures, 0, numbers[i]);
-    assert_int_equal(hd_outputs_settle(&plan, names, 3, &pictures.style, FRAMES, &error), HD_OK);
-    hd_outputs_mark(&plan, pictures.fingerprint, true);
-    expect_finished(&plan, FRAMES);
-    assert_int_equal(hd_frame_add_rgba(&read, &error), HD_OK);
-    assert_int_equal(hd_resume_load(&plan, numbers[0], &read, &error), HD_OK);
     hd_frame_free(&read);
 }

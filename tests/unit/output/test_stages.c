@@ -14,87 +14,68 @@
 enum { ITEMS = 200, ROOM = 7 };
 
 typedef struct Probe {
-    HdStages *stages;
     int threads;
     int fails_at, fails_late_at; /* -1: never */
+    int gathers;                 /* as many items are at work at once before one goes on */
     const struct Probe *before;  /* what must be done with an item first; NULL: nothing */
-    atomic_int begun, ended;
-    atomic_int at_work, most_at_work;
-    atomic_int wrong; /* items that came too early or out of order */
+    atomic_int begun, ended, at_work;
+    atomic_int wrong; /* items that came too early, out of order, or too many at once */
     atomic_bool done[ITEMS];
 } Probe;
 
 static HdError error;
 
 static void nap(int milliseconds) {
-    struct timespec time = {.tv_nsec = milliseconds * 1000000L};
-    nanosleep(&time, NULL);
-}
-
-static void note_most(Probe *probe) {
-    int now = atomic_fetch_add(&probe->at_work, 1) + 1;
-    int most = atomic_load(&probe->most_at_work);
-    while (now > most && !atomic_compare_exchange_weak(&probe->most_at_work, &most, now))
-        continue;
+    nanosleep(&(struct timespec){.tv_nsec = milliseconds * 1000000L}, NULL);
 }
 
 static HdStatus work(void *context, int item, HdError *failure) {
     Probe *probe = context;
-    HdStatus status = HD_OK;
-    note_most(probe);
-    if (atomic_fetch_add(&probe->begun, 1) != item && probe->threads == 1)
-        atomic_fetch_add(&probe->wrong, 1);
-    if (probe->before != NULL && !atomic_load(&probe->before->done[item]))
-        atomic_fetch_add(&probe->wrong, 1);
+    const bool fails = item == probe->fails_at || item == probe->fails_late_at;
+    probe->wrong += probe->at_work++ >= probe->threads;
+    probe->wrong += probe->begun++ != item && probe->threads == 1;
+    probe->wrong += probe->before != NULL && !probe->before->done[item];
+    while (probe->begun < probe->gathers)
+        nap(1);
     if (item % 16 == probe->threads)
         nap(1);
     if (item == probe->fails_late_at)
         nap(100);
-    if (item == probe->fails_at || item == probe->fails_late_at)
-        status = hd_fail(failure, item == probe->fails_at ? HD_FAILED : HD_BAD_INPUT,
-                         "item %d failed", item);
-    else
-        atomic_store(&probe->done[item], true);
-    atomic_fetch_add(&probe->ended, 1);
-    atomic_fetch_sub(&probe->at_work, 1);
-    return status;
-}
-
-static HdStage stage_of(Probe *probe, unsigned after) {
-    return (HdStage){.work = work, .context = probe, .threads = probe->threads, .after = after};
+    probe->done[item] = !fails;
+    probe->ended++;
+    probe->at_work--;
+    return fails ? hd_fail(failure, HD_FAILED, "item %d failed", item) : HD_OK;
 }
 
 /* A conversion, then a film beside pictures, then what needs them both. */
-static void list_stages(HdStage list[4], Probe probes[4]) {
-    static const int threads[4] = {1, 1, 3, 1};
-    for (int i = 0; i < 4; i++)
+static Probe probes[4];
+static const int threads[4] = {1, 1, 3, 1};
+static const unsigned after[4] = {0, 1, 0, 7};
+static HdStages *stages;
+static int room;
+
+/* Faults may be put into the probes afterwards, before items are given. */
+static void start(const bool *ready, int room_of_stages) {
+    HdStage list[4];
+    for (int i = 0; i < 4; i++) {
         probes[i] = (Probe){.threads = threads[i], .fails_at = -1, .fails_late_at = -1};
+        list[i] = (HdStage){
+            .work = work, .context = &probes[i], .threads = threads[i], .after = after[i]};
+    }
     probes[1].before = &probes[0];
     probes[3].before = &probes[2];
-    list[0] = stage_of(&probes[0], 0);
-    list[1] = stage_of(&probes[1], 1);
-    list[2] = stage_of(&probes[2], 0);
-    list[3] = stage_of(&probes[3], 7);
+    room = room_of_stages;
+    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, room, &error), HD_OK);
 }
 
 static const HdTaker anybody = {.wants = NULL};
 
-static int give_items_from(HdStages *stages, int first) {
+/* Gives items from that one on until all are given or one failed; returns how many are. */
+static int give_items_from(int first) {
     int given = first, item;
     while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
         assert_int_equal(item, given);
-        hd_stages_give(stages, item);
-        given++;
-    }
-    return given;
-}
-
-/* Gives items until all are given or one failed; returns how many. */
-static int give_items(HdStages *stages, const Probe *last, int room) {
-    int given = 0, item;
-    while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
-        assert_int_equal(item, given);
-        assert_true(item - atomic_load(&last->ended) < room);
+        assert_true(item - probes[3].ended < room);
         hd_stages_give(stages, item);
         given++;
     }
@@ -108,222 +89,87 @@ static int first_not_done(const Probe *probe) {
     return item;
 }
 
-static void run_all(int room) {
-    static Probe probes[4];
-    HdStage list[4];
-    HdStages *stages;
-    list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, room, &error), HD_OK);
-    assert_int_equal(give_items(stages, &probes[3], room), ITEMS);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
+/* Items before that one went through all stages, and none after it came to the last one. */
+static void expect_end(HdStatus status, int done) {
+    assert_int_equal(hd_stages_end(stages, &error), status);
     for (int i = 0; i < 4; i++) {
-        assert_int_equal(first_not_done(&probes[i]), ITEMS);
-        assert_int_equal(probes[i].begun, ITEMS);
+        assert_true(first_not_done(&probes[i]) >= done);
         assert_int_equal(probes[i].wrong, 0);
-        assert_true(probes[i].most_at_work <= probes[i].threads);
     }
+    assert_int_equal(first_not_done(&probes[3]), done);
+    assert_true(probes[3].begun <= done + (status != HD_OK));
 }
 
+/* None of them is there without anybody who makes it, or every third one and many at the end, or
+   all. */
 TEST(every_item_goes_through_every_stage) {
-    run_all(ROOM);
-    run_all(1);
-    run_all(ITEMS);
-}
-
-/* Every third item, and many at the end, are there without anybody who makes them. */
-TEST(what_is_ready_needs_nobody) {
-    static Probe probes[4];
+    static const int rooms[] = {ROOM, 1, ITEMS};
     static bool ready[ITEMS];
-    HdStage list[4];
-    HdStages *stages;
-    (void)state;
-    for (int i = 0; i < ITEMS; i++)
-        ready[i] = i % 3 == 0 || i > ITEMS / 2;
-    for (int room = 1; room <= ITEMS; room += ITEMS - 1) {
+    for (int k = 0; k < 9; k++) {
         int item, before = -1;
-        list_stages(list, probes);
-        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, room, &error), HD_OK);
+        for (int i = 0; i < ITEMS; i++)
+            ready[i] = k >= 6 || (k >= 3 && (i % 3 == 0 || i > ITEMS / 2));
+        start(k < 3 ? NULL : ready, rooms[k % 3]);
         while ((item = hd_stages_take(stages, &anybody, true)) >= 0) {
-            assert_true(item > before && !ready[item]);
+            assert_true(item > before && !ready[item] && item - probes[3].ended < room);
             assert_true(hd_stages_wait(stages, item));
             hd_stages_give(stages, item);
             before = item;
         }
-        assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-        for (int i = 0; i < 4; i++) {
-            assert_int_equal(first_not_done(&probes[i]), ITEMS);
-            assert_int_equal(probes[i].wrong, 0);
-        }
+        expect_end(HD_OK, ITEMS);
     }
 }
 
-/* Nobody takes anything, for nothing is missing. */
-TEST(all_may_be_ready) {
-    static Probe probes[4];
-    static bool ready[ITEMS];
-    HdStage list[4];
-    HdStages *stages;
-    (void)state;
-    memset(ready, true, sizeof ready);
-    list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, ready, ROOM, &error), HD_OK);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(first_not_done(&probes[3]), ITEMS);
-}
-
-TEST(no_items_are_no_work) {
-    static Probe probes[4];
-    HdStage list[4];
-    HdStages *stages;
-    list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(probes[0].begun, 0);
-}
-
-/* Whatever stage fails, the items before went through all of them, and none after did. */
-TEST(a_failure_leaves_the_items_before_it) {
-    static Probe probes[4];
+TEST(a_failure_of_any_stage_leaves_the_items_before_it) {
     static const int failing[] = {0, 1, 20};
-    for (size_t i = 0; i < 3 * 4; i++) {
-        int stage = (int)(i % 4), item = failing[i / 4];
+    for (int i = 0; i < 3 * 4; i++) {
+        const int item = failing[i / 4];
         char expected[32];
-        HdStage list[4];
-        HdStages *stages;
-        list_stages(list, probes);
-        probes[stage].fails_at = item;
-        assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
-        assert_true(give_items(stages, &probes[3], ROOM) <= item + ROOM);
+        start(NULL, ROOM);
+        probes[i % 4].fails_at = item;
+        assert_true(give_items_from(0) <= item + ROOM);
         assert_false(hd_stages_wait(stages, item));
         assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
-        assert_int_equal(hd_stages_end(stages, &error), HD_FAILED);
+        expect_end(HD_FAILED, item);
         snprintf(expected, sizeof expected, "item %d failed", item);
         assert_string_equal(error.message, expected);
-        for (int other = 0; other < 4; other++)
-            assert_true(first_not_done(&probes[other]) >= item);
-        assert_int_equal(first_not_done(&probes[3]), item);
-        assert_true(probes[3].ended <= item + 1);
     }
-}
-
-/* An item that fails while an earlier one is still at work does not hide that one's failure. */
-TEST(the_first_item_that_failed_counts) {
-    static Probe probes[4];
-    HdStage list[4];
-    HdStages *stages;
-    list_stages(list, probes);
+    /* One that fails while an earlier one is still at work does not hide that one's failure. */
+    start(NULL, ROOM);
     probes[0].fails_at = 5;
     probes[2].fails_late_at = 3;
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, ROOM, &error), HD_OK);
-    give_items(stages, &probes[3], ROOM);
-    assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
+    give_items_from(0);
+    expect_end(HD_FAILED, 3);
     assert_string_equal(error.message, "item 3 failed");
-    assert_int_equal(first_not_done(&probes[3]), 3);
-}
-
-static atomic_int gathered;
-
-/* Ends only where three items are at work at once. */
-static HdStatus gather(void *context, int item, HdError *failure) {
-    (void)context;
-    (void)item;
-    (void)failure;
-    atomic_fetch_add(&gathered, 1);
-    while (atomic_load(&gathered) < 3)
-        nap(1);
-    return HD_OK;
-}
-
-TEST(threads_of_a_stage_work_side_by_side) {
-    const HdStage stage = {.work = gather, .threads = 3};
-    HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 3, NULL, 3, &error), HD_OK);
-    for (int i = 0; i < 3; i++) {
-        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
-        hd_stages_give(stages, i);
-    }
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-}
-
-/* The stage goes on with an item only when another one was given: the giver does not wait for it.
- */
-static HdStatus lag_behind(void *context, int item, HdError *failure) {
-    const atomic_int *given = context;
-    (void)failure;
-    while (atomic_load(given) < item + 2)
-        nap(1);
-    return HD_OK;
-}
-
-TEST(giving_overlaps_with_the_work) {
-    atomic_int given = 0;
-    const HdStage stage = {.work = lag_behind, .context = &given, .threads = 1};
-    HdStages *stages;
-    assert_int_equal(hd_stages_start(&stages, &stage, 1, 20, NULL, 2, &error), HD_OK);
-    for (int i = 0; i < 20; i++) {
-        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
-        hd_stages_give(stages, i);
-        atomic_fetch_add(&given, 1);
-    }
-    atomic_fetch_add(&given, 1);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
 }
 
 /* ---- several takers ---- */
 
-static HdStages *start_probes(Probe probes[4], int room) {
-    HdStage list[4];
-    HdStages *stages;
-    list_stages(list, probes);
-    assert_int_equal(hd_stages_start(&stages, list, 4, ITEMS, NULL, room, &error), HD_OK);
-    return stages;
-}
-
-static void take_in_order(HdStages *stages, int first, int count) {
+static void take_in_order(int first, int count) {
     for (int i = first; i < first + count; i++)
         assert_int_equal(hd_stages_take(stages, &anybody, false), i);
 }
 
-/* The third stage has several threads and keeps no order: it does not wait for the first item. */
+/* The third stage has several threads that work side by side and keep no order: it does not wait
+   for the first item. */
 TEST(items_are_given_in_any_order) {
-    static Probe probes[4];
-    HdStages *stages = start_probes(probes, ROOM);
-    take_in_order(stages, 0, 4);
+    start(NULL, ROOM);
+    probes[2].gathers = 3;
+    take_in_order(0, 4);
     for (int i = 3; i > 0; i--)
         hd_stages_give(stages, i);
     while (!(probes[2].done[1] && probes[2].done[2] && probes[2].done[3]))
         nap(1);
     assert_int_equal(probes[0].begun + probes[1].begun + probes[3].begun, 0);
     hd_stages_give(stages, 0);
-    assert_int_equal(give_items_from(stages, 4), ITEMS);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    for (int i = 0; i < 4; i++) {
-        assert_int_equal(first_not_done(&probes[i]), ITEMS);
-        assert_int_equal(probes[i].wrong, 0);
-    }
-}
-
-TEST(what_is_given_back_comes_first) {
-    static Probe probes[4];
-    HdStages *stages = start_probes(probes, ROOM);
-    take_in_order(stages, 0, 5);
-    hd_stages_give_back(stages, 3);
-    hd_stages_give_back(stages, 1);
-    take_in_order(stages, 1, 1);
-    take_in_order(stages, 3, 1);
-    take_in_order(stages, 5, 1);
-    for (int i = 0; i < 6; i++)
-        hd_stages_give(stages, i);
-    assert_int_equal(give_items_from(stages, 6), ITEMS);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(probes[3].ended, ITEMS);
+    assert_int_equal(give_items_from(4), ITEMS);
+    expect_end(HD_OK, ITEMS);
 }
 
 TEST(nobody_takes_what_has_no_room) {
-    static Probe probes[4];
     const HdTaker alone = {.ahead = 2};
-    HdStages *stages = start_probes(probes, ROOM);
-    take_in_order(stages, 0, ROOM);
+    start(NULL, ROOM);
+    take_in_order(0, ROOM);
     assert_int_equal(hd_stages_take(stages, &anybody, false), -1);
     assert_int_equal(hd_stages_take(stages, &alone, false), ROOM);
     assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 1);
@@ -331,64 +177,35 @@ TEST(nobody_takes_what_has_no_room) {
     hd_stages_give(stages, 0);
     assert_true(hd_stages_wait(stages, ROOM)); /* once the first one is gone */
     assert_int_equal(hd_stages_take(stages, &alone, false), ROOM + 2);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(probes[3].ended, 1);
-}
-
-static bool likes_what_is_left(void *context, int left) {
-    int *liked = context;
-    return left == *liked;
-}
-
-TEST(takers_choose_by_what_is_left) {
-    static Probe probes[4];
-    int liked = ROOM;
-    const HdTaker chooser = {.wants = likes_what_is_left, .context = &liked};
-    HdStages *stages = start_probes(probes, ROOM);
-    assert_int_equal(hd_stages_take(stages, &chooser, false), 0);
-    liked = 1;
-    assert_int_equal(hd_stages_take(stages, &chooser, false), -1);
-    hd_stages_give(stages, 0);
-    for (int i = 1; i < ITEMS - 2; i++) {
-        assert_int_equal(hd_stages_take(stages, &anybody, true), i);
-        hd_stages_give(stages, i);
-    }
-    assert_int_equal(hd_stages_take(stages, &anybody, true), ITEMS - 2);
-    assert_int_equal(hd_stages_take(stages, &chooser, true), ITEMS - 1);
-    hd_stages_give_back(stages, ITEMS - 2);
-    hd_stages_give_back(stages, ITEMS - 1);
-    liked = 2;
-    assert_int_equal(hd_stages_take(stages, &chooser, false), ITEMS - 2);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(probes[3].ended, ITEMS - 2);
+    expect_end(HD_OK, 1);
 }
 
 typedef struct Waiting {
-    HdStages *stages;
-    atomic_int wants, asked;
+    atomic_bool wants;
+    atomic_int asked, left;
     int item;
     pthread_t thread;
 } Waiting;
 
 static bool wants_now(void *context, int left) {
     Waiting *waiting = context;
-    (void)left;
-    atomic_fetch_add(&waiting->asked, 1);
-    return atomic_load(&waiting->wants);
+    waiting->left = left;
+    waiting->asked++;
+    return waiting->wants;
 }
 
 static void *wait_for_item(void *context) {
     Waiting *waiting = context;
     const HdTaker taker = {.wants = wants_now, .context = waiting};
-    waiting->item = hd_stages_take(waiting->stages, &taker, true);
+    waiting->item = hd_stages_take(stages, &taker, true);
     return NULL;
 }
 
 /* Starts somebody who waits, and wants nothing yet. */
-static void start_waiting(Waiting *waiting, HdStages *stages) {
-    *waiting = (Waiting){.stages = stages, .item = -2};
+static void start_waiting(Waiting *waiting) {
+    *waiting = (Waiting){.item = -2};
     assert_int_equal(pthread_create(&waiting->thread, NULL, wait_for_item, waiting), 0);
-    while (atomic_load(&waiting->asked) == 0)
+    while (waiting->asked == 0)
         nap(1);
 }
 
@@ -398,20 +215,20 @@ static void expect_waiting_gets(Waiting *waiting, int item) {
 }
 
 TEST(takers_that_wait_are_asked_again) {
-    static Probe probes[4];
     Waiting waiting;
-    HdStages *stages = start_probes(probes, ROOM);
-    start_waiting(&waiting, stages);
-    atomic_store(&waiting.wants, 1);
+    start(NULL, ROOM);
+    start_waiting(&waiting);
+    waiting.wants = true;
     hd_stages_ask_again(stages);
     expect_waiting_gets(&waiting, 0);
     /* Something is given back. */
-    start_waiting(&waiting, stages);
-    atomic_store(&waiting.wants, 1);
+    start_waiting(&waiting);
+    assert_int_equal(waiting.left, ROOM); /* items that it may choose from */
+    waiting.wants = true;
     hd_stages_give_back(stages, 0);
     expect_waiting_gets(&waiting, 0);
     /* Nothing will come any more. */
-    start_waiting(&waiting, stages);
+    start_waiting(&waiting);
     hd_stages_stop(stages);
     expect_waiting_gets(&waiting, -1);
     assert_false(hd_stages_wait(stages, 0));
@@ -421,11 +238,10 @@ TEST(takers_that_wait_are_asked_again) {
 
 /* Items before the one that failed are still wanted, and nobody leaves before they are given. */
 TEST(what_comes_before_a_failure_is_wanted) {
-    static Probe probes[4];
     Waiting waiting;
     HdError failure;
-    HdStages *stages = start_probes(probes, ROOM);
-    take_in_order(stages, 0, 5);
+    start(NULL, ROOM);
+    take_in_order(0, 5);
     hd_fail(&failure, HD_BAD_INPUT, "item 3 cannot be");
     hd_stages_fail(stages, 3, &failure);
     hd_fail(&failure, HD_FAILED, "nor can item 4");
@@ -437,24 +253,20 @@ TEST(what_comes_before_a_failure_is_wanted) {
     hd_stages_give(stages, 2);
     hd_stages_give_back(stages, 4);
     hd_stages_give_back(stages, 1);
-    start_waiting(&waiting, stages);
-    take_in_order(stages, 1, 1);
+    start_waiting(&waiting);
+    take_in_order(1, 1);
     hd_stages_give(stages, 1);
     expect_waiting_gets(&waiting, -1);
-    assert_int_equal(hd_stages_end(stages, &error), HD_BAD_INPUT);
+    expect_end(HD_BAD_INPUT, 3);
     assert_string_equal(error.message, "item 3 cannot be");
     assert_int_equal(probes[3].ended, 3);
-    assert_int_equal(first_not_done(&probes[3]), 3);
 }
 
 TEST(a_gap_ends_it) {
-    static Probe probes[4];
-    HdStages *stages = start_probes(probes, ROOM);
-    take_in_order(stages, 0, 5);
+    start(NULL, ROOM);
+    take_in_order(0, 5);
     for (int i = 0; i < 5; i++)
         if (i != 2)
             hd_stages_give(stages, i);
-    assert_int_equal(hd_stages_end(stages, &error), HD_OK);
-    assert_int_equal(probes[3].ended, 2);
-    assert_int_equal(probes[0].ended, 2);
+    expect_end(HD_OK, 2);
 }

@@ -5,6 +5,8 @@
 #include "render/samples.h"
 #include "unit_test.h"
 
+static HdError error;
+
 /* Of hd_sample_set_dense (samples.h). */
 #define REFERENCE_SAMPLE_ERROR 2.2
 
@@ -26,45 +28,34 @@ static double share_below(double a, double b, double d) {
     return area / (2.0 * a * b);
 }
 
-static double worst_at(const HdSampleSet *set, double *along, double cosine, double sine) {
-    const double side = set->grid_side;
-    double a = cosine < 0.0 ? -cosine : cosine, b = sine < 0.0 ? -sine : sine, worst = 0.0;
-    for (int i = 0; i < set->count; i++) {
-        double x = ((set->places[i] & 0xffff) + 0.5) / side - 0.5;
-        double y = ((set->places[i] >> 16) + 0.5) / side - 0.5;
-        along[i] = cosine * x + sine * y;
-    }
-    qsort(along, (size_t)set->count, sizeof *along, compare);
-    for (int i = 0; i < set->count; i++) {
-        double exact = share_below(a > b ? a : b, a > b ? b : a, along[i]);
-        double below = exact - (double)i / set->count, above = (double)(i + 1) / set->count - exact;
-        worst = below > worst ? below : worst;
-        worst = above > worst ? above : worst;
-    }
-    return worst;
-}
-
 /* The greatest error that the set makes on an edge between black and white, wherever the edge and
-   however it is turned, in steps of 255 on the linear curve; found by trying `angles` directions of
-   the edge, a full turn, each at every place where the share changes. */
-static double edge_error(const HdSampleSet *set, int angles) {
-    const double turn = 6.283185307179586;
-    double *along = calloc((size_t)set->count, sizeof *along), worst = 0.0;
-    for (int i = 0; along != NULL && i < angles; i++) {
-        double angle = turn * i / angles, sine, cosine;
-        hd_sine_cosine(angle, &sine, &cosine);
-        double error = worst_at(set, along, cosine, sine);
-        worst = error > worst ? error : worst;
+   however it is turned, in steps of 255 on the linear curve; found by trying many directions of the
+   edge, a full turn, each at every place where the share changes. */
+static double edge_error(const HdSampleSet *set) {
+    enum { ANGLES = 720, MOST = 1024 };
+    double along[MOST], worst = 0.0;
+    assert_true(set->count <= MOST);
+    for (int k = 0; k < ANGLES; k++) {
+        double sine, cosine;
+        hd_sine_cosine(6.283185307179586 * k / ANGLES, &sine, &cosine);
+        const double a = fabs(cosine), b = fabs(sine), side = set->grid_side;
+        for (int i = 0; i < set->count; i++)
+            along[i] = cosine * (((set->places[i] & 0xffff) + 0.5) / side - 0.5) +
+                       sine * (((set->places[i] >> 16) + 0.5) / side - 0.5);
+        qsort(along, (size_t)set->count, sizeof *along, compare);
+        for (int i = 0; i < set->count; i++) {
+            const double exact = share_below(fmax(a, b), fmin(a, b), along[i]);
+            worst = fmax(worst, exact - (double)i / set->count);
+            worst = fmax(worst, (double)(i + 1) / set->count - exact);
+        }
     }
-    free(along);
     return 255.0 * worst;
 }
 
-TEST(each_place_once) {
+TEST(a_grid_has_each_place_once_and_begins_next_to_the_middle) {
     for (int side = 1; side <= 64; side++) {
         static unsigned char seen[64][64];
         HdSampleSet set;
-        HdError error;
         memset(seen, 0, sizeof seen);
         assert_int_equal(hd_sample_set_grid(&set, side, &error), HD_OK);
         assert_int_equal(set.count, side * side);
@@ -75,54 +66,26 @@ TEST(each_place_once) {
             assert_in_range(row, 0, side - 1);
             assert_int_equal(seen[row][column]++, 0);
         }
-        hd_sample_set_free(&set);
-    }
-}
-
-/* The first 4^k samples of a grid: one in each cell of a grid of their own. */
-TEST(first_samples_are_spread) {
-    HdSampleSet set;
-    HdError error;
-    assert_int_equal(hd_sample_set_grid(&set, 16, &error), HD_OK);
-    for (int side = 2; side <= 16; side *= 2) {
-        unsigned char seen[16][16] = {{0}};
-        for (int i = 0; i < side * side; i++) {
-            int column = (set.places[i] & 0xffff) * side / 16;
-            int row = (set.places[i] >> 16) * side / 16;
-            assert_int_equal(seen[row][column]++, 0);
+        assert_int_equal(set.places[0], (side - 1) / 2 * 0x10001);
+        /* The first 4^k samples: one in each cell of a grid of their own. */
+        for (int cells = 2; side == 16 && cells <= side; cells *= 2) {
+            memset(seen, 0, sizeof seen);
+            for (int i = 0; i < cells * cells; i++)
+                assert_int_equal(seen[(set.places[i] >> 16) * cells / side]
+                                     [(set.places[i] & 0xffff) * cells / side]++,
+                                 0);
         }
-    }
-    hd_sample_set_free(&set);
-}
-
-TEST(first_sample_is_next_to_the_middle) {
-    for (int side = 1; side <= 64; side++) {
-        HdSampleSet set;
-        HdError error;
-        assert_int_equal(hd_sample_set_grid(&set, side, &error), HD_OK);
-        assert_int_equal(set.places[0] & 0xffff, (side - 1) / 2);
-        assert_int_equal(set.places[0] >> 16, (side - 1) / 2);
         hd_sample_set_free(&set);
     }
-}
-
-/* An edge along a side of the pixel, seen by a grid: off by a whole row at most. */
-TEST(error_of_a_grid_is_known) {
-    HdSampleSet set;
-    HdError error;
-    assert_int_equal(hd_sample_set_grid(&set, 4, &error), HD_OK);
-    expect_near(edge_error(&set, 1), 255.0 / 8.0, 1e-9);
-    hd_sample_set_free(&set);
 }
 
 /* What docs/numerics.md says. */
 TEST(dense_sets_are_better_than_grids) {
     HdSampleSet dense, grid;
-    HdError error;
     assert_int_equal(hd_sample_set_dense(&dense, 32, &error), HD_OK);
     assert_int_equal(hd_sample_set_grid(&grid, 32, &error), HD_OK);
     assert_int_equal(dense.count, 1024);
-    double of_dense = edge_error(&dense, 720), of_grid = edge_error(&grid, 720);
+    double of_dense = edge_error(&dense), of_grid = edge_error(&grid);
     assert_true(of_dense < REFERENCE_SAMPLE_ERROR);
     assert_true(of_dense > REFERENCE_SAMPLE_ERROR / 2.0);
     assert_true(of_grid > 1.2 * of_dense);

@@ -32,11 +32,3 @@ TEST(budget_is_kept) {
         assert_true(closest > 0.9); /* nor is it far too strict */
     }
 }
-
-/* A mean of samples, each within its own budget, is within that of the mean. */
-TEST(budget_of_a_mean_is_the_mean) {
-    HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB);
-    double dark = hd_error_budget_radiance(&budget, 1.0, 0.0);
-    double bright = hd_error_budget_radiance(&budget, 1.0, 3.0);
-    expect_near(0.75 * dark + 0.25 * bright, hd_error_budget_radiance(&budget, 1.0, 0.75), 1e-12);
-}

@@ -13,14 +13,16 @@
 #include "test_folder.h"
 #include "wrapped.h"
 
-enum { DEVICES = 3, FRAMES = 48, POINTS = 4, MOST_FAILURES = DEVICES };
+/* More frames than a store has room for. */
+enum { DEVICES = 3, FRAMES = 36, POINTS = 4 };
 
-/* What happened so far. Devices that must take part wait for each other here. */
+/* What happened so far. */
 static struct {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
     int events[DEVICES][POINTS];
-    int failed, dropped;
+    int collecting; /* devices that do */
+    int failed, dropped, signals;
     int stored;
 } history = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
 
@@ -29,34 +31,37 @@ static HdScene scene;
 static int frame_numbers[FRAMES];
 static HdFrameList frames;
 static int makers[FRAMES]; /* who traced the frame; -1: it was not stored */
-static int dropped_ones[MOST_FAILURES];
+static int dropped_ones[DEVICES];
 static char dropped_why[512];
 static int the_cpu; /* which device is one; the others are GPUs */
 
-typedef bool Happened(void);
+/* What a device does at one point, when it is there so many times: it waits until a number of the
+   history, which is this thread's own otherwise, is large enough. */
+typedef struct Rule {
+    FakePoint point;
+    int count; /* 0: nothing happens */
+    const int *until;
+    int least;
+    enum { GO_ON, FAIL, RAISE_SIGNAL } then;
+} Rule;
+static Rule rules[DEVICES];
 
-static void wait_until(Happened *happened) {
-    while (!happened())
-        pthread_cond_wait(&history.changed, &history.mutex);
-}
-
-static HdStatus fail_here(HdError *failure) {
-    history.failed++;
-    return hd_fail(failure, HD_FAILED, "it fails");
-}
-
-/* What a test does at a point, which it may let fail; the history is its own meanwhile. */
-typedef HdStatus Script(FakePoint point, int index, int count, HdError *failure);
-static Script *script;
-
-static HdStatus follow_script(FakePoint point, int index, HdError *failure) {
+static HdStatus follow_rules(FakePoint point, int index, HdError *failure) {
+    const Rule *rule = &rules[index];
     pthread_mutex_lock(&history.mutex);
-    int count = ++history.events[index][point];
+    const int count = ++history.events[index][point];
+    const bool is_here = count == rule->count && point == rule->point;
+    history.collecting += point == FAKE_COLLECT && count == 1;
     pthread_cond_broadcast(&history.changed);
-    HdStatus status = script != NULL ? script(point, index, count, failure) : HD_OK;
+    while (is_here && rule->until != NULL && *rule->until < rule->least)
+        pthread_cond_wait(&history.changed, &history.mutex);
+    const bool fails = is_here && rule->then == FAIL;
+    history.failed += fails;
+    if (is_here && rule->then == RAISE_SIGNAL)
+        history.signals += raise(SIGTERM) == 0;
     pthread_cond_broadcast(&history.changed);
     pthread_mutex_unlock(&history.mutex);
-    return status;
+    return fails ? hd_fail(failure, HD_FAILED, "it fails") : HD_OK;
 }
 
 static void note_uploaded(void *context, int renderer, const HdSceneTables *tables) {
@@ -88,10 +93,10 @@ static int begin(void **state) {
     (void)state;
     memset(&fake, 0, sizeof fake);
     memset(history.events, 0, sizeof history.events);
-    history.failed = history.dropped = history.stored = 0;
+    history.collecting = history.failed = history.dropped = history.stored = 0;
     the_cpu = -1;
-    script = NULL;
-    fake.event = follow_script;
+    memset(rules, 0, sizeof rules);
+    fake.event = follow_rules;
     for (int i = 0; i < FRAMES; i++) {
         frame_numbers[i] = i;
         makers[i] = -1;
@@ -107,11 +112,12 @@ static int begin(void **state) {
 static int end(void **state) {
     (void)state;
     hd_scene_free(&scene);
-    if (access("run", F_OK) == 0)
-        remove_folder("run");
-    if (access("alone", F_OK) == 0)
-        remove_folder("alone");
-    return 0;
+    return access("run", F_OK) == 0 ? remove_folder("run") : 0;
+}
+
+static void begin_again(void) {
+    end(NULL);
+    begin(NULL);
 }
 
 /* A sequence may start so many threads, and has so many left; negative: any number. */
@@ -153,39 +159,6 @@ static HdStatus render(const char *output, int count) {
     return status;
 }
 
-static void render_alone(void) {
-    script = NULL;
-    history.stored = 0;
-    assert_int_equal(render("alone/%d.data", 1), HD_OK);
-}
-
-static bool is_same_file(const char *a, const char *b) {
-    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
-    int bytes[2];
-    assert_non_null(files[0]);
-    assert_non_null(files[1]);
-    do
-        for (int i = 0; i < 2; i++)
-            bytes[i] = fgetc(files[i]);
-    while (bytes[0] == bytes[1] && bytes[0] != EOF);
-    fclose(files[0]);
-    fclose(files[1]);
-    return bytes[0] == bytes[1];
-}
-
-/* The folder has the first `count` frames, as one device makes them, and nothing else. */
-static void expect_first_frames(int count) {
-    char name[64], expected[64];
-    render_alone();
-    assert_false(is_same_file("alone/0.data", "alone/1.data"));
-    assert_int_equal(count_entries("run"), count);
-    for (int i = 0; i < count; i++) {
-        snprintf(name, sizeof name, "run/%d.data", i);
-        snprintf(expected, sizeof expected, "alone/%d.data", i);
-        assert_true(is_same_file(name, expected));
-    }
-}
-
 static int count_made_by(int device) {
     int count = 0;
     for (int i = 0; i < FRAMES; i++)
@@ -193,241 +166,116 @@ static int count_made_by(int device) {
     return count;
 }
 
-/* ---- all take part ---- */
-
-static bool all_collect(void) {
-    for (int i = 0; i < DEVICES; i++)
-        if (history.events[i][FAKE_COLLECT] == 0)
-            return false;
-    return true;
+static void expect_all_made(int devices, int dropped) {
+    assert_int_equal(render("run/%d.data", devices), HD_OK);
+    assert_int_equal(history.stored, frames.count);
+    assert_int_equal(history.dropped, dropped);
+    int made = 0;
+    for (int i = 0; i < devices; i++)
+        made += count_made_by(i);
+    assert_int_equal(made, frames.count);
+    assert_int_equal(count_entries("run"), frames.count);
 }
 
-static HdStatus meet(FakePoint point, int index, int count, HdError *failure) {
-    (void)index;
-    (void)failure;
-    if (point == FAKE_COLLECT && count == 1)
-        wait_until(all_collect);
-    return HD_OK;
+static void hold_all(void) {
+    for (int i = 0; i < DEVICES; i++)
+        rules[i] = (Rule){FAKE_COLLECT, 1, &history.collecting, DEVICES, GO_ON};
 }
 
 TEST(devices_share_the_frames) {
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    for (int i = 0; i < DEVICES; i++)
-        assert_true(count_made_by(i) > 0);
-    assert_int_equal(count_made_by(0) + count_made_by(1) + count_made_by(2), FRAMES);
-    assert_int_equal(history.dropped, 0);
-    expect_first_frames(FRAMES);
-}
-
-TEST(surveyed_frames_are_shared_too) {
-    scene.sampling = HD_SAMPLING_ADAPTIVE;
-    scene.max_error = 1.0;
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    expect_first_frames(FRAMES);
-}
-
-/* ---- each at its own pace ---- */
-
-enum { AHEAD = 8 };
-
-static bool second_is_ahead(void) {
-    return history.events[1][FAKE_COLLECT] > AHEAD;
-}
-
-static HdStatus hold_first(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 1)
-        wait_until(second_is_ahead);
-    return HD_OK;
-}
-
-TEST(a_fast_device_does_not_wait_for_a_slow_one) {
-    script = hold_first;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
-    assert_true(count_made_by(0) > 0);
-    assert_true(count_made_by(1) >= AHEAD);
-    expect_first_frames(FRAMES);
-}
-
-static bool second_collects(void) {
-    return history.events[1][FAKE_COLLECT] > 0;
+    for (int survey = 0; survey < 2; survey++) {
+        begin_again();
+        scene.sampling = (HdSampling)survey;
+        scene.max_error = survey;
+        hold_all();
+        expect_all_made(DEVICES, 0);
+        for (int i = 0; i < DEVICES; i++)
+            assert_true(count_made_by(i) > 0);
+    }
 }
 
 /* The GPU finishes nothing before the CPU has rendered something, which can only be its estimate.
  */
-static HdStatus await_estimate(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 1)
-        wait_until(second_collects);
-    return HD_OK;
-}
-
 TEST(a_cpu_beside_gpus_estimates_its_pace) {
     the_cpu = 1;
-    script = await_estimate;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    assert_int_equal(history.dropped, 0);
-    expect_first_frames(FRAMES);
-}
-
-/* ---- a device that fails ---- */
-
-static FakePoint failing_point;
-static int failing_count;
-
-static bool one_failed(void) {
-    return history.failed > 0;
+    rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
+    expect_all_made(2, 0);
 }
 
 /* The second device fails; the first one finishes nothing before. */
-static HdStatus fail_second(FakePoint point, int index, int count, HdError *failure) {
-    if (index == 1 && point == failing_point && count == failing_count)
-        return fail_here(failure);
-    if (index == 0 && point == FAKE_COLLECT && count == 1)
-        wait_until(one_failed);
-    return HD_OK;
-}
-
 TEST(others_trace_what_a_failed_device_had) {
     const struct {
         FakePoint point;
-        int count, most_made;
+        int count, made;
     } cases[] = {{FAKE_UPLOAD, 1, 0}, {FAKE_SUBMIT, 1, 0},  {FAKE_SUBMIT, 2, 1},
                  {FAKE_SUBMIT, 3, 2}, {FAKE_COLLECT, 1, 0}, {FAKE_COLLECT, 2, 1},
                  {FAKE_COLLECT, 5, 4}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        end(NULL);
-        begin(NULL);
-        failing_point = cases[i].point;
-        failing_count = cases[i].count;
-        script = fail_second;
-        assert_int_equal(render("run/%d.data", 2), HD_OK);
-        assert_int_equal(history.dropped, 1);
+        begin_again();
+        rules[0] = (Rule){FAKE_COLLECT, 1, &history.failed, 1, GO_ON};
+        rules[1] = (Rule){cases[i].point, cases[i].count, NULL, 0, FAIL};
+        expect_all_made(2, 1);
         assert_int_equal(dropped_ones[0], 1);
         assert_string_equal(dropped_why, "fake: it fails");
-        assert_int_equal(history.stored, FRAMES);
-        assert_int_equal(count_made_by(1), cases[i].most_made);
-        assert_int_equal(count_made_by(0), FRAMES - cases[i].most_made);
-        expect_first_frames(FRAMES);
+        assert_int_equal(count_made_by(1), cases[i].made);
     }
 }
 
-static bool first_has_the_rest(void) {
-    return history.events[0][FAKE_COLLECT] >= frames.count - 1;
+/* The second device fails with its first frame when the other one has made so many. */
+static void fail_second_after(int made) {
+    rules[0] = (Rule){FAKE_COLLECT, 1, &history.events[1][FAKE_COLLECT], 1, GO_ON};
+    rules[1] = (Rule){FAKE_COLLECT, 1, &history.events[0][FAKE_COLLECT], made, FAIL};
 }
 
-/* The second device fails with its first frame when the other one has made all the others. */
-static HdStatus fail_at_last(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : first_has_the_rest);
-    return index == 0 ? HD_OK : fail_here(failure);
+/* The first device has made all that it can beside the second one's, of a few frames or of more
+   than the store has room for, and is still needed. A device must not hold a later frame that waits
+   for the one that it is to make now. */
+TEST(a_late_failure_stops_nobody) {
+    enum { MOST_ENCODERS = 16, SPARE = 12 }; /* which decide how much room there is */
+    const int processors = hd_processor_count();
+    const int room = (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE;
+    for (int k = 0; k < 2; k++) {
+        begin_again();
+        frames.count = k == 0 ? 8 : FRAMES;
+        fail_second_after((k == 0 ? 8 : room) - 1);
+        expect_all_made(2, 1);
+        assert_int_equal(count_made_by(1), 0);
+    }
 }
 
-TEST(a_device_that_has_done_its_part_is_still_there) {
-    frames.count = 8;
-    script = fail_at_last;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
-    assert_int_equal(history.stored, 8);
-    assert_int_equal(history.dropped, 1);
-    assert_int_equal(count_made_by(0), 8);
-    expect_first_frames(8);
-}
-
-/* What the store has room for beside the second device's first frame. */
-static int room_beside(void) {
-    enum { MOST_ENCODERS = 16, SPARE = 12 };
-    int processors = hd_processor_count();
-    return (processors < MOST_ENCODERS ? processors : MOST_ENCODERS) + SPARE - 1;
-}
-
-static bool store_is_full(void) {
-    return history.events[0][FAKE_COLLECT] >= room_beside();
-}
-
-static HdStatus fail_when_full(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : store_is_full);
-    return index == 0 ? HD_OK : fail_here(failure);
-}
-
-/* A device must not hold a later frame that waits for the one that it is to make now. */
-TEST(a_failure_while_the_store_is_full_stops_nobody) {
-    script = fail_when_full;
-    assert_int_equal(render("run/%d.data", 2), HD_OK);
-    assert_int_equal(history.stored, FRAMES);
-    assert_int_equal(history.dropped, 1);
-    assert_int_equal(count_made_by(0), FRAMES);
-    expect_first_frames(FRAMES);
-}
-
-/* The others go on first. */
-static HdStatus fail_everywhere(FakePoint point, int index, int count, HdError *failure) {
-    if (point != failing_point || count < failing_count)
-        return HD_OK;
-    while (history.dropped < index)
-        pthread_cond_wait(&history.changed, &history.mutex);
-    return fail_here(failure);
-}
-
+/* The others go on first. The words of one alone are its own. */
 TEST(all_devices_failing_is_an_error) {
-    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
-    for (int i = 0; i < 3; i++) {
-        end(NULL);
-        begin(NULL);
-        failing_point = points[i];
-        failing_count = 1;
-        script = fail_everywhere;
-        assert_int_equal(render("run/%d.data", DEVICES), HD_FAILED);
+    const struct {
+        int devices;
+        FakePoint point;
+        int count, stored;
+    } cases[] = {{DEVICES, FAKE_UPLOAD, 1, 0},  {DEVICES, FAKE_SUBMIT, 1, 0},
+                 {DEVICES, FAKE_COLLECT, 1, 0}, {1, FAKE_UPLOAD, 1, 0},
+                 {1, FAKE_SUBMIT, 4, 3},        {1, FAKE_COLLECT, 4, 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        begin_again();
+        for (int k = 0; k < cases[i].devices; k++)
+            rules[k] = (Rule){cases[i].point, cases[i].count, &history.dropped, k, FAIL};
+        assert_int_equal(render("run/%d.data", cases[i].devices), HD_FAILED);
         assert_string_equal(error.message,
-                            "no device is left, for the last one failed: fake: it fails");
-        assert_int_equal(history.dropped, DEVICES - 1);
-        for (int k = 0; k < DEVICES - 1; k++)
+                            cases[i].devices == 1
+                                ? "fake: it fails"
+                                : "no device is left, for the last one failed: fake: it fails");
+        assert_int_equal(history.dropped, cases[i].devices - 1);
+        for (int k = 0; k < history.dropped; k++)
             assert_int_equal(dropped_ones[k], k);
-        assert_int_equal(history.stored, 0);
-        assert_true(access("run", F_OK) != 0 || count_entries("run") == 0);
+        assert_int_equal(history.stored, cases[i].stored);
+        if (access("run", F_OK) == 0)
+            assert_int_equal(count_entries("run"), cases[i].stored);
     }
 }
-
-static HdStatus fail_at_once(FakePoint point, int index, int count, HdError *failure) {
-    (void)index;
-    return point == failing_point && count == failing_count ? fail_here(failure) : HD_OK;
-}
-
-/* Its own words, for there is nobody else. */
-TEST(a_device_alone_that_fails_is_an_error) {
-    const FakePoint points[] = {FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT};
-    for (int i = 0; i < 3; i++) {
-        end(NULL);
-        begin(NULL);
-        failing_point = points[i];
-        failing_count = i == 0 ? 1 : 4;
-        script = fail_at_once;
-        assert_int_equal(render("run/%d.data", 1), HD_FAILED);
-        assert_string_equal(error.message, "fake: it fails");
-        assert_int_equal(history.dropped, 0);
-        assert_int_equal(history.stored, i == 0 ? 0 : 3);
-        if (i > 0)
-            expect_first_frames(3);
-    }
-}
-
-/* ---- what no device is to blame for ---- */
 
 /* The eye is at the target in that frame. */
-static void spoil_frame(int frame) {
+static void expect_spoilt(int frame, int devices, int dropped) {
+    char expected[64];
     scene.target =
         (HdPath){.is_fixed = true, .point = hd_path_point(&scene.eye, frame, scene.frame_count)};
-}
-
-static void expect_spoilt(int frame, int dropped) {
-    char expected[64];
+    assert_int_equal(render("run/%d.data", devices), HD_BAD_INPUT);
     snprintf(expected, sizeof expected, "frame %d: the eye is at the target", frame);
     expect_contains(error.message, expected);
     assert_int_equal(history.stored, frame);
@@ -437,45 +285,14 @@ static void expect_spoilt(int frame, int dropped) {
 
 TEST(a_frame_that_cannot_be_ends_it_for_all) {
     for (int survey = 0; survey < 2; survey++) {
-        end(NULL);
-        begin(NULL);
-        scene.sampling = survey ? HD_SAMPLING_ADAPTIVE : HD_SAMPLING_GRID;
-        spoil_frame(7);
-        script = meet;
-        assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
-        expect_spoilt(7, 0);
+        begin_again();
+        scene.sampling = (HdSampling)survey;
+        hold_all();
+        expect_spoilt(7, DEVICES, 0);
     }
-}
-
-/* All that can be made beside the second device's. */
-static bool first_has_four(void) {
-    return history.events[0][FAKE_COLLECT] >= 4;
-}
-
-/* The other device has met the frame that cannot be, or is about to, and is still needed. */
-static HdStatus fail_after_others(FakePoint point, int index, int count, HdError *failure) {
-    if (point != FAKE_COLLECT || count > 1)
-        return HD_OK;
-    wait_until(index == 0 ? second_collects : first_has_four);
-    return index == 0 ? HD_OK : fail_here(failure);
-}
-
-TEST(frames_before_one_that_cannot_be_are_made) {
-    spoil_frame(5);
-    script = fail_after_others;
-    assert_int_equal(render("run/%d.data", 2), HD_BAD_INPUT);
-    expect_spoilt(5, 1);
-}
-
-TEST(a_picture_that_cannot_be_stored_ends_it_for_all) {
-    mkdir("run", 0777);
-    mkdir("run/5.data", 0777);
-    script = meet;
-    assert_int_equal(render("run/%d.data", DEVICES), HD_BAD_INPUT);
-    expect_contains(error.message, "run/5.data");
-    assert_int_equal(history.stored, 5);
-    assert_int_equal(history.dropped, 0);
-    assert_int_equal(count_entries("run"), 6);
+    begin_again();
+    fail_second_after(4); /* the frames before are still made */
+    expect_spoilt(5, 2, 1);
 }
 
 /* ---- the system refuses threads ---- */
@@ -494,54 +311,34 @@ REPLACE(pthread_create, create_few)
    store that cannot begin. */
 TEST(devices_without_a_thread_are_dropped) {
     enum { ENOUGH = 1000 };
+    static const char *const errors[] = {
+        NULL, "no device is left, for the last one failed: ", "for the outputs: "};
     threads_for_sequence = ENOUGH;
     assert_int_equal(render("run/%d.data", 2), HD_OK);
     const int needed = ENOUGH - threads_left;
     for (int missing = 1; missing <= 3; missing++) {
-        end(NULL);
-        begin(NULL);
+        begin_again();
         threads_for_sequence = missing < 3 ? needed - missing : 0;
         HdStatus status = render("run/%d.data", 2);
         threads_for_sequence = -1;
         assert_int_equal(status, missing == 1 ? HD_OK : HD_FAILED);
-        assert_int_equal(history.dropped, missing < 3 ? 1 : 0);
+        assert_int_equal(history.dropped, missing < 3);
         if (missing < 3)
             expect_contains(dropped_why, "cannot start a thread for the device: ");
         if (missing == 1)
-            expect_first_frames(FRAMES);
-        if (missing == 2)
-            expect_contains(error.message, "no device is left, for the last one failed: ");
-        if (missing == 3)
-            expect_contains(error.message, "for the outputs: ");
+            assert_int_equal(count_entries("run"), FRAMES);
+        else
+            expect_contains(error.message, errors[missing - 1]);
     }
 }
 
 /* ---- a signal, which the program remembers for ever ---- */
 
-static bool is_signalled(void) {
-    return hd_interrupt_signal() != 0;
-}
-
-static HdStatus interrupt(FakePoint point, int index, int count, HdError *failure) {
-    (void)failure;
-    if (point == FAKE_COLLECT && index == 0 && count == 3) {
-        raise(SIGTERM);
-        pthread_cond_broadcast(&history.changed);
-    }
-    if (point == FAKE_COLLECT && index == 1 && count == 1)
-        wait_until(is_signalled);
-    return HD_OK;
-}
-
 TEST(a_signal_ends_it_for_all) {
-    char expected[64];
-    script = interrupt;
+    rules[0] = (Rule){FAKE_COLLECT, 3, NULL, 0, RAISE_SIGNAL};
+    rules[1] = (Rule){FAKE_COLLECT, 1, &history.signals, 1, GO_ON};
     assert_int_equal(render("run/%d.data", 2), HD_INTERRUPTED);
-    assert_true(history.stored < 3);
-    assert_int_equal(history.dropped, 0);
-    snprintf(expected, sizeof expected, "interrupted after %d of %d frames", history.stored,
-             FRAMES);
-    assert_string_equal(error.message, expected);
+    assert_true(history.stored < 3 && history.dropped == 0);
     assert_int_equal(count_entries("run"), history.stored);
 }
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include <stdlib.h>
-
+/* How deep solids lie in each other and in the floor, and what is done where they only touch. */
 #include "scene/contact.h"
 #include "scene/overlap.h"
 #include "unit_test.h"
@@ -11,9 +10,135 @@ static HdSolid cube_at(double x, double y, double z, double edge) {
         .kind = HD_HEXAHEDRON, .centre = {x, y, z}, .circumradius = edge * sqrt(3.0) / 2.0};
 }
 
-static HdFloor floor_at(double z) {
-    return (HdFloor){.present = true,
-                     .corners = {{-9.0, -9.0, z}, {-9.0, 9.0, z}, {9.0, 9.0, z}, {9.0, -9.0, z}}};
+/* A square floor about (0, 0, z). */
+static HdFloor floor_at(double z, double half_side) {
+    const double h = half_side;
+    return (HdFloor){.present = true, .corners = {{-h, -h, z}, {-h, h, z}, {h, h, z}, {h, -h, z}}};
+}
+
+/* A cube with edges 2 long at the origin, and another. */
+TEST(test_cubes) {
+    const double root2 = sqrt(2.0);
+    const struct {
+        double x, y, z, edge, turn; /* about z, in degrees */
+        double depth;
+    } rows[] = {{1.5, 0.0, 0.0, 2.0, 0.0, 0.5},
+                {1.5, -1.75, 1.875, 2.0, 0.0, 0.125},
+                {2.1, 0.0, 0.0, 2.0, 0.0, 0.0}, /* within each other's spheres, and yet apart */
+                {1.0, -2.1, 1.0, 2.0, 0.0, 0.0},
+                {0.0, 0.0, 0.0, 2.0, 0.0, 2.0}, /* through the nearest face, not to the centre */
+                {0.25, 0.0, 0.0, 0.5, 0.0, 1.0},
+                {2.0, 1.0, 0.5, 2.0, 0.0, 0.0},          /* touching: part of a face */
+                {2.0, 2.0, 2.0, 2.0, 0.0, 0.0},          /* a corner */
+                {1.0 + root2, 0.0, 0.0, 2.0, 45.0, 0.0}, /* an edge in a face */
+                {0.875 + root2, 0.0, 0.0, 2.0, 45.0, 0.125}};
+    const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        HdSolid other = cube_at(rows[i].x, rows[i].y, rows[i].z, rows[i].edge);
+        other.rotation_degrees.z = rows[i].turn;
+        expect_near(hd_solid_overlap(&cube, &other), rows[i].depth, 1e-14);
+        expect_near(hd_solid_overlap(&other, &cube), rows[i].depth, 1e-14);
+    }
+    /* Edges that cross at a right angle: the axis that tells them apart is no face's normal. */
+    for (int i = -1; i <= 1; i++) {
+        HdSolid a = cube, b = cube_at(2.0 * root2 + 0.0625 * i, 0.0, 0.0, 2.0);
+        a.rotation_degrees.z = 45.0;
+        b.rotation_degrees.y = 45.0;
+        expect_near(hd_solid_overlap(&a, &b), i < 0 ? 0.0625 : 0.0, 1e-14);
+        expect_near(hd_solid_overlap(&b, &a), i < 0 ? 0.0625 : 0.0, 1e-14);
+    }
+}
+
+TEST(test_what_counts_as_touching) {
+    for (double size = 1e-12; size < 1e12; size *= 10.0) {
+        const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0 * size);
+        const HdSolid just = cube_at((2.0 - 1.7e-9) * size, 0.0, 0.0, 2.0 * size);
+        const HdSolid more = cube_at((2.0 - 1.8e-9) * size, 0.0, 0.0, 2.0 * size);
+        assert_true(hd_solid_overlap(&cube, &just) == 0.0);
+        assert_true(hd_solid_overlap(&cube, &more) > 0.0);
+        /* The smaller one's size is what counts. */
+        const HdSolid small = cube_at((1.001 - 1.8e-12) * size, 0.0, 0.0, 0.002 * size);
+        assert_true(hd_solid_overlap(&cube, &small) > 0.0);
+    }
+    /* Far from the origin the rounding of places alone makes neighbours overlap. */
+    for (int i = 0; i < 100; i++) {
+        const double x = 1e9 + 0.1 * i, side = 0.002;
+        const HdSolid a = cube_at(x, 0.1, 1e8, side), b = cube_at(x + side, 0.1, 1e8, side);
+        const HdSolid deep = cube_at(x + side / 2.0, 0.1, 1e8, side);
+        assert_true(hd_solid_overlap(&a, &b) == 0.0 && hd_solid_overlap(&a, &deep) > 0.0);
+    }
+}
+
+TEST(test_beside_the_floor) {
+    const double corner = 5.0 + sqrt(0.5), nearer = corner - 0.125;
+    HdFloor floor = floor_at(0.0, 5.0);
+    const struct {
+        double x, y, turn, depth;
+    } rows[] = {{0.0, 0.0, 0.0, 1.0},
+                {5.75, 0.0, 0.0, 0.25},
+                {6.0, 0.0, 0.0, 0.0},
+                {6.25, 0.0, 0.0, 0.0},
+                {6.5, 3.0, 0.0, 0.0}, /* within the sphere about the floor, at the same height */
+                {corner, corner, 45.0, 0.0}, /* a face before the floor's corner */
+                {nearer, nearer, 45.0, 0.125 * sqrt(2.0)}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        HdSolid cube = cube_at(rows[i].x, rows[i].y, 0.0, 2.0);
+        cube.rotation_degrees.z = rows[i].turn;
+        expect_near(hd_floor_overlap(&cube, &floor), rows[i].depth, 1e-14);
+    }
+    /* Opposite corners 1e-5 of the diagonal above the others: the plane passes half way between. */
+    const HdSolid above = cube_at(0.0, 0.0, 1.00005, 2.0), into = cube_at(0.0, 0.0, 1.00004, 2.0);
+    floor.corners[0].z = floor.corners[2].z = 1e-4;
+    expect_near(hd_floor_overlap(&above, &floor), 0.0, 1e-14);
+    expect_near(hd_floor_overlap(&into, &floor), 1e-5, 1e-14);
+}
+
+static double random_between(double low, double high) {
+    static uint64_t random_state = 1;
+    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return low + (high - low) * ldexp((double)(random_state >> 11), -53);
+}
+
+/* In a cube of sides 2 * `reach`. */
+static HdVec3 random_vector(double reach) {
+    return hd_vec3(random_between(-reach, reach), random_between(-reach, reach),
+                   random_between(-reach, reach));
+}
+
+static HdSolid random_solid(void) {
+    return (HdSolid){.kind = (HdSolidKind)random_between(0.0, HD_SOLID_KIND_COUNT),
+                     .centre = random_vector(1.0),
+                     .rotation_degrees = random_vector(180.0),
+                     .circumradius = random_between(0.5, 1.5)};
+}
+
+/* By its faces' planes, which is another way to describe a solid than by its vertices. */
+static bool is_inside(const HdSolid *solid, const HdPlatonic *shape, HdVec3 point) {
+    const HdVec3 from_centre = hd_sub(point, solid->centre);
+    for (int f = 0; f < shape->face_count; f++)
+        if (hd_dot(shape->face_normal[f], from_centre) >= shape->inradius * solid->circumradius)
+            return false;
+    return true;
+}
+
+/* What is deep is hit by some of many random points, what does not overlap by none. */
+TEST(test_random_points) {
+    enum { PAIRS = 100, POINTS = 20000 };
+    int deep = 0, apart = 0;
+    for (int i = 0; i < PAIRS; i++) {
+        const HdSolid a = random_solid(), b = random_solid();
+        const HdPlatonic of_a = hd_solid_shape(&a), of_b = hd_solid_shape(&b);
+        const double depth = hd_solid_overlap(&a, &b);
+        bool found = false;
+        for (int k = 0; k < POINTS && !found; k++) {
+            const HdVec3 point = hd_add(b.centre, random_vector(b.circumradius));
+            found = is_inside(&b, &of_b, point) && is_inside(&a, &of_a, point);
+        }
+        assert_true(found ? depth > 0.0 : depth <= 0.2);
+        deep += depth > 0.2;
+        apart += depth == 0.0;
+    }
+    assert_true(deep > PAIRS / 10 && apart > PAIRS / 5);
 }
 
 static void expect_contact(HdSolid a, HdSolid b, HdContact contact) {
@@ -23,7 +148,6 @@ static void expect_contact(HdSolid a, HdSolid b, HdContact contact) {
 
 TEST(contacts_of_solids) {
     const HdSolid cube = cube_at(0.0, 0.0, 0.0, 2.0);
-    expect_contact(cube, cube_at(2.0, 0.0, 0.0, 2.0), HD_CONTACT_TOUCHES); /* a face */
     expect_contact(cube, cube_at(2.0, 2.0, 0.5, 2.0), HD_CONTACT_TOUCHES); /* an edge */
     expect_contact(cube, cube_at(2.0, 2.0, 2.0, 2.0), HD_CONTACT_TOUCHES); /* a corner */
     expect_contact(cube, cube_at(2.0 + 2e-7, 0.0, 0.0, 2.0), HD_CONTACT_TOUCHES);
@@ -43,7 +167,8 @@ TEST(contacts_of_solids) {
 
 TEST(contacts_of_floors_and_lights) {
     const HdSolid cube = cube_at(0.0, 0.0, 1.0, 2.0);
-    const HdFloor below = floor_at(0.0), under = floor_at(-0.1), within = floor_at(0.5);
+    const HdFloor below = floor_at(0.0, 9.0), under = floor_at(-0.1, 9.0);
+    const HdFloor within = floor_at(0.5, 9.0);
     assert_int_equal(hd_floor_contact(&cube, &below), HD_CONTACT_TOUCHES);
     assert_int_equal(hd_floor_contact(&cube, &under), HD_CONTACT_NONE);
     assert_int_equal(hd_floor_contact(&cube, &within), HD_CONTACT_OVERLAPS);
@@ -83,7 +208,7 @@ TEST(everything_is_parted) {
     HdLight light = {.position = {4.25, 0.125, 4.0}};
     HdScene scene = {.solid_count = 6,
                      .solids = stack,
-                     .floor = floor_at(0.0),
+                     .floor = floor_at(0.0, 9.0),
                      .light_count = 1,
                      .lights = &light};
     expect_parted(&scene);
@@ -93,17 +218,15 @@ TEST(everything_is_parted) {
     scene.solids = nested;
     scene.solid_count = 4;
     expect_parted(&scene);
-}
-
-TEST(what_lies_apart_stays) {
-    HdSolid solids[] = {cube_at(0.0, 0.0, 1.5, 2.0), cube_at(0.5, 0.25, 2.75, 2.0)};
-    const double radius = solids[0].circumradius;
-    HdScene scene = {.solid_count = 2, .solids = solids, .floor = floor_at(0.0)};
+    /* What lies apart stays, and so does the earlier one of two. */
+    HdSolid two[] = {cube_at(0.0, 0.0, 1.5, 2.0), cube_at(0.5, 0.25, 2.75, 2.0)};
+    const double radius = two[0].circumradius;
+    scene = (HdScene){.solid_count = 2, .solids = two, .floor = floor_at(0.0, 9.0)};
     hd_scene_part_contacts(&scene);
-    assert_true(solids[0].circumradius == radius && solids[1].circumradius == radius);
-    solids[1].centre.z = 3.5; /* the earlier one stays */
+    assert_true(two[0].circumradius == radius && two[1].circumradius == radius);
+    two[1].centre.z = 3.5;
     hd_scene_part_contacts(&scene);
-    assert_true(solids[0].circumradius == radius && solids[1].circumradius < radius);
+    assert_true(two[0].circumradius == radius && two[1].circumradius < radius);
 }
 
 /* Steps are as long as the greatest of the group, though two of it do not touch what that comes

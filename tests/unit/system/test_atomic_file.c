@@ -16,12 +16,6 @@ static const char *comes_between; /* is moved to `to`, or where that is NULL rem
 static const char *to;
 static int glances, holder = -1; /* the lock's, closed after so many */
 
-static int syncs;
-static int count_sync(int descriptor) {
-    syncs++;
-    return real_fsync(descriptor);
-}
-
 static int lock_late(int descriptor, int operation) {
     if (glances > 0 && --glances == 0)
         close(holder);
@@ -58,35 +52,27 @@ TEST(one_that_took_the_name_of_a_stale_one_stays) {
     assert_int_equal(access("1.png.tmp-1-0", F_OK), -1);
 }
 
-static void make_locked(const char *path) {
+/* Looks, with a lock that is held for as long, at that of the process. */
+static void remove_after(int most_glances, pid_t owner, int glances_left, bool is_left) {
+    char path[64];
+    snprintf(path, sizeof path, "2.mkv.tmp-%ld-0", (long)owner);
     write_bytes(path, "stale", 5);
     holder = open(path, O_RDONLY);
     assert_int_equal(flock(holder, LOCK_EX), 0);
+    glances = most_glances;
+    hd_temporary_remove_stale(path);
+    assert_int_equal(glances, glances_left);
+    assert_int_equal(access(path, F_OK), is_left ? 0 : -1);
 }
 
 /* What it had started still writes. */
-TEST(that_of_a_process_that_is_gone_is_waited_for) {
-    char path[64];
+TEST(that_of_a_process_that_is_gone_is_waited_for_alone) {
     const pid_t gone = fork();
     if (gone == 0)
         _exit(0);
     assert_int_equal(waitpid(gone, NULL, 0), gone);
-    snprintf(path, sizeof path, "2.mkv.tmp-%ld-0", (long)gone);
-    make_locked(path);
-    glances = 3;
-    hd_temporary_remove_stale(path);
-    assert_int_equal(glances, 0);
-    assert_int_equal(access(path, F_OK), -1);
-}
-
-TEST(that_of_a_living_process_is_not) {
-    char path[64];
-    snprintf(path, sizeof path, "3.mkv.tmp-%ld-0", (long)getpid());
-    make_locked(path);
-    glances = 2;
-    hd_temporary_remove_stale(path);
-    assert_int_equal(glances, 1);
-    assert_int_equal(access(path, F_OK), 0);
+    remove_after(3, gone, 0, false);
+    remove_after(2, getpid(), 1, true);
     close(holder);
     glances = 0;
 }
@@ -94,16 +80,6 @@ TEST(that_of_a_living_process_is_not) {
 static void open_for(HdAtomicFile *file, const char *path) {
     assert_int_equal(hd_atomic_file_open(file, path, &error), HD_OK);
     fputs("new", file->stream);
-}
-
-TEST(only_what_is_to_last_is_synced) {
-    HdAtomicFile file;
-    open_for(&file, "fleeting");
-    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    assert_int_equal(syncs, 0);
-    open_for(&file, "durable");
-    assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
-    assert_int_equal(syncs, 2); /* its folder, too */
 }
 
 static void expect_failure(HdAtomicFile *file, const char *message) {
@@ -154,10 +130,9 @@ TEST(names_that_do_not_fit_are_refused) {
     name[255] = '\0';
     open_for(&file, name);
     assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
-    assert_int_equal(hd_atomic_file_open(&file, "folder/", &error), HD_BAD_INPUT);
-    assert_int_equal(hd_atomic_file_open(&file, "", &error), HD_BAD_INPUT);
-    assert_int_equal(hd_atomic_file_open(&file, ".", &error), HD_BAD_INPUT);
+    static const char *const no_files[] = {"folder/", "", "."};
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(hd_atomic_file_open(&file, no_files[i], &error), HD_BAD_INPUT);
 }
 
-REPLACE(fsync, count_sync)
 REPLACE(flock, lock_late)

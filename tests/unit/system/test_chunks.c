@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Work in chunks: each item once, and choices as one call for all items makes them. */
-#include <stdatomic.h>
+/* Choices in chunks are as one call for all items makes them. */
 #include <stdlib.h>
 
 #include "system/chunks.h"
@@ -26,25 +25,6 @@ static int end_threads(void **state) {
 static const int counts[] = {0, 1, 1023, 1024, 1025, 5000, 256 * 1024, 256 * 1024 + 1, 700001};
 enum { COUNTS = sizeof counts / sizeof *counts };
 
-static void count_items(void *context, int first, int end) {
-    atomic_int *visits = context;
-    assert_true(first < end);
-    for (int i = first; i < end; i++)
-        atomic_fetch_add(&visits[i], 1);
-}
-
-TEST(each_item_is_worked_on_once) {
-    for (int c = 0; c < COUNTS; c++) {
-        atomic_int *visits = calloc((size_t)counts[c] + 1, sizeof *visits);
-        assert_non_null(visits);
-        hd_chunks_run(pool, counts[c], count_items, visits);
-        for (int i = 0; i < counts[c]; i++)
-            assert_int_equal(atomic_load(&visits[i]), 1);
-        assert_int_equal(atomic_load(&visits[counts[c]]), 0);
-        free(visits);
-    }
-}
-
 /* Some chunks have few of them, some none, some all. */
 static bool is_chosen(int item) {
     return item / 3000 % 3 == 1 || item % 97 == 5;
@@ -53,6 +33,7 @@ static bool is_chosen(int item) {
 static int choose(void *context, int first, int end, int *chosen) {
     const int *numbers = context;
     int count = 0;
+    assert_true(first < end);
     for (int i = first; i < end; i++) {
         int number = numbers != NULL ? numbers[i] : i;
         if (is_chosen(number))
@@ -71,24 +52,17 @@ static void expect_choice(int count, const int *chosen, int chosen_count) {
     assert_int_equal(chosen_count, expected);
 }
 
+/* In place, too. */
 TEST(choices_keep_the_order) {
     for (int c = 0; c < COUNTS; c++) {
         int *chosen = calloc((size_t)counts[c] + 1, sizeof *chosen);
         assert_non_null(chosen);
         expect_choice(counts[c], chosen, hd_chunks_choose(pool, counts[c], choose, NULL, chosen));
+        for (int i = 0; i < counts[c]; i++)
+            chosen[i] = i;
+        expect_choice(counts[c], chosen, hd_chunks_choose(pool, counts[c], choose, chosen, chosen));
         free(chosen);
     }
-}
-
-TEST(choices_can_be_made_in_place) {
-    enum { COUNT = 300000 };
-    (void)state;
-    int *numbers = calloc(COUNT, sizeof *numbers);
-    assert_non_null(numbers);
-    for (int i = 0; i < COUNT; i++)
-        numbers[i] = i;
-    expect_choice(COUNT, numbers, hd_chunks_choose(pool, COUNT, choose, numbers, numbers));
-    free(numbers);
 }
 
 GROUP(start_threads, end_threads)

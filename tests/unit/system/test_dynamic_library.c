@@ -43,19 +43,13 @@ static int leave_library(void **state) {
     return 0;
 }
 
-TEST(functions_are_found_or_named) {
+TEST(functions_and_its_file_are_found) {
     Functions functions = {0};
+    char found[HD_MAX_PATH];
     assert_null(hd_library_load(library, symbols, 2, &functions));
     assert_true(functions.fail == _fail && functions.skip == _skip);
-    functions.skip = NULL;
-    assert_null(hd_library_load(library, symbols, 1, &functions));
-    assert_null(functions.skip);
     assert_string_equal(hd_library_load(library, symbols, 4, &functions), "_no_such");
     assert_null(functions.unused);
-}
-
-TEST(its_file_is_told_where_there_is_room) {
-    char found[HD_MAX_PATH];
     const size_t length = strlen(path);
     assert_true(hd_library_path(library, symbol, found, length + 1));
     assert_string_equal(found, path);
@@ -63,31 +57,28 @@ TEST(its_file_is_told_where_there_is_room) {
     assert_false(hd_library_path(library, "_no_such", found, sizeof found));
 }
 
-TEST(what_lies_beside_it_is_opened) {
-    const char *name = strrchr(path, '/');
-    assert_non_null(name);
-    void *again = hd_library_open_beside(library, symbol, name + 1);
-    assert_ptr_equal(again, library);
-    hd_library_close(again);
-    assert_null(hd_library_open_beside(library, symbol, "no_such.so"));
-    assert_null(hd_library_open_beside(library, "_no_such", name + 1));
-    assert_null(hd_library_open("no_such.so"));
-}
-
-/* Cut, it would be that of the library. */
-TEST(a_name_that_is_too_long_opens_nothing) {
-    char name[HD_MAX_PATH + 2] = "";
-    const char *end = strrchr(path, '/');
-    assert_non_null(end);
-    const size_t cut = HD_MAX_PATH - 1 - (size_t)(end + 1 - path);
-    memset(name, '/', cut);
-    memcpy(name, "./", 2);
-    memcpy(name + cut - strlen(end), end, strlen(end));
+static void expect_beside(const char *name) {
     void *again = hd_library_open_beside(library, symbol, name);
     assert_ptr_equal(again, library);
     hd_library_close(again);
-    memcpy(name + cut, "xx", 3);
-    assert_null(hd_library_open_beside(library, symbol, name));
+}
+
+TEST(what_lies_beside_it_is_opened) {
+    const char *name = strrchr(path, '/') + 1;
+    expect_beside(name);
+    assert_null(hd_library_open_beside(library, symbol, "no_such.so"));
+    assert_null(hd_library_open_beside(library, "_no_such", name));
+    assert_null(hd_library_open("no_such.so"));
+    /* A name that is too long; cut, it would be that of the library. */
+    char long_name[HD_MAX_PATH + 2] = "";
+    const char *end = name - 1;
+    const size_t cut = HD_MAX_PATH - 1 - (size_t)(end + 1 - path);
+    memset(long_name, '/', cut);
+    memcpy(long_name, "./", 2);
+    memcpy(long_name + cut - strlen(end), end, strlen(end));
+    expect_beside(long_name);
+    memcpy(long_name + cut, "xx", 3);
+    assert_null(hd_library_open_beside(library, symbol, long_name));
 }
 
 GROUP(find_library, leave_library)

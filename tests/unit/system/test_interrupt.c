@@ -4,78 +4,28 @@
 #include "system/interrupt.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <time.h>
 
 #include "system/leftovers.h"
+#include "system/machine.h"
 #include "test_folder.h"
 
 static HdError error;
 
-/* ---- processes ---- */
-
-static char said[1000]; /* what the last one wrote to standard error */
-static double took;     /* its seconds */
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void be(void (*act)(void), const int errors[2]) {
-    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
-    dup2(errors[1], STDERR_FILENO);
-    close(errors[0]);
-    hd_interrupt_install();
-    if (hd_interrupt_read_patience(&error) != HD_OK)
-        _exit(99);
-    act();
-    _exit(98);
-}
-
-/* How a process that does this ends: its exit code, or minus the signal. */
-static int outcome_of(void (*act)(void)) {
-    int errors[2], status = 0;
-    size_t size = 0;
-    ssize_t count;
-    const double start = now();
-    assert_int_equal(pipe(errors), 0);
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0)
-        be(act, errors);
-    close(errors[1]);
-    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
-        size += (size_t)count;
-    said[size] = '\0';
-    close(errors[0]);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    took = now() - start;
-    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-}
-
-static void hang(void) {
-    for (;;)
-        pause();
-}
+/* ---- what processes do ---- */
 
 static void pass(double seconds) {
-    const struct timespec time = {.tv_sec = (time_t)seconds,
-                                  .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
-    struct timespec rest = time;
+    struct timespec rest = {.tv_nsec = (long)(1e9 * seconds)};
     while (nanosleep(&rest, &rest) != 0)
         ;
 }
 
-/* ---- the first signal ---- */
-
 static int number;
 
-static void tell_it(void) {
+static void take_it(void) {
     hd_interrupt_announce("stopping\n");
     errno = EDOM;
     if (hd_interrupt_signal() != 0 || raise(number) != 0 || errno != EDOM)
@@ -83,16 +33,7 @@ static void tell_it(void) {
     _exit(hd_interrupt_signal());
 }
 
-TEST(the_first_signal_is_remembered_and_announced) {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    for (int i = 0; i < 3; i++) {
-        number = numbers[i];
-        assert_int_equal(outcome_of(tell_it), number);
-        assert_string_equal(said, "stopping\n");
-    }
-}
-
-static void tell_nothing(void) {
+static void announce_nothing(void) {
     hd_interrupt_announce("stopping\n");
     hd_interrupt_announce(NULL);
     close(STDERR_FILENO);
@@ -100,21 +41,11 @@ static void tell_nothing(void) {
     _exit(hd_interrupt_signal());
 }
 
-TEST(nothing_is_announced_where_nothing_is_to_be) {
-    assert_int_equal(outcome_of(tell_nothing), SIGTERM);
-    assert_string_equal(said, "");
-}
-
-static void take_it_twice(void) {
+static void take_two_at_once(void) {
     hd_interrupt_announce("stopping\n");
     raise(SIGINT);
     raise(SIGTERM);
     _exit(hd_interrupt_signal());
-}
-
-TEST(two_at_once_are_the_same_wish) {
-    assert_int_equal(outcome_of(take_it_twice), SIGINT);
-    assert_string_equal(said, "stopping\n");
 }
 
 /* The main thread handles none, as if a file server that is gone had it. */
@@ -132,34 +63,6 @@ static void wait_deaf(void) {
     _exit(hd_interrupt_signal());
 }
 
-TEST(another_thread_takes_it_where_the_main_thread_is_stuck) {
-    assert_int_equal(outcome_of(wait_deaf), SIGTERM);
-}
-
-/* ---- what else is set ---- */
-
-static void (*action_of(int signal_number))(int) {
-    struct sigaction action;
-    sigaction(signal_number, NULL, &action);
-    return action.sa_handler;
-}
-
-static void look_at_others(void) {
-    const bool good = action_of(SIGPIPE) == SIG_IGN && action_of(SIGXFSZ) == SIG_IGN &&
-                      action_of(SIGCHLD) == SIG_DFL && action_of(SIGHUP) == SIG_IGN;
-    kill(getpid(), SIGHUP);
-    pass(0.002);
-    _exit(good && hd_interrupt_signal() == 0 ? 0 : 1);
-}
-
-TEST(what_the_parent_ignored_stays_ignored_but_for_children) {
-    signal(SIGHUP, SIG_IGN);
-    assert_int_equal(outcome_of(look_at_others), 0);
-    signal(SIGHUP, SIG_DFL);
-}
-
-/* ---- the end ---- */
-
 static void leave_a_file(void) {
     write_bytes("left", "x", 1);
     hd_leftovers_add_file("left");
@@ -172,114 +75,125 @@ static void take_a_second_one(void) {
     raise(SIGINT);
 }
 
-TEST(a_second_one_later_ends_it_at_once) {
-    setenv("HEDRON_STOP_PATIENCE", "100", 1);
-    assert_int_equal(outcome_of(take_a_second_one), -SIGINT);
-    assert_string_equal(said, "");
-    assert_int_not_equal(access("left", F_OK), 0);
-}
-
-static void hang_with_a_file(void) {
+static void hang(void) {
     leave_a_file();
-    raise(SIGTERM);
-    hang();
+    kill(getpid(), SIGTERM);
+    for (;;)
+        pause();
 }
 
 static void hang_deaf(void) {
-    leave_a_file();
     be_deaf();
-    kill(getpid(), SIGTERM);
     hang();
 }
 
-TEST(who_does_not_end_in_time_is_ended) {
-    static void (*const acts[])(void) = {hang_with_a_file, hang_deaf};
-    setenv("HEDRON_STOP_PATIENCE", "0.1", 1);
-    for (int i = 0; i < 2; i++) {
-        assert_int_equal(outcome_of(acts[i]), -SIGTERM);
-        assert_string_equal(said, "hedron: interrupted; what was at work did not end in time\n");
-        assert_int_not_equal(access("left", F_OK), 0);
-        assert_true(took >= 0.1);
-    }
-}
-
-static void do_not_end(void) {
+static void last_without_a_signal(void) {
     raise(SIGALRM); /* which is no interrupt */
     pass(0.12);
     _exit(hd_interrupt_signal());
 }
 
-TEST(nothing_ends_it_without_a_signal) {
-    setenv("HEDRON_STOP_PATIENCE", "0.1", 1);
-    assert_int_equal(outcome_of(do_not_end), 0);
-}
-
-static void be_woken(void) {
-    raise(SIGTERM);
-    raise(SIGALRM); /* as from the watching thread */
+static void look_at_others(void) {
+    static const int numbers[] = {SIGPIPE, SIGXFSZ, SIGHUP, SIGCHLD};
+    for (int i = 0; i < 4; i++) {
+        struct sigaction action;
+        sigaction(numbers[i], NULL, &action);
+        if (action.sa_handler != (i < 3 ? SIG_IGN : SIG_DFL))
+            _exit(95);
+    }
+    kill(getpid(), SIGHUP);
+    pass(0.002);
     _exit(hd_interrupt_signal());
 }
 
-TEST(it_may_last_as_long_as_patience) {
-    static const char *const patience[] = {"10", "86400"};
-    for (int i = 0; i < 2; i++) {
-        setenv("HEDRON_STOP_PATIENCE", patience[i], 1);
-        assert_int_equal(outcome_of(be_woken), SIGTERM);
-        assert_string_equal(said, "");
+/* ---- how they end ---- */
+
+static char said[1000]; /* what the last one wrote to standard error */
+static double took;     /* its seconds */
+
+static void be(void (*act)(void), const int errors[2]) {
+    signal(SIGCHLD, SIG_IGN); /* a careless parent's */
+    if (act == look_at_others)
+        signal(SIGHUP, SIG_IGN); /* as by nohup */
+    dup2(errors[1], STDERR_FILENO);
+    close(errors[0]);
+    hd_interrupt_install();
+    if (hd_interrupt_read_patience(&error) != HD_OK)
+        _exit(99);
+    act();
+    _exit(98);
+}
+
+/* How a process that does this ends: its exit code, or minus the signal. */
+static int outcome_of(void (*act)(void)) {
+    int errors[2], status = 0;
+    size_t size = 0;
+    ssize_t count;
+    const double start = hd_monotonic_seconds();
+    assert_int_equal(pipe(errors), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        be(act, errors);
+    close(errors[1]);
+    while ((count = read(errors[0], said + size, sizeof said - 1 - size)) > 0)
+        size += (size_t)count;
+    said[size] = '\0';
+    close(errors[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    took = hd_monotonic_seconds() - start;
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+static const char too_late[] = "hedron: interrupted; what was at work did not end in time\n";
+
+static const struct {
+    const char *name;
+    void (*act)(void);
+    const char *patience;
+    int outcome;
+    const char *said;
+} cases[] = {
+    {"it is announced", take_it, "", SIGINT, "stopping\n"},
+    {"it is announced", take_it, "", SIGTERM, "stopping\n"},
+    {"it is announced", take_it, "", SIGHUP, "stopping\n"},
+    {"nothing is to be announced", announce_nothing, "", SIGTERM, ""},
+    {"two at once are the same wish", take_two_at_once, "", SIGINT, "stopping\n"},
+    {"another thread takes it where the main thread is stuck", wait_deaf, "", SIGTERM, ""},
+    {"a second one later ends it at once", take_a_second_one, "100", -SIGINT, ""},
+    {"who does not end in time is ended", hang, "0.1", -SIGTERM, too_late},
+    {"whose main thread is stuck, too", hang_deaf, "0.1", -SIGTERM, too_late},
+    {"what the parent ignored stays ignored, but for children", look_at_others, "", 0, ""},
+    {"without a signal it may last", last_without_a_signal, "0.1", 0, ""},
+};
+
+TEST(signals_end_it_as_they_should) {
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        setenv("HEDRON_STOP_PATIENCE", cases[i].patience, 1);
+        number = cases[i].outcome;
+        const int outcome = outcome_of(cases[i].act);
+        if (outcome != cases[i].outcome || strcmp(said, cases[i].said) != 0 ||
+            access("left", F_OK) == 0 || (cases[i].said == too_late && took < 0.1))
+            fail_msg("%s: it ended with %d, said '%s' and took %g s", cases[i].name, outcome, said,
+                     took);
     }
 }
 
 TEST(the_patience_is_a_time) {
-    static const char *const good[] = {"", "0.1", "86400", "2"};
-    static const char *const bad[] = {"0.0999", "86401", "1s", "x", "nan", "-1"};
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-        setenv("HEDRON_STOP_PATIENCE", good[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
+    static const struct {
+        const char *text;
+        bool is_good;
+    } patiences[] = {{"", true},       {"0.1", true}, {"86400", true}, {"0.0999", false},
+                     {"86401", false}, {"1s", false}, {"nan", false},  {"-1", false}};
+    for (size_t i = 0; i < sizeof patiences / sizeof *patiences; i++) {
+        setenv("HEDRON_STOP_PATIENCE", patiences[i].text, 1);
+        assert_int_equal(hd_interrupt_read_patience(&error),
+                         patiences[i].is_good ? HD_OK : HD_BAD_INPUT);
+        if (!patiences[i].is_good) {
+            expect_contains(error.message, patiences[i].text);
+            expect_contains(error.message, "expected seconds from 0.1 to 86400");
+        }
     }
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        setenv("HEDRON_STOP_PATIENCE", bad[i], 1);
-        assert_int_equal(hd_interrupt_read_patience(&error), HD_BAD_INPUT);
-        expect_contains(error.message, bad[i]);
-        expect_contains(error.message, "expected seconds from 0.1 to 86400");
-    }
-    unsetenv("HEDRON_STOP_PATIENCE");
-    assert_int_equal(hd_interrupt_read_patience(&error), HD_OK);
-}
-
-/* ---- writers ---- */
-
-static int ends[2];
-
-static void fill_pipe(void) {
-    static const char block[4096];
-    assert_int_equal(pipe(ends), 0);
-    assert_int_equal(fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
-    while (write(ends[1], block, sizeof block) > 0)
-        ;
-}
-
-static void *signal_soon(void *unused) {
-    pass(0.01);
-    kill(getpid(), SIGINT);
-    return unused;
-}
-
-static void wait_to_write(void) {
-    pthread_t other;
-    pthread_create(&other, NULL, signal_soon, NULL);
-    _exit(hd_wait_to_write(ends[1]) ? 96 : hd_interrupt_signal());
-}
-
-TEST(a_writer_waits_for_room_or_an_interrupt) {
-    fill_pipe();
-    assert_int_equal(outcome_of(wait_to_write), SIGINT);
-    close(ends[0]);
-    assert_true(hd_wait_to_write(ends[1])); /* it will fail */
-    close(ends[1]);
-    assert_int_equal(pipe(ends), 0);
-    assert_true(hd_wait_to_write(ends[1]));
-    close(ends[0]);
-    close(ends[1]);
 }
 
 /* Shells start what runs in the background with some of these ignored. */

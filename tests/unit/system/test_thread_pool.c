@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE /* RTLD_NEXT */
+#define _GNU_SOURCE
 
 #include <errno.h>
 #include <fenv.h>
 #include <stdatomic.h>
-#include <unistd.h>
-
-#include <sys/resource.h>
-#include <sys/wait.h>
 
 #include "system/thread_pool.h"
 #include "system/warnings.h"
@@ -19,14 +15,9 @@ enum { THREADS = 3, ITEMS = 1000 };
 static HdError error;
 static atomic_int done[ITEMS], not_nearest, not_of_the_pool;
 
-static bool never(const void *context) {
-    (void)context;
-    return false;
-}
-
-static bool at_once(const void *context) {
-    (void)context;
-    return true;
+/* Whether there is a context: at once, or never. */
+static bool must_stop(const void *context) {
+    return context != NULL;
 }
 
 static void work(void *context, int thread, int item) {
@@ -34,6 +25,15 @@ static void work(void *context, int thread, int item) {
     atomic_fetch_add(&done[item], 1);
     atomic_fetch_add(&not_nearest, fegetround() != FE_TONEAREST);
     atomic_fetch_add(&not_of_the_pool, thread < 0 || thread >= THREADS);
+}
+
+static void expect_round(HdThreadPool *pool) {
+    const int before = done[0];
+    assert_true(hd_thread_pool_run(pool, ITEMS, work, NULL, must_stop));
+    for (int i = 0; i < ITEMS; i++)
+        assert_int_equal(done[i], before + 1);
+    assert_int_equal(not_nearest, 0);
+    assert_int_equal(not_of_the_pool, 0);
 }
 
 /* Threads inherit how their maker rounds. */
@@ -44,15 +44,10 @@ TEST(each_item_is_done_once_and_rounds_as_usual) {
     fesetround(FE_TONEAREST);
     assert_int_equal(status, HD_OK);
     assert_int_equal(hd_thread_pool_size(pool), THREADS);
-    for (int round = 1; round <= 3; round++) {
-        assert_true(hd_thread_pool_run(pool, ITEMS, work, NULL, never));
-        for (int i = 0; i < ITEMS; i++)
-            assert_int_equal(done[i], round);
-    }
-    assert_false(hd_thread_pool_run(pool, ITEMS, work, NULL, at_once));
+    for (int round = 0; round < 3; round++)
+        expect_round(pool);
+    assert_false(hd_thread_pool_run(pool, ITEMS, work, &error, must_stop));
     assert_int_equal(done[0], 3);
-    assert_int_equal(not_nearest, 0);
-    assert_int_equal(not_of_the_pool, 0);
     hd_thread_pool_destroy(pool);
 }
 
@@ -85,38 +80,10 @@ TEST(those_that_start_do_the_work) {
     assert_true(hd_fallback_take(note));
     expect_contains(note, "the system refused threads for tracing (");
     expect_contains(note, "): 2 of 3 do it");
-    const int before = done[5];
-    assert_true(hd_thread_pool_run(pool, ITEMS, work, NULL, never));
-    assert_int_equal(done[5], before + 1);
+    expect_round(pool);
     hd_thread_pool_destroy(pool);
     assert_int_equal(create_with(&pool, 0), HD_FAILED);
     expect_contains(error.message, "cannot start one of 3 threads: ");
     assert_false(hd_fallback_take(note));
     hd_thread_pool_destroy(NULL);
-}
-
-/* In a process of its own, which may not raise the hard limit; `expected_kib` 0: it is told. */
-static void check_stack(rlim_t soft_kib, rlim_t hard_kib, rlim_t expected_kib) {
-    const pid_t child = fork();
-    int code;
-    assert_true(child >= 0);
-    if (child == 0) {
-        struct rlimit limit = {soft_kib * 1024, hard_kib * 1024};
-        if (setrlimit(RLIMIT_STACK, &limit) != 0 || (geteuid() == 0 && setuid(65534) != 0))
-            _exit(3);
-        if (hd_check_stack(&error) != HD_OK)
-            _exit(expected_kib != 0 || strstr(error.message, "may have 256 KiB") == NULL);
-        getrlimit(RLIMIT_STACK, &limit);
-        _exit(limit.rlim_cur == expected_kib * 1024 ? 0 : 2);
-    }
-    assert_int_equal(waitpid(child, &code, 0), child);
-    assert_int_equal(code, 0);
-}
-
-TEST(a_small_stack_is_made_larger) {
-    check_stack(256, 8192, 1024);
-    check_stack(256, 1024, 1024);
-    check_stack(1024, 8192, 1024);
-    check_stack(1025, 8192, 1025);
-    check_stack(256, 1023, 0);
 }

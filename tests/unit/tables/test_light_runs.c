@@ -26,51 +26,41 @@ static const Light *compile(int lanes) {
     return tables.table[HD_TABLE_lights].data;
 }
 
-static void expect_within(int light, int run) {
-    const Vector *offsets = tables.table[HD_TABLE_light_offsets].data;
-    const LightRun *runs = tables.table[HD_TABLE_light_runs].data;
-    int objects = (int)(tables.table[HD_TABLE_objects].bytes / sizeof(Object));
-    for (int object = 0; object < objects; object++) {
-        const LightRun *ball = &runs[object * tables.light_count + run];
-        const Vector *offset = &offsets[object * tables.light_count + light];
-        float x = offset->x - ball->place[0], y = offset->y - ball->place[1],
-              z = offset->z - ball->place[2];
-        assert_true(x * x + y * y + z * z <= ball->radius * ball->radius);
-        assert_true(ball->reach >= 50.0F);
-    }
-}
-
+/* Runs are of one group each. With one lane they are long enough, and within their spheres. With
+   several lanes all lights are in runs, which are as long as they can be and not judged by
+   themselves. */
 TEST(runs_are_of_one_group_and_within_their_sphere) {
-    const Light *lights = compile(1);
-    int longest = 0;
-    for (int i = 0; i < tables.light_count; i++) {
-        int run = lights[i].run;
-        assert_true(run == 0 || (run >= 3 && i + run <= tables.light_count));
-        for (int k = i; k < i + run; k++) {
-            assert_int_equal(lights[k].group, lights[i].group);
-            assert_int_equal(lights[k].run, k == i ? run : 0);
-            expect_within(k, i);
+    for (int lanes = 1; lanes <= 8; lanes += 7) {
+        const Light *lights = compile(lanes);
+        const Vector *offset = tables.table[HD_TABLE_light_offsets].data;
+        const LightRun *ball = tables.table[HD_TABLE_light_runs].data;
+        const int objects = (int)(tables.table[HD_TABLE_objects].bytes / sizeof(Object));
+        const int count = tables.light_count;
+        int longest = 0;
+        for (int i = 0, run; i<count; i += run> 0 ? run : 1) {
+            run = lights[i].run;
+            assert_true(i + run <= count && (lanes == 1 ? run == 0 || run >= 3 : run >= 1));
+            for (int k = i; k < i + run; k++) {
+                assert_int_equal(lights[k].group, lights[i].group);
+                assert_int_equal(lights[k].run, k == i ? run : 0);
+                for (int object = 0; object < objects * (lanes == 1); object++) {
+                    const LightRun *own = &ball[object * count + i];
+                    const Vector *to = &offset[object * count + k];
+                    const float x = to->x - own->place[0], y = to->y - own->place[1],
+                                z = to->z - own->place[2];
+                    assert_true(x * x + y * y + z * z <= own->radius * own->radius);
+                    assert_true(own->reach >= 50.0F);
+                }
+            }
+            if (lanes > 1 && i + run < count)
+                assert_int_not_equal(lights[i + run].group, lights[i].group);
+            longest = run > longest ? run : longest;
         }
-        longest = run > longest ? run : longest;
+        assert_true(longest >= 3);
+        if (lanes > 1)
+            assert_int_equal(tables.table[HD_TABLE_light_runs].bytes, 0);
+        hd_scene_tables_free(&tables);
     }
-    assert_true(longest >= 3);
-}
-
-/* All lights are in runs, which are as long as they can be and are not judged by themselves. */
-TEST(bundles_of_several_lanes_skip_by_all_runs) {
-    const Light *lights = compile(8);
-    for (int i = 0, run; i < tables.light_count; i += run) {
-        run = lights[i].run;
-        assert_true(run >= 1 && i + run <= tables.light_count);
-        for (int k = i + 1; k < i + run; k++) {
-            assert_int_equal(lights[k].group, lights[i].group);
-            assert_int_equal(lights[k].run, 0);
-        }
-        if (i + run < tables.light_count)
-            assert_int_not_equal(lights[i + run].group, lights[i].group);
-    }
-    assert_int_equal(tables.table[HD_TABLE_light_runs].bytes, 0);
-    assert_false(tables.many_lights);
 }
 
 TEST(where_no_light_ends_one_lane_has_none) {

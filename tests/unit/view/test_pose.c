@@ -31,6 +31,17 @@ TEST(orbits_keep_target_and_distance) {
     expect_point(pose.eye, hd_vec3(5.0, 2.0, 2.0)); /* a quarter turn of (2, -4) is (4, 2) */
 }
 
+TEST(dollies_end_far_and_near) {
+    HdPose pose = start;
+    hd_pose_dolly(&pose, 0.5);
+    expect_point(pose.eye, hd_vec3(2.0, -2.0, 1.25));
+    hd_pose_dolly(&pose, 1e-30);
+    expect_near(distance(&pose), 1e-3, 1e-12);
+    hd_pose_dolly(&pose, 1e30);
+    expect_near(distance(&pose), 1e6, 1e-3);
+    expect_point(pose.target, start.target);
+}
+
 TEST(orbits_go_over_no_pole) {
     for (int sign = -1; sign <= 1; sign += 2) {
         HdPose pose = start;
@@ -55,28 +66,7 @@ TEST(pans_move_eye_and_target_alike) {
     expect_near(distance(&down), 2.0, 1e-12);
 }
 
-TEST(dollies_end_far_and_near) {
-    HdPose pose = start;
-    hd_pose_dolly(&pose, 0.5);
-    expect_point(pose.eye, hd_vec3(2.0, -2.0, 1.25));
-    hd_pose_dolly(&pose, 2.0);
-    expect_point(pose.eye, start.eye);
-    hd_pose_dolly(&pose, 1e-30);
-    expect_near(distance(&pose), 1e-3, 1e-12);
-    hd_pose_dolly(&pose, 1e30);
-    expect_near(distance(&pose), 1e6, 1e-3);
-    expect_point(pose.target, start.target);
-}
-
-TEST(an_applied_pose_is_the_only_view) {
-    HdScene scene = {.frame_count = 240};
-    hd_pose_apply(&start, &scene);
-    assert_int_equal(scene.frame_count, 1);
-    const HdPose back = hd_pose_of_flight(&scene, 0);
-    assert_memory_equal(&back, &start, sizeof back);
-}
-
-TEST(printed_cameras_read_back) {
+TEST(printed_and_applied_cameras_read_back) {
     const HdPose pose = {{0.1, -1.0 / 3.0, 1e-9}, {2.0, 0.0, -0.25}};
     char text[512] = "";
     HdPose back;
@@ -92,5 +82,10 @@ TEST(printed_cameras_read_back) {
                             &back.target.y, &back.target.z),
                      7);
     assert_true(angle == 62.5);
+    assert_memory_equal(&back, &pose, sizeof back);
+    HdScene scene = {.frame_count = 240};
+    hd_pose_apply(&pose, &scene);
+    assert_int_equal(scene.frame_count, 1);
+    back = hd_pose_of_flight(&scene, 0);
     assert_memory_equal(&back, &pose, sizeof back);
 }

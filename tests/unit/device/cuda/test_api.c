@@ -55,31 +55,34 @@ TEST(a_driver_is_loaded_or_told_to_be_missing_or_old) {
                    "the NVIDIA driver (libcuda.so.1) is not installed");
 }
 
-static void expect_no_start(const char *code, const char *version, HdStatus status,
-                            const char *advice) {
-    char message[512];
+TEST(what_may_help_a_driver_to_start_is_told) {
+    static const struct {
+        const char *code, *version;
+        HdStatus status;
+        const char *message;
+    } cases[] = {
+        {"999", "13010", HD_FAILED,
+         "CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: sudo rmmod nvidia_uvm && "
+         "sudo modprobe nvidia_uvm, or a restart"},
+        {"100", "13010", HD_UNAVAILABLE,
+         "CUDA_ERROR_NO_DEVICE (100); it is of branch 590 or newer, which drives no card before "
+         "sm_75: the branch 580 is the last for older ones, such as a GTX 1050"},
+        {"100", "13009", HD_UNAVAILABLE,
+         "CUDA_ERROR_NO_DEVICE (100); no card is there that it drives, or CUDA_VISIBLE_DEVICES "
+         "hides it"},
+        {"2", "13010", HD_FAILED, "CUDA_ERROR_OUT_OF_MEMORY (2)"},
+    };
     setenv("FAKE_CUDA_FAILS", "cuInit", 1);
     setenv("FAKE_CUDA_FAILS_AT", "1", 1);
-    setenv("FAKE_CUDA_ERROR", code, 1);
-    setenv("FAKE_CUDA_DRIVER", version, 1);
-    snprintf(message, sizeof message, "the NVIDIA driver does not start: cuInit failed with %s",
-             advice);
-    expect_loading(FAKE_CUDA, status, message);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char message[512];
+        setenv("FAKE_CUDA_ERROR", cases[i].code, 1);
+        setenv("FAKE_CUDA_DRIVER", cases[i].version, 1);
+        snprintf(message, sizeof message, "the NVIDIA driver does not start: cuInit failed with %s",
+                 cases[i].message);
+        expect_loading(FAKE_CUDA, cases[i].status, message);
+    }
     unsetenv("FAKE_CUDA_FAILS");
-}
-
-TEST(what_may_help_a_driver_to_start_is_told) {
-    expect_no_start("999", "13010", HD_FAILED,
-                    "CUDA_ERROR_UNKNOWN (999); after the machine slept, this helps: sudo rmmod "
-                    "nvidia_uvm && sudo modprobe nvidia_uvm, or a restart");
-    expect_no_start("100", "13010", HD_UNAVAILABLE,
-                    "CUDA_ERROR_NO_DEVICE (100); it is of branch 590 or newer, which drives no "
-                    "card before sm_75: the branch 580 is the last for older ones, such as a GTX "
-                    "1050");
-    expect_no_start("100", "13009", HD_UNAVAILABLE,
-                    "CUDA_ERROR_NO_DEVICE (100); no card is there that it drives, or "
-                    "CUDA_VISIBLE_DEVICES hides it");
-    expect_no_start("2", "13010", HD_FAILED, "CUDA_ERROR_OUT_OF_MEMORY (2)");
 }
 
 /* ---- errors ---- */
@@ -95,6 +98,7 @@ static HdCuResult tell(HdCuResult code, const char **text) {
 
 static void expect_failure(const char *function, HdCuResult code, bool is_loss,
                            const char *message) {
+    driver = (HdCudaDriver){.cuGetErrorName = tell, .cuGetErrorString = tell};
     assert_int_equal(hd_cuda_fail(&driver, function, code, &error),
                      is_loss ? HD_UNAVAILABLE : HD_FAILED);
     assert_int_equal(hd_is_loss(&error), is_loss);
@@ -102,17 +106,14 @@ static void expect_failure(const char *function, HdCuResult code, bool is_loss,
 }
 
 TEST(errors_have_their_words) {
-    driver = (HdCudaDriver){.cuGetErrorName = tell, .cuGetErrorString = tell};
-    outcome = HD_CU_SUCCESS;
-    word = "WORD";
-    expect_failure("cuMemAlloc", 2, false, "cuMemAlloc failed with WORD (2: WORD)");
-    word = NULL;
-    expect_failure("cuMemAlloc", 2, false,
-                   "cuMemAlloc failed with an unknown error (2: no description)");
-    word = "WORD";
-    outcome = 1;
-    expect_failure("cuMemAlloc", 2, false,
-                   "cuMemAlloc failed with an unknown error (2: no description)");
+    static const char *const words[] = {"WORD", "WORD", NULL};
+    for (int i = 0; i < 3; i++) {
+        word = words[i];
+        outcome = i == 1 ? 1 : HD_CU_SUCCESS;
+        expect_failure("cuMemAlloc", 2, false,
+                       i == 0 ? "cuMemAlloc failed with WORD (2: WORD)"
+                              : "cuMemAlloc failed with an unknown error (2: no description)");
+    }
 }
 
 TEST(what_a_device_does_not_survive_is_a_loss) {

@@ -8,219 +8,176 @@
 #include "test_folder.h"
 
 static HdError error;
-static char library[600];
-
-static HdStatus check(int arch, int driver_major) {
-    return hd_nvrtc_check("some device", arch, driver_major, &error);
-}
+static HdNvrtc nvrtc;
+static char library[600]; /* which is none */
 
 static int begin(void **state) {
+    static const char *const places[] = {"HEDRON_NVRTC", "CUDA_HOME",   "CUDA_PATH",
+                                         "HOME",         "VIRTUAL_ENV", "CONDA_PREFIX"};
     (void)state;
-    setenv("HEDRON_CACHE", "cache", 1);
-    setenv("HEDRON_NVRTC", "/no/such/library.so", 1);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        unsetenv(places[i]);
+    setenv("HEDRON_CACHE", "there/cache", 1);
     snprintf(library, sizeof library, "%s/library.so", test_folder);
     write_bytes(library, "not a library", 13);
-    return 0;
+    return mkdir("there", 0700);
 }
 
 static int end(void **state) {
     (void)state;
-    remove_folder("cache");
-    return 0;
+    return remove_folder("there");
 }
 
-/* The library is no library, so that it cannot have been loaded. */
-TEST_WITH(what_is_remembered_is_not_loaded, begin, end) {
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
-    hd_nvrtc_remember(library, 61, 12);
-    assert_int_equal(check(61, 12), HD_OK);
-    assert_int_equal(check(75, 12), HD_UNAVAILABLE);
-    assert_int_equal(check(61, 13), HD_UNAVAILABLE);
-    setenv("HEDRON_NVRTC", "/no/other/library.so", 1);
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
+/* ---- what is remembered: it is not loaded, which could not be ---- */
+
+static void expect_checked(int arch, int driver_major, HdStatus expected) {
+    assert_int_equal(hd_nvrtc_check("some device", arch, driver_major, &error), expected);
 }
 
-TEST_WITH(a_library_that_changed_is_looked_at, begin, end) {
+TEST(what_is_remembered_is_not_loaded_while_it_is_as_it_was) {
     const struct timespec other[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
+    setenv("HEDRON_NVRTC", "/no/such/library.so", 1);
+    expect_checked(61, 12, HD_UNAVAILABLE);
     hd_nvrtc_remember(library, 61, 12);
+    expect_checked(61, 12, HD_OK);
+    expect_checked(75, 12, HD_UNAVAILABLE);
+    expect_checked(61, 13, HD_UNAVAILABLE);
     write_bytes(library, "longer than before", 18);
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
+    expect_checked(61, 12, HD_UNAVAILABLE);
     hd_nvrtc_remember(library, 61, 12);
-    assert_int_equal(check(61, 12), HD_OK);
     assert_int_equal(utimensat(AT_FDCWD, library, other, 0), 0);
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
+    expect_checked(61, 12, HD_UNAVAILABLE);
     hd_nvrtc_remember(library, 61, 12);
+    expect_checked(61, 12, HD_OK);
     assert_int_equal(remove(library), 0);
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
+    expect_checked(61, 12, HD_UNAVAILABLE);
     expect_contains(error.message, "/no/such/library.so");
-}
-
-TEST_WITH(without_a_cache_it_is_loaded_each_time, begin, end) {
-    setenv("HEDRON_CACHE", "off", 1);
+    write_bytes(library, "not a library", 13);
     hd_nvrtc_remember(library, 61, 12);
-    assert_int_equal(check(61, 12), HD_UNAVAILABLE);
+    setenv("HEDRON_NVRTC", "/no/other/library.so", 1);
+    expect_checked(61, 12, HD_UNAVAILABLE);
 }
 
 /* ---- which is taken: of stubs (stub_nvrtc.c), which alone compile for sm_7 ---- */
 
-static HdNvrtc nvrtc;
-static const char *const places[] = {"CUDA_HOME", "CUDA_PATH", "HOME", "VIRTUAL_ENV",
-                                     "CONDA_PREFIX"};
-
-static int begin_search(void **state) {
-    (void)state;
-    unsetenv("HEDRON_NVRTC");
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-        unsetenv(places[i]);
-    return 0;
-}
-
-static int end_search(void **state) {
-    (void)state;
-    remove_folder("there");
-    return 0;
-}
-
 /* Below the folder that such a variable names. */
 static void put(const char *below, const char *name) {
-    char path[600], command[2000];
-    snprintf(path, sizeof path, "there/%s", below);
-    snprintf(command, sizeof command, "mkdir -p %s && cp %s %s/%s", path, STUB_NVRTC, path, name);
+    char command[2000];
+    snprintf(command, sizeof command, "mkdir -p there/%s && cp %s there/%s/%s", below, STUB_NVRTC,
+             below, name);
     assert_int_equal(system(command), 0);
 }
 
 static void expect_version(int arch, int driver_major, const char *path, int major, int minor) {
-    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", arch, driver_major, path, &error), HD_OK);
     int told_major, told_minor;
+    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", arch, driver_major, path, &error), HD_OK);
     assert_int_equal(nvrtc.functions.version(&told_major, &told_minor), 0);
-    assert_int_equal(nvrtc.major, major);
-    assert_int_equal(nvrtc.minor, minor);
+    assert_true(nvrtc.major == major && nvrtc.minor == minor);
     assert_true(told_major == major && told_minor == minor);
     hd_nvrtc_close(&nvrtc);
     assert_null(nvrtc.library);
 }
 
-static void expect_none(const char *path, const char *message) {
-    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", 7, 12, path, &error), HD_UNAVAILABLE);
+static void expect_none(int arch, const char *path, const char *message) {
+    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", arch, 12, path, &error), HD_UNAVAILABLE);
     expect_contains(error.message, message);
 }
 
 TEST(the_newest_that_suits_the_driver_is_taken) {
+    static const char *const names[] = {"libnvrtc.so.12.3", "libnvrtc.so.12.8", "libnvrtc.so.11.9",
+                                        "libnvrtc.so.13.0", "libnvrtc.so.14.1"};
+    static const int cases[][4] = {{7, 12, 12, 8}, {7, 11, 11, 9},   {7, 13, 13, 0},  {7, 0, 14, 1},
+                                   {7, 10, 14, 1}, {110, 12, 11, 9}, {130, 12, 13, 0}};
     setenv("CUDA_HOME", "there", 1);
-    put("lib64", "libnvrtc.so.12.3");
-    put("lib64", "libnvrtc.so.12.8");
-    put("lib64", "libnvrtc.so.11.9");
-    put("lib64", "libnvrtc.so.13.0");
-    put("lib64", "libnvrtc.so.14.1");
-    expect_version(7, 12, NULL, 12, 8);
-    expect_version(7, 11, NULL, 11, 9);
-    expect_version(7, 13, NULL, 13, 0);
-    expect_version(7, 0, NULL, 14, 1);
-    expect_version(7, 10, NULL, 14, 1);
-    expect_version(110, 12, NULL, 11, 9);
-    expect_version(130, 12, NULL, 13, 0);
+    setenv("CUDA_PATH", "there", 1);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        put("lib64", names[i]);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_version(cases[i][0], cases[i][1], NULL, cases[i][2], cases[i][3]);
+    /* What does not suit is told once. */
+    expect_none(8, NULL,
+                "NVRTC 12.3 for sm_7 to sm_120, NVRTC 12.8 for sm_7 to sm_120, NVRTC 13.0");
+    assert_null(strstr(strstr(error.message, "NVRTC 12.3") + 1, "NVRTC 12.3"));
 }
 
+#define PACKAGE "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib"
+
 TEST(it_is_looked_for_where_people_put_it) {
-    static const char packages[] = "lib/python3.11/site-packages/nvidia/cuda_nvrtc/lib";
-    static const struct {
-        const char *variable, *below;
-        bool is_package;
-    } found[] = {
-        {"CUDA_HOME", "lib64", false},
-        {"CUDA_PATH", "lib64", false},
-        {"CONDA_PREFIX", "lib", false},
-        {"CONDA_PREFIX", "", true},
-        {"VIRTUAL_ENV", "", true},
-        {"HOME", ".local/", true},
-        {"HOME", ".local/share/hedron/", true},
+    static const char *const found[][2] = {
+        {"CUDA_HOME", "lib64"},
+        {"CUDA_PATH", "lib64"},
+        {"CONDA_PREFIX", "lib"},
+        {"CONDA_PREFIX", PACKAGE},
+        {"VIRTUAL_ENV", PACKAGE},
+        {"HOME", ".local/" PACKAGE},
+        {"HOME", ".local/share/hedron/" PACKAGE},
     };
-    char below[200];
     for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
-        snprintf(below, sizeof below, "%s%s", found[i].below, found[i].is_package ? packages : "");
-        put(below, "libnvrtc.so.12.8");
-        setenv(found[i].variable, "there", 1);
+        put(found[i][1], "libnvrtc.so.12.8");
+        setenv(found[i][0], "there", 1);
         expect_version(7, 12, NULL, 12, 8);
         setenv("HEDRON_NVRTC", "off", 1);
-        expect_none(NULL, "found: none");
+        expect_none(7, NULL, "found: none");
         unsetenv("HEDRON_NVRTC");
-        unsetenv(found[i].variable);
+        unsetenv(found[i][0]);
         remove_folder("there");
     }
     setenv("CUDA_HOME", "", 1);
     put("lib64", "libnvrtc.so.12.8");
-    expect_none(NULL, "compiles for some device (sm_7); to install one that does: python3 -m venv "
-                      "~/.local/share/hedron && ~/.local/share/hedron/bin/pip install "
-                      "nvidia-cuda-nvrtc-cu11, or name a libnvrtc.so in HEDRON_NVRTC; the "
-                      "driver's branch 470 is the last for this card; found: ");
+    expect_none(7, NULL,
+                "compiles for some device (sm_7); to install one that does: python3 -m venv "
+                "~/.local/share/hedron && ~/.local/share/hedron/bin/pip install "
+                "nvidia-cuda-nvrtc-cu11, or name a libnvrtc.so in HEDRON_NVRTC; the driver's "
+                "branch 470 is the last for this card; found: ");
 }
 
 TEST(one_that_is_named_is_the_only_one) {
-    char named[600];
+    static const char *const ignored[] = {"libnvrtc.so.13.0", "libnvrtc.so.12.99",
+                                          "libnvrtc.so.0.1"};
     setenv("CUDA_HOME", "there", 1);
-    put("lib64", "libnvrtc.so.13.0");
-    put("lib64", "libnvrtc.so.12.99");
-    put("lib64", "libnvrtc.so.0.1");
+    for (int i = 0; i < 3; i++)
+        put("lib64", ignored[i]);
     put("", "libnvrtc.so.12.3");
     put("", "libnvrtc-builtins.so.12.3");
-    snprintf(named, sizeof named, "%s/there/libnvrtc.so.12.3", test_folder);
-    setenv("HEDRON_NVRTC", named, 1);
+    setenv("HEDRON_NVRTC", "there/libnvrtc.so.12.3", 1);
     assert_true(hd_nvrtc_is_named());
     expect_version(7, 12, NULL, 12, 3);
-    snprintf(named, sizeof named, "%s/there/libnvrtc-builtins.so.12.3", test_folder);
-    void *builtins = dlopen(named, RTLD_NOLOAD | RTLD_LAZY);
+    void *builtins = dlopen("there/libnvrtc-builtins.so.12.3", RTLD_NOLOAD | RTLD_LAZY);
     assert_non_null(builtins);
     dlclose(builtins);
     expect_version(7, 12, "there/lib64/libnvrtc.so.13.0", 13, 0);
-    expect_none("there/lib64/libnvrtc.so.12.99", "; found: NVRTC 12.99 for sm_0 to sm_0");
-    expect_none("there/lib64/libnvrtc.so.0.1",
+    expect_none(7, "there/lib64/libnvrtc.so.12.99", "; found: NVRTC 12.99 for sm_0 to sm_0");
+    expect_none(7, "there/lib64/libnvrtc.so.0.1",
                 "there/lib64/libnvrtc.so.0.1 cannot be loaded as an NVRTC library, version 11.2");
-    expect_none(library, "/library.so cannot be loaded as an NVRTC library, version 11.2 or newer");
+    expect_none(7, library,
+                "/library.so cannot be loaded as an NVRTC library, version 11.2 or newer");
     setenv("HEDRON_NVRTC", "", 1);
     assert_false(hd_nvrtc_is_named());
     setenv("HEDRON_NVRTC", "off", 1);
     assert_false(hd_nvrtc_is_named());
 }
 
-TEST(what_is_found_and_does_not_fit_is_told_once) {
-    setenv("CUDA_HOME", "there", 1);
-    setenv("CUDA_PATH", "there", 1);
-    put("lib64", "libnvrtc.so.12.3");
-    put("lib64", "libnvrtc.so.13.0");
-    assert_int_equal(hd_nvrtc_open(&nvrtc, "some device", 8, 12, NULL, &error), HD_UNAVAILABLE);
-    expect_contains(error.message, "NVRTC 12.3 for sm_7 to sm_120, NVRTC 13.0 for sm_7 to sm_130");
-    assert_ptr_equal(strstr(error.message, "NVRTC 12.3"),
-                     strstr(error.message, "NVRTC 12.3 for sm_7 to sm_120, NVRTC 13.0"));
-    const char *first = strstr(error.message, "NVRTC 12.3");
-    assert_null(strstr(first + 1, "NVRTC 12.3"));
-}
-
 TEST(packages_suit_card_and_driver) {
     static const struct {
         int arch, driver_major;
-        const char *package;
-    } cases[] = {
-        {37, 12, "nvidia-cuda-nvrtc-cu11"}, {49, 0, "nvidia-cuda-nvrtc-cu11"},
-        {50, 12, "nvidia-cuda-nvrtc-cu12"}, {50, 11, "nvidia-cuda-nvrtc-cu11"},
-        {74, 13, "nvidia-cuda-nvrtc-cu12"}, {75, 13, "nvidia-cuda-nvrtc"},
-        {75, 12, "nvidia-cuda-nvrtc-cu12"}, {120, 11, "nvidia-cuda-nvrtc-cu11"},
-        {75, 0, "nvidia-cuda-nvrtc"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_string_equal(hd_nvrtc_package(cases[i].arch, cases[i].driver_major),
-                            cases[i].package);
+        const char *ending; /* of the package's name */
+    } cases[] = {{37, 12, "-cu11"}, {49, 0, "-cu11"},  {50, 12, "-cu12"}, {50, 11, "-cu11"},
+                 {74, 13, "-cu12"}, {75, 13, "nvrtc"}, {75, 12, "-cu12"}, {75, 0, "nvrtc"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *package = hd_nvrtc_package(cases[i].arch, cases[i].driver_major);
+        assert_string_equal(package + strlen(package) - 5, cases[i].ending);
+    }
 }
 
 TEST(a_library_that_compiles_is_remembered) {
     char named[600];
-    setenv("HEDRON_CACHE", "there/cache", 1);
     put("lib64", "libnvrtc.so.12.5");
     snprintf(named, sizeof named, "%s/there/lib64/libnvrtc.so.12.5", test_folder);
     setenv("HEDRON_NVRTC", named, 1);
-    assert_int_equal(check(7, 12), HD_OK);
+    expect_checked(7, 12, HD_OK);
     assert_true(count_entries("there/cache") > 0);
-    assert_int_equal(check(8, 12), HD_UNAVAILABLE);
+    expect_checked(8, 12, HD_UNAVAILABLE);
     expect_contains(error.message, "found: NVRTC 12.5 for sm_7 to sm_120");
 }
 
-EACH(begin_search, end_search)
+EACH(begin, end)

@@ -19,46 +19,37 @@ const HdCudaPtx hd_cuda_ptx[] = {
 };
 const int hd_cuda_ptx_count = sizeof hd_cuda_ptx / sizeof *hd_cuda_ptx;
 
-/* The number of what is found; -1: nothing is. */
-static int find(const HdKernelShape *shape) {
-    const HdCudaPtx *found = hd_cuda_ptx_find(shape, 61);
-    return found != NULL ? (int)(found - hd_cuda_ptx) : -1;
-}
-
 TEST(what_does_all_is_found) {
-    const HdKernelShape probe = {.group_size = 128, .is_probe = true};
-    const HdKernelShape largest = {.group_size = 128, .needs = BOUNDS};
-    const HdKernelShape small = {.group_size = 64, .needs.plane_bound = 8};
-    const HdKernelShape wavefront = {.wavefront = true};
-    const HdKernelShape first_hits = {.wavefront = true, .first_hits = true};
-    assert_int_equal(find(&probe), 0);
-    assert_int_equal(find(&largest), 1);
-    assert_int_equal(find(&small), 1);
-    assert_int_equal(find(&wavefront), 2);
-    assert_int_equal(find(&first_hits), 2);
-}
-
-TEST(what_does_less_is_not) {
-    const HdKernelShape others[] = {
-        {.group_size = 129},
-        {.first_hits = true},
-        {.rounds_by_fma = true},
-        {.rounds_by_fma = true, .is_probe = true},
-        {.precision = HD_PRECISION_DOUBLE},
-        {.math = HD_MATH_FAST},
-        {.needs.surveyed = true},
-        {.needs.plane_bound = 129},
-        {.needs.depth_bound = 65},
-        {.needs.node_stack_bound = 33},
+    static const struct {
+        HdKernelShape shape;
+        int expected;
+    } cases[] = {
+        {{.group_size = 128, .is_probe = true}, 0},
+        {{.group_size = 128, .needs = BOUNDS}, 1},
+        {{.group_size = 64, .needs.plane_bound = 8}, 1},
+        {{.wavefront = true}, 2},
+        {{.wavefront = true, .first_hits = true}, 2},
+        {{.group_size = 129}, -1},
+        {{.first_hits = true}, -1},
+        {{.rounds_by_fma = true}, -1},
+        {{.rounds_by_fma = true, .is_probe = true}, -1},
+        {{.precision = HD_PRECISION_DOUBLE}, -1},
+        {{.math = HD_MATH_FAST}, -1},
+        {{.needs.surveyed = true}, -1},
+        {{.needs.plane_bound = 129}, -1},
+        {{.needs.depth_bound = 65}, -1},
+        {{.needs.node_stack_bound = 33}, -1},
     };
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        assert_int_equal(find(&others[i]), -1);
-}
-
-TEST(older_devices_cannot_run_it) {
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const HdCudaPtx *found = hd_cuda_ptx_find(&cases[i].shape, 61);
+        const int number = found != NULL ? (int)(found - hd_cuda_ptx) : -1;
+        if (number != cases[i].expected)
+            fail_msg("for shape %zu PTX %d is found, not %d", i, number, cases[i].expected);
+    }
     const HdKernelShape any = {.group_size = 1};
-    assert_non_null(hd_cuda_ptx_find(&any, 90));
-    assert_null(hd_cuda_ptx_find(&any, 60));
+    assert_ptr_equal(hd_cuda_ptx_find(&any, 90), &hd_cuda_ptx[1]);
     assert_true(hd_cuda_ptx_suits(61) && hd_cuda_ptx_suits(90));
+    /* Older devices cannot run it. */
+    assert_null(hd_cuda_ptx_find(&any, 60));
     assert_false(hd_cuda_ptx_suits(60));
 }

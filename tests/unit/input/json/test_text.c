@@ -1,71 +1,44 @@
 /* SPDX-License-Identifier: MIT */
 #include "input/json/text.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "scene_text.h"
 
 static HdError error;
 
-/* As many of each piece as told, one after the other; the caller frees it. */
-static char *repeat(const char *begin, const char *piece, int count, const char *end) {
+/* `begin`, so many times the piece, and `end`: passes where the message is NULL. */
+static void check(const char *begin, const char *piece, int count, const char *end,
+                  const char *message) {
     const size_t size = strlen(piece), before = strlen(begin);
     char *text = malloc(before + size * (size_t)count + strlen(end) + 1);
     assert_non_null(text);
-    memcpy(text, begin, before);
+    strcpy(text, begin);
     for (int i = 0; i < count; i++)
         memcpy(text + before + size * (size_t)i, piece, size);
-    memcpy(text + before + size * (size_t)count, end, strlen(end) + 1);
-    return text;
-}
-
-static void expect_passes(const char *text) {
-    assert_int_equal(hd_json_check_limits(text, strlen(text), "a", &error), HD_OK);
-}
-
-static void expect_fails(const char *text, const char *message) {
-    assert_int_equal(hd_json_check_limits(text, strlen(text), "a", &error), HD_BAD_INPUT);
-    assert_string_equal(error.message, message);
+    strcpy(text + before + size * (size_t)count, end);
+    const HdStatus status = hd_json_check_limits(text, strlen(text), "a", &error);
+    assert_int_equal(status, message == NULL ? HD_OK : HD_BAD_INPUT);
+    if (message != NULL)
+        assert_string_equal(error.message, message);
+    free(text);
 }
 
 TEST(test_values) {
     /* The array, its first element, and one behind each comma. */
-    char *most = repeat("[{}", ",[]", (HD_MAX_JSON_VALUES - 3) / 2, "]");
-    char *more = repeat("[{},\n0,0", ",[]", (HD_MAX_JSON_VALUES - 3) / 2, "]");
-    expect_passes(most);
-    expect_fails(more, "a:2:4499996: there are too many values, expected at most 3000000");
-    free(most);
-    free(more);
+    const int count = (HD_MAX_JSON_VALUES - 3) / 2;
+    check("[{}", ",[]", count, "]", NULL);
+    check("[{},\n0,0", ",[]", count, "]",
+          "a:2:4499996: there are too many values, expected at most 3000000");
 }
+
+#define TOO_DEEP ": there are too many arrays and objects in each other, expected at most 32"
 
 TEST(test_depth) {
-    char *most = repeat("", "[", HD_MAX_JSON_DEPTH, "");
-    char *more = repeat("", "{", HD_MAX_JSON_DEPTH + 1, "");
-    char *beside = repeat("", "[{}]", 2 * HD_MAX_JSON_DEPTH, "]");
-    expect_passes(most);
-    expect_passes(beside);
-    expect_fails(
-        more, "a:1:33: there are too many arrays and objects in each other, expected at most 32");
-    free(most);
-    free(more);
-    free(beside);
-}
-
-TEST(test_strings_do_not_count) {
-    char *text = repeat("\"\\\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "\"");
-    char *after = repeat("\"\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "");
-    expect_passes(text);
-    expect_fails(
-        after, "a:1:37: there are too many arrays and objects in each other, expected at most 32");
-    free(text);
-    free(after);
-}
-
-TEST(test_scenes) {
-    char *deep = repeat("{\"hedron\": ", "[", HD_MAX_JSON_DEPTH, "");
-    expect_refused(deep, NULL, "a.json:1:43: there are too many arrays and objects in each other");
-    free(deep);
+    check("", "[", HD_MAX_JSON_DEPTH, "", NULL);
+    check("", "[{}]", 2 * HD_MAX_JSON_DEPTH, "]", NULL);
+    check("", "{", HD_MAX_JSON_DEPTH + 1, "", "a:1:33" TOO_DEEP);
+    /* Those in strings do not count. */
+    check("\"\\\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "\"", NULL);
+    check("\"\\\\\"", "[", HD_MAX_JSON_DEPTH + 1, "", "a:1:37" TOO_DEEP);
 }
 
 /* What is wrong is told from the begin on, and counted to the end. */
@@ -81,30 +54,28 @@ TEST(test_many_problems) {
     expect_contains(message, "\n  and more of them");
 }
 
-static void expect_hint(const char *text, const char *hint) {
-    const char *found = hd_json_hint(text, strlen(text));
-    if (hint == NULL)
-        assert_null(found);
-    else
-        expect_contains(found != NULL ? found : "(none)", hint);
-}
-
 TEST(test_hints) {
     static const char number[] = "a number in JSON", word[] = "true, false or null";
-    expect_hint("", NULL);
-    expect_hint("[1, \t\n]", "no comma before ']'");
-    expect_hint("{\"a\": 1,}", "no comma before '}'");
-    expect_hint("]", NULL);
-    expect_hint(" }", NULL);
-    expect_hint("[1]", NULL);
-    expect_hint("{ /", "$comment");
-    expect_hint("#", "$comment");
-    expect_hint("'", "double quotes");
-    expect_hint("NaN", number);
-    expect_hint("[-.5", number);
-    expect_hint("[inf", number);
-    expect_hint("True", word);
-    expect_hint("{\"a\": nil", word);
-    expect_hint("truely", NULL);
-    expect_hint("[\"", NULL);
+    static const char *const cases[][2] = {{"", NULL},
+                                           {" }", NULL},
+                                           {"[1]", NULL},
+                                           {"truely", NULL},
+                                           {"[1, \t\n]", "no comma before ']'"},
+                                           {"{\"a\": 1,}", "no comma before '}'"},
+                                           {"#", "$comment"},
+                                           {"'", "double quotes"},
+                                           {"[inf", number},
+                                           {"-Infinity", number},
+                                           {"0x10", number},
+                                           {"1.", number},
+                                           {"True", word},
+                                           {"{\"a\": nil", word},
+                                           {"FALSE", word}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *hint = hd_json_hint(cases[i][0], strlen(cases[i][0]));
+        if ((hint == NULL) != (cases[i][1] == NULL))
+            fail_msg("'%s': %s", cases[i][0], hint != NULL ? hint : "no hint");
+        if (hint != NULL)
+            expect_contains(hint, cases[i][1]);
+    }
 }

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT */
+/* What suits a device, what it lacks, and what any device may be asked for. */
+#include "device/backend.h"
+
+#include "device/options.h"
+#include "unit_test.h"
+
+#define MEGA  HD_PIPELINE_MEGA
+#define WAVES HD_PIPELINE_WAVEFRONT
+
+enum { GPU, GPU_WITHOUT_ATOMICS, SHOWING_GPU, SHOWING_GPU_WITHOUT_ATOMICS, CPU };
+
+static const HdDevice devices[] = {
+    [GPU] = {.has_wide_atomics = true},
+    [GPU_WITHOUT_ATOMICS] = {.name = "a GPU"},
+    [SHOWING_GPU] = {.has_timeout = true, .has_wide_atomics = true},
+    [SHOWING_GPU_WITHOUT_ATOMICS] = {.has_timeout = true},
+    [CPU] = {.is_cpu = true, .has_double = true, .most_lanes = {16, 8}},
+};
+
+/* A display must not stand still for as long as a tree of hundreds of levels takes. */
+TEST(pipelines_suit_devices_and_scenes) {
+    static const struct {
+        int device, endless_lights;
+        HdRenderOptions options;
+        HdPipeline expected;
+    } cases[] = {
+        {CPU, 0, {0}, MEGA},
+        {CPU, 0, {.pipeline = WAVES}, WAVES},
+        {CPU, 99, {0}, MEGA},
+        {CPU, 100, {0}, WAVES},
+        {CPU, 100, {.pipeline = MEGA}, MEGA},
+        {GPU, 100, {0}, MEGA},
+        {SHOWING_GPU, 0, {0}, MEGA},
+        {SHOWING_GPU, 0, {.has_deep_trees = true}, WAVES},
+        {SHOWING_GPU, 0, {.has_deep_trees = true, .pipeline = MEGA}, MEGA},
+        {SHOWING_GPU_WITHOUT_ATOMICS, 0, {.has_deep_trees = true}, MEGA},
+        {GPU, 0, {.has_deep_trees = true}, MEGA},
+        {GPU, 0, {.has_deep_trees = true, .launch_ms = 100.0}, WAVES},
+        {CPU, 0, {.has_deep_trees = true, .launch_ms = 100.0}, MEGA},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        HdLight lights[100] = {{.falloff = {.end = 0.0}}};
+        const HdScene scene = {.lights = lights, .light_count = 100};
+        for (int k = cases[i].endless_lights; k < 100; k++)
+            lights[k].falloff.end = 2.0;
+        const HdPipeline found =
+            hd_choose_pipeline(&devices[cases[i].device], &cases[i].options, &scene);
+        if (found != cases[i].expected)
+            fail_msg("case %zu takes %s", i, hd_pipeline_names[found]);
+    }
+    assert_int_equal(hd_choose_pipeline(&devices[CPU], &(HdRenderOptions){0}, NULL), MEGA);
+}
+
+static void expect_obstacle(const HdDevice *device, HdRenderOptions options, const char *expected) {
+    const char *found = hd_device_obstacle(device, &options);
+    if (expected == NULL)
+        assert_null(found);
+    else
+        assert_string_equal(found, expected);
+}
+
+TEST(a_wavefront_of_groups_needs_wide_atomics) {
+    static const char lack[] = "the wavefront pipeline needs 64-bit integer atomics, which the "
+                               "device lacks; --pipeline mega would take it";
+    const HdRenderOptions waves = {.pipeline = HD_PIPELINE_WAVEFRONT};
+    const HdDevice *lacking = &devices[GPU_WITHOUT_ATOMICS];
+    expect_obstacle(lacking, waves, lack);
+    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
+                    lack);
+    expect_obstacle(lacking, (HdRenderOptions){.pipeline = HD_PIPELINE_AUTO}, NULL);
+    expect_obstacle(&devices[GPU], waves, NULL);
+    expect_obstacle(&devices[CPU], waves, NULL);
+}
+
+TEST(more_lanes_than_registers_are_refused) {
+    static const struct {
+        int most;
+        const char *obstacle; /* to 16 lanes */
+    } cases[] = {{8, "the processor has registers for 1, 4 or 8 lanes in this precision"},
+                 {4, "the processor has registers for 1 or 4 lanes in this precision"},
+                 {1, "the processor has registers for 1 lane in this precision"},
+                 {0, NULL}}; /* none is known */
+    HdDevice cpu = devices[CPU];
+    HdRenderOptions options = {.lanes = 16};
+    expect_obstacle(&cpu, options, NULL);
+    options.precision = HD_PRECISION_DOUBLE;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cpu.most_lanes[HD_PRECISION_DOUBLE] = cases[i].most;
+        expect_obstacle(&cpu, options, cases[i].obstacle);
+    }
+    cpu.most_lanes[HD_PRECISION_DOUBLE] = options.lanes = 8;
+    expect_obstacle(&cpu, options, NULL);
+}
+
+TEST(launches_last_as_long_as_they_may) {
+    HdRenderOptions options = {.launch_ms = 0.0};
+    assert_true(hd_longest_launch(&devices[SHOWING_GPU], &options) == 0.05);
+    assert_true(hd_longest_launch(&devices[GPU], &options) == 0.5);
+    options.launch_ms = 0.5;
+    assert_true(hd_longest_launch(&devices[GPU], &options) == 5e-4);
+}
+
+TEST(what_a_device_can_have_is_accepted_and_else_told) {
+    static const struct {
+        HdRenderOptions options;
+        const char *words; /* NULL: it is accepted */
+    } cases[] = {
+        {{.lanes = 1}, NULL},
+        {{.lanes = 4}, NULL},
+        {{.lanes = 16}, NULL},
+        {{.lanes = -1}, "lanes must be 1, 4, 8 or 16, not -1"},
+        {{.lanes = 2}, "not 2"},
+        {{.threads = 1, .block = 32, .grid = 1}, NULL},
+        {{.threads = 1024, .block = 1024, .grid = 1 << 20}, NULL},
+        {{.threads = -1}, "threads must be 0 to 1024, not -1"},
+        {{.threads = 1025}, "not 1025"},
+        {{.block = -32}, "multiple of 32 up to 1024, not -32"},
+        {{.block = 33}, "not 33"},
+        {{.block = 1056}, "not 1056"},
+        {{.grid = -1}, "blocks of a grid must be 0 to 1048576, not -1"},
+        {{.grid = (1 << 20) + 1}, "not 1048577"},
+        {{.registers = 16, .launch_ms = 1.0}, NULL},
+        {{.registers = 255, .launch_ms = 10000.0}, NULL},
+        {{.registers = 15}, "registers of a thread must be 0 or 16 to 255"},
+        {{.registers = 256}, "not 256"},
+        {{.launch_ms = 0.5}, "0 or 1 to 10000, not 0.5"},
+        {{.launch_ms = 10001.0}, "not 10001"},
+        {{.launch_ms = (double)NAN}, "not "},
+        {{.pipeline = HD_PIPELINE_COUNT}, "unknown pipeline 4"},
+        {{.precision = HD_PRECISION_DOUBLE,
+          .math = HD_MATH_FAST,
+          .pipeline = HD_PIPELINE_WAVEFRONT_UNCOMPACTED},
+         NULL},
+        {{.precision = (HdPrecision)7}, "unknown precision 7"},
+        {{.math = (HdMath)2}, "unknown arithmetic 2"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        HdError error = {.message = "it is accepted"};
+        const HdStatus status = hd_render_options_check(&cases[i].options, &error);
+        if (cases[i].words != NULL)
+            expect_contains(error.message, cases[i].words);
+        if (status != (cases[i].words == NULL ? HD_OK : HD_BAD_INPUT))
+            fail_msg("case %zu: %s", i, error.message);
+    }
+}

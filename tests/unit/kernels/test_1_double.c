@@ -1,4 +1,0 @@
-/* SPDX-License-Identifier: MIT */
-#define HD_LANES  1
-#define HD_DOUBLE 1
-#include "kernel_functions.h"
