@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The megakernel and the wavefront: what the choices behind them are worth, and the study's chart of all machines."""
+"""The megakernel and the wavefront, and the study's chart of all machines."""
 from statistics import median
 
 from harness.chart.rows import Row, ms, one_value, rows
@@ -8,13 +8,10 @@ from harness.measure.numbers import number, spread, spread_text
 from harness.measure.plan import DEFAULT, OFFICIAL
 from harness.measure.rows import Missing
 from harness.page.section import TOO_LITTLE, Part, middle, ratio, relative
-from harness.pipelines import cuda, order
 from harness.run.program import ROOT
 
 PIPELINES = ("mega", "wavefront", "wavefront-uncompacted")
-PARTS = ("pipelines", "queue_order", "image_sums", "texture_lookups")
 SCENES = {"headline": "bench/scenes/headline.json", "fullhd": "bench/scenes/fullhd.json", "default": "scenes/default.json"}
-QUEUE_SCENES = ("headline", "default")
 FEWER = {"fullhd": (("--size", "480x270", "--samples", "2"), 64)}  # for CPUs, and by what that has less to do
 HEAD = ["device", "scene", "pipeline", "trace ms [q1..q3]", "to mega", "processor time to mega"]
 
@@ -29,42 +26,21 @@ def cells(each):
 
 class Pipelines(Bench):
     name = "pipelines"
-    about = "Measure what the choices behind the pipelines are worth, and draw charts."
+    about = "Measure the megakernel against the wavefront, and draw a chart."
     quick = "few frames, rounds and samples; rough"
     own_options = (*Bench.own_options, "--pipeline")
-    parts = PARTS
     scene = f"scenes {', '.join(SCENES)}"
-    chart_files = PARTS  # a chart for each
-    keys = PARTS
+    chart_files = keys = ("pipelines",)
 
     def prepare(self):
-        self.scenes = self.plan.scenes = {name: ROOT / file for name, file in SCENES.items()}
+        self.plan.scenes = {name: ROOT / file for name, file in SCENES.items()}
         self.jobs = []  # (pipeline, job, that of the megakernel)
-        for label, device in self.runnable.items() if self.wants("pipelines") else ():
+        for label, device in self.runnable.items():
             for scene in SCENES:
                 added, scale = FEWER.get(scene, ((), 1)) if device["is_cpu"] else ((), 1)
                 made = [self.plan.job(label, scene, "0-2" if self.arguments.quick else "0-4", (*added, "--pipeline", name),
                                       scale=scale) for name in PIPELINES]
                 self.jobs += [(name, job, made[0]) for name, job in zip(PIPELINES, made)]
-
-    def measure_queues(self):
-        return order.measure(self.program, [self.scenes[name] for name in QUEUE_SCENES], self.arguments.repeats,
-                             1 << 14 if self.arguments.quick else 1 << 19)
-
-    def record(self):
-        """What the rays of a frame add to the picture."""
-        file = self.folder / "recording"
-        order.run(self.program, "--record", file, self.scenes["headline"])
-        return file
-
-    def measure(self):
-        for name, measure, *words in (("queue_order", self.measure_queues),
-                                      ("image_sums", cuda.run, "image_sums", self.program, self.folder, self.record),
-                                      ("texture_lookups", cuda.run, "texture_lookups", self.program, self.folder)):
-            if self.wants(name):
-                found = self.tried(name.replace("_", " "), measure, *words)
-                self.result[name] = {"reason": found} if isinstance(found, str) else found
-        self.plan.run_all(self.arguments.repeats)
 
     def row(self, pipeline, job, base):
         done = {"device": job["device"], "scene": job["scene"], "pipeline": pipeline, "scale": job["scale"], "trace_ms": None,
@@ -81,34 +57,14 @@ class Pipelines(Bench):
         return done
 
     def fill(self):
-        if self.jobs:
-            self.result["pipelines"] = [self.row(*each) for each in self.jobs]
-        if self.has("image_sums") and not cuda.fixed_is_exact(self.result["image_sums"]):
-            self.plan.failures.add("two runs of sums in fixed point differ")
-
-    def has(self, name):
-        return self.result[name] and "reason" not in self.result[name]
+        self.result["pipelines"] = [self.row(*each) for each in self.jobs]
 
     def tables(self):
-        found = [("Pipelines", [HEAD, *map(cells, self.result["pipelines"])], [])] if self.jobs else []
-        for name, head, make in (
-                ("queue_order", order.HEAD, lambda each: map(order.cells, each["orders"])),
-                ("image_sums", cuda.SUM_HEAD, lambda each: (cuda.sum_cells(each, name) for name in cuda.SUMS)),
-                ("texture_lookups", cuda.LOOKUP_HEAD, lambda each: (cuda.lookup_cells(each, name) for name in cuda.LOOKUPS))):
-            title, each = name.replace("_", " ").capitalize(), self.result[name]
-            if self.has(name):
-                found.append((title, [head, *make(each)], []))
-            elif each:
-                found.append((title, [], [f"Not measured: {each['reason']}"]))
-        return found
+        return [("Pipelines", [HEAD, *map(cells, self.result["pipelines"])], [])]
 
     def charts(self):
-        wanted = {"queue_order": order.chart, "image_sums": cuda.sum_chart, "texture_lookups": cuda.lookup_chart}
-        found = {name: chart(self.result) for name, chart in wanted.items() if self.has(name)}
-        measured = [each for each in self.result["pipelines"] or [] if each["ratio_to_mega"]]
-        if measured:
-            found["pipelines"] = self.chart(measured)
-        return found
+        measured = [each for each in self.result["pipelines"] if each["ratio_to_mega"]]
+        return {"pipelines": self.chart(measured)} if measured else {}
 
     def chart(self, measured):
         wavefronts = [each for each in measured if each["pipeline"] == "wavefront"]
