@@ -13,11 +13,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu/instruction_set.h"
 #include "measures.h"
 #include "steps.h"
 
-#define HD_BUILD_TYPE HdLoops
-#include "builds.h"
+/* bench/CMakeLists.txt names the builds in HD_BUILDS. */
+#define X(build) extern const HdLoops build;
+HD_BUILDS
+#undef X
 
 /* Bundles of rays and of points: enough to be like the view, few enough for the second-level cache.
  */
@@ -34,6 +37,24 @@ typedef struct Bench {
     HdLoopScene scenes[MOST_SCENES]; /* the first has no floor, and rays search it */
     HdMeasure measures[MOST_MEASURES];
 } Bench;
+
+/* The build for this processor, with the lanes that it takes by itself or with one; where there is
+   none, the program ends with a sentence. */
+static const HdLoops *find_build(bool one_lane) {
+    static const HdLoops *const builds[] = {
+#define X(build) &build,
+        HD_BUILDS
+#undef X
+    };
+    const char *best = hd_cpu_best_instruction_set();
+    if (one_lane && strcmp(best, "avx512") == 0)
+        best = "avx2";
+    for (size_t i = 0; i < sizeof builds / sizeof *builds; i++)
+        if (strcmp(builds[i]->instruction_set, best) == 0 && (!one_lane || builds[i]->lanes == 1))
+            return builds[i];
+    fprintf(stderr, "the kernels were built for another processor than one with %s\n", best);
+    exit(1);
+}
 
 static void add_measure(Bench *bench, HdMeasure measure, const char *group, const char *name) {
     snprintf(measure.name, sizeof measure.name, "%s%s:%s", group,

@@ -11,32 +11,24 @@ from harness.measure.numbers import count_words, spread
 from harness.measure.rows import Missing
 from harness.measure.scenes import TRIANGLE_TICKS, make_object, write_object_scene
 from harness.page.section import TIME_AXIS, Part, few, growth_words
-from harness.run import machine
-from harness.triangles import leaks, primary, rates, sweep
+from harness.triangles import leaks, primary, sweep
 from harness.triangles.sweep import scene_name
 
 MOST, BRUTE_MOST_QUICKLY = {True: 1000000, False: sweep.MOST}, 10000
 LEAK_RAYS = {True: 10 ** 5, False: 10 ** 8}
-MOST_THREADS = 64  # that hedron_mesh_rates takes
-
-
-def entries(key, found):
-    """As they are written: what was measured, or the reason why it was not."""
-    return [{key: each, **({"reason": measured} if isinstance(measured, str) else measured)}
-            for each, measured in found.items()] or None
 
 
 class Triangles(Bench):
     name = "triangles"
     about = "Measure every target of triangles, and draw time against their number."
-    codes = """exit codes: 0 done, 1 pictures or searches differ, rays leak, or a run failed,
+    codes = """exit codes: 0 done, 1 pictures differ, rays leak, or a run failed,
 2 wrong usage or input, 3 no device can be timed, 130 interrupted (what was measured is kept)"""
     quick = "few rounds and rays, and no more than 1 M triangles; rough"
     own_options = (*Bench.own_options, "--accel")
-    parts = ("rates", "sweep", "primary", "leaks")
+    parts = ("sweep", "primary", "leaks")
     scene = "a mirrored, transparent sphere with bumps over a floor, two lights, depth 4"
     chart_files = ("triangles",)
-    keys = ("mesh_rates", "sweep", "leaks", "most")
+    keys = ("sweep", "leaks", "most")
 
     def add_options(self, parser):
         super().add_options(parser)
@@ -52,16 +44,8 @@ class Triangles(Bench):
 
     def prepare(self):
         self.result["most"] = self.arguments.most
-        self.objects, self.hunts, self.unmade = {}, {}, {}
+        self.hunts, self.unmade = {}, {}
         self.jobs, self.triangles = {}, None  # (device, way, asked): job of the sweep; asked: true number
-
-    def measure_rates(self):
-        seconds, threads = 0.05 if self.arguments.quick else 0.3, min(machine.cores(), MOST_THREADS)
-        for count in rates.COUNTS:
-            self.objects[count] = f"it has more than {count_words(self.arguments.most)} triangles (--most)"
-            if count <= self.arguments.most:
-                self.objects[count] = self.tried(f"rates of searches, {count_words(count)} triangles", rates.run, self.program,
-                                                 count, seconds, self.arguments.repeats, threads)
 
     def hunt(self):
         for backend in dict.fromkeys(device["backend"] for device in self.runnable.values()):
@@ -83,8 +67,6 @@ class Triangles(Bench):
         return made
 
     def measure(self):
-        if self.wants("rates"):
-            self.measure_rates()
         if self.wants("leaks"):
             self.hunt()
         if self.wants("sweep", "primary"):
@@ -149,16 +131,15 @@ class Triangles(Bench):
 
     def fill(self):
         primary_rows, self.plan.rows = self.plan.rows, []
-        if self.wants("rates"):
-            rates.add_rows(self.plan, self.objects)
         if self.triangles is not None:
             self.add_sweep()
         self.plan.rows += primary_rows
         for reason in dict.fromkeys(self.unmade.values()):
             self.plan.absent("scenes", "scenes of the sweep and of primary rays", "", None, reason)
         leaks.add_rows(self.plan, self.hunts)
-        self.plan.failures |= set(rates.failures(self.objects))
-        self.result.update(mesh_rates=entries("asked", self.objects), leaks=entries("backend", self.hunts))
+        # As they are written: what was measured, or the reason why it was not.
+        self.result["leaks"] = [{"backend": backend, **({"reason": total} if isinstance(total, str) else total)}
+                                for backend, total in self.hunts.items()] or None
 
     def charts(self):
         return sweep.charts(self.result)
