@@ -10,8 +10,6 @@
      paths      tried, completed (30 bounces), followed (that the path in double makes); tried_far,
                 followed_far (300 bounces)
      shadows    tried (segments that are open), blocked; tried_shut, opened; nan (of both)
-     sums       tried (pixels), differing (with the order), ulps (most), error (most, relative)
-     touching   tried (pixels), off (by more than 1 of 255)
 
    Ends with 0, 1 where something goes wrong, 2 where it is called wrongly. */
 #include <stdio.h>
@@ -36,9 +34,9 @@ typedef struct Study {
 } Study;
 
 static const Study studies[] = {
-    {"crossings", hd_study_crossings}, {"paths", hd_study_paths},
-    {"shadows", hd_study_shadows},     {"sums", hd_study_sums},
-    {"touching", hd_study_touching},
+    {"crossings", hd_study_crossings},
+    {"paths", hd_study_paths},
+    {"shadows", hd_study_shadows},
 };
 
 bool hd_can_contract(void) {
@@ -56,8 +54,7 @@ int main(int count, char **words) {
             study = &studies[i];
     long number = study != NULL ? strtol(words[2], NULL, 10) : 0;
     if (number < 1 || number > 100 * 1000 * 1000) {
-        fprintf(stderr,
-                "usage: hedron_stability_methods crossings|paths|shadows|sums|touching COUNT\n");
+        fprintf(stderr, "usage: hedron_stability_methods crossings|paths|shadows COUNT\n");
         return 2;
     }
     return study->run((int)number) ? 0 : 1;

@@ -95,7 +95,8 @@ static bool is_same(HdBounce a, HdBounce b) {
     return a.object == b.object && a.face == b.face;
 }
 
-bool hd_plain_cross(const HdPlainScene *scene, int number, const HdFloatRay *ray, int last,
+/* Whether a ray that leaves triangle `last` (-1: the eye) crosses another. */
+static bool crosses(const HdPlainScene *scene, int number, const HdFloatRay *ray, int last,
                     int triangle, HdMeeting *meeting) {
     const Avoidance *avoidance = &avoidances[number];
     const HdTriangleTests *tests = &hd_triangle_tests;
@@ -109,14 +110,15 @@ bool hd_plain_cross(const HdPlainScene *scene, int number, const HdFloatRay *ray
            meeting->t > (last >= 0 ? least : 0.0f);
 }
 
-int hd_plain_closest(const HdPlainScene *scene, int number, HdFloatRay *ray, int last,
-                     HdMeeting *met) {
+/* The triangle that a ray meets first, -1: none. */
+static int closest(const HdPlainScene *scene, int number, HdFloatRay *ray, int last,
+                   HdMeeting *met) {
     int found = -1;
     hd_triangle_tests.prepare_ray(ray);
     met->t = INFINITY;
     for (int i = 0; i < scene->count; i++) {
         HdMeeting meeting;
-        if (!hd_plain_cross(scene, number, ray, last, i, &meeting) || !(meeting.t < met->t))
+        if (!crosses(scene, number, ray, last, i, &meeting) || !(meeting.t < met->t))
             continue;
         *met = meeting;
         found = i;
@@ -124,8 +126,9 @@ int hd_plain_closest(const HdPlainScene *scene, int number, HdFloatRay *ray, int
     return found;
 }
 
-HdFloat3 hd_plain_leave(const HdPlainScene *scene, int number, const HdFloatRay *ray, int met,
-                        const HdMeeting *meeting, float side) {
+/* Where a path goes on from a triangle; `side` is 1 on its outer side, else -1. */
+static HdFloat3 leave(const HdPlainScene *scene, int number, const HdFloatRay *ray, int met,
+                      const HdMeeting *meeting, float side) {
     HdFloat3 normal = scene->normals[met];
     HdFloat3 towards = {side * normal.x, side * normal.y, side * normal.z};
     if (avoidances[number].moves_origin)
@@ -139,13 +142,13 @@ int hd_plain_path(const HdPlainScene *scene, int number, HdFloat3 eye, HdFloat3 
     int last = -1;
     for (int count = 0; count < most; count++) {
         HdMeeting met;
-        last = hd_plain_closest(scene, number, &ray, last, &met);
+        last = closest(scene, number, &ray, last, &met);
         if (last < 0)
             return count;
         bounces[count] = scene->faces[last];
         HdFloat3 normal = scene->normals[last];
         float facing = dot(normal, ray.direction);
-        ray.origin = hd_plain_leave(scene, number, &ray, last, &met, facing < 0.0f ? 1.0f : -1.0f);
+        ray.origin = leave(scene, number, &ray, last, &met, facing < 0.0f ? 1.0f : -1.0f);
         ray.direction = along(ray.direction, normal, -2.0f * facing);
     }
     return most;

@@ -21,19 +21,6 @@ extern const char *const hd_avoidance_names[HD_AVOIDANCES];
 
 void hd_plain_scene_make(HdPlainScene *scene, const HdRoom *room, HdVec3 centre, double scale);
 
-/* Whether a ray, prepared for the tests, that leaves triangle `last` (-1: the eye) crosses another.
- */
-bool hd_plain_cross(const HdPlainScene *scene, int avoidance, const HdFloatRay *ray, int last,
-                    int triangle, HdMeeting *meeting);
-
-/* Prepares the ray; the triangle that it meets first, -1: none. */
-int hd_plain_closest(const HdPlainScene *scene, int avoidance, HdFloatRay *ray, int last,
-                     HdMeeting *met);
-
-/* Where a ray goes on from the triangle that it met; `side` is 1 on its outer side, else -1. */
-HdFloat3 hd_plain_leave(const HdPlainScene *scene, int avoidance, const HdFloatRay *ray, int met,
-                        const HdMeeting *meeting, float side);
-
 /* Follows a path of mirrors; returns how many faces it met, at most `most`. */
 int hd_plain_path(const HdPlainScene *scene, int avoidance, HdFloat3 eye, HdFloat3 direction,
                   int most, HdBounce *bounces);

@@ -141,22 +141,6 @@ static double radiance(const HdTable *scene, const HdLitPoint *point) {
     return (double)lane_real(&sum.x, 0);
 }
 
-static double seen(const HdTable *scene, const HdTable *frame, HdVec3 direction) {
-    HD_DECLARE_TABLES(scene, frame)
-    Sample sample = no_sample();
-    trace(SCENE_ARGUMENTS rounded(direction), mask_all(), &sample);
-    return (double)sample.r / (double)view->to_fixed;
-}
-
-static long long fixed_sum(const float *contributions, int count) {
-    vfix sum = 0;
-    vint clamps = splat_int(0);
-    for (int i = 0; i < count; i++)
-        sum += contribution(mask_all(), splat((real)contributions[i]), splat(R(1.0)),
-                            R(1099511627776.0), &clamps);
-    return (long long)sum;
-}
-
 const HdProduct HD_PRODUCT = {
     .precision = HD_DOUBLE ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT,
     .mirror_path = mirror_path,
@@ -164,6 +148,4 @@ const HdProduct HD_PRODUCT = {
     .cross_triangles = cross_triangles,
     .transmittance = transmittance,
     .radiance = radiance,
-    .seen = seen,
-    .fixed_sum = fixed_sum,
 };

@@ -41,10 +41,6 @@ typedef struct HdProduct {
     double (*transmittance)(const HdTable *scene, const HdLitPoint *point, int light);
     /* The radiance of a white diffuse point under all lights. */
     double (*radiance)(const HdTable *scene, const HdLitPoint *point);
-    /* What the eye sees in a direction, of the first channel. */
-    double (*seen)(const HdTable *scene, const HdTable *frame, HdVec3 direction);
-    /* The sum of contributions in fixed point with 40 bits behind the point. */
-    long long (*fixed_sum)(const float *contributions, int count);
 } HdProduct;
 
 extern const HdProduct hd_product_float, hd_product_double;

@@ -20,11 +20,9 @@ extern const int hd_place_count, hd_all_place_count;
 #define HD_OFFSET_Y -0.5421
 #define HD_OFFSET_Z 0.5562
 
-/* `count` of rays, paths, segments or pixels for each place. */
+/* `count` of rays, paths or segments for each place. */
 bool hd_study_crossings(int count);
 bool hd_study_paths(int count);
 bool hd_study_shadows(int count);
-bool hd_study_sums(int count);
-bool hd_study_touching(int count);
 
 #endif

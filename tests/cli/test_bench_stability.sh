@@ -22,16 +22,15 @@ def wrong(study, case, method, key, place=None):
     return total(these, key) / total(these, "tried")' "$@"
 }
 
-# ---- rays, paths, segments, sums and pixels
-expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts crossings,paths,shadows,sums,touching --rays 60
+# ---- rays, paths and segments
+expect_exit 0 "$bench" stability --hedron "$hedron" --out out --parts crossings,paths,shadows --rays 60
 expect_stdout_contains 'kept so by'
-expect_counts '["stability", true, [], ["100 %", "0 of 60"]]' \
-    'print(json.dumps([r["bench"], r["complete"], r["failures"], [[row["rate"], row["ours"]] for row in r["table"] if row["method"] == "sums of floats"][0]]))'
+expect_counts '["stability", true, [], true]' \
+    'print(json.dumps([r["bench"], r["complete"], r["failures"], len(r["table"]) > 20]))'
 # Ours is never wrong but at the cracks of a mesh, which are there for every method; and of paths in places that are no target.
 expect_counts 0.0 'print(sum(wrong("crossings", None, method, key, lambda e: e["case"] not in m.CRACKS) for method in ("ours_solids", "ours_triangles") for key in ("missed", "twice", "wrong", "misplaced"))
     + sum(wrong("paths", None, method, "lost") for method in ("ours_solids", "ours_triangles")) + wrong("paths", None, "ours_double", "strayed")
-    + sum(wrong("shadows", None, "ours", key) for key in ("blocked", "opened", "nan")) + wrong("sums", "pixel", "ours", "differing")
-    + sum(wrong("touching", None, method, "off") for method in ("ours_solids", "ours_triangles", "ours_double")))'
+    + sum(wrong("shadows", None, "ours", key) for key in ("blocked", "opened", "nan")))'
 expect_counts True 'print(all(wrong("paths", None, method, "strayed", m.is_in_target) <= 0.01 for method in ("ours_solids", "ours_triangles")))'
 # What others lose: small triangles by a determinant below 1e-6, edges and corners, what is far away by world coordinates, paths
 # and shadows by an epsilon, lights on edges; and where they lose nothing.
@@ -41,9 +40,8 @@ expect_counts '[]' 'some = [("crossings", "t_junctions", "ours_triangles", "miss
     ("crossings", "interior", "watertight_tie", "misplaced", lambda e: e["offset"] == 1e6, 0.2),
     ("shadows", "edge_lights", "normalised", "blocked", None, 0.05),
     ("shadows", "face_lights", "normalised_epsilon_1e-4", "opened", lambda e: e["scale"] == 1e-6, 0.1),
-    ("shadows", "light_at_the_point", "unnormalised", "nan", None, 0.99), ("sums", "pixel", "float", "differing", None, 0.99)]' \
-    'some += [("paths", None, "epsilon_1e-4", "strayed", m.is_in_target, 0.2), ("crossings", "edges", "pluecker", "wrong", m.is_at_origin, 0.05),
-     ("touching", "stacked", "relative_epsilon", "off", m.is_at_origin, 0.05)]' \
+    ("shadows", "light_at_the_point", "unnormalised", "nan", None, 0.99)]' \
+    'some += [("paths", None, "epsilon_1e-4", "strayed", m.is_in_target, 0.2), ("crossings", "edges", "pluecker", "wrong", m.is_at_origin, 0.05)]' \
     'none = [("crossings", "interior", "moeller_trumbore_0", "missed", m.is_at_origin), ("crossings", "corners", "watertight_tie", "wrong", m.is_at_origin)]' \
     'print([(*each[:4], wrong(*each[:5])) for each in some if wrong(*each[:5]) <= each[5]] + [each[:4] for each in none if wrong(*each)])'
 expect_svg out/stability_paths.svg out/stability_crossings.svg

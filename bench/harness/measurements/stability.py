@@ -16,8 +16,7 @@ QUICK_PART = 20
 SIZES = {False: ("--size", "160x120", "--samples", "2"), True: ("--size", "80x60", "--samples", "1")}
 ODD_SIZE = ("--size", "96x54", "--samples", "1")
 PATHS, NEAR = Target(99, 99.99), Target(99.9, 99.99)
-WRONG = {"crossings": "rays that miss, count twice or are misplaced", "shadows": "segments wrongly blocked or opened",
-         "sums": "pixels whose sum depends on the order", "touching": "pixels of solids that touch, off from those with a gap"}
+WRONG = {"crossings": "rays that miss, count twice or are misplaced", "shadows": "segments wrongly blocked or opened"}
 
 
 def percent(part, whole):
@@ -48,7 +47,7 @@ def add_rows(plan, result):
         def figure(study=study):
             these = known([each for each in counts if each["study"] == study and each["method"] in methods.OURS] or None)
             return [sum(methods.tally(these, wrong)[0] for wrong in (study, *["misplaced"] * (study == "crossings")))]
-        plan.row(study, f"{what}, ours", "pixels" if study in ("sums", "touching") else "count", figure, target=NONE)
+        plan.row(study, f"{what}, ours", "count", figure, target=NONE)
     for geometry in pictures.GEOMETRIES:
         near, pixels = pictures.total(precision, pictures.FLOAT, geometry)
         plan.row("precision", f"pixels within 1 of 255, {pictures.FLOAT}, all scenes, {geometry}", "%",
@@ -155,7 +154,7 @@ def fill(section):
     section.table = [table.HEAD, *[list(row.values()) for row in table.rows(about)]]
 
 
-NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows", "sums": "sums"}  # in which study
+NEVER = {"crossings": "crossings", "misplaced": "crossings", "lost": "paths", "shadows": "shadows"}  # in which study
 
 
 def answers(results):
@@ -168,7 +167,7 @@ def answers(results):
     ours = [methods.tally([each for each in counts if each["study"] == study and each["method"] in methods.OURS
                            and each["case"] not in methods.CRACKS], what) for what, study in NEVER.items()]
     wrong, tried = map(sum, zip(*ours))
-    words = (f"What fails where: hedron's geometry and sums failed in {answer.figure('ours_failed', wrong, f'{wrong}')} of "
+    words = (f"What fails where: hedron's geometry failed in {answer.figure('ours_failed', wrong, f'{wrong}')} of "
              f"{answer.figure('ours_tried', tried, count_words(round(tried, -4)))} tries at every size and distance")
     others = {method: methods.worst(methods.select(counts, "crossings", charts.EDGES, method), "crossings")[0]
               for method in methods.methods(counts, "crossings") if method not in methods.OURS}

@@ -24,11 +24,6 @@ PLACES = {
     ("shadows", "edge_lights_from_within"): ("lights on edges, seen from inside, are blocked", HERE),
     ("shadows", "face_lights"): ("lights on faces are blocked, or shine through", HERE),
     ("shadows", "light_at_the_point"): ("a light at the lit point gives no number", HERE),
-    ("touching", "on_the_floor"): ("pixels off: a glass cube on the floor", f"unit_scene, {HERE}"),
-    ("touching", "stacked"): ("pixels off: glass cubes stacked on the floor", f"unit_scene, {HERE}"),
-    ("touching", "side_by_side"): ("pixels off: glass cubes that share a part of a face", f"unit_scene, {HERE}"),
-    ("touching", "doubled"): ("pixels off: a glass cube in the place of another", f"unit_scene, {HERE}"),
-    ("sums", "pixel"): ("a sum depends on the order of its parts", "cli_render, conformance_c"),
 }
 # Further ways to fail of the same places.
 MORE = {
@@ -66,10 +61,8 @@ def method_rows(counts, study, cases, what, words, test):
         if method in methods.OURS or found is None:
             continue
         share, each = found
-        place = (f"by up to {each['ulps']:g} units in the last place" if study == "sums" else
-                 f"scale {each['scale']:g}, offset {each['offset']:g}")
         yield [words, methods.NAMES[method], percent(methods.share(these, what)), percent(share),
-               place if share else "", ours_words(counts, study, cases, what), test]
+               f"scale {each['scale']:g}, offset {each['offset']:g}" if share else "", ours_words(counts, study, cases, what), test]
 
 
 def picture_rows(entries):
