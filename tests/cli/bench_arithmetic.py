@@ -18,7 +18,6 @@ from harness.measure.jobs import job, summarize  # noqa: E402
 from harness.measure.plan import Plan  # noqa: E402
 from harness.measure.rows import NONE, Target, judge  # noqa: E402
 from harness.measurements import compare  # noqa: E402
-from harness.rivals import povray  # noqa: E402
 from harness.run import pfm  # noqa: E402
 from harness.run.program import Program  # noqa: E402
 from harness.stability import methods  # noqa: E402
@@ -122,9 +121,6 @@ def test_pictures_are_read_and_compared():
     program = Program(HEDRON)
     near = 1 - pfm.errors(program, "a.pfm", "b.pfm")["above_1"]
     same((pfm.share_within("a.pfm", "b.pfm", 1), near), (0.5, 0.5))
-    small = povray.smaller((4, 2, [1, 2, 3, 2, 3, 4] + [1] * 6 + [3, 4, 5, 4, 5, 6] + [1] * 6), 2)
-    pfm.write("b.pfm", *small)
-    same(([*small[2]], [*pfm.read("b.pfm")[2]]), ([2.5, 3.5, 4.5, 1.0, 1.0, 1.0],) * 2)
     # The error that the reference's samples leave is what their unit test measures.
     stated = (PROJECT / "tests/unit/render/test_samples.c").read_text(encoding="utf-8")
     assert f"#define REFERENCE_SAMPLE_ERROR {SAMPLE_ERROR}\n" in stated

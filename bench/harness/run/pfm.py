@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Pictures in the PFM format, read and compared without any library, and `hedron compare`."""
 import array
-import itertools
 import json
 import math
 import subprocess
@@ -25,14 +24,6 @@ def read(file):
     if (float(head[2]) < 0) != (sys.byteorder == "little"):
         numbers.byteswap()
     return width, height, numbers
-
-
-def write(file, width, height, values):
-    """`values` are those of all channels from the top."""
-    rows = [values[3 * width * y:3 * width * (y + 1)] for y in reversed(range(height))]
-    with open(file, "wb") as stream:
-        stream.write(f"PF\n{width} {height}\n{-1 if sys.byteorder == 'little' else 1}.0\n".encode())
-        array.array("f", itertools.chain.from_iterable(rows)).tofile(stream)
 
 
 def odd_numbers(picture):

@@ -55,7 +55,7 @@ def read(file, bench):
 KEYS = ("complete", "date", "quick", "hedron", "machine", "devices", "parts", "done", "left_out", "failed", "measurements",
         "bounds", "accuracy", "stability")
 # What goes on with the measurements.
-KEPT = ("date", "bounds", "accuracy", "stability", "promise", "certificates", "rivals", "tuning", "gallery")
+KEPT = ("date", "bounds", "accuracy", "stability", "promise", "certificates", "tuning", "gallery")
 SAME_OF_DEVICES = ("label", "name", "driver", "reason")
 SAME_OF_HEDRON = ("options", "sha256")
 IDENTITY = ("part", "series", "x", "device", "scene", "options", "frames", "output", "warm_up", "scale", "cold")
