@@ -57,41 +57,10 @@ static int look(const HdTable *scene, const HdTable *frame, int item, int first,
     return 1;
 }
 
-static int is_of_kind(const Sight *sight, int kind) {
-    if (kind == HD_RAYS_PRIMARY)
-        return 1;
-    if (kind == HD_RAYS_MISSING)
-        return !any_lane(sight->on_solid);
-    if (kind < HD_RAYS_SOLID)
-        return any_lane(sight->on_solid);
-    vmask met = eq_int(sight->hit.object, splat_int(kind - HD_RAYS_SOLID));
-    return !any_lane(~met & sight->ray.alive);
-}
-
-static void bundle_of(const HdTable *scene, const HdTable *frame, const Sight *sight, int kind,
-                      Bundle *bundle) {
-    HD_DECLARE_TABLES(scene, frame)
-    bundle->ray = sight->ray;
-    bundle->is_eye = kind != HD_RAYS_MIRRORED && kind != HD_RAYS_INSIDE;
-    if (bundle->is_eye)
-        return;
-    Hit hit = sight->hit;
-    Surface surface =
-        surface_at(SCENE_ARGUMENTS & sight->ray, sight->reference, &hit, sight->struck);
-    Ray *ray = &bundle->ray;
-    if (kind == HD_RAYS_MIRRORED)
-        ray->direction = vec3_scale_add(
-            surface.normal, vec3_dot(surface.normal, ray->direction) * R(-2.0), ray->direction);
-    ray->alive = sight->on_solid;
-    ray->origin = surface.point;
-    ray->touched = spread_first(sight->hit.object, ray->alive);
-    ray->inside = kind == HD_RAYS_INSIDE ? mask_all() : mask_none();
-}
-
 /* What passes over the view's bundles: the first time to count those wanted, the second to take
    `most` of them evenly. */
 typedef struct Walk {
-    int kind, most;
+    int most;
     int found, wanted; /* wanted: how many were found the first time; 0 then */
     HdWork work;
     size_t size; /* of an item of work */
@@ -135,15 +104,17 @@ static HdWork walk_twice(const HdTable *scene, const HdTable *frame, Visit *visi
 }
 
 static void visit_rays(const HdTable *scene, const HdTable *frame, const Sight *sight, Walk *walk) {
-    if (!is_of_kind(sight, walk->kind))
+    (void)scene;
+    (void)frame;
+    if (!any_lane(sight->on_solid))
         return;
     Bundle *bundle = take(walk);
     if (bundle != NULL)
-        bundle_of(scene, frame, sight, walk->kind, bundle);
+        *bundle = (Bundle){.ray = sight->ray, .is_eye = 1};
 }
 
-static HdWork make_rays(const HdTable *scene, const HdTable *frame, int kind, int most) {
-    Walk walk = {.kind = kind, .most = most, .size = sizeof(Bundle)};
+static HdWork make_rays(const HdTable *scene, const HdTable *frame, int most) {
+    Walk walk = {.most = most, .size = sizeof(Bundle)};
     return walk_twice(scene, frame, visit_rays, &walk);
 }
 

@@ -8,17 +8,6 @@
 
 #include "tables/tables.h"
 
-/* Which bundles of rays a search is given. HD_RAYS_SOLID + n: primary rays that all meet solid n.
- */
-typedef enum HdRayKind {
-    HD_RAYS_PRIMARY,  /* those of the view */
-    HD_RAYS_MEETING,  /* primary ones of which some lane meets a solid */
-    HD_RAYS_MISSING,  /* primary ones of which none does */
-    HD_RAYS_MIRRORED, /* those that meeting ones become at the outer side of a solid */
-    HD_RAYS_INSIDE,   /* those that meeting ones become inside of a solid */
-    HD_RAYS_SOLID
-} HdRayKind;
-
 /* Bundles, or lit points of bundles, ready to be worked on; made and freed by the same build. */
 typedef struct HdWork {
     void *items; /* owned; laid out as the build's lanes */
@@ -30,9 +19,9 @@ typedef struct HdLoops {
     int lanes;
     const char *search_symbol, *light_symbol; /* of the functions below, for a disassembler */
 
-    /* At most `most` bundles of a kind, taken evenly from the view; count 0 where there are none or
-       no memory. */
-    HdWork (*make_rays)(const HdTable *scene, const HdTable *frame, int kind, int most);
+    /* At most `most` of the view's bundles of which some lane meets a solid, taken evenly; count 0
+       where there are none or no memory. */
+    HdWork (*make_rays)(const HdTable *scene, const HdTable *frame, int most);
     /* Likewise the surface points that primary rays meet and that lights can reach. */
     HdWork (*make_points)(const HdTable *scene, const HdTable *frame, int most);
     /* Live lanes of the bundles. */

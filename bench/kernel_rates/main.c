@@ -64,13 +64,13 @@ static void add_measure(Bench *bench, HdMeasure measure, const char *group, cons
     bench->measures[bench->measure_count++] = measure;
 }
 
-static void add_search(Bench *bench, const HdLoops *loops, int kind, const char *name) {
+static void add_search(Bench *bench, const HdLoops *loops) {
     const HdLoopScene *scene = &bench->scenes[0];
     HdMeasure measure = {
         .unit = "searches", .loops = loops, .scene = scene, .what = HD_MEASURE_SEARCH};
     measure.work = loops->make_rays(hd_loop_scene_tables(scene, loops->lanes), scene->frame.table,
-                                    kind, bench->counts ? COUNTED_RAYS : MOST_RAYS);
-    add_measure(bench, measure, "search", name);
+                                    bench->counts ? COUNTED_RAYS : MOST_RAYS);
+    add_measure(bench, measure, "search", "meeting");
 }
 
 static void add_light(Bench *bench, const HdLoops *loops, const HdLoopScene *scene) {
@@ -89,30 +89,15 @@ static void add_peaks(Bench *bench, const HdLoops *loops) {
     add_measure(bench, measure, "peak", "mul_add");
 }
 
-static void add_rates(Bench *bench) {
-    const HdLoops *loops = find_build(false);
-    add_search(bench, loops, HD_RAYS_PRIMARY, "primary");
-    add_search(bench, loops, HD_RAYS_MISSING, "missing");
-    add_search(bench, loops, HD_RAYS_MIRRORED, "mirrored");
-    add_search(bench, loops, HD_RAYS_INSIDE, "inside");
-    for (int i = 0; i < bench->scenes[0].solid_count && i < 8; i++) {
-        char name[16];
-        snprintf(name, sizeof name, "solid_%d", i + 1);
-        add_search(bench, loops, HD_RAYS_SOLID + i, name);
-    }
-}
-
 static void add_measures(Bench *bench) {
     for (int one_lane = 0; one_lane <= (bench->counts ? 1 : 0); one_lane++) {
         const HdLoops *loops = find_build(one_lane);
-        add_search(bench, loops, HD_RAYS_MEETING, "meeting");
+        add_search(bench, loops);
         for (int i = 1; i < bench->scene_count; i++)
             add_light(bench, loops, &bench->scenes[i]);
         if (!one_lane)
             add_peaks(bench, loops);
     }
-    if (!bench->counts)
-        add_rates(bench);
 }
 
 static void run_once(void *context) {

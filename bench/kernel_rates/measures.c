@@ -42,7 +42,6 @@ bool hd_loop_scene_read(HdLoopScene *scene, const char *path, bool floor, int la
         file.scene.floor.present = file.scene.floor.present && floor;
         if (!file.scene.floor.present)
             file.texture_path[0] = '\0';
-        scene->solid_count = file.scene.solid_count;
         done = compile(scene, &file, lanes, &error);
         hd_scene_file_free(&file);
     }

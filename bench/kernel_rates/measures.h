@@ -12,7 +12,6 @@ typedef struct HdLoopScene {
     const char *name;        /* of its file, without folder and ending */
     HdSceneTables tables[2]; /* for bundles; for single lanes */
     HdFrameTables frame;
-    int solid_count;
 } HdLoopScene;
 
 typedef struct HdMeasure {

@@ -142,8 +142,6 @@ class Speed(Bench):
             self.plan.row("searches", words, "M/s", figure, device=device, **named)
         row(f"{what}, bundles that meet a solid", "search:meeting", target=target,
             note="the function alone; the target is for AVX-512")
-        for name in ("primary", "missing", "mirrored", "inside", "solid_1", "solid_2", "solid_3"):
-            row(f"  {name.replace('_', ' ')}", f"search:{name}")
         for count in LIGHT_VIEWS:
             row(f"  direct light alone, {count} lights, pairs a CPU-second", f"light:lights-{count}")
 
