@@ -107,7 +107,7 @@ expect_same one/3.png two/003.png
 if command -v python3 >"$logs/which"; then
     expect_same <(texts one/3.png) - <<<"$expected"
     expect_exit 0 "$hedron" render --backend c --size 32x24 --frames 0 -o plain.png
-    texts plain.png | grep -q -x 'Scene: the built-in scene' || fail 'the built-in scene is not named'
+    [[ $'\n'$(texts plain.png)$'\n' == *$'\nScene: the built-in scene\n'* ]] || fail 'the built-in scene is not named'
 else
     echo "not tested: the texts of a PNG, for there is no python3"
 fi

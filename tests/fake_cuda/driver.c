@@ -26,6 +26,8 @@ static const struct {
     {HD_CU_ERROR_OUT_OF_MEMORY, "CUDA_ERROR_OUT_OF_MEMORY", "out of memory"},
     {HD_CU_ERROR_NO_DEVICE, "CUDA_ERROR_NO_DEVICE", "no CUDA-capable device is detected"},
     {HD_CU_ERROR_UNKNOWN, "CUDA_ERROR_UNKNOWN", "unknown error"},
+    {(HdCuResult)FAKE_NO_BINARY_FOR_GPU, "CUDA_ERROR_NO_BINARY_FOR_GPU",
+     "no kernel image is available for execution on the device"},
     {0, "CUDA_ERROR_FAKE", "told to fail"},
 };
 

@@ -88,6 +88,29 @@ static void expect_failure(HdAtomicFile *file, const char *message) {
     hd_atomic_file_discard(file);
 }
 
+static bool
+    was_there[2]; /* what had the final name when the file, and when its folder, was synced */
+static int syncs;
+
+static int note_sync(int descriptor) {
+    was_there[syncs++ % 2] = access("lasting", F_OK) == 0;
+    return real_fsync(descriptor);
+}
+REPLACE(fsync, note_sync)
+
+/* The bytes are on the disk before the name is. */
+TEST(only_what_is_to_last_is_synced) {
+    HdAtomicFile file;
+    syncs = 0;
+    assert_int_equal(hd_atomic_file_open(&file, "fleeting", &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_FLEETING, &error), HD_OK);
+    assert_int_equal(syncs, 0);
+    assert_int_equal(hd_atomic_file_open(&file, "lasting", &error), HD_OK);
+    assert_int_equal(hd_atomic_file_commit(&file, HD_DURABLE, &error), HD_OK);
+    assert_int_equal(syncs, 2);
+    assert_true(!was_there[0] && was_there[1]);
+}
+
 TEST(a_write_that_failed_leaves_the_old_file) {
     HdAtomicFile file;
     struct stat found;

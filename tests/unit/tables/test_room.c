@@ -64,6 +64,14 @@ static HdScene scene_with_meshes(void) {
     return scene;
 }
 
+TEST(every_table_has_a_name) {
+    for (int i = 0; i < HD_SCENE_TABLE_COUNT; i++) {
+        assert_non_null(hd_scene_table_content(i));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(hd_scene_table_content(i), hd_scene_table_content(k));
+    }
+}
+
 /* What the meshes claim to have is never read. */
 TEST(a_scene_may_be_too_large_for_the_machine) {
     enum { MANY = 1000 };
