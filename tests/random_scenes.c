@@ -11,7 +11,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "certify/random_test.h"
+#include "verify/random_test.h"
 #include "options.h"
 #include "system/machine.h"
 

@@ -6,7 +6,7 @@
 #include "choice/candidates.h"
 #include "cli/options.h"
 #include "input/scene_file.h"
-#include "render/sequence.h"
+#include "run/sequence.h"
 
 typedef struct HdRendering {
     const char *name; /* of the scene, for people */

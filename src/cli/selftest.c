@@ -6,7 +6,7 @@
 #include <time.h>
 
 #include "base/text.h"
-#include "certify/certificate.h"
+#include "verify/certificate.h"
 #include "choice/candidates.h"
 #include "cli/commands.h"
 #include "input/json/json_device_text.h"

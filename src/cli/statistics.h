@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "device/renderer.h"
-#include "render/sequence.h"
+#include "run/sequence.h"
 #include "scene/scene.h"
 #include "system/path.h"
 

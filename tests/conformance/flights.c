@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "certify/golden_scenes.h"
+#include "verify/golden_scenes.h"
 #include "image/picture.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };

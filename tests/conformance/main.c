@@ -27,7 +27,7 @@
 
 #include "../options.h"
 #include "base/hash.h"
-#include "certify/golden.h"
+#include "verify/golden.h"
 #include "device/renderer.h"
 #include "flights.h"
 #include "image/picture.h"

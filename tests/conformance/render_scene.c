@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "certify/render_scene.h"
+#include "verify/render_scene.h"
 #include "input/check.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {

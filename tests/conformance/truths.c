@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "certify/scene_builder.h"
+#include "verify/scene_builder.h"
 
 HdFrame render(const Check *check, const HdScene *scene, const HdCamera *camera) {
     return render_scene(check->target, scene, camera, "truths");

@@ -2,7 +2,7 @@
 /* What the eye's rays meet first: depth, normal, number and coverage. */
 #include <math.h>
 
-#include "certify/scene_builder.h"
+#include "verify/scene_builder.h"
 #include "truths.h"
 
 enum { WIDTH = 37, HEIGHT = 29, SIDE = 3 };

@@ -3,7 +3,7 @@
    never hide what is before them. Rays that are aimed at random tell none of it. */
 #include <math.h>
 
-#include "certify/scene_builder.h"
+#include "verify/scene_builder.h"
 #include "truths.h"
 
 /* Between mirrors that glow alike, the radiance is a geometric series, whatever the ray does. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/trigonometry.h"
-#include "certify/scene_builder.h"
+#include "verify/scene_builder.h"
 #include "scene/camera.h"
 #include "scene/triangulate/scene.h"
 #include "truths.h"

@@ -2,7 +2,7 @@
 /* Total reflection. */
 #include <math.h>
 
-#include "certify/scene_builder.h"
+#include "verify/scene_builder.h"
 #include "scene/camera.h"
 #include "truths.h"
 

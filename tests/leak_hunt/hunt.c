@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "../../scenes/models/random.h"
-#include "certify/mesh_builder.h"
-#include "certify/scene_builder.h"
+#include "verify/mesh_builder.h"
+#include "verify/scene_builder.h"
 #include "hunt_skins.h"
 #include "scene/platonic.h"
 

@@ -15,7 +15,7 @@
 
 #include "../conformance/render_scene.h"
 #include "../options.h"
-#include "certify/render_scene.h"
+#include "verify/render_scene.h"
 #include "hunt.h"
 #include "input/check.h"
 

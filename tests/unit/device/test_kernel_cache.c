@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "device/kernel_cache.h"
 
-#include "certify/render_scene.h"
+#include "verify/render_scene.h"
 #include "device/self_test_scenes.h"
 #include "device/verdict.h"
 #include "fake_backend.h"

@@ -3,7 +3,7 @@
    wants it any more. */
 #include "base/watch.h"
 
-#include "certify/render_scene.h"
+#include "verify/render_scene.h"
 #include "device/self_test_scenes.h"
 #include "render/adaptive.h"
 #include "scene/camera.h"

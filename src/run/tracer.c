@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: MIT */
+#include "run/tracer.h"
+
+#include "render/adaptive.h"
+#include "scene/camera.h"
+#include "system/interrupt.h"
+#include "system/machine.h"
+
+/* A frame that the renderer works on. */
+typedef struct Flight {
+    int place; /* in the list */
+    HdFrameTables tables;
+    HdSpan prepare;
+    double begun; /* seconds since the start of the run */
+} Flight;
+
+typedef struct Tracer {
+    const HdTracerJob *job;
+    int number;
+    HdRenderer *renderer;
+    HdRefinement *refinement; /* NULL: the scene is not surveyed */
+    int begun, ended;         /* frames so far */
+    Flight flights[HD_FRAMES_IN_FLIGHT];
+    double traced;   /* when the last frame's tracing was over */
+    double finished; /* when the last frame was */
+} Tracer;
+
+static double seconds_since_start(const Tracer *tracer) {
+    return hd_monotonic_seconds() - tracer->job->start;
+}
+
+static Flight *flight_of(Tracer *tracer, int count) {
+    return &tracer->flights[count % HD_FRAMES_IN_FLIGHT];
+}
+
+static int in_flight(const Tracer *tracer) {
+    return tracer->begun - tracer->ended;
+}
+
+/* A surveyed frame is made of several, which are waited for one after the other. */
+static bool has_room(const Tracer *tracer) {
+    return in_flight(tracer) < (tracer->refinement != NULL ? 1 : HD_FRAMES_IN_FLIGHT);
+}
+
+static HdStatus submit(Tracer *tracer, Flight *flight, const HdCamera *camera, HdError *error) {
+    const HdTracerJob *job = tracer->job;
+    HdStatus status = hd_compile_frame(&flight->tables, job->scene, camera, job->precision, error);
+    if (status != HD_OK)
+        return status;
+    flight->tables.watched = (HdWatched){job->watch, HD_WATCH_FRAME};
+    flight->prepare.seconds = seconds_since_start(tracer) - flight->begun;
+    status = hd_renderer_submit(tracer->renderer, &flight->tables, &job->wish, error);
+    if (status != HD_OK)
+        hd_frame_tables_free(&flight->tables);
+    return status;
+}
+
+/* On failure the frame is not begun; the earlier ones are still under way. */
+static HdStatus begin(Tracer *tracer, int place, HdError *error) {
+    const HdTracerJob *job = tracer->job;
+    Flight *flight = flight_of(tracer, tracer->begun);
+    double now = seconds_since_start(tracer);
+    HdCamera camera;
+    *flight = (Flight){.place = place, .prepare = {.began = now}, .begun = now};
+    HdStatus status = HD_OK;
+    if (tracer->refinement == NULL) {
+        status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
+        if (status == HD_OK)
+            status = submit(tracer, flight, &camera, error);
+    }
+    if (status == HD_OK)
+        tracer->begun++;
+    return status;
+}
+
+/* Frames are traced one after the other. One that was waited for as long as its tracing took was
+   traced then; another one as soon as the device could. What a device says by its own clock may not
+   agree with ours to the last digit. */
+static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
+                       double trace_seconds, HdFrameTimes *times) {
+    double now = seconds_since_start(tracer);
+    double prepared = flight->prepare.began + flight->prepare.seconds;
+    double began = prepared > tracer->traced ? prepared : tracer->traced;
+    if (now - waited_from >= trace_seconds)
+        began = waited_from;
+    tracer->traced = began + trace_seconds < now ? began + trace_seconds : now;
+    double rest_from = tracer->traced > waited_from ? tracer->traced : waited_from;
+    times->prepare = flight->prepare;
+    times->trace = (HdSpan){began, trace_seconds};
+    times->copy = (HdSpan){rest_from, now - rest_from};
+}
+
+static HdStatus collect(Tracer *tracer, Flight *flight, HdFrame *frame, HdFrameTimes *times,
+                        HdError *error) {
+    double waited_from = seconds_since_start(tracer);
+    HdStatus status = hd_renderer_collect(tracer->renderer, frame, error);
+    if (status == HD_OK && frame->first != NULL)
+        status = hd_renderer_first_hits(tracer->renderer, &flight->tables, frame, error);
+    hd_frame_fill_samples(frame, flight->tables.samples);
+    hd_frame_tables_free(&flight->tables);
+    if (status == HD_OK)
+        note_times(tracer, flight, waited_from, frame->trace_seconds, times);
+    return status;
+}
+
+static HdStatus refine(Tracer *tracer, const Flight *flight, HdFrame *frame, HdFrameTimes *times,
+                       HdError *error) {
+    const HdTracerJob *job = tracer->job;
+    double began = seconds_since_start(tracer);
+    HdCamera camera;
+    HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[flight->place], error);
+    double prepared = seconds_since_start(tracer);
+    if (status == HD_OK)
+        status = hd_refinement_render(tracer->refinement, &camera, job->watch, frame, error);
+    if (status == HD_OK) {
+        times->prepare = (HdSpan){began, prepared - began};
+        times->trace = (HdSpan){prepared, frame->trace_seconds};
+    }
+    return status;
+}
+
+/* Fills the oldest frame under way, which it stays. */
+static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
+    Flight *flight = flight_of(tracer, tracer->ended);
+    HdFrameTimes *times;
+    HdFrame *frame =
+        hd_frame_store_frame(tracer->job->store, flight->place, tracer->number, &times);
+    HdStatus status = tracer->refinement != NULL ? refine(tracer, flight, frame, times, error)
+                                                 : collect(tracer, flight, frame, times, error);
+    if (status == HD_OK)
+        times->longest_launch = hd_renderer_take_longest_launch(tracer->renderer);
+    if (status == HD_OK && hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted between two frames");
+    return status;
+}
+
+static void give_oldest(Tracer *tracer) {
+    const Flight *flight = flight_of(tracer, tracer->ended++);
+    double now = seconds_since_start(tracer);
+    double from = flight->begun > tracer->finished ? flight->begun : tracer->finished;
+    tracer->finished = now;
+    hd_turns_finished(tracer->job->turns, tracer->number, now - from, hd_monotonic_seconds());
+    hd_stages_give(tracer->job->stages, flight->place);
+}
+
+static void give_all_back(Tracer *tracer) {
+    hd_renderer_drop(tracer->renderer);
+    for (; tracer->ended < tracer->begun; tracer->ended++) {
+        Flight *flight = flight_of(tracer, tracer->ended);
+        hd_frame_tables_free(&flight->tables);
+        hd_turns_given_back(tracer->job->turns, tracer->number, hd_monotonic_seconds());
+        hd_stages_give_back(tracer->job->stages, flight->place);
+    }
+}
+
+/* Whether the store is told of what failed, for no device would do better. */
+static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *error) {
+    if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->renderer))
+        return false;
+    hd_stages_fail(tracer->job->stages, place, error);
+    return true;
+}
+
+/* Once the store wants the oldest frame no more, another tracer may still fail at an earlier one,
+   which is then to be taken. */
+static HdStatus finish_oldest(Tracer *tracer, HdError *error) {
+    int place = flight_of(tracer, tracer->ended)->place;
+    HdStatus status = HD_OK;
+    bool is_wanted = hd_stages_wait(tracer->job->stages, place);
+    if (is_wanted)
+        status = fill_oldest(tracer, error);
+    if (is_wanted && status == HD_OK) {
+        give_oldest(tracer);
+        return HD_OK;
+    }
+    if (is_wanted && !is_told(tracer, place, status, error))
+        return status;
+    give_all_back(tracer);
+    return HD_OK;
+}
+
+static bool wants(void *context, int left) {
+    const Tracer *tracer = context;
+    return hd_turns_want(tracer->job->turns, tracer->number, left, hd_monotonic_seconds());
+}
+
+/* Negative: none now. A tracer alone begins frames before there is room for them. One of several
+   may be given an earlier frame than those it has begun, which others wait for: it begins what it
+   can finish. */
+static int take_frame(Tracer *tracer) {
+    const HdTaker taker = {
+        .wants = wants,
+        .context = tracer,
+        .ahead = tracer->job->turns->count == 1 ? HD_FRAMES_IN_FLIGHT : 0,
+    };
+    if (!has_room(tracer))
+        return -1;
+    return hd_stages_take(tracer->job->stages, &taker, in_flight(tracer) == 0);
+}
+
+static HdStatus begin_taken(Tracer *tracer, int place, HdError *error) {
+    HdStatus status = begin(tracer, place, error);
+    if (status == HD_OK)
+        hd_turns_begun(tracer->job->turns, tracer->number, hd_monotonic_seconds());
+    if (status == HD_OK || is_told(tracer, place, status, error))
+        return HD_OK;
+    hd_stages_give_back(tracer->job->stages, place);
+    return status;
+}
+
+/* Where the device takes no more, it may still finish what it has. */
+static HdStatus trace(Tracer *tracer, HdError *error) {
+    HdStatus status = HD_OK, beginning = HD_OK;
+    HdError of_beginning;
+    while (status == HD_OK) {
+        int place = beginning == HD_OK ? take_frame(tracer) : -1;
+        if (place >= 0)
+            beginning = begin_taken(tracer, place, &of_beginning);
+        else if (in_flight(tracer) > 0)
+            status = finish_oldest(tracer, error);
+        else
+            break;
+    }
+    give_all_back(tracer);
+    if (status != HD_OK || beginning == HD_OK)
+        return status;
+    *error = of_beginning;
+    return beginning;
+}
+
+HdStatus hd_trace_frames(const HdTracerJob *job, HdRenderer *renderer, int number,
+                         bool *is_fault_of_device, HdError *error) {
+    Tracer tracer = {.job = job, .renderer = renderer, .number = number};
+    HdStatus status = HD_OK;
+    if (hd_scene_is_surveyed(job->scene))
+        status = hd_refinement_create(&tracer.refinement, job->scene, renderer, job->precision,
+                                      job->wish.curve, error);
+    *is_fault_of_device = status != HD_INTERRUPTED;
+    if (status != HD_OK)
+        return status;
+    status = trace(&tracer, error);
+    *is_fault_of_device = status != HD_INTERRUPTED && hd_renderer_has_failed(renderer);
+    hd_refinement_free(tracer.refinement);
+    return status;
+}

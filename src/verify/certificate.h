@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* What was tested of a device by this program, and what came of it. */
+#ifndef HD_VERIFY_CERTIFICATE_H
+#define HD_VERIFY_CERTIFICATE_H
+
+#include "device/probe.h"
+#include "device/renderer.h"
+
+typedef enum HdVerdict {
+    HD_VERDICT_RIGHT,   /* it computes rightly, if need be with division by fma */
+    HD_VERDICT_WRONG,   /* the first difference is told */
+    HD_VERDICT_UNTESTED /* it cannot be used, or failed; the reason is told */
+} HdVerdict;
+
+/* As in a certificate, by HdVerdict. */
+extern const char *const hd_verdict_names[];
+
+typedef struct HdCertificateTest {
+    char name[96]; /* "arithmetic in float" */
+    int tuples;    /* of operands; 0: it renders frames */
+    int frames;    /* golden ones; 0: it tests something else */
+    bool by_fma;   /* division and roots are made of fma */
+    uint64_t hash; /* of the results */
+    HdVerdict verdict;
+    char reason[2048]; /* of any other than HD_VERDICT_RIGHT */
+    double seconds;
+} HdCertificateTest;
+
+enum { HD_CERTIFICATE_TESTS = 24 };
+
+typedef struct HdCertificate {
+    HdDevice device;
+    char compiler[96]; /* of its kernels; "" where the driver does not tell or they are built in */
+    HdCertificateTest tests[HD_CERTIFICATE_TESTS];
+    int test_count;
+    HdVerdict verdict; /* of all: wrong where one is, untested where one is or there is none */
+    double seconds;
+    int64_t time;  /* of its end, in seconds since 1970 */
+    uint64_t hash; /* of all but the times: the same for the same device, driver and program */
+} HdCertificate;
+
+typedef enum HdTestEffort {
+    HD_TEST_WHOLE, /* HD_PROBE_WHOLE tuples, kernels of every kind, all golden frames */
+    HD_TEST_QUICK, /* HD_PROBE_QUICK tuples, one kind, small golden frames */
+    HD_TEST_DEEP   /* the whole, and random scenes beside plain C (random_test.h) */
+} HdTestEffort;
+
+/* Tests a device, whatever is remembered of it, in float and, where it has it, in double: the
+   arithmetic probe of kernels that are compiled, then the frames of the self-test and the golden
+   frames. What is found of the arithmetic is remembered. Fails with HD_INTERRUPTED only; other
+   failures are a part of the certificate. */
+HdStatus hd_certify(HdCertificate *certificate, const HdDevice *device, HdTestEffort effort,
+                    HdError *error);
+
+#endif

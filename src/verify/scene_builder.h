@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* Short ways to make the scenes of the golden frames and of the conformance suite. For want of
+   memory they end the program: see hd_golden_build. */
+#ifndef HD_VERIFY_SCENE_BUILDER_H
+#define HD_VERIFY_SCENE_BUILDER_H
+
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+/* An empty scene with room for solids and lights; the caller frees it. */
+void build_scene(HdScene *scene, int width, int height, int samples, int depth, int solids,
+                 int lights);
+
+/* Somewhat diffuse and specular, reflecting and transmitting as told. */
+HdMaterial build_material(HdVec3 colour, double reflection, double transmission);
+
+/* Reflection 0.6, transmission 0.35, a rim and edge lights. */
+void build_solid(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
+                 HdVec3 colour, int lights_per_edge);
+
+/* Without a rim, edge lights and reflection. */
+void build_glass(HdScene *scene, int index, HdSolidKind kind, HdVec3 centre, double radius,
+                 double grey, double transmission);
+void build_light(HdScene *scene, int index, HdVec3 position, HdVec3 intensity);
+void build_floor(HdScene *scene, HdVec3 a, HdVec3 b, HdVec3 c, HdVec3 d);
+void build_square_floor(HdScene *scene, double half_side, double z);
+void build_texture(HdTexture *texture, int width, int height);
+
+/* Looks from `eye` at `target`, z up. */
+void build_camera(HdCamera *camera, HdVec3 eye, HdVec3 target, double field_of_view_degrees);
+
+#endif
