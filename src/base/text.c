@@ -3,6 +3,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,6 +111,20 @@ void hd_short_number(double value, char out[HD_NUMBER_SIZE]) {
 
 const char *hd_plural(int count) {
     return count == 1 ? "" : "s";
+}
+
+/* ---- texts of several parts ---- */
+
+void hd_add_text(char *text, size_t size, const char *separator, const char *format, ...) {
+    va_list arguments;
+    size_t length = strlen(text);
+    if (length > 0)
+        length += (size_t)snprintf(text + length, size - length, "%s", separator);
+    if (length >= size)
+        return;
+    va_start(arguments, format);
+    vsnprintf(text + length, size - length, format, arguments);
+    va_end(arguments);
 }
 
 /* ---- names ---- */

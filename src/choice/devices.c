@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "choice/fastest_device.h"
+#include "base/text.h"
 #include "system/machine.h"
 
 void hd_close_devices(HdDeviceTeam *team) {
     for (; team->count > 0; team->count--)
-        hd_launch_close(&team->list[team->count - 1]);
+        hd_team_device_close(&team->list[team->count - 1]);
 }
 
 /* ---- one ---- */
@@ -55,7 +55,7 @@ static HdStatus open_one(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *
     team->note[0] = team->why[0] = '\0';
     HdStatus status = hd_candidates_find(&candidates, wish, error);
     if (status == HD_OK)
-        status = hd_fastest_open(&candidates, &team->list[team->count], error);
+        status = hd_candidates_open(&candidates, &team->list[team->count], error);
     if (status != HD_OK)
         return status;
     team->count++;
@@ -155,15 +155,14 @@ static HdStatus add_device(HdDeviceTeam *team, const HdDevice *device, const HdD
     if (obstacle == NULL) {
         HdTeamDevice *member = &team->list[team->count];
         *member = (HdTeamDevice){.device = *device};
-        HdStatus status = hd_launch_open(member, &own, wish->job, false, error);
+        HdStatus status = hd_team_device_open(member, &own, wish->job, false, error);
         team->count += status == HD_OK;
         if (status == HD_OK || status == HD_INTERRUPTED)
             return status;
         obstacle = error->message;
     }
-    size_t length = strlen(team->note);
-    snprintf(team->note + length, sizeof team->note - length, "%s%s:%d (%s) is left out: %s",
-             length > 0 ? "; " : "", device->backend->name, device->index, device->name, obstacle);
+    hd_add_text(team->note, sizeof team->note, "; ", "%s:%d (%s) is left out: %s",
+                device->backend->name, device->index, device->name, obstacle);
     return HD_OK;
 }
 

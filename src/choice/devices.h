@@ -13,7 +13,7 @@ typedef struct HdDeviceTeam {
 } HdDeviceTeam;
 
 /* Opens a device that can do what the wish's options ask: the best candidate (candidates.h), or,
-   where nobody named one, the fastest (fastest_device.h): among GPUs where one is preferred, else
+   where nobody named one, the fastest (hd_candidates_open): among GPUs where one is preferred, else
    among GPUs and plain C. Where a GPU was preferred, no backend was named and there is none, a note
    says so in a sentence.
 

@@ -5,7 +5,6 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "choice/trial.h"
 #include "run/tracer.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
@@ -100,15 +99,16 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
         .first_frame = missing->frames[0],
         .frame_count = missing->count,
     };
-    double seconds;
+    const HdTrialWish wish = hd_trial_estimates(0.0);
+    HdTrial trial;
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), sequence->precision, &job, 0.0,
-                                           &seconds, error);
+    HdStatus status =
+        hd_trial(renderer_of(run, number), sequence->precision, &job, &wish, &trial, error);
     if (status != HD_OK)
         return status;
-    hd_turns_estimate(&run->turns, number, seconds);
+    hd_turns_estimate(&run->turns, number, trial.frame_seconds);
     hd_stages_ask_again(run->job.stages);
     return HD_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "choice/tuning.h"
+#include "choice/tune.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,67 +12,58 @@ typedef struct Tuner {
     const HdDevice *device;
     const HdRenderOptions *options;
     const HdJob *job;
-    double share; /* of a frame's pixels, for all candidates; 0: not known yet */
-    int times;    /* that the picture is rendered for a candidate */
+    HdTrialWish how; /* for all candidates; a share of 0: not known yet */
 } Tuner;
 
 /* ---- one candidate ---- */
 
-/* As much of the frame as takes a fifth of a second. Renders everything twice: the first time some
-   drivers are still compiling. */
+/* As much of the frame as takes a fifth of a second: four times as many pixels must not take much
+   longer than that. Everything is rendered twice: the first time some drivers are still compiling.
+ */
 static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
-    const double first_samples = 4096.0, picture_seconds = 0.2, all_seconds = 0.5;
+    const double picture_seconds = 0.2, all_seconds = 0.5;
     const int least_times = 2, most_times = 40;
-    const HdScene *scene = tuner->job->scene;
-    double samples =
-        (double)scene->width * scene->height * scene->samples_per_side * scene->samples_per_side;
-    double share = fmin(1.0, first_samples / samples);
-    for (;;) {
-        HdTrialTime time;
-        HdStatus status = hd_trial_measure(renderer, tuner->options->precision, tuner->job, share,
-                                           2, &time, error);
-        if (status != HD_OK)
-            return status;
-        tuner->share = share;
-        tuner->times = (int)fmax(least_times, fmin(most_times, all_seconds / time.seconds));
-        /* Four times as many pixels must not take much longer than that. */
-        if (share >= 1.0 || time.seconds > picture_seconds / 4.0)
-            return HD_OK;
-        share = fmin(1.0, 4.0 * share);
-    }
-}
-
-static HdStatus measure(Tuner *tuner, const HdLaunch *launch, HdTrialTime *time, HdError *error) {
-    HdRenderOptions options = hd_launch_options(tuner->options, launch);
-    HdRenderer *renderer;
-    HdStatus status = hd_trial_open(&renderer, tuner->device, &options, tuner->job, error);
+    const HdTrialWish wish = {.believed = picture_seconds / 4.0, .times = 2};
+    HdTrial trial;
+    HdStatus status =
+        hd_trial(renderer, tuner->options->precision, tuner->job, &wish, &trial, error);
     if (status != HD_OK)
         return status;
-    if (tuner->share <= 0.0)
+    tuner->how.share = trial.share;
+    tuner->how.times = (int)fmax(least_times, fmin(most_times, all_seconds / trial.seconds));
+    return HD_OK;
+}
+
+static HdStatus measure(Tuner *tuner, const HdRenderOptions *options, HdTrial *trial,
+                        HdError *error) {
+    HdRenderer *renderer;
+    HdStatus status = hd_trial_open(&renderer, tuner->device, options, tuner->job, error);
+    if (status != HD_OK)
+        return status;
+    if (tuner->how.share <= 0.0)
         status = find_share(tuner, renderer, error);
     if (status == HD_OK)
-        status = hd_trial_measure(renderer, options.precision, tuner->job, tuner->share,
-                                  tuner->times, time, error);
+        status = hd_trial(renderer, options->precision, tuner->job, &tuner->how, trial, error);
     hd_renderer_close(renderer);
     return status;
 }
 
-static HdStatus try(Tuner *tuner, const HdLaunch *launch, HdError *error) {
+static HdStatus try(Tuner *tuner, const HdRenderOptions *options, HdError *error) {
     HdTuning *tuning = tuner->tuning;
-    HdTrialTime time = {0};
+    HdTrial trial = {0};
     if (tuning->count == HD_TUNING_CANDIDATES)
         return HD_OK;
-    HdStatus status = measure(tuner, launch, &time, error);
+    HdStatus status = measure(tuner, options, &trial, error);
     bool is_first = tuning->count == 0;
     if (status != HD_OK && (is_first || status == HD_INTERRUPTED || status == HD_BAD_INPUT))
         return status;
     HdTuningCandidate *candidate = &tuning->candidates[tuning->count];
-    *candidate = (HdTuningCandidate){.launch = *launch, .seconds = time.trace_seconds};
+    *candidate = (HdTuningCandidate){.options = *options, .seconds = trial.trace_seconds};
     if (status != HD_OK)
         snprintf(candidate->failure, sizeof candidate->failure, "%.511s", error->message);
     if (is_first) {
-        tuning->width = time.width;
-        tuning->height = time.height;
+        tuning->width = trial.width;
+        tuning->height = trial.height;
     }
     tuning->count++;
     return HD_OK;
@@ -97,13 +88,13 @@ static HdStatus measure_again(Tuner *tuner, HdError *error) {
     double limit = near * tuning->candidates[tuning->best].seconds;
     for (int i = 0; i < tuning->count; i++) {
         HdTuningCandidate *candidate = &tuning->candidates[i];
-        HdTrialTime time;
+        HdTrial trial;
         if (candidate->failure[0] != '\0' || candidate->seconds > limit)
             continue;
-        HdStatus status = measure(tuner, &candidate->launch, &time, error);
+        HdStatus status = measure(tuner, &candidate->options, &trial, error);
         if (status != HD_OK)
             return status;
-        candidate->seconds = fmin(candidate->seconds, time.trace_seconds);
+        candidate->seconds = fmin(candidate->seconds, trial.trace_seconds);
     }
     return HD_OK;
 }
@@ -121,28 +112,28 @@ static HdStatus choose(Tuner *tuner, HdError *error) {
 
 /* ---- all of them ---- */
 
-static HdLaunch best_so_far(const Tuner *tuner) {
-    return tuner->tuning->candidates[tuner->tuning->best].launch;
+static HdRenderOptions best_so_far(const Tuner *tuner) {
+    return tuner->tuning->candidates[tuner->tuning->best].options;
 }
 
 /* The launch with each of the values for one of its members. */
-static HdStatus try_each(Tuner *tuner, HdLaunch *launch, int *member, const int *values, int count,
-                         HdError *error) {
+static HdStatus try_each(Tuner *tuner, HdRenderOptions *options, int *member, const int *values,
+                         int count, HdError *error) {
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && i < count; i++) {
         *member = values[i];
-        status = try(tuner, launch, error);
+        status = try(tuner, options, error);
     }
     return status;
 }
 
 static HdStatus try_pipeline(Tuner *tuner, HdPipeline pipeline, HdError *error) {
     static const int limits[] = {64, 96, 128, 168};
-    HdLaunch launch = hd_launch_of(tuner->options);
-    launch.pipeline = pipeline;
-    HdStatus status = try(tuner, &launch, error);
+    HdRenderOptions options = *tuner->options;
+    options.pipeline = pipeline;
+    HdStatus status = try(tuner, &options, error);
     if (status == HD_OK && tuner->device->nvidia_arch > 0 && tuner->options->registers == 0)
-        status = try_each(tuner, &launch, &launch.registers, limits, 4, error);
+        status = try_each(tuner, &options, &options.registers, limits, 4, error);
     return status;
 }
 
@@ -168,28 +159,28 @@ static HdStatus try_lanes(Tuner *tuner, HdError *error) {
     int most = tuner->device->most_lanes[tuner->options->precision];
     while (most > 0 && lanes[count - 1] > most)
         count--;
-    HdLaunch launch = best_so_far(tuner);
+    HdRenderOptions options = best_so_far(tuner);
     return tuner->options->lanes == 0
-               ? try_each(tuner, &launch, &launch.lanes, lanes + 1, count - 1, error)
+               ? try_each(tuner, &options, &options.lanes, lanes + 1, count - 1, error)
                : HD_OK;
 }
 
 static HdStatus try_blocks(Tuner *tuner, HdError *error) {
     static const int blocks[] = {64, 128, 256};
-    HdLaunch launch = best_so_far(tuner);
-    return tuner->options->block == 0 ? try_each(tuner, &launch, &launch.block, blocks, 3, error)
+    HdRenderOptions options = best_so_far(tuner);
+    return tuner->options->block == 0 ? try_each(tuner, &options, &options.block, blocks, 3, error)
                                       : HD_OK;
 }
 
 /* A few groups for each compute unit, which then take one item after the other. */
 static HdStatus try_grids(Tuner *tuner, HdError *error) {
     static const int groups_per_unit[] = {8, 32};
-    HdLaunch launch = best_so_far(tuner);
+    HdRenderOptions options = best_so_far(tuner);
     HdStatus status = HD_OK;
     for (int i = 0; status == HD_OK && tuner->options->grid == 0 && i < 2; i++) {
-        launch.grid = groups_per_unit[i] * tuner->device->compute_units;
-        if (launch.grid > 0 && launch.grid <= HD_MAX_GRID)
-            status = try(tuner, &launch, error);
+        options.grid = groups_per_unit[i] * tuner->device->compute_units;
+        if (options.grid > 0 && options.grid <= HD_MAX_GRID)
+            status = try(tuner, &options, error);
     }
     return status;
 }
@@ -209,4 +200,12 @@ HdStatus hd_tune(HdTuning *tuning, const HdDevice *device, const HdRenderOptions
             status = choose(&tuner, error);
     }
     return status;
+}
+
+HdStatus hd_tuning_remember(const HdTuning *tuning, const HdDevice *device,
+                            const HdRenderOptions *options, const HdScene *scene, HdError *error) {
+    const HdTuningCandidate *best = &tuning->candidates[tuning->best];
+    const HdTeamDevice measured = {
+        .device = *device, .options = best->options, .seconds = best->seconds};
+    return hd_measured_put(&measured, 1, options, scene, error);
 }

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Measures on the user's own scene which way of launching a device's kernels is the fastest. */
-#ifndef HD_CHOICE_TUNING_H
-#define HD_CHOICE_TUNING_H
+#ifndef HD_CHOICE_TUNE_H
+#define HD_CHOICE_TUNE_H
 
-#include "choice/launch.h"
-#include "choice/trial.h"
+#include "choice/measure.h"
 
 enum { HD_TUNING_CANDIDATES = 24 };
 
 typedef struct HdTuningCandidate {
-    HdLaunch launch;   /* its pipeline is not HD_PIPELINE_AUTO */
-    double seconds;    /* of tracing a picture, the least of several; 0: it failed */
-    char failure[512]; /* why it failed, else "" */
+    HdRenderOptions options; /* their pipeline is not HD_PIPELINE_AUTO */
+    double seconds;          /* of tracing a picture, the least of several; 0: it failed */
+    char failure[512];       /* why it failed, else "" */
 } HdTuningCandidate;
 
 typedef struct HdTuning {
@@ -29,5 +28,10 @@ typedef struct HdTuning {
    that takes less than a fifth of a second, else a smaller picture of it. */
 HdStatus hd_tune(HdTuning *tuning, const HdDevice *device, const HdRenderOptions *options,
                  const HdJob *job, HdError *error);
+
+/* Remembers the best for later jobs alike on such a device, with the same driver, that leave the
+   same open. Errors as hd_measured_put. */
+HdStatus hd_tuning_remember(const HdTuning *tuning, const HdDevice *device,
+                            const HdRenderOptions *options, const HdScene *scene, HdError *error);
 
 #endif

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Which jobs a measurement serves. */
 #define _XOPEN_SOURCE 700
-#include "choice/record.h"
+#include "choice/measure.h"
 
+#include "fake_backend.h"
 #include "test_folder.h"
 
 static HdError error;
+static HdTeamDevice devices[2];
 static HdRenderOptions options;
 static HdScene scene;
 static HdSolid solid;
@@ -16,6 +18,8 @@ static int begin(void **state) {
     (void)state;
     setenv("HEDRON_CACHE", "cache", 1);
     options = (HdRenderOptions){0};
+    for (int i = 0; i < 2; i++)
+        devices[i] = (HdTeamDevice){.device = fake_device(), .seconds = 0.5 + i};
     solid = (HdSolid){.kind = HD_TETRAHEDRON};
     for (int i = 0; i < 9; i++)
         lights[i] = (HdLight){.falloff.end = 1.0};
@@ -37,12 +41,12 @@ static int end(void **state) {
 }
 
 static void put(void) {
-    assert_int_equal(hd_record_put("test", &scene, &options, "", "x", &error), HD_OK);
+    assert_int_equal(hd_measured_put(devices, 1, &options, &scene, &error), HD_OK);
 }
 
 static void expect_alike(bool is_alike) {
-    char text[16];
-    assert_int_equal(hd_record_get("test", &scene, &options, "", text, sizeof text), is_alike);
+    HdTeamDevice found = {.device = devices[0].device};
+    assert_int_equal(hd_measured_get(&found, 1, &options, &scene), is_alike);
 }
 
 /* Remembered under one number, recalled under another: the powers of two that they are rounded up
@@ -95,8 +99,7 @@ TEST(endless_lights_and_the_floor_count) {
     expect_alike(false);
 }
 
-TEST(each_option_and_device_counts) {
-    char text[16], lines[3000];
+TEST(each_option_counts) {
     static const HdRenderOptions others[] = {{.precision = HD_PRECISION_DOUBLE},
                                              {.math = HD_MATH_FAST},
                                              {.pipeline = HD_PIPELINE_MEGA},
@@ -111,14 +114,21 @@ TEST(each_option_and_device_counts) {
         options = others[i];
         expect_alike(false);
     }
-    memset(lines, 'a', sizeof lines);
-    lines[sizeof lines - 1] = '\0';
-    assert_int_equal(hd_record_put("test", &scene, &options, lines, "x", &error), HD_OK);
-    assert_true(hd_record_get("test", &scene, &options, lines, text, sizeof text));
-    assert_string_equal(text, "x");
-    assert_false(hd_record_get("tests", &scene, &options, lines, text, sizeof text));
-    lines[sizeof lines - 2] = 'b';
-    assert_false(hd_record_get("test", &scene, &options, lines, text, sizeof text));
+}
+
+/* Not their numbers. */
+TEST(all_devices_count_by_name_and_driver) {
+    HdTeamDevice found[2] = {devices[0], devices[1]};
+    devices[1].options = (HdRenderOptions){.pipeline = HD_PIPELINE_WAVEFRONT, .block = 64};
+    devices[0].seconds = (double)INFINITY;
+    assert_int_equal(hd_measured_put(devices, 2, &options, &scene, &error), HD_OK);
+    found[0].device.index = 7;
+    assert_true(hd_measured_get(found, 2, &options, &scene));
+    assert_true(isinf(found[0].seconds) && found[1].seconds == 1.5);
+    assert_memory_equal(&found[1].options, &devices[1].options, sizeof options);
+    assert_false(hd_measured_get(found, 1, &options, &scene));
+    snprintf(found[1].device.driver, sizeof found[1].device.driver, "driver 8");
+    assert_false(hd_measured_get(found, 2, &options, &scene));
 }
 
 EACH(begin, end)
