@@ -27,17 +27,10 @@ HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int c
     return status;
 }
 
-HdStatus hd_backend_submit(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
-                           const HdFrameWish *wish, HdError *error) {
-    return backend->functions->submit != NULL
-               ? backend->functions->submit(renderer, tables, wish, error)
-               : HD_OK;
-}
-
 HdStatus hd_backend_render(const HdBackend *backend, void *renderer, const HdFrameTables *tables,
                            HdFrame *frame, HdError *error) {
     static const HdFrameWish radiance = {.radiance = true};
-    HdStatus status = hd_backend_submit(backend, renderer, tables, &radiance, error);
+    HdStatus status = backend->functions->submit(renderer, tables, &radiance, error);
     return status == HD_OK ? backend->functions->collect(renderer, tables, frame, error) : status;
 }
 

@@ -285,22 +285,13 @@ HdStatus hd_renderer_submit(HdRenderer *renderer, const HdFrameTables *tables,
         status = check_in_flight(renderer, HD_FRAMES_IN_FLIGHT - 1, "a frame was asked for", error);
     if (status != HD_OK)
         return status;
-    status = hd_backend_submit(renderer->backend, renderer->state, tables, wish, error);
+    status = renderer->backend->functions->submit(renderer->state, tables, wish, error);
     if (status != HD_OK)
         return note_failure(renderer, status, error);
     int place = renderer->in_flight++;
     renderer->flights[place].tables = tables;
     renderer->flights[place].wants_radiance = wish->radiance;
     return HD_OK;
-}
-
-static void note_longest_launch(HdRenderer *renderer) {
-    const HdBackend *backend = renderer->backend;
-    double seconds = backend->functions->longest_launch != NULL
-                         ? backend->functions->longest_launch(renderer->state)
-                         : -1.0;
-    if (seconds > renderer->longest_launch)
-        renderer->longest_launch = seconds;
 }
 
 double hd_renderer_take_longest_launch(HdRenderer *renderer) {
@@ -317,8 +308,8 @@ HdStatus hd_renderer_collect(HdRenderer *renderer, HdFrame *frame, HdError *erro
     if (status != HD_OK)
         return status;
     status = renderer->backend->functions->collect(renderer->state, tables, frame, error);
-    if (status == HD_OK)
-        note_longest_launch(renderer);
+    if (status == HD_OK && frame->longest_launch > renderer->longest_launch)
+        renderer->longest_launch = frame->longest_launch;
     renderer->in_flight--;
     for (int i = 0; i < renderer->in_flight; i++)
         renderer->flights[i] = renderer->flights[i + 1];
@@ -344,7 +335,7 @@ bool hd_renderer_has_failed(const HdRenderer *renderer) {
 }
 
 void hd_renderer_drop(HdRenderer *renderer) {
-    if (renderer->in_flight > 0 && renderer->backend->functions->drop != NULL)
+    if (renderer->in_flight > 0)
         renderer->backend->functions->drop(renderer->state);
     renderer->in_flight = 0;
 }
@@ -367,9 +358,7 @@ const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {
-    const HdKernelCache *kernels = kernels_of(renderer);
-    return kernels != NULL ? kernels->shape.lanes
-                           : renderer->backend->functions->lanes(renderer->state);
+    return renderer->backend->functions->lanes(renderer->state);
 }
 
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity) {

@@ -170,6 +170,10 @@ static void fake_probe_key(void *state, char *text, size_t capacity) {
                         "1", text, capacity);
 }
 
+static int fake_lanes(const void *state) {
+    return ((const FakeRenderer *)state)->kernels.shape.lanes;
+}
+
 static void fake_describe(const void *renderer, char *text, int capacity) {
     (void)renderer, (void)capacity;
     text[0] = '\0';
@@ -190,6 +194,7 @@ static const HdRendererFunctions fake_functions = {
     .kernels = fake_kernels,
     .probe = fake_probe,
     .probe_key = fake_probe_key,
+    .lanes = fake_lanes,
     .describe = fake_describe,
     .close = fake_close,
 };

@@ -6,7 +6,7 @@
 
 #include "device/cuda/compile.h"
 #include "device/cuda/ptx.h"
-#include "device/gpu/renderer.h"
+#include "device/gpu/driver.h"
 #include "system/machine.h"
 
 enum { BLOCK_THREADS = 128 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/gpu/flight.h"
+#include "device/gpu/gpu.h"
 
 #include <string.h>
 
@@ -159,7 +159,7 @@ static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gp
     if (status != HD_OK)
         return status;
     hd_gpu_flight_tell(flight, flight->items);
-    flights->longest_launch = flight->longest_launch;
+    frame->longest_launch = flight->longest_launch;
     frame->trace_seconds = seconds < 0.0 ? host_seconds(flights, flight) : seconds;
     frame->is_encoded = flight->encodes;
     memcpy(flight->encodes ? (void *)frame->rgba : (void *)frame->rgb,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "device/gpu/renderer.h"
+#include "device/gpu/driver.h"
 #include "device/opencl/devices.h"
 
 enum { GPU_GROUP_SIZE = 64, OPTIONS_LENGTH = 1024 };
