@@ -66,9 +66,9 @@ typedef struct HdRendererFunctions {
 
     /* Waits for the oldest frame under way, that of `tables`, which is so no longer in any case:
        fills every pixel as wished for at its submission, is_encoded, the counts, trace_seconds and
-       longest_launch of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then `frame` is worth
-       nothing. From its submission on the work is told to whom `tables` names, as it gets done, who
-       may end it as a signal does. */
+       longest_launch of `frame`. HD_INTERRUPTED where a signal came first (interrupt.h): then
+       `frame` is worth nothing. From its submission on the work is told to whom `tables` names, as
+       it gets done, who may end it as a signal does. */
     HdStatus (*collect)(void *renderer, const HdFrameTables *tables, HdFrame *frame,
                         HdError *error);
 
