@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/minmax.h"
 #include "base/text.h"
 
 /* ---- reasons ---- */
@@ -345,8 +346,7 @@ static int find_plain_c(const HdCandidates *candidates) {
 
 static HdStatus choose(HdCandidates *candidates, HdError *error) {
     candidates->best = -1;
-    if (candidates->compared > MAX_COMPARED)
-        candidates->compared = MAX_COMPARED;
+    candidates->compared = hd_lesser(candidates->compared, MAX_COMPARED);
     if (candidates->compared < 2)
         return HD_OK;
     if (recall(candidates)) {
@@ -367,7 +367,7 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
    scene must prove themselves first; those compiled ahead get it when it is rendered. */
 static HdStatus open_next(HdCandidates *candidates, HdError *error) {
     const HdDeviceWish *wish = &candidates->wish;
-    const int first = candidates->best >= 0 ? candidates->best : 0;
+    const int first = hd_greater(candidates->best, 0);
     const int tries = candidates->is_free ? candidates->count : 1;
     HdStatus status = HD_UNAVAILABLE;
     for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
 #include "base/text.h"
 #include "system/machine.h"
 
@@ -141,9 +142,8 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     int gpus = 0;
     for (int i = 0; i < team->count; i++)
         gpus += !team->list[i].device.is_cpu;
-    int left = hd_processor_count() - gpus;
     if (device->backend->uses_host_threads && own.threads == 0 && gpus > 0)
-        own.threads = left > 1 ? left : 1;
+        own.threads = hd_greater(hd_processor_count() - gpus, 1);
     return own;
 }
 

@@ -116,10 +116,14 @@ struct HdBackend {
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 
-enum { HD_BACKEND_COUNT = 3, HD_MAX_DEVICES = 64 };
+/* X(name): all backends, the best first; the last one is always there. */
+#define HD_BACKENDS(X) X(cuda) X(opencl) X(c)
 
-/* All backends, the best first: cuda, opencl, c. The last one is always there. */
-extern const HdBackend hd_backend_cuda, hd_backend_opencl, hd_backend_c;
+#define HD_BACKEND_DECLARED(name) extern const HdBackend hd_backend_##name;
+#define HD_BACKEND_COUNTED(name)  +1
+#define HD_BACKEND_ADDRESS(name)  &hd_backend_##name,
+enum { HD_BACKEND_COUNT = 0 HD_BACKENDS(HD_BACKEND_COUNTED), HD_MAX_DEVICES = 64 };
+HD_BACKENDS(HD_BACKEND_DECLARED)
 extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
 
 /* NULL where no backend has that name. */

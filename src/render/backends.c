@@ -4,8 +4,7 @@
 
 #include "device/backend.h"
 
-const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {&hd_backend_cuda, &hd_backend_opencl,
-                                                        &hd_backend_c};
+const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {HD_BACKENDS(HD_BACKEND_ADDRESS)};
 
 const HdBackend *hd_backend_find(const char *name) {
     for (int i = 0; i < HD_BACKEND_COUNT; i++)

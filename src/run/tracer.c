@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "run/tracer.h"
 
+#include <math.h>
+
 #include "render/adaptive.h"
 #include "scene/camera.h"
 #include "system/interrupt.h"
@@ -80,11 +82,11 @@ static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
                        double trace_seconds, HdFrameTimes *times) {
     double now = seconds_since_start(tracer);
     double prepared = flight->prepare.began + flight->prepare.seconds;
-    double began = prepared > tracer->traced ? prepared : tracer->traced;
+    double began = fmax(prepared, tracer->traced);
     if (now - waited_from >= trace_seconds)
         began = waited_from;
-    tracer->traced = began + trace_seconds < now ? began + trace_seconds : now;
-    double rest_from = tracer->traced > waited_from ? tracer->traced : waited_from;
+    tracer->traced = fmin(began + trace_seconds, now);
+    double rest_from = fmax(tracer->traced, waited_from);
     times->prepare = flight->prepare;
     times->trace = (HdSpan){began, trace_seconds};
     times->copy = (HdSpan){rest_from, now - rest_from};
@@ -137,9 +139,9 @@ static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
 static void give_oldest(Tracer *tracer) {
     const Flight *flight = flight_of(tracer, tracer->ended++);
     double now = seconds_since_start(tracer);
-    double from = flight->begun > tracer->finished ? flight->begun : tracer->finished;
+    double taken = now - fmax(flight->begun, tracer->finished);
     tracer->finished = now;
-    hd_turns_finished(tracer->job->turns, tracer->number, now - from, hd_monotonic_seconds());
+    hd_turns_finished(tracer->job->turns, tracer->number, taken, hd_monotonic_seconds());
     hd_stages_give(tracer->job->stages, flight->place);
 }
 

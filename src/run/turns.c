@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "run/turns.h"
 
+#include <math.h>
+
 static bool awaits_gpu(const HdTurn *list, int count) {
     for (int i = 0; i < count; i++)
         if (!list[i].is_gone && !list[i].is_cpu && list[i].seconds <= 0.0)
@@ -11,8 +13,7 @@ static bool awaits_gpu(const HdTurn *list, int count) {
 
 /* When a tracer has finished so many frames more. */
 static double end_of(const HdTurn *turn, int more, double now) {
-    double from = turn->busy_until > now ? turn->busy_until : now;
-    return from + more * turn->seconds;
+    return fmax(turn->busy_until, now) + more * turn->seconds;
 }
 
 /* Who finishes another frame first, if each has taken as many as `taken` says: -1: nobody. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "device/gpu/gpu.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "kernels/host/shared.h"
@@ -116,8 +117,7 @@ HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, c
     if (status != HD_OK || seconds < 0.0)
         return status;
     hd_launch_size_note(&flights->size, flight->work, seconds);
-    if (seconds > flight->longest_launch)
-        flight->longest_launch = seconds;
+    flight->longest_launch = fmax(seconds, flight->longest_launch);
     return HD_OK;
 }
 
@@ -142,8 +142,7 @@ HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const Hd
 
 /* Where the device does not tell, what the host sees: frames are traced one after the other. */
 static double host_seconds(const HdGpuFlights *flights, const HdGpuFlight *flight) {
-    double from = flight->submitted > flights->collected ? flight->submitted : flights->collected;
-    return hd_monotonic_seconds() - from;
+    return hd_monotonic_seconds() - fmax(flight->submitted, flights->collected);
 }
 
 static HdStatus fill(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu, HdFrame *frame,

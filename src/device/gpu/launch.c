@@ -2,6 +2,7 @@
 /* The launches of a frame. */
 #include <string.h>
 
+#include "base/minmax.h"
 #include "device/gpu/gpu.h"
 #include "kernels/host/shared.h"
 #include "system/interrupt.h"
@@ -43,7 +44,7 @@ static HdGpuLaunch tracing_of(const HdGpuRenderer *renderer, HdKernel kernel) {
 static int group_count(const HdGpuRenderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
     bool is_limited = renderer->has_groups && renderer->options.grid > 0;
-    return is_limited && groups > renderer->options.grid ? renderer->options.grid : groups;
+    return is_limited ? hd_lesser(groups, renderer->options.grid) : groups;
 }
 
 static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *launch,
@@ -77,7 +78,7 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int d
    their number up to the group's size and 64, so that all of them have as many. */
 static int sample_parts(int samples, int group_size) {
     enum { MOST_PARTS = 64 };
-    int parts = group_size < MOST_PARTS ? group_size : MOST_PARTS;
+    int parts = hd_lesser(group_size, MOST_PARTS);
     while (samples % parts != 0)
         parts--;
     return parts;
@@ -111,8 +112,9 @@ static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
 /* Of the wavefront, with a queue each; on CPUs so many strive to be even. */
 static int worker_count(const HdGpuRenderer *renderer, int items) {
     enum { WORKERS_PER_UNIT = 8 };
-    int workers = renderer->has_groups ? 1 : renderer->device.compute_units * WORKERS_PER_UNIT;
-    return workers < items ? workers : items;
+    return renderer->has_groups
+               ? 1
+               : hd_lesser(renderer->device.compute_units * WORKERS_PER_UNIT, items);
 }
 
 static Queue queue_of(const HdGpuRenderer *renderer) {
@@ -169,8 +171,7 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
-    if (step->is_first || launch.groups > most_groups)
-        launch.groups = most_groups;
+    launch.groups = step->is_first ? most_groups : hd_lesser(launch.groups, most_groups);
     HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
     double waited = hd_monotonic_seconds();
     if (status == HD_OK)
@@ -373,8 +374,7 @@ static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *
     int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
     HdStatus status = HD_OK;
     add_first_hits(&launch, &own);
-    if (launch.group_size > MOST_THREADS)
-        launch.group_size = MOST_THREADS;
+    launch.group_size = hd_lesser(launch.group_size, MOST_THREADS);
     for (int done = 0; status == HD_OK && done < items; done += own.item_count) {
         status = done > 0 ? wait_for_first_hits(renderer, tables, error) : HD_OK;
         own.first_item = done;
