@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/minmax.h"
+
 /* ---- text of others ---- */
 
 /* The longest of \u001b, \x9b and a character of UTF-8. */
@@ -131,10 +133,6 @@ void hd_add_text(char *text, size_t size, const char *separator, const char *for
 
 enum { MAX_LETTERS = 31 };
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
 /* The table of distances between the beginnings of both words (R. A. Wagner and M. J. Fischer, The
    string-to-string correction problem, 1974), two swapped neighbours counting as one mistake. */
 int hd_edit_distance(const char *a, const char *b) {
@@ -149,9 +147,9 @@ int hd_edit_distance(const char *a, const char *b) {
                 continue;
             }
             int replaced = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            table[i][j] = least(replaced, least(table[i - 1][j], table[i][j - 1]) + 1);
+            table[i][j] = hd_lesser(replaced, hd_lesser(table[i - 1][j], table[i][j - 1]) + 1);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
+                table[i][j] = hd_lesser(table[i][j], table[i - 2][j - 2] + 1);
         }
     }
     return table[a_length][b_length];
