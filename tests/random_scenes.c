@@ -11,9 +11,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "verify/random_test.h"
 #include "options.h"
 #include "system/machine.h"
-#include "verify/random_test.h"
 
 typedef struct Options {
     const HdBackend *backend;

@@ -6,10 +6,10 @@
 #include <time.h>
 
 #include "base/text.h"
+#include "verify/certificate.h"
 #include "choice/candidates.h"
 #include "cli/commands.h"
 #include "input/json/json_device_text.h"
-#include "verify/certificate.h"
 
 enum { TIME_SIZE = 32, HASH_SIZE = 17 };
 

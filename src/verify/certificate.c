@@ -7,13 +7,13 @@
 #include <time.h>
 
 #include "base/hash.h"
-#include "device/kernel_source.h"
-#include "device/self_test_scenes.h"
-#include "system/machine.h"
 #include "verify/first_difference.h"
 #include "verify/golden.h"
 #include "verify/random_test.h"
 #include "verify/render_scene.h"
+#include "device/kernel_source.h"
+#include "device/self_test_scenes.h"
+#include "system/machine.h"
 
 const char *const hd_verdict_names[] = {"right", "wrong", "untested"};
 static const char *const precision_names[] = {"float", "double"};

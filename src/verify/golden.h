@@ -3,8 +3,8 @@
 #ifndef HD_VERIFY_GOLDEN_H
 #define HD_VERIFY_GOLDEN_H
 
-#include "device/options.h"
 #include "verify/golden_scenes.h"
+#include "device/options.h"
 
 /* Of a frame in one precision. */
 typedef struct HdGoldenHashes {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "verify/random_scene.h"
 
-#include "input/check.h"
 #include "verify/mesh_builder.h"
 #include "verify/scene_builder.h"
+#include "input/check.h"
 
 enum { WIDTH = 24, HEIGHT = 16, MOST_SOLIDS = 5, MOST_LIGHTS = 3 };
 /* Of planes that kernels have room for; a floor takes five, cubes the fewest of all solids. */

@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "verify/first_difference.h"
+#include "verify/render_scene.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "verify/first_difference.h"
-#include "verify/render_scene.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
 enum { ALL = -1, MOST_WORKERS = 16 };

@@ -3,8 +3,8 @@
 #ifndef HD_VERIFY_RANDOM_TEST_H
 #define HD_VERIFY_RANDOM_TEST_H
 
-#include "device/renderer.h"
 #include "verify/random_scene.h"
+#include "device/renderer.h"
 
 typedef struct HdRandomTest {
     const HdDevice *device;

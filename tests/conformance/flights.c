@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/picture.h"
 #include "verify/golden_scenes.h"
+#include "image/picture.h"
 
 enum { ROUNDS = 5, VIEWS = 2 };
 

@@ -27,13 +27,13 @@
 
 #include "../options.h"
 #include "base/hash.h"
+#include "verify/golden.h"
 #include "device/renderer.h"
 #include "flights.h"
 #include "image/picture.h"
 #include "render_scene.h"
 #include "truths.h"
 #include "variants.h"
-#include "verify/golden.h"
 
 enum { MAX_FRAMES = 64, MAX_NAME = 64 };
 /* With this many lanes each scene has the kernels that it needs, where a CPU's are compiled for it.

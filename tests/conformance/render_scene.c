@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "input/check.h"
 #include "verify/render_scene.h"
+#include "input/check.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);

@@ -15,9 +15,9 @@
 
 #include "../conformance/render_scene.h"
 #include "../options.h"
+#include "verify/render_scene.h"
 #include "hunt.h"
 #include "input/check.h"
-#include "verify/render_scene.h"
 
 enum { PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES };
 

@@ -2,13 +2,13 @@
 #define _XOPEN_SOURCE 700
 #include "device/kernel_cache.h"
 
+#include "verify/render_scene.h"
 #include "device/self_test_scenes.h"
 #include "device/verdict.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"
 #include "system/warnings.h"
 #include "test_folder.h"
-#include "verify/render_scene.h"
 
 static HdError error;
 static HdRenderOptions options;

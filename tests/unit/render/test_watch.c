@@ -3,11 +3,11 @@
    wants it any more. */
 #include "base/watch.h"
 
+#include "verify/render_scene.h"
 #include "device/self_test_scenes.h"
 #include "render/adaptive.h"
 #include "scene/camera.h"
 #include "unit_test.h"
-#include "verify/render_scene.h"
 
 static HdError error;
 
