@@ -11,7 +11,8 @@
 static char **original_arguments; /* for the program that opens windows */
 
 static HdStatus view(const HdOptions *options, HdError *error) {
-    return options->terminal ? hd_view_in_terminal(options, error)
+    const HdViewPlan plan = {options->scene, options->devices};
+    return options->terminal ? hd_view_in_terminal(&plan, error)
                              : hd_start_window(original_arguments, error);
 }
 

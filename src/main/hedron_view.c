@@ -7,7 +7,8 @@
 static HdStatus run(const HdOptions *options, HdError *error) {
     if (options->command != HD_COMMAND_VIEW)
         return hd_fail(error, HD_BAD_INPUT, "'hedron-view' is what 'hedron view' starts");
-    return hd_view_in_window(options, error);
+    const HdViewPlan plan = {options->scene, options->devices};
+    return hd_view_in_window(&plan, error);
 }
 
 int main(int count, char **arguments) {

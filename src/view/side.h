@@ -7,8 +7,8 @@
 #include "view/worker.h"
 
 typedef struct HdViewSide {
-    HdOptions options;
-    char device[32]; /* that the options may name */
+    HdViewPlan plan;
+    char device[32]; /* that the plan may name */
     HdSceneFile file;
     HdViewWorker *worker;
     int device_change, scene_change;
@@ -19,10 +19,10 @@ typedef struct HdViewSide {
 } HdViewSide;
 
 /* Reads the scene and starts the worker, which calls `wake`. On failure nothing is open. */
-HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wake)(void *context),
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
                            void *context, HdError *error);
 
-/* Reads the scene again, by the side's options. With a mistake in it the side keeps what it had. */
+/* Reads the scene again, by the side's plan. With a mistake in it the side keeps what it had. */
 void hd_view_side_read(HdViewSide *side);
 
 /* Reads it again if a file has changed; true where it did. */

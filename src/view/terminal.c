@@ -381,12 +381,12 @@ static void close_terminal(Terminal *t) {
     free(t->said);
 }
 
-HdStatus hd_view_in_terminal(const HdOptions *options, HdError *error) {
+HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
     Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1};
     const HdViewHost host = {wake, say, &t};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
-        status = hd_viewer_open(&t.viewer, options, &host, error);
+        status = hd_viewer_open(&t.viewer, plan, &host, error);
     if (status == HD_OK)
         status = take_terminal(&t, error);
     if (status == HD_OK)

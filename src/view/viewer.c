@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "base/trigonometry.h"
-#include "cli/load_scene.h"
 #include "view/viewer_state.h"
 
 /* After the last touch the view counts as moving for so long, before it is made whole. */
@@ -129,7 +128,7 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
     wish.detail = hd_pace_choose(&viewer->pace, &full);
     for (int i = 0; i < viewer->side_count; i++) {
         HdViewSide *side = &viewer->sides[i];
-        wish.options = &side->options;
+        wish.devices = &side->plan.devices;
         wish.file = &side->file;
         wish.device_change = side->device_change;
         wish.scene_change = side->scene_change;
@@ -192,8 +191,8 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 
 /* The scene's name without its folder and ending. */
 static void base_name(const HdViewer *viewer, char name[128]) {
-    const HdOptions *options = &viewer->sides[0].options;
-    const char *path = options->operand_count > 0 ? options->operands[0] : "hedron";
+    const char *given = viewer->sides[0].plan.scene.path;
+    const char *path = given != NULL ? given : "hedron";
     const char *slash = strrchr(path, '/');
     snprintf(name, 128, "%s", slash != NULL ? slash + 1 : path);
     char *dot = strrchr(name, '.');
@@ -253,7 +252,7 @@ static void split(HdViewer *viewer, double now) {
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &viewer->sides[0].options, viewer->host.wake,
+        status = hd_view_side_open(&viewer->sides[1], &viewer->sides[0].plan, viewer->host.wake,
                                    viewer->host.context, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
@@ -399,9 +398,9 @@ void hd_viewer_limit(HdViewer *viewer, int width) {
     viewer->most_width = width;
 }
 
-HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
                         HdError *error) {
-    if (options->operand_count > 0 && strcmp(options->operands[0], "-") == 0)
+    if (plan->scene.path != NULL && strcmp(plan->scene.path, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
                        "and not standard input");
@@ -412,7 +411,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdVie
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status = hd_view_side_open(&v->sides[0], options, host->wake, host->context, error);
+    HdStatus status = hd_view_side_open(&v->sides[0], plan, host->wake, host->context, error);
     if (status != HD_OK) {
         free(v);
         return status;

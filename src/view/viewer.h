@@ -5,7 +5,7 @@
 #ifndef HD_VIEW_VIEWER_H
 #define HD_VIEW_VIEWER_H
 
-#include "cli/options.h"
+#include "run/plan.h"
 #include "view/host.h"
 #include "view/keys.h"
 #include "view/worker.h"
@@ -14,9 +14,9 @@ enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 
 typedef struct HdViewer HdViewer;
 
-/* Reads the scene, and starts to render its first frame. The options are copied; what they point to
-   must live on. */
-HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,
+/* Reads the scene, and starts to render its first frame. The plan is copied; what it points to must
+   live on. */
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
                         HdError *error);
 
 /* A key (keys.h) was pressed, or repeats. `now` is that of hd_monotonic_seconds, here and below. */

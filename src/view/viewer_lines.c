@@ -50,9 +50,9 @@ static void add_settings(Lines *lines, const HdViewer *viewer, int number) {
                  viewer->active == number ? " *" : "");
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
-        side->options.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
-        scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid", scene->samples_per_side,
-        scene->samples_per_side);
+        side->plan.devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float",
+        scene->depth, scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid",
+        scene->samples_per_side, scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->mistake[0] != '\0' && number == 0)

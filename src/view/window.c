@@ -259,10 +259,10 @@ static HdStatus open_window(Window *w, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus show(Window *w, const HdOptions *options, HdError *error) {
+static HdStatus show(Window *w, const HdViewPlan *plan, HdError *error) {
     const HdViewHost host = {wake, say, w};
     w->is_changed = true;
-    HdStatus status = hd_viewer_open(&w->viewer, options, &host, error);
+    HdStatus status = hd_viewer_open(&w->viewer, plan, &host, error);
     if (status == HD_OK)
         status = open_window(w, error);
     if (status == HD_OK)
@@ -271,7 +271,7 @@ static HdStatus show(Window *w, const HdOptions *options, HdError *error) {
     return status;
 }
 
-HdStatus hd_view_in_window(const HdOptions *options, HdError *error) {
+HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
     Window w = {.version = 0};
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
@@ -281,7 +281,7 @@ HdStatus hd_view_in_window(const HdOptions *options, HdError *error) {
                        "--terminal' shows the scene in a terminal",
                        SDL_GetError());
     w.woken = SDL_RegisterEvents(1);
-    HdStatus status = show(&w, options, error);
+    HdStatus status = show(&w, plan, error);
     free(w.canvas.rgba);
     SDL_Quit();
     return status;

@@ -3,10 +3,10 @@
 #ifndef HD_VIEW_WINDOW_H
 #define HD_VIEW_WINDOW_H
 
-#include "cli/options.h"
+#include "run/plan.h"
 
 /* Shows the scene until the user closes the window. HD_UNAVAILABLE where there is no display,
    HD_INTERRUPTED after a signal. Names of saved pictures and cameras go to standard output. */
-HdStatus hd_view_in_window(const HdOptions *options, HdError *error);
+HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error);
 
 #endif

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "choice/devices.h"
-#include "cli/console.h"
 #include "image/picture.h"
 #include "render/adaptive.h"
 #include "system/interrupt.h"
@@ -120,11 +119,11 @@ static HdStatus show_rows(HdViewWorker *worker, const HdFrame *frame, int top, i
 
 static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdError *error) {
     HdScene plain = wish->file->scene; /* what it owns stays with the other */
-    HdRenderOptions render = wish->options->render;
+    HdRenderOptions render = wish->devices->render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
     const HdDeviceWish device = {
-        .backend = wish->options->backend,
-        .device = wish->options->device,
+        .backend = wish->devices->backend,
+        .device = wish->devices->device,
         .kind = HD_WANT_ANY,
         .is_for_one = true,
         .options = &render,
@@ -151,7 +150,7 @@ static HdStatus upload(HdViewWorker *worker, const HdScene *scene, const HdViewW
     worker->scene_change = 0;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
         tell(worker, "building kernels ...");
-    HdStatus status = hd_compile_scene(&tables, scene, wish->options->render.precision,
+    HdStatus status = hd_compile_scene(&tables, scene, wish->devices->render.precision,
                                        hd_renderer_lanes(renderer), error);
     if (status != HD_OK)
         return status;
@@ -194,7 +193,7 @@ static HdStatus render_scene(HdViewWorker *worker, const HdScene *scene, const H
     HdStatus status = fit_frame(frame, scene->width, scene->height, error);
     if (status == HD_OK)
         status =
-            hd_compile_frame(&tables, scene, &wish->camera, wish->options->render.precision, error);
+            hd_compile_frame(&tables, scene, &wish->camera, wish->devices->render.precision, error);
     if (status != HD_OK)
         return status;
     status = hd_renderer_render(worker->team.list[0].renderer, &tables, frame, error);
@@ -276,7 +275,7 @@ static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, Hd
     HdStatus status = make_ready(worker, scene, wish, error);
     if (status == HD_OK)
         status = hd_refinement_create(&refinement, scene, worker->team.list[0].renderer,
-                                      wish->options->render.precision,
+                                      wish->devices->render.precision,
                                       wish->file->output.style.picture.curve, error);
     if (status != HD_OK)
         return status;

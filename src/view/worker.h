@@ -4,16 +4,15 @@
 #ifndef HD_VIEW_WORKER_H
 #define HD_VIEW_WORKER_H
 
-#include "cli/options.h"
-#include "input/scene_file.h"
+#include "run/plan.h"
 #include "scene/camera.h"
 #include "view/pace.h"
 
 /* What is to be seen. */
 typedef struct HdViewWish {
-    const HdOptions *options; /* for the device; this and the file live until the worker rests */
+    const HdDevicePlan *devices; /* this and the file live until the worker rests */
     const HdSceneFile *file;
-    int device_change, scene_change; /* another number: options or scene are other than before */
+    int device_change, scene_change; /* another number: devices or scene are other than before */
     HdCamera camera;
     bool is_moving;  /* one picture of `detail`; otherwise the scene's own, which settles */
     HdDetail detail; /* with one sample at least */
@@ -41,7 +40,7 @@ HdStatus hd_view_worker_start(HdViewWorker **worker, void (*wake)(void *context)
 /* Replaces the wish; a picture that is under way for an earlier one is given up. */
 void hd_view_worker_show(HdViewWorker *worker, const HdViewWish *wish);
 
-/* Drops the wish, and waits until nothing is read of its options and scene any more. */
+/* Drops the wish, and waits until nothing is read of its plan and scene any more. */
 void hd_view_worker_rest(HdViewWorker *worker);
 
 /* The wish is fulfilled, or cannot be. */
