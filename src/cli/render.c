@@ -151,17 +151,17 @@ static HdStatus settle_outputs(HdOutputPlan *outputs, const HdStorePlan *plan,
 }
 
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
-static void mark_outputs(const Run *run, const HdRenderOptions *render, bool resumes) {
+static void set_fingerprint(const Run *run, const HdRenderOptions *render, bool resumes) {
     HdOutputPlan *outputs = run->outputs;
-    if (render->math == HD_MATH_STRICT && (outputs->can_mark || outputs->film_count > 0))
-        hd_outputs_mark(outputs,
-                        hd_run_fingerprint(run->file, render->precision, &outputs->style.picture),
-                        resumes);
+    if (render->math == HD_MATH_STRICT && (outputs->bears_fingerprints || outputs->film_count > 0))
+        hd_outputs_set_fingerprint(
+            outputs, hd_run_fingerprint(run->file, render->precision, &outputs->style.picture),
+            resumes);
 }
 
 static HdStatus render_run(Run *run, const HdOptions *options, HdError *error) {
     const HdStorePlan *store = &options->store;
-    mark_outputs(run, &options->devices.render, !store->again);
+    set_fingerprint(run, &options->devices.render, !store->again);
     HdStatus status = hd_resume_find(&run->resume, run->outputs, run->frames, error);
     if (status == HD_OK) {
         hd_console_start(&run->console, &run->resume);
