@@ -70,10 +70,11 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
 /* Prints what it finds, or appends it to `list`. */
 static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
     HdProblems notes = {.count = 0};
-    const HdSceneSource source = {.loads_files = true, .notes = &notes, .file_notes = &notes};
+    const HdSceneSource source = {
+        .folder = "", .loads_files = true, .notes = &notes, .file_notes = &notes};
     const char *name = hd_scene_name(operand);
     HdSceneFile file;
-    HdStatus status = hd_read_scene(&file, operand, source, error);
+    HdStatus status = hd_read_scene(&file, operand, &source, error);
     if (list != NULL)
         json_array_append_new(list, describe_scene(name, status, &notes, &file.scene, error));
     else if (status == HD_OK)

@@ -112,7 +112,6 @@ static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdDurabili
     const HdSequence sequence = {
         .scene = &run->file->scene,
         .resume = &run->resume,
-        .precision = devices->render.precision,
         .outputs = run->outputs,
         .durability = durability,
         .team = &run->team,

@@ -20,7 +20,7 @@ enum { MAX_INPUT_BYTES = 1 << 20 };
 /* Of the discs of edge lights, where they become polygons. */
 enum { DISC_SIDES = 16 };
 
-static const char standard_input[] = "standard input";
+static const char standard_input[] = "standard input", built_in[] = "the built-in scene";
 
 static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t most, size_t *size,
                             HdError *error) {
@@ -53,33 +53,36 @@ HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdErr
     return status;
 }
 
-static HdStatus read_standard_input(HdSceneFile *file, const HdSceneSource *source,
-                                    HdError *error) {
+static HdStatus read_standard_input(HdSceneFile *file, HdSceneSource source, HdError *error) {
     size_t size = 0;
     char *text = malloc(HD_MAX_SCENE_BYTES + 1);
     if (text == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
-    HdStatus status = read_stream(stdin, source->name, text, HD_MAX_SCENE_BYTES, &size, error);
+    source.name = standard_input;
+    HdStatus status = read_stream(stdin, source.name, text, HD_MAX_SCENE_BYTES, &size, error);
     if (status == HD_OK)
-        status = hd_scene_file_parse(file, text, size, source, error);
+        status = hd_scene_file_parse(file, text, size, &source, error);
     free(text);
     return status;
 }
 
-const char *hd_scene_name(const char *path) {
-    return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
+static HdStatus read_built_in(HdSceneFile *file, HdSceneSource source, HdError *error) {
+    size_t size;
+    const char *text = hd_default_scene_text(&size);
+    source.name = built_in;
+    return hd_scene_file_parse(file, text, size, &source, error);
 }
 
-HdStatus hd_read_scene(HdSceneFile *file, const char *path, HdSceneSource source, HdError *error) {
-    source.name = hd_scene_name(path);
-    source.folder = "";
-    if (path == NULL) {
-        size_t size;
-        const char *text = hd_default_scene_text(&size);
-        return hd_scene_file_parse(file, text, size, &source, error);
-    }
-    return strcmp(path, "-") == 0 ? read_standard_input(file, &source, error)
-                                  : hd_scene_file_read(file, path, &source, error);
+const char *hd_scene_name(const char *path) {
+    return path == NULL ? built_in : strcmp(path, "-") == 0 ? standard_input : path;
+}
+
+HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                       HdError *error) {
+    if (path == NULL)
+        return read_built_in(file, *source, error);
+    return strcmp(path, "-") == 0 ? read_standard_input(file, *source, error)
+                                  : hd_scene_file_read(file, path, source, error);
 }
 
 static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
@@ -89,12 +92,17 @@ static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
     }
     if (plan->samples > 0)
         scene->samples_per_side = plan->samples;
+    if (plan->max_error > 0.0)
+        scene->max_error = plan->max_error;
+}
+
+/* Rays end by the limit of a scene that has one, and by what was given. */
+static void set_ends(HdScene *scene, const HdScenePlan *plan) {
+    hd_survey_end_rays(scene);
     if (plan->depth >= 0)
         scene->depth = plan->depth;
     if (plan->cutoff >= 0.0)
         scene->cutoff = plan->cutoff;
-    if (plan->max_error > 0.0)
-        scene->max_error = plan->max_error;
 }
 
 static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
@@ -120,7 +128,7 @@ HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError
     }
     if (plan->sampling >= 0)
         scene->sampling = (HdSampling)plan->sampling;
-    hd_survey_end_rays(scene, plan->depth >= 0, plan->cutoff >= 0.0);
+    set_ends(scene, plan);
     return HD_OK;
 }
 
@@ -137,11 +145,12 @@ HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdErro
 
 HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
                        HdError *error) {
-    const HdSceneSource source = {.changes = plan->changes,
+    const HdSceneSource source = {.folder = "",
+                                  .changes = plan->changes,
                                   .change_count = plan->change_count,
                                   .loads_files = true,
                                   .file_notes = notes};
-    HdStatus status = hd_read_scene(file, plan->path, source, error);
+    HdStatus status = hd_read_scene(file, plan->path, &source, error);
     if (status != HD_OK) {
         if (notes != NULL)
             *notes = (HdProblems){.count = 0};

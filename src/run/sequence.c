@@ -53,8 +53,8 @@ static HdStatus find_tables(Run *run, int lanes, const HdSceneTables **found, Hd
             return HD_OK;
         }
     HdSceneTables *tables = &run->tables[run->table_count];
-    HdStatus status =
-        hd_compile_scene(tables, run->sequence->scene, run->sequence->precision, lanes, error);
+    HdStatus status = hd_compile_scene(tables, run->sequence->scene, run->sequence->team->precision,
+                                       lanes, error);
     run->table_count += status == HD_OK;
     *found = tables;
     return status;
@@ -104,8 +104,8 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), sequence->precision, &job, 0.0,
-                                           &seconds, error);
+    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), sequence->team->precision,
+                                           &job, 0.0, &seconds, error);
     if (status != HD_OK)
         return status;
     hd_turns_estimate(&run->turns, number, seconds);
@@ -240,7 +240,7 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
         .sequence = sequence,
         .job = {.scene = sequence->scene,
                 .frames = sequence->resume->all,
-                .precision = sequence->precision,
+                .precision = sequence->team->precision,
                 .wish = sequence->outputs->wish,
                 .watch = sequence->watch,
                 .start = hd_monotonic_seconds()},

@@ -10,7 +10,6 @@
 typedef struct HdSequence {
     const HdScene *scene;
     HdResume *resume; /* which frames there are, and which of them are finished */
-    HdPrecision precision;
     const HdOutputPlan *outputs; /* settled */
     HdDurability durability;     /* of what is stored */
     const HdDeviceTeam *team;    /* open; may be empty where nothing is missing */
