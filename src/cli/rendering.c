@@ -7,7 +7,6 @@
 #include "cli/console.h"
 #include "cli/statistics.h"
 #include "output/fingerprint.h"
-#include "output/stale_files.h"
 
 typedef struct Run {
     const HdRendering *rendering;
@@ -95,7 +94,6 @@ static HdStatus render_all(Run *run, HdError *error) {
         .resume = &run->resume,
         .precision = run->options->render.precision,
         .outputs = rendering->outputs,
-        .durability = run->options->no_sync ? HD_FLEETING : HD_DURABLE,
         .team = &run->team,
         .uploaded = scene_uploaded,
         .dropped = device_dropped,
@@ -139,6 +137,7 @@ static void label_outputs(Run *run) {
     hd_options_spell(run->options, true, run->spelled, sizeof run->spelled);
     run->rendering->outputs->scene = run->scene_name;
     run->rendering->outputs->options = run->spelled;
+    run->rendering->outputs->durability = run->options->no_sync ? HD_FLEETING : HD_DURABLE;
 }
 
 /* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
@@ -163,7 +162,6 @@ HdStatus hd_render(const HdRendering *rendering, const HdOptions *options, HdErr
     hd_console_open(&run.console, options, rendering->tells_progress);
     hd_console_tell_run(&run.console, rendering->name, &rendering->file->scene, rendering->outputs,
                         rendering->frames->count);
-    hd_stale_files_remove(rendering->outputs, rendering->frames);
     label_outputs(&run);
     mark_outputs(rendering, &options->render);
     status = hd_resume_find(&run.resume, rendering->outputs, rendering->frames, error);
