@@ -173,6 +173,6 @@ const HdExplained hd_variables[HD_VARIABLE_COUNT] = {
     {"HEDRON_NVRTC",
      "file of the NVRTC library that compiles for CUDA, or off (default: the newest one "
      "that suits the driver)"},
-    {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 120)"},
+    {"HEDRON_FFMPEG_PATIENCE", "whole seconds for which FFmpeg may stand still (default 600)"},
     {"HEDRON_STOP_PATIENCE", "seconds from a signal to the end, whatever hangs (default 1.5)"},
 };

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "input/json/json_device_text.h"
-#include "system/durable.h"
+#include "system/atomic_file.h"
 #include "system/interrupt.h"
 
 /* Nanoseconds are enough for a run of days. */
@@ -163,9 +163,8 @@ HdStatus hd_statistics_add(HdStatistics *statistics, const HdRunFacts *facts,
 }
 
 static HdStatus sync_file(const HdStatistics *statistics, HdError *error) {
-    HdFolderSet synced = {0};
     HdStatus status = hd_sync_file(fileno(statistics->stream), statistics->name, error);
-    return status == HD_OK ? hd_sync_folder(&synced, statistics->name, error) : status;
+    return status == HD_OK ? hd_sync_folder(statistics->name, error) : status;
 }
 
 static HdStatus close_file(HdStatistics *statistics, HdDurability durability, HdError *error) {

@@ -224,7 +224,6 @@ static HdStatus start_store(Run *run, HdError *error) {
         .height = sequence->scene->height,
         .tracers = sequence->team->count > 0 ? sequence->team->count : 1,
         .start = run->job.start,
-        .durability = sequence->durability,
         .stored = sequence->stored,
         .context = sequence->context,
     };

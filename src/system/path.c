@@ -3,6 +3,7 @@
 
 #include "system/path.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <pwd.h>
 #include <stdio.h>
@@ -70,6 +71,11 @@ bool hd_path_has_ending(const char *path, const char *ending) {
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+size_t hd_folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
+}
+
 bool hd_path_of_program(char out[HD_MAX_PATH]) {
     ssize_t length = readlink("/proc/self/exe", out, HD_MAX_PATH - 1);
     if (length <= 0)
@@ -80,6 +86,16 @@ bool hd_path_of_program(char out[HD_MAX_PATH]) {
         return false;
     *slash = '\0';
     return true;
+}
+
+void hd_path_visit(const char *folder, void (*visit)(void *context, const char *name),
+                   void *context) {
+    DIR *stream = opendir(folder[0] != '\0' ? folder : ".");
+    const struct dirent *entry;
+    while (stream != NULL && (entry = readdir(stream)) != NULL)
+        visit(context, entry->d_name);
+    if (stream != NULL)
+        closedir(stream);
 }
 
 HdStatus hd_path_make_parents(const char *path, HdError *error) {

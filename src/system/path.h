@@ -21,8 +21,16 @@ bool hd_path_is_same(const char *first, const char *second);
 /* True where `path` ends in `ending`, such as ".png", in upper or lower case. */
 bool hd_path_has_ending(const char *path, const char *ending);
 
+/* What of `path` is before the name, with the slash. */
+size_t hd_folder_length(const char *path);
+
 /* The folder that the running program's file is in. False where the system does not tell. */
 bool hd_path_of_program(char out[HD_MAX_PATH]);
+
+/* Calls `visit` with the name of each entry of a folder, which is empty for the current one or ends
+   in a slash; not at all where it cannot be read. */
+void hd_path_visit(const char *folder, void (*visit)(void *context, const char *name),
+                   void *context);
 
 /* Makes every missing folder above the file `path`. */
 HdStatus hd_path_make_parents(const char *path, HdError *error);
