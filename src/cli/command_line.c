@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "cli/option_values.h"
 #include "system/path.h"
 
 /* What a reference has where nothing else was asked for. */

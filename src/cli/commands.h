@@ -1,9 +1,82 @@
 /* SPDX-License-Identifier: MIT */
-/* The program's commands. Each returns the status that becomes the exit code. */
+/* The program's commands: the table of them, the texts that help and man page share, and what they
+   do. */
 #ifndef HD_CLI_COMMANDS_H
 #define HD_CLI_COMMANDS_H
 
-#include "cli/options.h"
+#include "base/error.h"
+
+/* Each is a bit, for the options to tell which commands they belong to. */
+typedef enum HdCommand {
+    HD_COMMAND_CLASSIC = 1, /* no command at all */
+    HD_COMMAND_RENDER = 2,
+    HD_COMMAND_CHECK = 4,
+    HD_COMMAND_CONVERT = 8,
+    HD_COMMAND_DEVICES = 16,
+    HD_COMMAND_TUNE = 32,
+    HD_COMMAND_HELP = 64,
+    HD_COMMAND_VERSION = 128,
+    HD_COMMAND_COMPARE = 256,
+    HD_COMMAND_NEW = 512,
+    HD_COMMAND_COMPLETE = 1024,
+    HD_COMMAND_SELFTEST = 2048,
+    HD_COMMAND_VIEW = 4096
+} HdCommand;
+
+typedef struct HdExplained {
+    const char *text, *meaning;
+} HdExplained;
+
+/* What there is help about, apart from commands. */
+typedef enum HdHelpForm {
+    HD_HELP_TEXT,
+    HD_HELP_SCENE,
+    HD_HELP_MAN,
+    HD_HELP_BASH,
+    HD_HELP_ZSH,
+    HD_HELP_FISH,
+    HD_HELP_FORM_COUNT
+} HdHelpForm;
+
+/* Their names; that of HD_HELP_TEXT is empty. */
+extern const HdExplained hd_help_forms[HD_HELP_FORM_COUNT];
+
+/* HD_HELP_TEXT where no other form has that name. */
+HdHelpForm hd_help_form_named(const char *name);
+
+typedef struct HdHelpTopic {
+    HdHelpForm form;
+    HdCommand command; /* of HD_HELP_TEXT; HD_COMMAND_CLASSIC: the program as a whole */
+} HdHelpTopic;
+
+typedef struct HdCommandSpec {
+    HdCommand command;
+    const char *name;        /* NULL: the classic mode */
+    const char *operands;    /* as the usage shows them; "" where there are none */
+    const char *ending;      /* of the files that are operands; NULL: any, or no files */
+    int most_operands;       /* -1: any number */
+    const char *summary;     /* half a sentence for lists */
+    const char *description; /* paragraphs, separated by empty lines */
+} HdCommandSpec;
+
+enum { HD_COMMAND_SPEC_COUNT = 12 };
+extern const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT];
+
+/* NULL where no command has that name. */
+const HdCommandSpec *hd_command_named(const char *name);
+const HdCommandSpec *hd_command_spec(HdCommand command);
+
+/* The program in half a sentence. */
+extern const char hd_program_summary[];
+
+enum { HD_EXIT_CODE_COUNT = 5, HD_EXAMPLE_COUNT = 13, HD_VARIABLE_COUNT = 4 };
+extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
+extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
+extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
+
+/* ---- what they do: each returns the status that becomes the exit code ---- */
+
+typedef struct HdOptions HdOptions;
 
 /* The classic mode: input on standard input, one line for each frame on standard output. */
 HdStatus hd_command_classic(const HdOptions *options, HdError *error);
@@ -33,12 +106,9 @@ HdStatus hd_command_compare(const HdOptions *options, HdError *error);
 HdStatus hd_command_new(const HdOptions *options, HdError *error);
 
 /* Prints how the last word of a command line may go on, for the scripts in completions/. */
-void hd_command_complete(const HdOptions *options);
+HdStatus hd_command_complete(const HdOptions *options, HdError *error);
 
 /* Prints help, the man page or the completion script on standard output. */
-void hd_command_help(const HdHelpTopic *topic);
-
-/* A man page in troff, on standard output. */
-void hd_print_man_page(void);
+HdStatus hd_command_help(const HdOptions *options, HdError *error);
 
 #endif

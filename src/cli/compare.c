@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "image/difference.h"
 #include "image/format_exr.h"
 #include "image/heat_map.h"

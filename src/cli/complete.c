@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/fields.h"
 
 /* A command line up to the word that is being typed. */
@@ -179,7 +179,8 @@ static void offer_operands(const Line *line) {
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }
 
-void hd_command_complete(const HdOptions *options) {
+HdStatus hd_command_complete(const HdOptions *options, HdError *error) {
+    (void)error;
     const Line line = read_line(options->operands, options->operand_count);
     if (line.option != NULL)
         offer_value(&line);
@@ -187,4 +188,5 @@ void hd_command_complete(const HdOptions *options) {
         offer_options(&line);
     else
         offer_operands(&line);
+    return HD_OK;
 }

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "choice/candidates.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "verify/certificate.h"
 

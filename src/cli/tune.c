@@ -3,8 +3,8 @@
 #include <stdio.h>
 
 #include "choice/tuning.h"
-#include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "run/load_scene.h"
 #include "scene/frame_list.h"

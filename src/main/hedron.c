@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "main/program.h"
 #include "view/start_window.h"
 #include "view/terminal.h"
@@ -39,11 +39,9 @@ static HdStatus run(const HdOptions *options, HdError *error) {
     case HD_COMMAND_VIEW:
         return view(options, error);
     case HD_COMMAND_COMPLETE:
-        hd_command_complete(options);
-        return HD_OK;
+        return hd_command_complete(options, error);
     case HD_COMMAND_HELP:
-        hd_command_help(&options->help_topic);
-        return HD_OK;
+        return hd_command_help(options, error);
     case HD_COMMAND_VERSION:
         printf("hedron %s\n", HD_VERSION);
         return HD_OK;

@@ -2,7 +2,7 @@
 /* What each option takes, which command takes which option, and where the values go. */
 #include <stdio.h>
 
-#include "cli/option_values.h"
+#include "cli/options.h"
 #include "device/renderer.h"
 #include "unit_test.h"
 

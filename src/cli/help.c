@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/fields.h"
 
 /* Made by the build from completions/. */
@@ -172,9 +172,109 @@ static void print_scene_format(void) {
     print_scene_object(&hd_scene_fields, "");
 }
 
-void hd_command_help(const HdHelpTopic *topic) {
+/* ---- the man page, in troff ---- */
+
+/* Prints text in which nothing means anything to troff; an empty line begins a paragraph. */
+static void man_text(const char *text) {
+    bool at_line_start = true;
+    for (; *text != '\0'; text++) {
+        if (strncmp(text, "\n\n", 2) == 0) {
+            printf("\n.PP\n");
+            text++;
+            at_line_start = true;
+            continue;
+        }
+        if (at_line_start && (*text == '.' || *text == '\''))
+            printf("\\&");
+        if (*text == '\\')
+            printf("\\e");
+        else if (*text == '-')
+            printf("\\-");
+        else if (*text == '\'')
+            printf("\\(aq");
+        else
+            putchar(*text);
+        at_line_start = *text == '\n';
+    }
+}
+
+static void man_line(const char *text) {
+    man_text(text);
+    printf("\n");
+}
+
+/* A term in bold, and what it means. */
+static void man_entry(const char *term, const char *meaning) {
+    printf(".TP\n\\fB");
+    man_text(term);
+    printf("\\fR\n");
+    man_line(meaning);
+}
+
+static void man_usage(const HdCommandSpec *spec) {
+    printf("\\fBhedron%s%s\\fR [\\fIOPTIONS\\fR]", spec->name ? " " : "",
+           spec->name ? spec->name : "");
+    if (spec->operands[0] != '\0') {
+        printf(" ");
+        man_text(spec->operands);
+    }
+    printf("\n");
+}
+
+static void man_synopsis(void) {
+    printf(".SH SYNOPSIS\n");
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
+        if (i > 0)
+            printf(".br\n");
+        man_usage(&hd_command_specs[i]);
+    }
+}
+
+static void man_command(const HdCommandSpec *spec) {
+    char heading[64];
+    printf(".SS ");
+    man_line(spec->name != NULL ? spec->name : "The classic mode");
+    man_line(spec->description);
+    printf(".PP\nOptions:\n");
+    const HdOptionSpec *option = NULL;
+    while ((option = hd_option_next(option, spec->command)) != NULL) {
+        hd_option_heading(option, heading, sizeof heading);
+        man_entry(heading, option->help);
+    }
+}
+
+static void man_explained(const char *heading, const HdExplained *list, int count) {
+    printf(".SH %s\n", heading);
+    for (int i = 0; i < count; i++)
+        man_entry(list[i].text, list[i].meaning);
+}
+
+static void print_man_page(void) {
+    printf(".TH HEDRON 1 \"\" \"hedron " HD_VERSION "\" \"User Commands\"\n"
+           ".nh\n"
+           ".SH NAME\n"
+           "hedron \\- ");
+    man_line(hd_program_summary);
+    man_synopsis();
+    printf(".SH DESCRIPTION\n"
+           "hedron is a ray tracer. It ");
+    man_text(hd_program_summary);
+    printf(", on CPUs and GPUs, to the same bytes on each.\n"
+           ".SH COMMANDS\n");
+    for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
+        man_command(&hd_command_specs[i]);
+    man_explained("EXIT STATUS", hd_exit_codes, HD_EXIT_CODE_COUNT);
+    man_explained("ENVIRONMENT", hd_variables, HD_VARIABLE_COUNT);
+    man_explained("EXAMPLES", hd_examples, HD_EXAMPLE_COUNT);
+    printf(".SH SEE ALSO\n"
+           ".BR ffmpeg (1)\n");
+}
+
+HdStatus hd_command_help(const HdOptions *options, HdError *error) {
+    const HdHelpTopic *topic = &options->help_topic;
+    (void)error;
     if (topic->form == HD_HELP_MAN)
-        hd_print_man_page();
+        print_man_page();
     else if (topic->form == HD_HELP_SCENE)
         print_scene_format();
     else if (topic->form == HD_HELP_BASH)
@@ -187,4 +287,5 @@ void hd_command_help(const HdHelpTopic *topic) {
         print_program();
     else
         print_command(hd_command_spec(topic->command));
+    return HD_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "cli/command_table.h"
+#include "cli/commands.h"
 
 #include <stddef.h>
 #include <string.h>
