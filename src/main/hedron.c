@@ -1,18 +1,33 @@
 /* SPDX-License-Identifier: MIT */
 /* The program 'hedron': its commands. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "cli/commands.h"
 #include "main/program.h"
-#include "view/start_window.h"
-#include "view/terminal.h"
+#include "system/path.h"
 
-static char **original_arguments; /* for the program that opens windows */
+static char **original_arguments; /* as parsing them changes their order; owned, NULL ends them */
 
-static HdStatus view(const HdOptions *options, HdError *error) {
-    return options->terminal ? hd_view_in_terminal(options, error)
-                             : hd_start_window(original_arguments, error);
+/* Becomes hedron-view, with the same arguments; it is looked for beside this program, then in PATH.
+   Returns only where that fails. */
+static HdStatus view(HdError *error) {
+    static const char program[] = "hedron-view";
+    char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];
+    if (original_arguments == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the arguments");
+    if (hd_path_of_program(folder)) {
+        snprintf(path, sizeof path, "%s/%s", folder, program);
+        execv(path, original_arguments);
+    }
+    execvp(program, original_arguments);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "the view's program, %s, cannot be started (%s): it is the package hedron-view",
+                   program, strerror(errno));
 }
 
 static HdStatus run(const HdOptions *options, HdError *error) {
@@ -36,7 +51,7 @@ static HdStatus run(const HdOptions *options, HdError *error) {
     case HD_COMMAND_NEW:
         return hd_command_new(options, error);
     case HD_COMMAND_VIEW:
-        return view(options, error);
+        return view(error);
     case HD_COMMAND_COMPLETE:
         hd_command_complete(options);
         return HD_OK;
@@ -51,7 +66,9 @@ static HdStatus run(const HdOptions *options, HdError *error) {
 }
 
 int main(int count, char **arguments) {
-    original_arguments = hd_copy_arguments(arguments, count);
+    original_arguments = calloc((size_t)count + 1, sizeof *arguments);
+    if (original_arguments != NULL)
+        memcpy(original_arguments, arguments, (size_t)count * sizeof *arguments);
     const int code = hd_program_run(count, arguments, run);
     free(original_arguments);
     return code;
