@@ -9,10 +9,11 @@
 
 #include "choice/devices.h"
 #include "image/picture.h"
-#include "render/adaptive.h"
+#include "render/frame.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "verify/trust.h"
 
 /* Seconds of a part, after which an earlier wish is given up. */
 #define PART_SECONDS 0.025
@@ -108,17 +109,11 @@ static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdErro
 static HdStatus upload(HdViewWorker *worker, const HdScene *scene, const HdViewWish *wish,
                        HdError *error) {
     HdRenderer *renderer = worker->team.list[0].renderer;
-    HdSceneTables tables;
     char line[LINE_SIZE], device[LINE_SIZE + 64];
     worker->scene_change = 0;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
         tell(worker, "building kernels ...");
-    HdStatus status = hd_compile_scene(&tables, scene, wish->plan->render.precision,
-                                       hd_renderer_lanes(renderer), error);
-    if (status != HD_OK)
-        return status;
-    status = hd_renderer_upload(renderer, &tables, error);
-    hd_scene_tables_free(&tables);
+    HdStatus status = hd_put_scene(renderer, scene, NULL, error);
     if (status != HD_OK)
         return status;
     worker->scene_change = wish->scene_change;
@@ -152,16 +147,9 @@ static HdStatus fit_frame(HdFrame *frame, int width, int height, HdError *error)
 
 static HdStatus render_scene(HdViewWorker *worker, const HdScene *scene, const HdViewWish *wish,
                              HdFrame *frame, HdError *error) {
-    HdFrameTables tables;
+    const HdFrameMaker maker = {.renderer = worker->team.list[0].renderer, .scene = scene};
     HdStatus status = fit_frame(frame, scene->width, scene->height, error);
-    if (status == HD_OK)
-        status =
-            hd_compile_frame(&tables, scene, &wish->camera, wish->plan->render.precision, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_renderer_render(worker->team.list[0].renderer, &tables, frame, error);
-    hd_frame_tables_free(&tables);
-    return status;
+    return status == HD_OK ? hd_frame_render(&maker, &wish->camera, frame, error) : status;
 }
 
 /* The scene as quick pictures have it. */
@@ -233,17 +221,14 @@ static HdStatus render_rows(HdViewWorker *worker, const HdScene *whole, const Hd
 static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, HdViewImage *facts,
                                 HdError *error) {
     const HdScene *scene = &wish->file->scene;
-    HdRefinement *refinement = NULL;
     const double start = hd_monotonic_seconds();
     HdStatus status = make_ready(worker, scene, wish, error);
+    const HdFrameMaker maker = {.renderer = worker->team.list[0].renderer,
+                                .scene = scene,
+                                .wish.curve = wish->file->output.style.picture.curve,
+                                .watch = &worker->watch};
     if (status == HD_OK)
-        status = hd_refinement_create(&refinement, scene, worker->team.list[0].renderer,
-                                      wish->plan->render.precision,
-                                      wish->file->output.style.picture.curve, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_refinement_render(refinement, &wish->camera, &worker->watch, &worker->frame, error);
-    hd_refinement_free(refinement);
+        status = hd_frame_render(&maker, &wish->camera, &worker->frame, error);
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&worker->frame);
     facts->share = 1.0;
