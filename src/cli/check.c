@@ -5,9 +5,9 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/load_scene.h"
 #include "input/json/json_device_text.h"
 #include "input/schema.h"
+#include "run/load_scene.h"
 
 static void print_meshes(const HdScene *scene) {
     if (scene->mesh_count > 0)
@@ -71,9 +71,9 @@ static void print_fine(const char *name, const HdScene *scene, const HdProblems 
 static HdStatus check_scene(const char *operand, json_t *list, HdError *error) {
     HdProblems notes = {.count = 0};
     const HdSceneSource source = {.loads_files = true, .notes = &notes, .file_notes = &notes};
-    const char *name = hd_operand_name(operand);
+    const char *name = hd_scene_name(operand);
     HdSceneFile file;
-    HdStatus status = hd_read_scene_file(&file, operand, &source, error);
+    HdStatus status = hd_read_scene(&file, operand, source, error);
     if (list != NULL)
         json_array_append_new(list, describe_scene(name, status, &notes, &file.scene, error));
     else if (status == HD_OK)

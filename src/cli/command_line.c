@@ -8,6 +8,10 @@
 #include "cli/option_values.h"
 #include "system/path.h"
 
+/* What a reference has where nothing else was asked for. */
+enum { REFERENCE_SAMPLES = 32 };
+#define REFERENCE_ERROR (1.0 / 64.0)
+
 typedef struct Parser {
     HdOptions *options;
     const HdCommandSpec *command;
@@ -177,16 +181,34 @@ static HdStatus check_together(HdOptions *options, HdError *error) {
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron compare' needs the names of two pictures; see 'hedron help "
                        "compare'");
-    if (options->command == HD_COMMAND_CLASSIC && options->statistics != NULL &&
-        strcmp(options->statistics, "-") == 0)
+    if (options->command == HD_COMMAND_CLASSIC && options->store.statistics != NULL &&
+        strcmp(options->store.statistics, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "--stats is '-', but standard output has the lines of the classic mode; "
                        "expected a file");
-    if (options->reference && options->sampling >= 0)
+    if (options->reference && options->scene.sampling >= 0)
         return hd_fail(error, HD_BAD_INPUT, "--reference has samples of its own: leave out --aa");
-    if (options->reference)
-        options->render.precision = HD_PRECISION_DOUBLE;
     return HD_OK;
+}
+
+/* What the command and several options together decide. */
+static void complete_plan(HdOptions *options) {
+    HdScenePlan *scene = &options->scene;
+    const bool is_classic = options->command == HD_COMMAND_CLASSIC;
+    if (options->reference)
+        options->devices.render.precision = HD_PRECISION_DOUBLE;
+    hd_options_spell(options, false, scene->given, sizeof scene->given);
+    hd_options_spell(options, true, options->store.given, sizeof options->store.given);
+    if (options->reference) {
+        scene->sampling = HD_SAMPLING_REFERENCE;
+        scene->samples = scene->samples > 0 ? scene->samples : REFERENCE_SAMPLES;
+        scene->max_error = scene->max_error > 0.0 ? scene->max_error : REFERENCE_ERROR;
+    }
+    scene->path = is_classic ? "-" : options->operand_count > 0 ? options->operands[0] : NULL;
+    if (is_classic)
+        options->devices.kind = options->cpu ? HD_ONLY_CPU : HD_PREFER_GPU;
+    options->store.again |= is_classic;
+    options->telling.wants_lines = options->command == HD_COMMAND_RENDER;
 }
 
 HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdError *error) {
@@ -207,5 +229,10 @@ HdStatus hd_options_parse(HdOptions *options, int count, char **arguments, HdErr
         if (status != HD_OK)
             return status;
     }
-    return options->command == parser.command->command ? check_together(options, error) : HD_OK;
+    if (options->command != parser.command->command)
+        return HD_OK;
+    HdStatus status = check_together(options, error);
+    if (status == HD_OK)
+        complete_plan(options);
+    return status;
 }

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "cli/commands.h"
-#include "cli/load_scene.h"
 #include "input/fields.h"
 
 /* A command line up to the word that is being typed. */

@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "cli/load_scene.h"
 #include "image/formats.h"
 #include "input/builtin.h"
 #include "input/write.h"
+#include "run/load_scene.h"
 #include "system/atomic_file.h"
 
 /* A scene's texture counts from the scene's folder, that of a classic input from the current one.
@@ -58,7 +58,7 @@ static HdStatus write_scene(const HdSceneFile *file, const char *name, HdError *
 
 HdStatus hd_command_convert(const HdOptions *options, HdError *error) {
     const char *source = options->operand_count > 0 ? options->operands[0] : NULL;
-    const char *output = options->output_count > 0 ? options->outputs[0] : NULL;
+    const char *output = options->store.count > 0 ? options->store.names[0] : NULL;
     HdSceneFile file;
     HdStatus status = hd_read_classic(&file, source, options->variant, error);
     if (status != HD_OK)

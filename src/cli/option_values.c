@@ -110,7 +110,7 @@ static HdStatus apply_real(const Given *given, HdError *error) {
 }
 
 static HdStatus apply_size(const Given *given, HdError *error) {
-    HdOptionSize *size = given->member;
+    HdPlannedSize *size = given->member;
     const char *rest = given->text;
     if (take_number(&rest, "xX", 1, HD_MAX_IMAGE_SIDE, &size->width) &&
         take_number(&rest, "", 1, HD_MAX_IMAGE_SIDE, &size->height))
@@ -119,7 +119,7 @@ static HdStatus apply_size(const Given *given, HdError *error) {
 }
 
 static HdStatus apply_crop(const Given *given, HdError *error) {
-    HdOptionCrop *crop = given->member;
+    HdPlannedCrop *crop = given->member;
     const char *rest = given->text;
     if (take_number(&rest, "x", 1, HD_MAX_IMAGE_SIDE, &crop->width) &&
         take_number(&rest, "+", 1, HD_MAX_IMAGE_SIDE, &crop->height) &&

@@ -74,8 +74,8 @@ void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
 
 /* The value of an option that was given; false: it was not, or is at its default. */
 static bool spell_value(const HdOptionSpec *spec, const void *member, char *value, size_t size) {
-    const HdOptionSize *area = member;
-    const HdOptionCrop *crop = member;
+    const HdPlannedSize *area = member;
+    const HdPlannedCrop *crop = member;
     const int *number = member;
     const double *real = member;
     char text[HD_NUMBER_SIZE];
@@ -110,11 +110,11 @@ static void append(char *text, size_t size, const char *more) {
 }
 
 static void spell_changes(const HdOptions *options, const char *name, char *text, size_t size) {
-    for (int i = 0; i < options->change_count; i++) {
+    for (int i = 0; i < options->scene.change_count; i++) {
         append(text, size, text[0] != '\0' ? " " : "");
         append(text, size, name);
         append(text, size, " ");
-        append(text, size, options->changes[i]);
+        append(text, size, options->scene.changes[i]);
     }
 }
 

@@ -9,27 +9,21 @@
 
 #include "base/error.h"
 #include "cli/command_table.h"
-#include "device/renderer.h"
-#include "scene/scene.h"
+#include "run/plan.h"
 
-enum { HD_MAX_CHANGES = 64 };
-
-typedef struct HdOptionSize {
-    int width, height;
-} HdOptionSize;
-
-typedef struct HdOptionCrop {
-    int width, height, left, top;
-} HdOptionCrop;
-
-/* What the command line said. Where an option is not given, its member is 0, false or NULL, or what
-   its row says (`unset`). */
+/* What the command line said: the parts of the plan, each for its reader, and what belongs to a
+   single command. Where an option is not given, its member is 0, false or NULL, or what its row
+   says
+   (`unset`). */
 typedef struct HdOptions {
     HdCommand command;
     HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
     char **operands;        /* what is no option, in order; at the front of main's arguments */
     int operand_count;
-    HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
+    HdScenePlan scene;
+    HdDevicePlan devices;
+    HdStorePlan store;
+    HdTelling telling;
 #define ROW(...)
 #define OPTION(member, ...) member;
 #include "cli/option_table.h"
@@ -47,8 +41,8 @@ typedef enum HdOptionType {
     HD_OPTION_NUMERAL, /* one of `choices`, which are whole numbers; int */
     HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first of them */
     HD_OPTION_SET,     /* some of `choices`, with commas; unsigned: the bit 1 << i for number i */
-    HD_OPTION_SIZE,    /* WxH; HdOptionSize */
-    HD_OPTION_CROP,    /* WxH+X+Y; HdOptionCrop */
+    HD_OPTION_SIZE,    /* WxH; HdPlannedSize */
+    HD_OPTION_CROP,    /* WxH+X+Y; HdPlannedCrop */
     HD_OPTION_TEXT,    /* const char * */
     HD_OPTION_TEXTS,  /* a text each time, `high` times at most; const char *[], and their number */
     HD_OPTION_CHANGES /* the same, PATH=VALUE each */

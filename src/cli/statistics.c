@@ -46,7 +46,10 @@ static HdStatus check_begin(const char *file, const char *path, HdError *error) 
 HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
                               const HdOutputPlan *plan, int frame_number, HdError *error) {
     char *file = statistics->name, output[HD_MAX_PATH];
-    *statistics = (HdStatistics){.is_standard_output = strcmp(path, "-") == 0};
+    *statistics = (HdStatistics){.stream = NULL};
+    if (path == NULL)
+        return HD_OK;
+    statistics->is_standard_output = strcmp(path, "-") == 0;
     if (statistics->is_standard_output) {
         snprintf(file, HD_MAX_PATH, "standard output");
         return HD_OK;
@@ -78,10 +81,10 @@ static HdStatus open_file(HdStatistics *statistics, HdError *error) {
 }
 
 HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
-    if (statistics->is_standard_output) {
+    if (statistics->is_standard_output)
         statistics->stream = stdout;
+    if (statistics->is_standard_output || statistics->name[0] == '\0')
         return HD_OK;
-    }
     HdStatus status = hd_path_make_parents(statistics->name, error);
     return status == HD_OK ? open_file(statistics, error) : status;
 }
@@ -165,15 +168,22 @@ static HdStatus sync_file(const HdStatistics *statistics, HdError *error) {
     return status == HD_OK ? hd_sync_folder(&synced, statistics->name, error) : status;
 }
 
-HdStatus hd_statistics_close(HdStatistics *statistics, bool is_durable, HdError *error) {
-    if (statistics->is_standard_output)
-        return HD_OK;
+static HdStatus close_file(HdStatistics *statistics, HdDurability durability, HdError *error) {
     errno = 0;
     HdStatus status = fflush(statistics->stream) == 0 ? HD_OK : fail_to_write(statistics, error);
-    if (status == HD_OK && is_durable)
+    if (status == HD_OK && durability == HD_DURABLE)
         status = sync_file(statistics, error);
     errno = 0;
     if (fclose(statistics->stream) != 0 && status == HD_OK)
         status = fail_to_write(statistics, error);
     return status;
+}
+
+HdStatus hd_statistics_close(HdStatistics *statistics, HdDurability durability, HdStatus before,
+                             HdError *error) {
+    HdError ignored;
+    if (statistics->stream == NULL || statistics->is_standard_output)
+        return before;
+    const HdStatus closed = close_file(statistics, durability, before == HD_OK ? error : &ignored);
+    return before == HD_OK ? closed : before;
 }

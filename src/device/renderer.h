@@ -61,6 +61,7 @@ const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer);
 /* How many lanes the renderer's kernels have: what scenes are compiled for. */
 int hd_renderer_lanes(const HdRenderer *renderer);
 
+enum { HD_RENDERER_LINE = 512 }; /* room for the line below */
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 
 /* Where the kernels came from and what became of them, for people; "" where nobody compiles. */

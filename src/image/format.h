@@ -32,8 +32,8 @@ typedef struct HdPictureLabel {
     const char *scene;   /* its name; this and the options are UTF-8 without control characters */
     const char *options; /* of the command line, those that decide pixels; "": none */
     int frame;
-    bool is_marked;
-    uint64_t fingerprint; /* of a mark (mark.h), where it gets one */
+    bool has_fingerprint;
+    uint64_t fingerprint; /* of the frame (output/fingerprint.h): by it, it is known as finished */
 } HdPictureLabel;
 
 /* Functions are NULL where the format has no such thing; `path` and `name` are for messages. */
@@ -56,8 +56,8 @@ struct HdFormat {
     int most_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
                               written of one that is encoded, on the style's curve */
 
-    /* Of pictures that bear marks, by which frames are known as finished: reads one of 8 bits and
-       the frame's size back into `rgba`, and says so (is_encoded). */
+    /* Of pictures that bear fingerprints, by which frames are known as finished: reads one of 8
+       bits and the frame's size back into `rgba`, and says so (is_encoded). */
     HdStatus (*load)(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error);
 

@@ -4,6 +4,7 @@
 #include "image/png.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,6 @@
 
 #include "base/hash.h"
 #include "base/limits.h"
-#include "image/mark.h"
 
 /* Far above what a picture needs, far below what would hurt. */
 enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
@@ -247,15 +247,47 @@ static bool try_row(HdPngWriter *writer, const unsigned char *row) {
     return true;
 }
 
+/* ---- the end ---- */
+
+enum { KEYWORD_SIZE = 7, TEXT_SIZE = 45, DATA_SIZE = KEYWORD_SIZE + TEXT_SIZE };
+_Static_assert(HD_PNG_END_SIZE == 12 + DATA_SIZE + 12, "a chunk, and IEND behind it");
+
+/* PNG is big endian. */
+static void put_number(unsigned char *place, uint32_t number) {
+    for (int i = 0; i < 4; i++)
+        place[i] = (unsigned char)(number >> (24 - 8 * i));
+}
+
+static void make_end(uint64_t fingerprint, uint64_t bytes_hash,
+                     unsigned char end[HD_PNG_END_SIZE]) {
+    static const unsigned char last[12] = "\0\0\0\0IEND\xae\x42\x60\x82";
+    char text[TEXT_SIZE + 1];
+    snprintf(text, sizeof text, "frame %016" PRIx64 " bytes %016" PRIx64, fingerprint, bytes_hash);
+    put_number(end, DATA_SIZE);
+    memcpy(end + 4, "tEXthedron", 4 + KEYWORD_SIZE);
+    memcpy(end + 8 + KEYWORD_SIZE, text, TEXT_SIZE);
+    put_number(end + 8 + DATA_SIZE, (uint32_t)crc32(crc32(0, NULL, 0), end + 4, 4 + DATA_SIZE));
+    memcpy(end + 12 + DATA_SIZE, last, sizeof last);
+}
+
+bool hd_png_is_whole(const unsigned char *bytes, size_t size, uint64_t fingerprint) {
+    unsigned char end[HD_PNG_END_SIZE];
+    if (size < HD_PNG_END_SIZE)
+        return false;
+    const size_t before = size - HD_PNG_END_SIZE;
+    make_end(fingerprint, hd_hash_bytes(HD_HASH_START, bytes, before), end);
+    return memcmp(bytes + before, end, sizeof end) == 0;
+}
+
 static bool try_end(HdPngWriter *writer, const HdPictureLabel *label) {
-    unsigned char end[HD_PICTURE_END_SIZE];
+    unsigned char end[HD_PNG_END_SIZE];
     if (setjmp(png_jmpbuf(writer->png)) != 0)
         return false;
-    if (label == NULL || !label->is_marked) {
+    if (label == NULL || !label->has_fingerprint) {
         png_write_end(writer->png, NULL);
         return true;
     }
-    hd_picture_end(label->fingerprint, writer->hash, end);
+    make_end(label->fingerprint, writer->hash, end);
     if (fwrite(end, 1, sizeof end, writer->stream) != sizeof end)
         png_error(writer->png, strerror(errno));
     return true;

@@ -56,8 +56,16 @@ HdStatus hd_png_begin(HdPngWriter **writer, FILE *stream, const char *path, cons
 /* The next row from the top as the file has it: with 16 bits the high byte comes first. */
 HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error);
 
-/* Ends the file after its last row, with the mark of a label that is marked (mark.h). */
+/* Ends the file after its last row. A label's fingerprint comes last but IEND, in a chunk of the
+   type tEXt, with a hash of all bytes before (hash.h). */
 HdStatus hd_png_end(HdPngWriter *writer, const HdPictureLabel *label, HdError *error);
+
+/* That chunk and IEND. */
+enum { HD_PNG_END_SIZE = 12 + 7 + 45 + 12 };
+
+/* Whether these bytes are those of a PNG that ends with that fingerprint: not one has changed since
+   it was written. */
+bool hd_png_is_whole(const unsigned char *bytes, size_t size, uint64_t fingerprint);
 
 /* In any case, at the end. NULL is allowed. */
 void hd_png_free(HdPngWriter *writer);

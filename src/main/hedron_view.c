@@ -3,7 +3,6 @@
    window or a terminal. It is a program of its own, so that nothing else needs SDL and chafa. */
 #include <string.h>
 
-#include "cli/load_scene.h"
 #include "main/program.h"
 #include "view/view.h"
 
@@ -25,31 +24,11 @@ HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
 }
 #endif
 
-static HdStatus read_scene(const void *context, const HdSceneChanges *changes, HdSceneFile *file,
-                           HdError *error) {
-    HdOptions options = *(const HdOptions *)context;
-    options.quiet = true;
-    if (changes->depth >= 0)
-        options.depth = changes->depth;
-    if (changes->samples_per_side > 0)
-        options.samples = changes->samples_per_side;
-    if (changes->sampling >= 0)
-        options.sampling = changes->sampling;
-    return hd_read_scene(file, &options, error);
-}
-
 static HdStatus run(const HdOptions *options, HdError *error) {
-    const HdViewPlan plan = {
-        .path = options->operand_count > 0 ? options->operands[0] : NULL,
-        .backend = options->backend,
-        .device = options->device,
-        .render = options->render,
-        .read = read_scene,
-        .context = options,
-    };
+    const HdViewPlan plan = {options->scene, options->devices};
     if (options->command != HD_COMMAND_VIEW)
         return hd_fail(error, HD_BAD_INPUT, "'hedron-view' is what 'hedron view' starts");
-    if (plan.path != NULL && strcmp(plan.path, "-") == 0)
+    if (plan.scene.path != NULL && strcmp(plan.scene.path, "-") == 0)
         return hd_fail(error, HD_BAD_INPUT,
                        "'hedron view' needs a scene's file, which it reads again when it changes, "
                        "and not standard input");

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "image/mark.h"
 #include "image/picture.h"
 #include "output/film.h"
+#include "output/fingerprint.h"
 #include "system/atomic_file.h"
 #include "system/machine.h"
 
@@ -122,8 +122,8 @@ static HdStatus write_picture(const HdOutputPlan *outputs, int index, Place *pla
         .scene = outputs->scene,
         .options = outputs->options,
         .frame = number,
-        .is_marked = outputs->is_marked,
-        .fingerprint = hd_picture_fingerprint(outputs->fingerprint, number),
+        .has_fingerprint = outputs->has_fingerprint,
+        .fingerprint = hd_frame_fingerprint(outputs->fingerprint, number),
     };
     HdAtomicFile *file = &place->files[index];
     char path[HD_MAX_PATH];

@@ -74,18 +74,18 @@ static HdStatus check_different(const HdOutput *output, const HdOutput *other, i
                    other->name, output->name);
 }
 
-/* Pictures must be rendered anyway but numbered ones with marks. */
+/* Pictures must be rendered anyway but numbered ones with fingerprints. */
 static void sum_up(HdOutputPlan *plan) {
     const int bits = plan->style.picture.bits;
     int sequences = 0;
     for (int i = 0; i < plan->count; i++) {
         const HdOutput *output = &plan->list[i];
         plan->film_count += output->is_film;
-        const bool can_mark = output->format->load != NULL;
-        plan->can_mark |= can_mark;
+        const bool bears_fingerprints = output->format->load != NULL;
+        plan->bears_fingerprints |= bears_fingerprints;
         plan->wish.radiance |= !output->is_film && bits > output->format->most_encoded_bits;
         plan->wish.layers |= output->format->has_layers ? HD_LAYER_BIT(HD_LAYER_ALPHA) : 0;
-        sequences += can_mark && output->is_numbered;
+        sequences += bears_fingerprints && output->is_numbered;
     }
     plan->can_resume = sequences + plan->film_count == plan->count;
 }
@@ -125,8 +125,8 @@ HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surv
     return HD_OK;
 }
 
-void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
-    plan->is_marked = plan->can_mark;
+void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool resumes) {
+    plan->has_fingerprint = plan->bears_fingerprints;
     plan->keeps_films = true;
     plan->fingerprint = fingerprint;
     plan->resumes = resumes && plan->can_resume;

@@ -24,13 +24,13 @@ typedef struct HdOutputPlan {
     int count;
     int film_count;
     HdOutputStyle style;
-    HdFrameWish wish;     /* what a frame must hold for all of them */
-    bool can_mark;        /* some are pictures of a format that bears marks (mark.h) */
-    bool can_resume;      /* frames can be finished before the run (resume.h), once marked */
-    bool is_marked;       /* those pictures get a mark */
-    bool keeps_films;     /* films are made by segments that stay when the run is ended */
-    uint64_t fingerprint; /* of the run (fingerprint.h), where they do, or films are kept */
-    const char *scene;    /* what pictures say of the run (HdPictureLabel): the caller sets both */
+    HdFrameWish wish;        /* what a frame must hold for all of them */
+    bool bears_fingerprints; /* some are pictures of a format that can */
+    bool can_resume;         /* frames can be finished before the run (resume.h) */
+    bool has_fingerprint;    /* those pictures bear their frame's */
+    bool keeps_films;        /* films are made by segments that stay when the run is ended */
+    uint64_t fingerprint;    /* of the run (fingerprint.h), where they do, or films are kept */
+    const char *scene; /* what pictures say of the run (HdPictureLabel): the caller sets both */
     const char *options;
     bool resumes; /* frames that are there are finished (resume.h) */
 } HdOutputPlan;
@@ -41,7 +41,7 @@ HdStatus hd_output_check_name(const char *name, const char *option, HdError *err
 /* Finds out what each of the names, 1 to HD_MAX_OUTPUTS, stands for; they must live on. An ending
    that is of no format stands for the data format, as in the classic mode.
    HD_BAD_INPUT where one does not suit the number of frames, or is there twice, whatever the
-   spelling, or is of a format that cannot have the style. The plan is not marked. */
+   spelling, or is of a format that cannot have the style. The plan has no fingerprint yet. */
 HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int count,
                            const HdOutputStyle *style, int frame_count, HdError *error);
 
@@ -51,9 +51,9 @@ HdStatus hd_outputs_settle(HdOutputPlan *plan, const char *const *names, int cou
 HdStatus hd_outputs_add_layers(HdOutputPlan *plan, unsigned layers, bool is_surveyed,
                                HdError *error);
 
-/* Has the plan's pictures marked with the fingerprint of the run, where they can be; with `resumes`
-   those that are there are kept, where that can be. Films are made by segments. */
-void hd_outputs_mark(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);
+/* Has the plan's pictures bear the fingerprint, where they can; with `resumes` those that are there
+   are kept, where that can be. Films are made by segments. `fingerprint` is the run's. */
+void hd_outputs_set_fingerprint(HdOutputPlan *plan, uint64_t fingerprint, bool resumes);
 
 /* The name that an output has for one frame, as people wrote it, and the file that it stands for.
  */

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/mark.h"
+#include "image/png.h"
+#include "output/fingerprint.h"
 #include "output/frame_names.h"
 #include "system/file_bytes.h"
 #include "system/interrupt.h"
@@ -22,7 +23,7 @@ static bool read_whole(const HdOutputPlan *plan, const HdOutput *output, int num
     *bytes = NULL;
     return hd_output_file(output, number, path, &ignored) == HD_OK &&
            hd_file_read(path, "picture", MAX_PICTURE_BYTES, bytes, size, &ignored) == HD_OK &&
-           hd_picture_is_whole(*bytes, *size, hd_picture_fingerprint(plan->fingerprint, number));
+           hd_png_is_whole(*bytes, *size, hd_frame_fingerprint(plan->fingerprint, number));
 }
 
 bool hd_resume_film_lacks(const HdResume *resume, int output, int item) {

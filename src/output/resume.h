@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which frames of a run are finished already: those whose pictures are all there, whole, and marked
-   with the fingerprint that they would get (mark.h), and which are in a whole segment of each film
+/* Which frames of a run are finished already: those whose pictures are all there, whole, and bear
+   the fingerprint that they would get, and which are in a whole segment of each film
    (segments.h), or can be read back for it. */
 #ifndef HD_OUTPUT_RESUME_H
 #define HD_OUTPUT_RESUME_H

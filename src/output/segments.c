@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
-#include "image/mark.h"
+#include "output/fingerprint.h"
 #include "system/atomic_file.h"
 
 /* Whole seconds, so that the times of the frames are those of a film made in one go. */
@@ -71,9 +71,9 @@ static uint64_t name_of(const HdSegments *segments, const HdOutputPlan *plan,
     const int begin = hd_segment_begin(segments, index);
     const char *format = output->format->name;
     uint64_t hash = hd_hash_bytes(plan->fingerprint, format, strlen(format));
-    hash = hd_picture_fingerprint(hash, plan->style.frames_per_second);
+    hash = hd_frame_fingerprint(hash, plan->style.frames_per_second);
     for (int i = 0; i < hd_segment_frames(segments, index); i++)
-        hash = hd_picture_fingerprint(hash, frames->frames[begin + i]);
+        hash = hd_frame_fingerprint(hash, frames->frames[begin + i]);
     return hash;
 }
 

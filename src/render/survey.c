@@ -55,10 +55,15 @@ void hd_surveyor_free(HdSurveyor *surveyor) {
     surveyor->entry_room = surveyor->open_room = surveyor->frame_rows = 0;
 }
 
-int hd_survey_depth(const HdScene *scene) {
-    HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
-    double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
-    return hd_depth_for_bound(scene, limit * LAST_CUTOFF);
+void hd_survey_end_rays(HdScene *scene, bool keeps_depth, bool keeps_cutoff) {
+    const HdErrorBudget budget = hd_error_budget(HD_CURVE_SRGB); /* the stricter one */
+    const double limit = hd_error_budget_radiance(&budget, scene->max_error, 0.0);
+    if (!(scene->max_error > 0.0))
+        return;
+    if (!keeps_depth)
+        scene->depth = hd_depth_for_bound(scene, limit * LAST_CUTOFF);
+    if (!keeps_cutoff)
+        scene->cutoff = 0.0;
 }
 
 static HdStatus reserve_frame(HdSurveyor *surveyor, int rows, HdError *error) {

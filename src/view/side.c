@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "choice/candidates.h"
+#include "run/load_scene.h"
 #include "system/path.h"
 
 static uint64_t add_file(uint64_t hash, const char *path) {
@@ -34,9 +35,8 @@ static uint64_t hash_files(const char *path, const HdSceneFile *file) {
 }
 
 static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
-    const HdViewPlan *plan = &side->plan;
-    side->files = hash_files(plan->path, &side->file);
-    HdStatus status = plan->read(plan->context, &side->changes, file, error);
+    side->files = hash_files(side->plan.scene.path, &side->file);
+    HdStatus status = hd_load_scene(file, &side->plan.scene, NULL, error);
     snprintf(side->mistake, sizeof side->mistake, "%.4000s", status == HD_OK ? "" : error->message);
     return status;
 }
@@ -48,13 +48,13 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     side->file = *file;
     side->scene_change++;
     side->device_change += was_deep != hd_scene_has_deep_trees(&file->scene);
-    side->files = hash_files(side->plan.path, &side->file);
+    side->files = hash_files(side->plan.scene.path, &side->file);
 }
 
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, const HdSceneChanges *changes,
-                           void (*wake)(void *context), void *context, HdError *error) {
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
+                           void *context, HdError *error) {
     HdSceneFile file;
-    *side = (HdViewSide){.plan = *plan, .changes = *changes, .device_change = 1};
+    *side = (HdViewSide){.plan = *plan, .device_change = 1};
     HdStatus status = read_file(side, &file, error);
     if (status != HD_OK)
         return status;
@@ -74,7 +74,7 @@ static void read_again(HdViewSide *side) {
 }
 
 bool hd_view_side_follow_files(HdViewSide *side) {
-    if (hash_files(side->plan.path, &side->file) == side->files)
+    if (hash_files(side->plan.scene.path, &side->file) == side->files)
         return false;
     read_again(side);
     return true;
@@ -83,7 +83,7 @@ bool hd_view_side_follow_files(HdViewSide *side) {
 /* ---- settings ---- */
 
 static void next_backend(HdViewSide *side) {
-    HdViewPlan *plan = &side->plan;
+    HdDevicePlan *plan = &side->plan.devices;
     int next = 0;
     while (plan->backend != NULL && next < HD_BACKEND_COUNT &&
            strcmp(hd_backends[next++]->name, plan->backend) != 0)
@@ -109,8 +109,8 @@ static void next_device(HdViewSide *side) {
         was_here = strcmp(name, side->device) == 0;
     }
     memcpy(side->device, first, sizeof first);
-    side->plan.backend = NULL;
-    side->plan.device = side->device;
+    side->plan.devices.backend = NULL;
+    side->plan.devices.device = side->device;
 }
 
 static int within(int number, int least, int most) {
@@ -119,19 +119,18 @@ static int within(int number, int least, int most) {
 
 static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
-    HdSceneChanges *changes = &side->changes;
+    HdScenePlan *plan = &side->plan.scene;
     if (setting == HD_VIEW_DEPTH)
-        changes->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
+        plan->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
     else if (setting == HD_VIEW_SAMPLES)
-        changes->samples_per_side =
-            within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
+        plan->samples = within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
     else
-        changes->sampling =
+        plan->sampling =
             scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
 }
 
 void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
-    HdPrecision *precision = &side->plan.render.precision;
+    HdPrecision *precision = &side->plan.devices.render.precision;
     hd_view_worker_rest(side->worker); /* it reads the plan */
     if (setting == HD_VIEW_BACKEND)
         next_backend(side);

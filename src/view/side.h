@@ -17,7 +17,6 @@ typedef enum HdViewSetting {
 
 typedef struct HdViewSide {
     HdViewPlan plan;
-    HdSceneChanges changes;
     char device[32]; /* that the plan may name */
     HdSceneFile file;
     HdViewWorker *worker;
@@ -29,8 +28,8 @@ typedef struct HdViewSide {
 } HdViewSide;
 
 /* Reads the scene and starts the worker, which calls `wake`. On failure nothing is open. */
-HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, const HdSceneChanges *changes,
-                           void (*wake)(void *context), void *context, HdError *error);
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
+                           void *context, HdError *error);
 
 /* Reads the scene again if a file has changed; true where it did. With a mistake in it the side
    keeps what it had. */

@@ -3,23 +3,12 @@
 #ifndef HD_VIEW_VIEW_H
 #define HD_VIEW_VIEW_H
 
-#include "device/renderer.h"
-#include "input/scene_file.h"
+#include "run/plan.h"
 
-/* What keys changed of the scene; negative: nothing. */
-typedef struct HdSceneChanges {
-    int depth, samples_per_side, sampling;
-} HdSceneChanges;
-
-/* What is shown, and by what. All that it points to must live on. */
+/* What is shown, and by what. What it points to must live on. */
 typedef struct HdViewPlan {
-    const char *path;             /* of the scene's file, which is followed; NULL: built in */
-    const char *backend, *device; /* that are wished for; NULL: any */
-    HdRenderOptions render;
-    /* Reads the scene anew, and lays the changes over all else that is laid over it. */
-    HdStatus (*read)(const void *context, const HdSceneChanges *changes, HdSceneFile *file,
-                     HdError *error);
-    const void *context;
+    HdScenePlan scene; /* from a file, which is followed, or built in */
+    HdDevicePlan devices;
 } HdViewPlan;
 
 /* Shows the scene until the user closes the window. HD_UNAVAILABLE where there is no display,

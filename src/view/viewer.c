@@ -141,7 +141,7 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
     wish.detail = hd_pace_choose(&viewer->pace, &full);
     for (int i = 0; i < viewer->side_count; i++) {
         HdViewSide *side = &viewer->sides[i];
-        wish.plan = &side->plan;
+        wish.plan = &side->plan.devices;
         wish.file = &side->file;
         wish.device_change = side->device_change;
         wish.scene_change = side->scene_change;
@@ -205,7 +205,7 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 
 /* The scene's name without its folder and ending. */
 static void base_name(const HdViewer *viewer, char name[128]) {
-    const char *path = viewer->sides[0].plan.path;
+    const char *path = viewer->sides[0].plan.scene.path;
     path = path != NULL ? path : "hedron";
     const char *slash = strrchr(path, '/');
     snprintf(name, 128, "%s", slash != NULL ? slash + 1 : path);
@@ -306,8 +306,8 @@ static void split(HdViewer *viewer, int by) {
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &first->plan, &first->changes,
-                                   viewer->host.wake, viewer->host.context, &error);
+        status = hd_view_side_open(&viewer->sides[1], &first->plan, viewer->host.wake,
+                                   viewer->host.context, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     viewer->side_count = status == HD_OK && viewer->side_count == 1 ? 2 : 1;
@@ -490,9 +490,9 @@ static void add_settings(Lines *lines, const HdViewer *viewer, int number) {
                  viewer->active == number ? " *" : "");
     add(lines, "%s%s", prefix, device);
     add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
-        side->plan.render.precision == HD_PRECISION_DOUBLE ? "double" : "float", scene->depth,
-        scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid", scene->samples_per_side,
-        scene->samples_per_side);
+        side->plan.devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float",
+        scene->depth, scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid",
+        scene->samples_per_side, scene->samples_per_side);
     if (problem[0] != '\0')
         add(lines, "! %s", problem);
     if (side->mistake[0] != '\0' && number == 0)
@@ -600,7 +600,6 @@ void hd_viewer_limit(HdViewer *viewer, int width) {
 
 HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
                         HdError *error) {
-    const HdSceneChanges none = {-1, -1, -1};
     HdViewer *v = calloc(1, sizeof *v);
     if (v == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a view");
@@ -608,8 +607,7 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewH
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status =
-        hd_view_side_open(&v->sides[0], plan, &none, host->wake, host->context, error);
+    HdStatus status = hd_view_side_open(&v->sides[0], plan, host->wake, host->context, error);
     if (status == HD_OK)
         *viewer = v;
     else

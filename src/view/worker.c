@@ -19,7 +19,7 @@
 #define PART_SECONDS 0.025
 
 /* Rows of parts are multiples of this, as the items of plain C are. */
-enum { PART_ROWS = 8, LINE_SIZE = 512 };
+enum { PART_ROWS = 8 };
 
 struct HdViewWorker {
     void (*wake)(void *context);
@@ -41,7 +41,7 @@ struct HdViewWorker {
     HdPictureStyle style;
     HdViewImage image;
     int version; /* of the image */
-    char device[LINE_SIZE + 64], problem[4096];
+    char device[HD_RENDERER_LINE + 64], problem[4096];
 };
 
 /* ---- what others see ---- */
@@ -109,7 +109,7 @@ static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdErro
 static HdStatus upload(HdViewWorker *worker, const HdScene *scene, const HdViewWish *wish,
                        HdError *error) {
     HdRenderer *renderer = worker->team.list[0].renderer;
-    char line[LINE_SIZE], device[LINE_SIZE + 64];
+    char line[HD_RENDERER_LINE], device[HD_RENDERER_LINE + 64];
     worker->scene_change = 0;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
         tell(worker, "building kernels ...");

@@ -4,13 +4,13 @@
 #ifndef HD_VIEW_WORKER_H
 #define HD_VIEW_WORKER_H
 
+#include "run/plan.h"
 #include "scene/camera.h"
 #include "view/image.h"
-#include "view/view.h"
 
 /* What is to be seen. */
 typedef struct HdViewWish {
-    const HdViewPlan *plan; /* for the device; this and the file live until the worker rests */
+    const HdDevicePlan *plan; /* this and the file live until the worker rests */
     const HdSceneFile *file;
     int device_change, scene_change; /* another number: plan or scene are other than before */
     HdCamera camera;
