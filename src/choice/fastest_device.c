@@ -105,8 +105,8 @@ static HdStatus measure_one(Choosing *choosing, int index, HdError *error) {
     HdTrialTime time;
     HdStatus status = hd_launch_open(member, wish->options, wish->job, true, error);
     if (status == HD_OK)
-        status = hd_trial_measure(member->renderer, wish->options->precision, wish->job,
-                                  share_to_measure(candidates), 2, &time, error);
+        status = hd_trial_measure(member->renderer, wish->job, share_to_measure(candidates), 2,
+                                  &time, error);
     choosing->seconds[index] = status == HD_OK ? time.seconds : (double)INFINITY;
     int slower = index;
     if (is_faster(choosing, index)) {

@@ -3,20 +3,16 @@
 
 #include <math.h>
 
+#include "render/frame.h"
 #include "system/machine.h"
+#include "verify/trust.h"
 
 HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error) {
-    HdSceneTables tables;
     HdStatus status = hd_renderer_open(renderer, device, options, error);
     if (status != HD_OK)
         return status;
-    status = hd_compile_scene(&tables, job->scene, options->precision, hd_renderer_lanes(*renderer),
-                              error);
-    if (status == HD_OK) {
-        status = hd_renderer_upload(*renderer, &tables, error);
-        hd_scene_tables_free(&tables);
-    }
+    status = hd_put_scene(*renderer, job->scene, NULL, error);
     if (status != HD_OK) {
         hd_renderer_close(*renderer);
         *renderer = NULL;
@@ -29,13 +25,14 @@ static int scaled(int side, double factor) {
     return shorter < 1 ? 1 : shorter;
 }
 
-static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int times,
-                       HdTrialTime *time, HdError *error) {
+static HdStatus render(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
+                       int times, HdTrialTime *time, HdError *error) {
+    const HdFrameMaker maker = {.renderer = renderer, .scene = scene};
     HdFrame frame;
-    HdStatus status = hd_frame_create(&frame, tables->width, tables->height, error);
+    HdStatus status = hd_frame_create(&frame, scene->width, scene->height, error);
     for (int i = 0; status == HD_OK && i < times; i++) {
         double start = hd_monotonic_seconds();
-        status = hd_renderer_render(renderer, tables, &frame, error);
+        status = hd_frame_render(&maker, camera, &frame, error);
         double taken = hd_monotonic_seconds() - start;
         time->seconds = i == 0 ? taken : fmin(time->seconds, taken);
         time->trace_seconds =
@@ -45,11 +42,10 @@ static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int ti
     return status;
 }
 
-HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                          double share, int times, HdTrialTime *time, HdError *error) {
+HdStatus hd_trial_measure(HdRenderer *renderer, const HdJob *job, double share, int times,
+                          HdTrialTime *time, HdError *error) {
     HdScene small = *job->scene; /* what it owns stays with the other */
     HdCamera camera;
-    HdFrameTables tables;
     small.width = scaled(job->scene->width, sqrt(share));
     small.height = scaled(job->scene->height, sqrt(share));
     *time = (HdTrialTime){
@@ -59,19 +55,13 @@ HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJ
                  ((double)job->scene->width * (double)job->scene->height),
     };
     HdStatus status = hd_camera_at(&camera, &small, job->first_frame, error);
-    if (status == HD_OK)
-        status = hd_compile_frame(&tables, &small, &camera, precision, error);
-    if (status != HD_OK)
-        return status;
-    status = render(renderer, &tables, times, time, error);
-    hd_frame_tables_free(&tables);
-    return status;
+    return status == HD_OK ? render(renderer, &small, &camera, times, time, error) : status;
 }
 
 /* Starts with few samples, for thousands of lights make each one slow, and takes more until the
    time can be believed. */
-HdStatus hd_trial_estimate_on(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                              double enough, double *frame_seconds, HdError *error) {
+HdStatus hd_trial_estimate_on(HdRenderer *renderer, const HdJob *job, double enough,
+                              double *frame_seconds, HdError *error) {
     const double first_samples = 4096.0, believed_seconds = 0.02;
     const HdScene *scene = job->scene;
     double samples =
@@ -79,7 +69,7 @@ HdStatus hd_trial_estimate_on(HdRenderer *renderer, HdPrecision precision, const
     double share = fmin(1.0, first_samples / samples);
     for (;;) {
         HdTrialTime time;
-        HdStatus status = hd_trial_measure(renderer, precision, job, share, 1, &time, error);
+        HdStatus status = hd_trial_measure(renderer, job, share, 1, &time, error);
         if (status != HD_OK)
             return status;
         *frame_seconds = time.seconds / time.share;
@@ -105,8 +95,7 @@ HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, dou
         status = hd_trial_open(&renderer, &device, options, &plain_job, error);
     if (status != HD_OK)
         return status;
-    status = hd_trial_estimate_on(renderer, options->precision, &plain_job, enough, frame_seconds,
-                                  error);
+    status = hd_trial_estimate_on(renderer, &plain_job, enough, frame_seconds, error);
     hd_renderer_close(renderer);
     return status;
 }

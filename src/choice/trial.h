@@ -26,14 +26,14 @@ typedef struct HdTrialTime {
 } HdTrialTime;
 
 /* Renders about `share` of the pixels of a frame, more than 0 and at most 1, some times over. */
-HdStatus hd_trial_measure(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                          double share, int times, HdTrialTime *time, HdError *error);
+HdStatus hd_trial_measure(HdRenderer *renderer, const HdJob *job, double share, int times,
+                          HdTrialTime *time, HdError *error);
 
 /* About how many seconds a renderer takes for a whole frame, on which the job's scene is. Measures
    no longer than it must to know, some hundredths of a second, and stops early where `frame_count`
    of them take less than `enough` seconds. */
-HdStatus hd_trial_estimate_on(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                              double enough, double *frame_seconds, HdError *error);
+HdStatus hd_trial_estimate_on(HdRenderer *renderer, const HdJob *job, double enough,
+                              double *frame_seconds, HdError *error);
 
 /* The same of plain C. */
 HdStatus hd_trial_estimate(const HdRenderOptions *options, const HdJob *job, double enough,

@@ -29,8 +29,7 @@ static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
     double share = fmin(1.0, first_samples / samples);
     for (;;) {
         HdTrialTime time;
-        HdStatus status = hd_trial_measure(renderer, tuner->options->precision, tuner->job, share,
-                                           2, &time, error);
+        HdStatus status = hd_trial_measure(renderer, tuner->job, share, 2, &time, error);
         if (status != HD_OK)
             return status;
         tuner->share = share;
@@ -51,8 +50,7 @@ static HdStatus measure(Tuner *tuner, const HdLaunch *launch, HdTrialTime *time,
     if (tuner->share <= 0.0)
         status = find_share(tuner, renderer, error);
     if (status == HD_OK)
-        status = hd_trial_measure(renderer, options.precision, tuner->job, tuner->share,
-                                  tuner->times, time, error);
+        status = hd_trial_measure(renderer, tuner->job, tuner->share, tuner->times, time, error);
     hd_renderer_close(renderer);
     return status;
 }

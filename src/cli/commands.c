@@ -34,9 +34,9 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "render' makes of that view. The file is watched: saved, it is shown at once, and a mistake "
      "in it is told over the last good picture. The names of pictures that are saved (p) and "
      "cameras to paste into a scene (c) go to standard output.\n\n"
-     "The window is a program of its own, hedron-view, which needs SDL 2. --terminal needs "
-     "neither: it shows the same by half blocks of 24-bit colour, or as pictures where the "
-     "terminal says that it can (the kitty protocol or sixels)."},
+     "Both are in a program of their own, hedron-view, which needs SDL 2 for the window and chafa "
+     "for --terminal: block symbols in the colours that the terminal has, or pictures where it "
+     "says that it can (the kitty protocol or sixels)."},
     {HD_COMMAND_NEW, "new", "[SCENE.json]", ".json", 1,
      "write a scene to start from, with comments",
      "Writes a small scene in which comments tell what is what, to SCENE.json (default: "

@@ -366,6 +366,10 @@ const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
     return &renderer->device;
 }
 
+const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer) {
+    return &renderer->options;
+}
+
 int hd_renderer_lanes(const HdRenderer *renderer) {
     const HdKernelCache *kernels = kernels_of(renderer);
     return kernels != NULL ? kernels->shape.lanes

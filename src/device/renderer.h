@@ -54,8 +54,9 @@ void hd_renderer_drop(HdRenderer *renderer);
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error);
 
-/* Lives as long as the renderer. */
+/* Both live as long as the renderer. The pipeline is the one that was chosen. */
 const HdDevice *hd_renderer_device(const HdRenderer *renderer);
+const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer);
 
 /* How many lanes the renderer's kernels have: what scenes are compiled for. */
 int hd_renderer_lanes(const HdRenderer *renderer);

@@ -47,12 +47,6 @@ typedef struct HdDevicePlan {
     HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
 } HdDevicePlan;
 
-/* All that a view needs. */
-typedef struct HdViewPlan {
-    HdScenePlan scene;
-    HdDevicePlan devices;
-} HdViewPlan;
-
 /* Where frames go, and what is told of them in files. */
 typedef struct HdStorePlan {
     const char *names[HD_MAX_OUTPUTS];

@@ -10,6 +10,7 @@
 #include "system/atomic_file.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "verify/trust.h"
 
 /* One for each count of lanes. */
 #define COUNTED(lanes) +1
@@ -74,7 +75,7 @@ static HdStatus upload(Run *run, int number, HdError *error) {
     HdStatus status = find_tables(run, hd_renderer_lanes(renderer), &tables, error);
     pthread_mutex_unlock(&run->mutex);
     if (status == HD_OK)
-        status = hd_renderer_upload(renderer, tables, error);
+        status = hd_put_tables(renderer, tables, error);
     pthread_mutex_lock(&run->mutex);
     if (status == HD_OK)
         sequence->uploaded(sequence->context, number, tables);
@@ -104,8 +105,7 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), sequence->team->precision,
-                                           &job, 0.0, &seconds, error);
+    HdStatus status = hd_trial_estimate_on(renderer_of(run, number), &job, 0.0, &seconds, error);
     if (status != HD_OK)
         return status;
     hd_turns_estimate(&run->turns, number, seconds);
@@ -239,7 +239,6 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
         .sequence = sequence,
         .job = {.scene = sequence->scene,
                 .frames = sequence->resume->all,
-                .precision = sequence->team->precision,
                 .wish = sequence->outputs->wish,
                 .watch = sequence->watch,
                 .start = hd_monotonic_seconds()},

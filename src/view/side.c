@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "choice/candidates.h"
 #include "run/load_scene.h"
+#include "system/path.h"
 
 static uint64_t add_file(uint64_t hash, const char *path) {
     struct stat facts;
@@ -64,7 +65,7 @@ HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake
     return status;
 }
 
-void hd_view_side_read(HdViewSide *side) {
+static void read_again(HdViewSide *side) {
     HdSceneFile file;
     HdError error;
     hd_view_worker_rest(side->worker);
@@ -75,7 +76,7 @@ void hd_view_side_read(HdViewSide *side) {
 bool hd_view_side_follow_files(HdViewSide *side) {
     if (hash_files(side->plan.scene.path, &side->file) == side->files)
         return false;
-    hd_view_side_read(side);
+    read_again(side);
     return true;
 }
 
@@ -89,7 +90,6 @@ static void next_backend(HdViewSide *side) {
         continue;
     plan->backend = next < HD_BACKEND_COUNT ? hd_backends[next]->name : NULL;
     plan->device = NULL;
-    side->device_change++;
 }
 
 static void next_device(HdViewSide *side) {
@@ -111,43 +111,37 @@ static void next_device(HdViewSide *side) {
     memcpy(side->device, first, sizeof first);
     side->plan.devices.backend = NULL;
     side->plan.devices.device = side->device;
-    side->device_change++;
-}
-
-static void change_precision(HdViewSide *side) {
-    HdRenderOptions *render = &side->plan.devices.render;
-    render->precision =
-        render->precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
-    side->device_change++;
 }
 
 static int within(int number, int least, int most) {
     return number < least ? least : number > most ? most : number;
 }
 
-bool hd_view_side_change(HdViewSide *side, HdViewAction action) {
+static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
     HdScenePlan *plan = &side->plan.scene;
-    const int samples = scene->samples_per_side;
-    hd_view_worker_rest(side->worker); /* it reads the plan */
-    if (action == HD_VIEW_BACKEND)
-        next_backend(side);
-    else if (action == HD_VIEW_DEVICE)
-        next_device(side);
-    else if (action == HD_VIEW_PRECISION)
-        change_precision(side);
-    else if (action == HD_VIEW_SHALLOWER || action == HD_VIEW_DEEPER)
-        plan->depth = within(scene->depth + (action == HD_VIEW_DEEPER ? 1 : -1), 0, HD_MAX_DEPTH);
-    else if (action == HD_VIEW_FEWER_SAMPLES || action == HD_VIEW_MORE_SAMPLES)
-        plan->samples =
-            within(samples + (action == HD_VIEW_MORE_SAMPLES ? 1 : -1), 1, HD_MAX_SAMPLES_PER_SIDE);
-    else if (action == HD_VIEW_ADAPTIVE)
+    if (setting == HD_VIEW_DEPTH)
+        plan->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
+    else if (setting == HD_VIEW_SAMPLES)
+        plan->samples = within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
+    else
         plan->sampling =
             scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
+}
+
+void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
+    HdPrecision *precision = &side->plan.devices.render.precision;
+    hd_view_worker_rest(side->worker); /* it reads the plan */
+    if (setting == HD_VIEW_BACKEND)
+        next_backend(side);
+    else if (setting == HD_VIEW_DEVICE)
+        next_device(side);
+    else if (setting == HD_VIEW_PRECISION)
+        *precision = *precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
     else
-        return false;
-    hd_view_side_read(side);
-    return true;
+        change_scene(side, setting, by);
+    side->device_change += setting <= HD_VIEW_PRECISION;
+    read_again(side);
 }
 
 void hd_view_side_close(HdViewSide *side) {

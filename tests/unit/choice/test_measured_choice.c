@@ -421,7 +421,7 @@ static double fall(const HdRenderOptions *asked) {
 }
 
 static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrialTime *time) {
-    return hd_trial_measure(renderer, options.precision, &job, share, times, time, &error);
+    return hd_trial_measure(renderer, &job, share, times, time, &error);
 }
 
 TEST(the_least_of_several_counts) {
