@@ -19,31 +19,6 @@ typedef struct Parser {
     bool only_operands; /* after "--" */
 } Parser;
 
-/* "-n", or "-nVALUE" where it takes one. */
-static bool is_short(const HdOptionSpec *spec, const char *argument) {
-    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
-        return false;
-    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
-}
-
-/* Matches "--name", "--name=value", "-n" and "-nvalue"; `*value` is what came with it, or NULL. An
-   option of the command comes before one of the same name that belongs to another. */
-static const HdOptionSpec *find_spec(const char *argument, HdCommand command, const char **value) {
-    const HdOptionSpec *found = NULL;
-    size_t length = strcspn(argument, "=");
-    *value = argument[length] == '=' ? argument + length + 1 : NULL;
-    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
-        bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
-        if (!is_long && !is_short(spec, argument))
-            continue;
-        if (!is_long)
-            *value = argument[2] != '\0' ? argument + 2 : NULL;
-        if (found == NULL || (spec->commands & (unsigned)command) != 0)
-            found = spec;
-    }
-    return found;
-}
-
 /* "did you mean '--size'?", or where to look. */
 static void suggest(const HdNearest *nearest, const char *prefix, const HdCommandSpec *command,
                     char text[128]) {
@@ -131,7 +106,7 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
     }
     if (parser->only_operands || argument[0] != '-' || argument[1] == '\0')
         return add_operand(parser, argument, error);
-    const HdOptionSpec *spec = find_spec(argument, parser->options->command, &value);
+    const HdOptionSpec *spec = hd_option_find(argument, parser->options->command, &value);
     if (spec == NULL)
         return fail_unknown_option(parser, argument, error);
     if (!(spec->commands & (unsigned)parser->options->command))

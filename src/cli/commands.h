@@ -74,41 +74,13 @@ extern const HdExplained hd_exit_codes[HD_EXIT_CODE_COUNT];
 extern const HdExplained hd_examples[HD_EXAMPLE_COUNT];
 extern const HdExplained hd_variables[HD_VARIABLE_COUNT]; /* of the environment */
 
-/* ---- what they do: each returns the status that becomes the exit code ---- */
-
 typedef struct HdOptions HdOptions;
 
-/* The classic mode: input on standard input, one line for each frame on standard output. */
-HdStatus hd_command_classic(const HdOptions *options, HdError *error);
+/* What a command does; the status becomes the exit code. */
+typedef HdStatus HdCommandFunction(const HdOptions *options, HdError *error);
 
-/* Renders a scene file, or the built-in scene. */
-HdStatus hd_command_render(const HdOptions *options, HdError *error);
-
-/* Reads scenes and says what is wrong with them. */
-HdStatus hd_command_check(const HdOptions *options, HdError *error);
-
-/* Turns a classic input into a scene file. */
-HdStatus hd_command_convert(const HdOptions *options, HdError *error);
-
-/* Lists backends and devices on standard output. */
-HdStatus hd_command_devices(const HdOptions *options, HdError *error);
-
-/* Tests what devices compute and prints a certificate for each; HD_FAILED where one is wrong. */
-HdStatus hd_command_selftest(const HdOptions *options, HdError *error);
-
-/* Measures ways to launch a device's kernels for a scene, prints them and remembers the best. */
-HdStatus hd_command_tune(const HdOptions *options, HdError *error);
-
-/* Prints how far two pictures are apart; HD_FAILED where that is too far. */
-HdStatus hd_command_compare(const HdOptions *options, HdError *error);
-
-/* Writes the scene to start from. */
-HdStatus hd_command_new(const HdOptions *options, HdError *error);
-
-/* Prints how the last word of a command line may go on, for the scripts in completions/. */
-HdStatus hd_command_complete(const HdOptions *options, HdError *error);
-
-/* Prints help, the man page or the completion script on standard output. */
-HdStatus hd_command_help(const HdOptions *options, HdError *error);
+HdCommandFunction hd_command_classic, hd_command_render, hd_command_check, hd_command_convert,
+    hd_command_devices, hd_command_selftest, hd_command_tune, hd_command_compare, hd_command_new,
+    hd_command_complete, hd_command_help;
 
 #endif

@@ -18,43 +18,33 @@ typedef struct Line {
 
 /* ---- what the words before say ---- */
 
-static bool is_name(const HdOptionSpec *spec, const char *word, size_t length) {
-    const bool is_long = strlen(spec->name) == length && strncmp(spec->name, word, length) == 0;
-    return is_long || (spec->short_name != NULL && strcmp(spec->short_name, word) == 0);
-}
-
-/* The option of the command that the first `length` characters of a word name, or NULL. */
-static const HdOptionSpec *find_option(const HdCommandSpec *command, const char *word,
-                                       size_t length) {
-    const HdOptionSpec *spec = NULL;
-    do
-        spec = hd_option_next(spec, command->command);
-    while (spec != NULL && !is_name(spec, word, length));
-    return spec;
+/* Of the command. */
+static const HdOptionSpec *find_option(const Line *line, const char *word, const char **value) {
+    const HdCommand command = line->command->command;
+    const HdOptionSpec *spec = hd_option_find(word, command, value);
+    return spec != NULL && (spec->commands & (unsigned)command) != 0 ? spec : NULL;
 }
 
 static void read_word(Line *line, const char *word) {
+    const char *value;
     const bool is_value = line->option != NULL;
     line->option = NULL;
-    if (is_value)
-        return;
-    if (line->only_operands || word[0] != '-' || word[1] == '\0')
+    if (is_value || line->only_operands || word[0] != '-' || word[1] == '\0')
         return;
     line->only_operands = strcmp(word, "--") == 0;
-    const HdOptionSpec *spec = find_option(line->command, word, strlen(word));
-    if (spec != NULL && spec->value != NULL)
+    const HdOptionSpec *spec = find_option(line, word, &value);
+    if (spec != NULL && spec->value != NULL && value == NULL)
         line->option = spec;
 }
 
 static void read_typed(Line *line, const char *word) {
-    const size_t length = strcspn(word, "=");
-    line->kept = word;
-    line->typed = word;
-    if (line->option != NULL || line->only_operands || word[0] != '-' || word[length] == '\0')
+    const char *value, *equals = strchr(word, '=');
+    line->kept = line->typed = word;
+    if (line->option != NULL || line->only_operands || word[0] != '-' || equals == NULL)
         return;
-    line->option = find_option(line->command, word, length);
-    line->kept_length = (int)length + 1;
-    line->typed = word + length + 1;
+    line->option = find_option(line, word, &value);
+    line->typed = equals + 1;
+    line->kept_length = (int)(line->typed - word);
 }
 
 static Line read_line(char *const *words, int count) {

@@ -69,6 +69,29 @@ const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command) 
     return spec->name != NULL ? spec : NULL;
 }
 
+/* "-n", or "-nVALUE" where it takes one. */
+static bool is_short(const HdOptionSpec *spec, const char *argument) {
+    if (spec->short_name == NULL || strncmp(argument, spec->short_name, 2) != 0)
+        return false;
+    return argument[2] == '\0' || (spec->value != NULL && argument[2] != '=');
+}
+
+const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value) {
+    const HdOptionSpec *found = NULL;
+    size_t length = strcspn(argument, "=");
+    *value = argument[length] == '=' ? argument + length + 1 : NULL;
+    for (const HdOptionSpec *spec = hd_option_specs; spec->name != NULL; spec++) {
+        bool is_long = strlen(spec->name) == length && strncmp(spec->name, argument, length) == 0;
+        if (!is_long && !is_short(spec, argument))
+            continue;
+        if (!is_long)
+            *value = argument[2] != '\0' ? argument + 2 : NULL;
+        if (found == NULL || (spec->commands & (unsigned)command) != 0)
+            found = spec;
+    }
+    return found;
+}
+
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity) {
     snprintf(text, (size_t)capacity, "%s%s%s%s%s", spec->short_name ? spec->short_name : "",
              spec->short_name ? ", " : "", spec->name, spec->value ? " " : "",

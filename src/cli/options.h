@@ -85,6 +85,11 @@ extern const HdOptionSpec hd_option_specs[];
 /* The option of the command that follows after `spec` (NULL: the first one), or NULL. */
 const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
 
+/* The option that an argument names as "--name", "--name=value", "-n" or "-nvalue", or NULL;
+   `*value` is what came with it, or NULL. One of the command comes before one of the same name that
+   belongs to another. */
+const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
+
 /* "-o, --output OUT" */
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
 

@@ -41,7 +41,7 @@ static HdStatus print_version(const HdOptions *options, HdError *error) {
 static HdStatus run(const HdOptions *options, HdError *error) {
     static const struct {
         HdCommand command;
-        HdStatus (*run)(const HdOptions *options, HdError *error);
+        HdCommandFunction *run;
     } commands[] = {
         {HD_COMMAND_CLASSIC, hd_command_classic},   {HD_COMMAND_RENDER, hd_command_render},
         {HD_COMMAND_CHECK, hd_command_check},       {HD_COMMAND_CONVERT, hd_command_convert},
