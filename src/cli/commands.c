@@ -99,21 +99,6 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "milliseconds TAB rays."},
 };
 
-const HdExplained hd_help_forms[HD_HELP_FORM_COUNT] = {
-    [HD_HELP_TEXT] = {"", ""},
-    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
-    [HD_HELP_MAN] = {"man", "the man page"},
-    [HD_HELP_BASH] = {"completion", "completion for bash"},
-    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
-    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
-
-HdHelpForm hd_help_form_named(const char *name) {
-    int form = HD_HELP_FORM_COUNT - 1;
-    while (form > HD_HELP_TEXT && strcmp(hd_help_forms[form].text, name) != 0)
-        form--;
-    return (HdHelpForm)form;
-}
-
 const HdCommandSpec *hd_command_named(const char *name) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)

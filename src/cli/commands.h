@@ -28,26 +28,16 @@ typedef struct HdExplained {
 } HdExplained;
 
 /* What there is help about, apart from commands. */
-typedef enum HdHelpForm {
-    HD_HELP_TEXT,
-    HD_HELP_SCENE,
-    HD_HELP_MAN,
-    HD_HELP_BASH,
-    HD_HELP_ZSH,
-    HD_HELP_FISH,
-    HD_HELP_FORM_COUNT
-} HdHelpForm;
-
-/* Their names; that of HD_HELP_TEXT is empty. */
-extern const HdExplained hd_help_forms[HD_HELP_FORM_COUNT];
-
-/* HD_HELP_TEXT where no other form has that name. */
-HdHelpForm hd_help_form_named(const char *name);
-
 typedef struct HdHelpTopic {
-    HdHelpForm form;
-    HdCommand command; /* of HD_HELP_TEXT; HD_COMMAND_CLASSIC: the program as a whole */
+    HdExplained about; /* its name, and half a sentence */
+    void (*print)(void);
 } HdHelpTopic;
+
+enum { HD_HELP_TOPIC_COUNT = 5 };
+extern const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT];
+
+/* NULL where there is none of that name. */
+const HdHelpTopic *hd_help_topic_named(const char *name);
 
 typedef struct HdCommandSpec {
     HdCommand command;

@@ -60,8 +60,7 @@ static Line read_line(char *const *words, int count) {
 /* ---- what may follow ---- */
 
 /* Prints it if it begins with what is typed. */
-static void offer(const void *of_line, const char *word, const char *about) {
-    const Line *line = of_line;
+static void offer(const Line *line, const char *word, const char *about) {
     if (strncmp(word, line->typed, strlen(line->typed)) != 0)
         return;
     printf("%.*s%s", line->kept_length, line->kept, word);
@@ -81,12 +80,6 @@ static void offer_commands(const Line *line) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL && hd_command_specs[i].command != HD_COMMAND_COMPLETE)
             offer(line, hd_command_specs[i].name, hd_command_specs[i].summary);
-}
-
-static void offer_topics(const Line *line) {
-    offer_commands(line);
-    for (int i = HD_HELP_TEXT + 1; i < HD_HELP_FORM_COUNT; i++)
-        offer(line, hd_help_forms[i].text, hd_help_forms[i].meaning);
 }
 
 static void offer_devices(const Line *line) {
@@ -160,12 +153,12 @@ static void offer_value(const Line *line) {
 
 static void offer_operands(const Line *line) {
     const HdCommandSpec *command = line->command;
-    if (command->name == NULL) {
-        if (line->is_first)
-            offer_commands(line);
-    } else if (command->command == HD_COMMAND_HELP)
-        offer_topics(line);
-    else if (command->most_operands != 0)
+    if (command->command == HD_COMMAND_HELP || (command->name == NULL && line->is_first))
+        offer_commands(line);
+    if (command->command == HD_COMMAND_HELP)
+        for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
+            offer(line, hd_help_topics[i].about.text, hd_help_topics[i].about.meaning);
+    else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }
 

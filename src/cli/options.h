@@ -16,8 +16,8 @@
    (`unset`). */
 struct HdOptions {
     HdCommand command;
-    HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
-    char **operands;        /* what is no option, in order; at the front of main's arguments */
+    const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */
+    char **operands;   /* what is no option, in order; at the front of main's arguments */
     int operand_count;
     HdScenePlan scene;
     HdDevicePlan devices;
@@ -97,20 +97,6 @@ void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);
    they would stand on a command line: those of HD_DECIDES_NUMBERS, and with `all` those of
    HD_DECIDES_PIXELS too. Escaped (text.h), and cut to `size` bytes with the zero byte. */
 void hd_options_spell(const HdOptions *options, bool all, char *text, size_t size);
-
-/* What there is where no option is given. */
-void hd_options_reset(HdOptions *options);
-
-/* Lays one option over those read before; `value` is "" for one that takes none. HD_BAD_INPUT with
-   the option's name, the text and what was expected. */
-HdStatus hd_option_apply(HdOptions *options, const HdOptionSpec *spec, const char *value,
-                         HdError *error);
-
-/* The number of `text` among the choices, from 0; -1: it is none of them. */
-int hd_option_choice(const char *const *choices, const char *text);
-
-/* The choices as people list them: "auto, c, opencl or cuda". */
-void hd_option_list_choices(const char *const *choices, char *text, int capacity);
 
 /* Parses the arguments of main, whose order it changes. Fails with HD_BAD_INPUT and a sentence that
    names the argument, and the nearest right one where there is one. */
