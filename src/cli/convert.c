@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "input/builtin.h"
 #include "input/write.h"
 #include "run/load_scene.h"

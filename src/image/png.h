@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "image/format.h"
+#include "image/picture.h"
 
 typedef struct HdPngFacts {
     int width, height; /* 1..65535 each */

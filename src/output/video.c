@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/limits.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
 #include "system/durable.h"

@@ -5,7 +5,7 @@
 #include "fuzz.h"
 #include "image/difference.h"
 #include "image/png.h"
-#include "image/row_reader.h"
+#include "image/picture.h"
 
 /* Reading more takes the campaign's time. */
 enum { MOST_PIXELS = 1 << 20 };
