@@ -2,7 +2,7 @@
 /* The data format: int32 width, int32 height, then r g b a, little endian. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/picture.h"
+#include "image/format.h"
 
 #include <errno.h>
 #include <stdbool.h>

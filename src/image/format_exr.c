@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/limits.h"
-#include "image/picture.h"
+#include "image/format.h"
 
 static bool begins(const unsigned char *bytes, size_t size) {
     return size >= 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0;

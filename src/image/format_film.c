@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Films: what FFmpeg is told about the file. */
-#include "image/picture.h"
+#include "image/format.h"
 
 enum { MIN_SLICED_SIDE = 64 };
 

@@ -9,7 +9,7 @@
 #include <jerror.h> /* after its types */
 #include <jpeglib.h>
 
-#include "image/picture.h"
+#include "image/format.h"
 
 /* Encoders make a dozen; each goes over the whole picture, however few bytes it has. */
 enum { MAX_SCANS = 64 };

@@ -8,7 +8,7 @@
 #include <sys/types.h>
 
 #include "base/limits.h"
-#include "image/picture.h"
+#include "image/format.h"
 
 /* A file that is being read. */
 typedef struct PfmRows {

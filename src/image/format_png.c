@@ -26,17 +26,18 @@ enum { MESSAGE_SIZE = 256, SIGNATURE_SIZE = 8 };
 
 /* libpng reports an error by a jump. Everything that must outlive it lives here, not in local
    variables. */
-struct HdPngReader {
+typedef struct PngReader {
     png_structp png;
     png_infop info;
-    HdPngSource source; /* of memory the part not read yet */
-    size_t allowed;     /* to be read still */
-    const char *name;
+    FILE *file;
+    size_t allowed;   /* to be read still */
+    const char *name; /* for messages */
     HdPngFacts facts;
+    bool is_interlaced;
     int passes; /* over the same rows */
     int next;
     char message[MESSAGE_SIZE];
-};
+} PngReader;
 
 struct HdPngWriter {
     png_structp png;
@@ -60,25 +61,19 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-bool hd_image_is_png(const unsigned char *bytes, size_t size) {
+static bool begins(const unsigned char *bytes, size_t size) {
     return size >= SIGNATURE_SIZE && png_sig_cmp(bytes, 0, SIGNATURE_SIZE) == 0;
 }
 
 /* Reading */
 
 static void read_bytes(png_structp png, png_bytep out, size_t count) {
-    HdPngReader *reader = png_get_io_ptr(png);
-    HdPngSource *source = &reader->source;
+    PngReader *reader = png_get_io_ptr(png);
     if (count > reader->allowed)
         png_error(png, "the file has far more bytes than its pixels need");
     reader->allowed -= count;
-    if (source->file != NULL ? fread(out, 1, count, source->file) != count : count > source->size)
+    if (fread(out, 1, count, reader->file) != count)
         png_error(png, "the file ends too early");
-    if (source->file != NULL)
-        return;
-    memcpy(out, source->bytes, count);
-    source->bytes += count;
-    source->size -= count;
 }
 
 static void limit_reading(png_structp png) {
@@ -97,7 +92,7 @@ static void convert_to_rgb(png_structp png) {
     png_set_gray_to_rgb(png);
 }
 
-static bool try_head(HdPngReader *reader) {
+static bool try_head(PngReader *reader) {
     png_structp png = reader->png;
     png_infop info = reader->info;
     if (setjmp(png_jmpbuf(png)) != 0)
@@ -105,7 +100,7 @@ static bool try_head(HdPngReader *reader) {
     png_set_read_fn(png, reader, read_bytes);
     limit_reading(png);
     png_read_info(png, info);
-    reader->facts.is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
+    reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
     reader->facts.is_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
     convert_to_rgb(png);
     reader->passes = png_set_interlace_handling(png);
@@ -120,34 +115,43 @@ static bool try_head(HdPngReader *reader) {
     return true;
 }
 
-static HdStatus fail_reading(const HdPngReader *reader, HdError *error) {
+static HdStatus fail_reading(const PngReader *reader, HdError *error) {
     return hd_fail(error, strstr(reader->message, "memory") != NULL ? HD_FAILED : HD_BAD_INPUT,
                    "cannot read %s as PNG: %s", reader->name, reader->message);
 }
 
-HdStatus hd_png_open(HdPngReader **out, const HdPngSource *source, const char *name,
-                     HdPngFacts *facts, HdError *error) {
-    HdPngReader *reader = malloc(sizeof *reader);
+static void close_reader(PngReader *reader) {
+    if (reader == NULL)
+        return;
+    png_destroy_read_struct(&reader->png, &reader->info, NULL);
+    free(reader);
+}
+
+/* Reads the head of a file that stands at its begin, which lives on, as the name does. Chunks
+   without measure are refused, and all but those of pixels and sRGB are passed over. A file of more
+   than 16 MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file
+   is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
+static HdStatus open_reader(PngReader **out, FILE *file, const char *name, HdError *error) {
+    PngReader *reader = malloc(sizeof *reader);
     if (reader == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
-    *reader = (HdPngReader){
-        .source = *source, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
+    *reader =
+        (PngReader){.file = file, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
     reader->png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
     if (reader->png != NULL)
         reader->info = png_create_info_struct(reader->png);
-    if (reader->info == NULL || !try_head(reader)) {
-        const HdStatus status = fail_reading(reader, error);
-        hd_png_close(reader);
-        return status;
+    if (reader->info != NULL && try_head(reader)) {
+        *out = reader;
+        return HD_OK;
     }
-    *facts = reader->facts;
-    *out = reader;
-    return HD_OK;
+    const HdStatus status = fail_reading(reader, error);
+    close_reader(reader);
+    return status;
 }
 
 /* The last row is followed by the end of the file, which has to be there. */
-static bool try_rows(HdPngReader *reader, uint16_t *codes, int count) {
+static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
     const size_t values = (size_t)reader->facts.width * 3;
     if (setjmp(png_jmpbuf(reader->png)) != 0)
         return false;
@@ -168,20 +172,15 @@ static void make_codes(uint16_t *row, size_t values, int bits) {
         row[i] = (uint16_t)(bits == 16 ? bytes[2 * i] << 8 | bytes[2 * i + 1] : bytes[i] * 257);
 }
 
-HdStatus hd_png_read_rows(HdPngReader *reader, uint16_t *codes, int count, HdError *error) {
+/* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
+   pixel, 0..65535 whatever the bits; without alpha. */
+static HdStatus read_rows(PngReader *reader, uint16_t *codes, int count, HdError *error) {
     const size_t values = (size_t)reader->facts.width * 3;
     if (!try_rows(reader, codes, count))
         return fail_reading(reader, error);
     for (int row = 0; row < count; row++)
         make_codes(codes + values * (size_t)row, values, reader->facts.bits);
     return HD_OK;
-}
-
-void hd_png_close(HdPngReader *reader) {
-    if (reader == NULL)
-        return;
-    png_destroy_read_struct(&reader->png, &reader->info, NULL);
-    free(reader);
 }
 
 /* Writing */
@@ -367,19 +366,34 @@ static void take_off_curve(HdTexture *texture, HdCurve curve, int bits) {
         texture->texels[i] = decoded[texture->texels[i] >> 8];
 }
 
+static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_t size,
+                           const char *name, HdError *error) {
+    FILE *file = fmemopen((void *)bytes, size, "rb"); /* nothing writes to it */
+    if (file == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+    const HdStatus status = open_reader(reader, file, name, error);
+    if (status != HD_OK)
+        fclose(file);
+    return status;
+}
+
+static void close_bytes(PngReader *reader) {
+    fclose(reader->file);
+    close_reader(reader);
+}
+
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error) {
-    const HdPngSource source = {.bytes = bytes, .size = size};
-    HdPngReader *reader = NULL;
-    HdPngFacts facts;
+    PngReader *reader;
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status == HD_OK)
-        status = hd_png_open(&reader, &source, name, &facts, error);
+        status = open_bytes(&reader, bytes, size, name, error);
+    if (status != HD_OK)
+        return status;
+    status = read_rows(reader, texture->texels, texture->height, error);
     if (status == HD_OK)
-        status = hd_png_read_rows(reader, texture->texels, texture->height, error);
-    hd_png_close(reader);
-    if (status == HD_OK)
-        take_off_curve(texture, curve, facts.bits);
+        take_off_curve(texture, curve, reader->facts.bits);
+    close_bytes(reader);
     return status;
 }
 
@@ -392,14 +406,14 @@ static void fill_rgba(const uint16_t *codes, size_t pixels, uint8_t *rgba) {
     }
 }
 
-static HdStatus load_rows(HdFrame *frame, HdPngReader *reader, const char *name, HdError *error) {
+static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, HdError *error) {
     const size_t width = (size_t)frame->width;
     uint16_t *codes = malloc(width * 3 * sizeof *codes);
     if (codes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     HdStatus status = HD_OK;
     for (int y = 0; y < frame->height && status == HD_OK; y++) {
-        status = hd_png_read_rows(reader, codes, 1, error);
+        status = read_rows(reader, codes, 1, error);
         if (status == HD_OK)
             fill_rgba(codes, width, frame->rgba + width * 4 * (size_t)y);
     }
@@ -409,19 +423,18 @@ static HdStatus load_rows(HdFrame *frame, HdPngReader *reader, const char *name,
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    const HdPngSource source = {.bytes = bytes, .size = size};
-    HdPngReader *reader;
-    HdPngFacts facts;
-    HdStatus status = hd_png_open(&reader, &source, name, &facts, error);
+    PngReader *reader;
+    HdStatus status = open_bytes(&reader, bytes, size, name, error);
     if (status != HD_OK)
         return status;
-    if (facts.width != frame->width || facts.height != frame->height || facts.bits != 8 ||
-        facts.is_interlaced)
+    const HdPngFacts *facts = &reader->facts;
+    if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
+        reader->is_interlaced)
         status = hd_fail(error, HD_FAILED,
                          "cannot read %s as PNG: unexpected size or kind of picture", name);
     else
         status = load_rows(frame, reader, name, error);
-    hd_png_close(reader);
+    close_bytes(reader);
     frame->is_encoded |= status == HD_OK;
     return status;
 }
@@ -487,32 +500,30 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
                           HdError *error) {
-    const HdPngSource source = {.file = file};
-    HdPngReader *reader;
-    HdPngFacts found;
-    HdStatus status = hd_png_open(&reader, &source, path, &found, error);
+    PngReader *reader;
+    HdStatus status = open_reader(&reader, file, path, error);
     if (status != HD_OK)
         return status;
-    if (found.is_interlaced) {
-        hd_png_close(reader);
+    if (reader->is_interlaced) {
+        close_reader(reader);
         return hd_fail(error, HD_BAD_INPUT,
                        "%s is an interlaced PNG, expected one whose rows follow each other", path);
     }
     *rows = reader;
     *facts = (HdPictureFacts){
-        .width = found.width,
-        .height = found.height,
-        .bits = found.bits,
-        .curve = found.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
+        .width = reader->facts.width,
+        .height = reader->facts.height,
+        .bits = reader->facts.bits,
+        .curve = reader->facts.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
     };
     return HD_OK;
 }
 
 /* Codes lie at the begin of the row that they become, so that the way goes from the end. */
 static HdStatus next_row(void *rows, float *rgb, HdError *error) {
-    HdPngReader *reader = rows;
+    PngReader *reader = rows;
     void *codes = rgb;
-    const HdStatus status = hd_png_read_rows(reader, codes, 1, error);
+    const HdStatus status = read_rows(reader, codes, 1, error);
     for (size_t i = (size_t)reader->facts.width * 3; i-- > 0 && status == HD_OK;) {
         uint16_t code;
         memcpy(&code, (const char *)codes + i * sizeof code, sizeof code);
@@ -522,7 +533,7 @@ static HdStatus next_row(void *rows, float *rgb, HdError *error) {
 }
 
 static void close_rows(void *rows) {
-    hd_png_close(rows);
+    close_reader(rows);
 }
 
 const HdFormat hd_format_png = {
@@ -531,7 +542,7 @@ const HdFormat hd_format_png = {
     .most_encoded_bits = 8,
     .load = load,
     .decode = decode,
-    .begins = hd_image_is_png,
+    .begins = begins,
     .open_rows = open_rows,
     .next_row = next_row,
     .close_rows = close_rows,

@@ -9,7 +9,7 @@
 
 #include "base/problems.h"
 #include "image/curve.h"
-#include "image/picture.h"
+#include "image/format.h"
 #include "scene/scene.h"
 #include "system/path.h"
 

@@ -4,7 +4,7 @@
 #define HD_OUTPUT_VIDEO_H
 
 #include "base/error.h"
-#include "image/picture.h"
+#include "image/format.h"
 #include "system/atomic_file.h"
 
 typedef struct HdVideo HdVideo;
