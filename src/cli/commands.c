@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "image/formats.h"
+#include "image/picture.h"
 
 const char hd_program_summary[] =
     "renders mirrored, transparent platonic solids with lights along their edges";

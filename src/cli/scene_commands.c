@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "cli/options.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "input/builtin.h"
 #include "input/json/json_device_text.h"
 #include "input/schema.h"

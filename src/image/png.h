@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* PNG row by row: of every kind that there is as r, g, b, and r, g, b as a file. */
+/* PNG that is written row by row, and what finished frames end with. */
 #ifndef HD_IMAGE_PNG_H
 #define HD_IMAGE_PNG_H
 
@@ -14,35 +14,7 @@ typedef struct HdPngFacts {
     int width, height; /* 1..65535 each */
     int bits;          /* of a channel: 8 or 16 */
     bool is_srgb;      /* a chunk says so */
-    bool is_interlaced;
 } HdPngFacts;
-
-/* True where the bytes begin with PNG's signature. */
-bool hd_image_is_png(const unsigned char *bytes, size_t size);
-
-/* Where a PNG is read from: a file that stands at its begin, or, where that is NULL, memory. It has
-   to live as long as the reader. */
-typedef struct HdPngSource {
-    FILE *file;
-    const unsigned char *bytes;
-    size_t size;
-} HdPngSource;
-
-typedef struct HdPngReader HdPngReader;
-
-/* Reads the head. `name` is for messages, and has to live as long as the reader. Chunks without
-   measure are refused, and all but those of pixels and sRGB are passed over. A file of more than 16
-   MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file is
-   HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
-HdStatus hd_png_open(HdPngReader **reader, const HdPngSource *source, const char *name,
-                     HdPngFacts *facts, HdError *error);
-
-/* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
-   pixel, 0..65535 whatever the bits; without alpha. */
-HdStatus hd_png_read_rows(HdPngReader *reader, uint16_t *codes, int count, HdError *error);
-
-/* NULL is allowed. */
-void hd_png_close(HdPngReader *reader);
 
 typedef struct HdPngWriter HdPngWriter;
 

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/limits.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "scene/frame_list.h"
 #include "system/atomic_file.h"
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "system/atomic_file.h"
 #include "system/child.h"
 #include "system/interrupt.h"

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "image/formats.h"
+#include "image/picture.h"
 
 enum { MOST_NAMES = 8, MOST_LENGTH = 200 };
 

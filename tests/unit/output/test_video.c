@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 
 #include "fake_programs.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "output/video.h"
 #include "system/atomic_file.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "image/texture.h"
+#include "image/format.h"
 
 #include <stdlib.h>
 
