@@ -11,7 +11,7 @@
 #include "input/load.h"
 #include "render/survey.h"
 #include "scene/contact.h"
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 #include "system/interrupt.h"
 
 /* Far above any classic input, and small enough to read into memory without a thought. */

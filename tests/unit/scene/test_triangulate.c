@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 
 #include <stdlib.h>
 
-#include "scene/triangulate/solid.h"
 #include "unit_test.h"
 
 static HdError error;

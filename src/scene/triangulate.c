@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/triangulate/solid.h"
 #include "system/machine.h"
 
 /* In `made` is what the scene gets in front of its own meshes and instances, and behind its

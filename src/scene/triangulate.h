@@ -1,11 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /* Solids and the floor as triangles. */
-#ifndef HD_SCENE_TRIANGULATE_SOLID_H
-#define HD_SCENE_TRIANGULATE_SOLID_H
+#ifndef HD_SCENE_TRIANGULATE_H
+#define HD_SCENE_TRIANGULATE_H
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
-#include "scene/triangulate/pattern.h"
+
+/* Numbers of the materials of a solid's mesh: its faces, its rims, then the discs of each of the
+   edge lights' colours twice, outside of the rim and on it, if there are discs. Shadow rays pass
+   discs as they pass what is below: `passes_as` is the face's number or the rim's. */
+enum { HD_SOLID_MATERIAL_FACE, HD_SOLID_MATERIAL_RIM, HD_SOLID_MATERIAL_DISCS };
+
+enum { HD_MIN_DISC_SIDES = 8, HD_MAX_DISC_SIDES = 256 };
+
+/* Makes the solids and the floor of a valid scene out of triangles (HD_GEOMETRY_TRIANGLES), as
+   hd_triangulate_solid and hd_triangulate_floor do; the discs of edge lights have `disc_sides`
+   sides. On failure the scene is as it was. */
+HdStatus hd_scene_triangulate(HdScene *scene, int disc_sides, int divisions, HdError *error);
 
 /* The solid about its own centre, turned as it is in the scene: closed, with every inner edge
    shared by exactly two triangles that name the same two vertices, no corner of one within the edge
