@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "image/png.h"
-#include "system/file_bytes.h"
+#include "system/path.h"
 
 /* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
 static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;

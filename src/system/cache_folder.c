@@ -18,7 +18,7 @@
 
 #include "base/hash.h"
 #include "system/atomic_file.h"
-#include "system/file_bytes.h"
+#include "system/path.h"
 
 /* Then follow the key and the payload. Folders are not shared among machines of different byte
    order, and if they were, the magic number would differ. */
