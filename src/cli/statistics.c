@@ -82,7 +82,7 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
         statistics->stream = stdout;
         return HD_OK;
     }
-    HdStatus status = hd_path_make_parents(statistics->name, error);
+    HdStatus status = hd_path_make_parents(statistics->name, 0777, error);
     return status == HD_OK ? open_file(statistics, error) : status;
 }
 

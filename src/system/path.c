@@ -57,8 +57,9 @@ static bool is_folder(const char *path) {
 }
 
 /* Making first and looking second leaves no gap for another process that makes the same folder. */
-static HdStatus make_folder(const char *folder, const char *path, HdError *error) {
-    if (mkdir(folder, 0777) == 0)
+static HdStatus make_folder(const char *folder, unsigned mode, const char *path,
+                            HdError *error) {
+    if (mkdir(folder, mode) == 0)
         return HD_OK;
     int reason = errno;
     if (is_folder(folder))
@@ -99,14 +100,14 @@ void hd_path_visit(const char *folder, void (*visit)(void *context, const char *
         closedir(stream);
 }
 
-HdStatus hd_path_make_parents(const char *path, HdError *error) {
+HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error) {
     char folder[HD_MAX_PATH] = "";
     HdStatus status = join("", path, folder, error);
     for (size_t i = 1; status == HD_OK && folder[i] != '\0'; i++) {
         if (folder[i] != '/' || folder[i - 1] == '/')
             continue;
         folder[i] = '\0';
-        status = make_folder(folder, path, error);
+        status = make_folder(folder, mode, path, error);
         folder[i] = '/';
     }
     return status;

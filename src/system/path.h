@@ -35,8 +35,9 @@ bool hd_path_of_program(char out[HD_MAX_PATH]);
 void hd_path_visit(const char *folder, void (*visit)(void *context, const char *name),
                    void *context);
 
-/* Makes every missing folder above the file `path`. */
-HdStatus hd_path_make_parents(const char *path, HdError *error);
+/* Makes every missing folder above the file `path`, with these permissions, less what the umask
+   takes. */
+HdStatus hd_path_make_parents(const char *path, unsigned mode, HdError *error);
 
 /* True where `path` holds a frame number: "%d", "%0Nd" with N from 1 to 9, or a run of 1 to 9 "#",
    which counts its digits. */
