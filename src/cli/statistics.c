@@ -85,7 +85,7 @@ HdStatus hd_statistics_open(HdStatistics *statistics, HdError *error) {
         statistics->stream = stdout;
     if (statistics->is_standard_output || statistics->name[0] == '\0')
         return HD_OK;
-    HdStatus status = hd_path_make_parents(statistics->name, error);
+    HdStatus status = hd_path_make_parents(statistics->name, 0777, error);
     return status == HD_OK ? open_file(statistics, error) : status;
 }
 

@@ -13,7 +13,7 @@
 #include "device/probe.h"
 #include "device/self_test.h"
 #include "kernels/host/shared.h"
-#include "system/warnings.h"
+#include "system/machine.h"
 
 struct HdRenderer {
     const HdBackend *backend;

@@ -9,8 +9,8 @@
 
 #include "image/png.h"
 #include "output/fingerprint.h"
-#include "system/file_bytes.h"
 #include "system/interrupt.h"
+#include "system/path.h"
 
 static const int64_t MAX_PICTURE_BYTES = INT64_C(1) << 36;
 

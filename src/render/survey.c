@@ -6,8 +6,8 @@
 
 #include "base/growth.h"
 #include "scene/light_bound.h"
-#include "system/chunks.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 
 /* Entries of one submission, at most, in whole items; lists are worked off in parts, as few as can
    be, for a GPU waits for the longest tree of each. */

@@ -286,7 +286,7 @@ static HdStatus reserve(HdAtomicFile *file, const char *path, unsigned mode, HdE
     file->lock = -1;
     HdStatus status = check_target(path, error);
     if (status == HD_OK && folder_known(path).hash == 0)
-        status = hd_path_make_parents(path, error);
+        status = hd_path_make_parents(path, 0777, error);
     if (status == HD_OK)
         status = check_length(path, error);
     if (status != HD_OK)

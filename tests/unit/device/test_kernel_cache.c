@@ -6,7 +6,7 @@
 #include "device/verdict.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"
-#include "system/warnings.h"
+#include "system/machine.h"
 #include "test_folder.h"
 #include "verify/trust.h"
 
