@@ -99,6 +99,20 @@ const HdCommandSpec hd_command_specs[HD_COMMAND_SPEC_COUNT] = {
      "milliseconds TAB rays."},
 };
 
+const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT] = {
+    [HD_HELP_SCENE] = {"scene", "every key of a scene file"},
+    [HD_HELP_MAN] = {"man", "the man page"},
+    [HD_HELP_BASH] = {"completion", "completion for bash"},
+    [HD_HELP_ZSH] = {"completion-zsh", "completion for zsh"},
+    [HD_HELP_FISH] = {"completion-fish", "completion for fish"}};
+
+int hd_help_topic_named(const char *name) {
+    int topic = HD_HELP_TOPIC_COUNT - 1;
+    while (topic >= 0 && strcmp(hd_help_topics[topic].text, name) != 0)
+        topic--;
+    return topic;
+}
+
 const HdCommandSpec *hd_command_named(const char *name) {
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++)
         if (hd_command_specs[i].name != NULL && strcmp(hd_command_specs[i].name, name) == 0)

@@ -28,16 +28,11 @@ typedef struct HdExplained {
 } HdExplained;
 
 /* What there is help about, apart from commands. */
-typedef struct HdHelpTopic {
-    HdExplained about; /* its name, and half a sentence */
-    void (*print)(void);
-} HdHelpTopic;
+enum { HD_HELP_SCENE, HD_HELP_MAN, HD_HELP_BASH, HD_HELP_ZSH, HD_HELP_FISH, HD_HELP_TOPIC_COUNT };
+extern const HdExplained hd_help_topics[HD_HELP_TOPIC_COUNT];
 
-enum { HD_HELP_TOPIC_COUNT = 5 };
-extern const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT];
-
-/* NULL where there is none of that name. */
-const HdHelpTopic *hd_help_topic_named(const char *name);
+/* Negative where there is none of that name. */
+int hd_help_topic_named(const char *name);
 
 typedef struct HdCommandSpec {
     HdCommand command;

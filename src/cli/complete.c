@@ -157,7 +157,7 @@ static void offer_operands(const Line *line) {
         offer_commands(line);
     if (command->command == HD_COMMAND_HELP)
         for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-            offer(line, hd_help_topics[i].about.text, hd_help_topics[i].about.meaning);
+            offer(line, hd_help_topics[i].text, hd_help_topics[i].meaning);
     else if (command->name != NULL && command->most_operands != 0)
         printf(":%s\n", command->ending != NULL ? command->ending : "");
 }

@@ -272,31 +272,17 @@ static void print_man_page(void) {
 
 /* ---- topics ---- */
 
-static void print_bash_completion(void) {
-    fwrite(hd_bash_completion, 1, hd_bash_completion_size, stdout);
-}
-
-static void print_zsh_completion(void) {
-    fwrite(hd_zsh_completion, 1, hd_zsh_completion_size, stdout);
-}
-
-static void print_fish_completion(void) {
-    fwrite(hd_fish_completion, 1, hd_fish_completion_size, stdout);
-}
-
-const HdHelpTopic hd_help_topics[HD_HELP_TOPIC_COUNT] = {
-    {{"scene", "every key of a scene file"}, print_scene_format},
-    {{"man", "the man page"}, print_man_page},
-    {{"completion", "completion for bash"}, print_bash_completion},
-    {{"completion-zsh", "completion for zsh"}, print_zsh_completion},
-    {{"completion-fish", "completion for fish"}, print_fish_completion},
-};
-
-const HdHelpTopic *hd_help_topic_named(const char *name) {
-    for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        if (strcmp(hd_help_topics[i].about.text, name) == 0)
-            return &hd_help_topics[i];
-    return NULL;
+static void print_topic(int topic) {
+    if (topic == HD_HELP_SCENE)
+        print_scene_format();
+    else if (topic == HD_HELP_MAN)
+        print_man_page();
+    else if (topic == HD_HELP_BASH)
+        fwrite(hd_bash_completion, 1, hd_bash_completion_size, stdout);
+    else if (topic == HD_HELP_ZSH)
+        fwrite(hd_zsh_completion, 1, hd_zsh_completion_size, stdout);
+    else if (topic == HD_HELP_FISH)
+        fwrite(hd_fish_completion, 1, hd_fish_completion_size, stdout);
 }
 
 HdStatus hd_command_help(const HdOptions *options, HdError *error) {
@@ -306,6 +292,6 @@ HdStatus hd_command_help(const HdOptions *options, HdError *error) {
     else if (hd_command_named(options->topic) != NULL)
         print_command(hd_command_named(options->topic));
     else
-        hd_help_topic_named(options->topic)->print();
+        print_topic(hd_help_topic_named(options->topic));
     return HD_OK;
 }

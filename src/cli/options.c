@@ -452,7 +452,7 @@ static HdStatus fail_unknown_command(const Parser *parser, const char *argument,
     const size_t size = sizeof suggestion;
     if (hd_path_has_ending(argument, ".json"))
         snprintf(suggestion, size, "did you mean 'hedron render %s'?", argument);
-    else if (hd_help_topic_named(argument) != NULL)
+    else if (hd_help_topic_named(argument) >= 0)
         snprintf(suggestion, size, "did you mean 'hedron help %s'?", argument);
     else if (strcmp(argument, "version") == 0)
         snprintf(suggestion, size, "did you mean 'hedron --version'?");
@@ -527,10 +527,10 @@ static HdStatus parse_argument(Parser *parser, HdError *error) {
 static HdStatus check_topic(const char *name, HdError *error) {
     HdNearest nearest = {.word = name};
     char suggestion[128];
-    if (hd_command_named(name) != NULL || hd_help_topic_named(name) != NULL)
+    if (hd_command_named(name) != NULL || hd_help_topic_named(name) >= 0)
         return HD_OK;
     for (int i = 0; i < HD_HELP_TOPIC_COUNT; i++)
-        hd_nearest_offer(&nearest, hd_help_topics[i].about.text);
+        hd_nearest_offer(&nearest, hd_help_topics[i].text);
     offer_commands(&nearest);
     suggest(&nearest, "hedron help ", hd_command_spec(HD_COMMAND_HELP), suggestion);
     return hd_fail(error, HD_BAD_INPUT, "there is no help on '%s'; %s", name, suggestion);

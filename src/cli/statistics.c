@@ -24,23 +24,18 @@ static HdStatus fail_to_write(const HdStatistics *statistics, HdError *error) {
                    strerror(errno));
 }
 
-static HdStatus check_begin(const char *file, const char *path, HdError *error) {
+static bool has_other_json(const char *file) {
     static const char expected[] = "{\"frame\"";
     char begin[sizeof expected - 1] = "";
     struct stat found;
     if (stat(file, &found) != 0 || !S_ISREG(found.st_mode))
-        return HD_OK;
+        return false;
     FILE *stream = fopen(file, "rb");
     if (stream == NULL)
-        return HD_OK;
+        return false;
     size_t count = fread(begin, 1, sizeof begin, stream);
     fclose(stream);
-    if (count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "--stats is '%s', which has other JSON in it, expected a new file or one "
-                       "with statistics",
-                       path);
-    return HD_OK;
+    return count > 0 && begin[0] == '{' && memcmp(begin, expected, sizeof begin) != 0;
 }
 
 HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const char *scene,
@@ -62,7 +57,12 @@ HdStatus hd_statistics_settle(HdStatistics *statistics, const char *path, const 
         if (status == HD_OK && hd_path_is_same(file, output))
             return hd_fail(error, HD_BAD_INPUT, "--stats is '%s', which is an output", path);
     }
-    return status == HD_OK ? check_begin(file, path, error) : status;
+    if (status == HD_OK && has_other_json(file))
+        return hd_fail(error, HD_BAD_INPUT,
+                       "--stats is '%s', which has other JSON in it, expected a new file or one "
+                       "with statistics",
+                       path);
+    return status;
 }
 
 static HdStatus open_file(HdStatistics *statistics, HdError *error) {

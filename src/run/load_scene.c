@@ -20,11 +20,15 @@ enum { MAX_INPUT_BYTES = 1 << 20 };
 /* Of the discs of edge lights, where they become polygons. */
 enum { DISC_SIDES = 16 };
 
-static const char standard_input[] = "standard input", built_in[] = "the built-in scene";
+static const char standard_input[] = "standard input";
 
-static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t most, size_t *size,
+/* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
+static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
                             HdError *error) {
-    *size = fread(text, 1, most + 1, stream);
+    *text = malloc(most + 1);
+    if (*text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
+    *size = fread(*text, 1, most + 1, stream);
     if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);
     if (ferror(stream))
@@ -37,13 +41,11 @@ static HdStatus read_stream(FILE *stream, const char *name, char *text, size_t m
 
 HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
     const char *name = path != NULL ? path : standard_input;
+    char *text = NULL;
     size_t size = 0;
-    char *text = malloc(MAX_INPUT_BYTES + 1);
-    if (text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the input");
     FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
     HdStatus status =
-        stream != NULL ? read_stream(stream, name, text, MAX_INPUT_BYTES, &size, error)
+        stream != NULL ? read_stream(stream, name, MAX_INPUT_BYTES, &text, &size, error)
                        : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
     if (status == HD_OK)
         status = hd_classic_parse(file, text, size, name, variant, error);
@@ -53,36 +55,28 @@ HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdErr
     return status;
 }
 
-static HdStatus read_standard_input(HdSceneFile *file, HdSceneSource source, HdError *error) {
-    size_t size = 0;
-    char *text = malloc(HD_MAX_SCENE_BYTES + 1);
-    if (text == NULL)
-        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
-    source.name = standard_input;
-    HdStatus status = read_stream(stdin, source.name, text, HD_MAX_SCENE_BYTES, &size, error);
-    if (status == HD_OK)
-        status = hd_scene_file_parse(file, text, size, &source, error);
-    free(text);
-    return status;
-}
-
-static HdStatus read_built_in(HdSceneFile *file, HdSceneSource source, HdError *error) {
-    size_t size;
-    const char *text = hd_default_scene_text(&size);
-    source.name = built_in;
-    return hd_scene_file_parse(file, text, size, &source, error);
-}
-
 const char *hd_scene_name(const char *path) {
-    return path == NULL ? built_in : strcmp(path, "-") == 0 ? standard_input : path;
+    return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
 }
 
 HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
                        HdError *error) {
-    if (path == NULL)
-        return read_built_in(file, *source, error);
-    return strcmp(path, "-") == 0 ? read_standard_input(file, *source, error)
-                                  : hd_scene_file_read(file, path, source, error);
+    HdSceneSource named = *source;
+    char *read = NULL;
+    size_t size = 0;
+    HdStatus status = HD_OK;
+    if (path != NULL && strcmp(path, "-") != 0)
+        return hd_scene_file_read(file, path, source, error);
+    named.name = hd_scene_name(path);
+    const char *text = hd_default_scene_text(&size);
+    if (path != NULL) {
+        status = read_stream(stdin, standard_input, HD_MAX_SCENE_BYTES, &read, &size, error);
+        text = read;
+    }
+    if (status == HD_OK)
+        status = hd_scene_file_parse(file, text, size, &named, error);
+    free(read);
+    return status;
 }
 
 static void set_numbers(HdScene *scene, const HdScenePlan *plan) {

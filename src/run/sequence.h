@@ -9,7 +9,7 @@
 
 typedef struct HdSequence {
     const HdScene *scene;
-    HdResume *resume; /* which frames there are, and which of them are finished */
+    HdResume *resume;            /* which frames there are, and which of them are finished */
     const HdOutputPlan *outputs; /* settled */
     const HdDeviceTeam *team;    /* open; may be empty where nothing is missing */
     /* Called once the scene is on the renderer of that number, before its first frame, for one
