@@ -22,7 +22,7 @@ install(CODE "
     file(INSTALL \"${PROJECT_SOURCE_DIR}/completions/hedron.zsh\" RENAME _hedron
          DESTINATION \"\${data}/zsh/\${folder}\")")
 
-# Debian packages of what is installed, the window by itself, for it needs SDL: ./dev package.
+# Debian packages of what is installed, the view by itself, for it needs SDL and chafa: ./dev package.
 set(CPACK_GENERATOR DEB)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # nobody who wants a package waits for tests and benches
 set(CPACK_PACKAGE_NAME hedron)
@@ -44,5 +44,5 @@ set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY
 set(CPACK_DEBIAN_VIEW_PACKAGE_NAME hedron-view)
 set(CPACK_DEBIAN_VIEW_PACKAGE_DEPENDS "hedron (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_VIEW_PACKAGE_RECOMMENDS "")
-set(CPACK_COMPONENT_VIEW_DESCRIPTION "The window of hedron view\nShows a scene live; a program of its own, for it needs SDL 2.")
+set(CPACK_COMPONENT_VIEW_DESCRIPTION "What hedron view shows\nA scene live, in a window or a terminal; a program of its own, for it needs SDL 2 and chafa.")
 include(CPack)

@@ -15,7 +15,6 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 #include "tables/room.h"
 
 /* A thread's rays should stay in its processor's own cache. */

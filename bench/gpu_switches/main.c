@@ -24,11 +24,12 @@
 #include "input/check.h"
 #include "input/load.h"
 #include "input/meshes.h"
-#include "render/adaptive.h"
+#include "render/frame.h"
 #include "switches.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "verify/trust.h"
 
 enum { MOST_ROUNDS = 99, MOST_CHANGES = 32, MOST_SWITCHES = 64, SKIPPED = 77, USAGE = 2 };
 
@@ -40,17 +41,14 @@ typedef struct Bench {
     HdPrecision precision;
     HdDevice device;
     HdSceneFile file;
-    HdSceneTables tables;
     HdCamera camera;
-    HdFrameTables view;
     HdFrame frame;
 } Bench;
 
 /* A switch at work. */
 typedef struct Contender {
     const Switch *is;
-    HdRenderer *renderer;
-    HdRefinement *refinement; /* NULL: the scene is not surveyed */
+    HdFrameMaker maker;
     HdStatus status;
     HdError error;
     double build_seconds, ms[MOST_ROUNDS];
@@ -76,18 +74,13 @@ static HdStatus read_scene(Bench *bench, const char *path, const HdSceneChange *
     if (status == HD_OK)
         status = hd_camera_at(&bench->camera, &file->scene, 0, error);
     if (status == HD_OK)
-        status = hd_compile_scene(&bench->tables, &file->scene, bench->precision, 1, error);
-    if (status == HD_OK && !hd_scene_is_surveyed(&file->scene))
-        status =
-            hd_compile_frame(&bench->view, &file->scene, &bench->camera, bench->precision, error);
-    if (status == HD_OK)
         status = hd_frame_create(&bench->frame, file->scene.width, file->scene.height, error);
     return status;
 }
 
 /* ---- contenders ---- */
 
-static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError *error) {
+static HdStatus open_contender(Contender *contender, const Bench *bench, HdError *error) {
     const Switch *is = contender->is;
     const HdRenderOptions options = {
         .block = is->block,
@@ -96,23 +89,17 @@ static HdStatus open_renderer(Contender *contender, const Bench *bench, HdError 
         .pipeline = is->pipeline,
         .test = {.queue_bytes = is->queue_bytes},
     };
-    HdStatus status = hd_renderer_open(&contender->renderer, &bench->device, &options, error);
-    return status == HD_OK ? hd_renderer_upload(contender->renderer, &bench->tables, error)
-                           : status;
-}
-
-static HdStatus open_contender(Contender *contender, const Bench *bench, HdError *error) {
-    const HdScene *scene = &bench->file.scene;
-    HdStatus status = open_renderer(contender, bench, error);
-    if (status == HD_OK && hd_scene_is_surveyed(scene))
-        status = hd_refinement_create(&contender->refinement, scene, contender->renderer,
-                                      bench->precision, HD_CURVE_SRGB, error);
-    return status;
+    HdFrameMaker *maker = &contender->maker;
+    *maker = (HdFrameMaker){.scene = &bench->file.scene, .wish = {true, HD_CURVE_SRGB, 0}};
+    HdStatus status = hd_renderer_open(&maker->renderer, &bench->device, &options, error);
+    if (status == HD_OK)
+        status = hd_put_scene(maker->renderer, maker->scene, NULL, error);
+    return status == HD_OK ? hd_frame_maker_open(maker, error) : status;
 }
 
 static void close_contender(Contender *contender) {
-    hd_refinement_free(contender->refinement);
-    hd_renderer_close(contender->renderer);
+    hd_frame_maker_close(&contender->maker);
+    hd_renderer_close(contender->maker.renderer);
 }
 
 typedef struct Opening {
@@ -150,11 +137,10 @@ static HdStatus open_all(const Bench *bench, Contender *contenders, int count, H
 /* ---- rounds ---- */
 
 static bool render(Contender *contender, Bench *bench, uint64_t *hash) {
-    HdStatus status = contender->refinement != NULL
-                          ? hd_refinement_render(contender->refinement, &bench->camera, NULL,
-                                                 &bench->frame, &contender->error)
-                          : hd_renderer_render(contender->renderer, &bench->view, &bench->frame,
-                                               &contender->error);
+    HdFlight flight;
+    HdStatus status = hd_frame_begin(&contender->maker, &bench->camera, &flight, &contender->error);
+    if (status == HD_OK)
+        status = hd_frame_end(&contender->maker, &flight, &bench->frame, &contender->error);
     contender->status = status;
     *hash = status == HD_OK ? hd_frame_hash(&bench->frame) : 0;
     return status == HD_OK;
@@ -195,7 +181,7 @@ static double quantile(const Contender *contender, double q) {
 
 static void print_kernels(const Contender *contender) {
     char text[512];
-    hd_renderer_describe(contender->renderer, text, (int)sizeof text);
+    hd_renderer_describe(contender->maker.renderer, text, (int)sizeof text);
     printf("kernels %s %.1f %s\n", contender->is->name, contender->build_seconds, text);
 }
 
@@ -337,8 +323,6 @@ int main(int argc, char **argv) {
     for (int i = 0; i < count; i++)
         close_contender(&contenders[i]);
     hd_frame_free(&bench.frame);
-    hd_frame_tables_free(&bench.view);
-    hd_scene_tables_free(&bench.tables);
     hd_scene_file_free(&bench.file);
     return wrong > 0 ? 1 : 0;
 }

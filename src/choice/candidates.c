@@ -207,7 +207,7 @@ static HdStatus estimate(HdCandidates *candidates, double enough, HdError *error
         status = hd_trial_open(&renderer, &device, options, &job, error);
     if (status != HD_OK)
         return status;
-    status = hd_trial(renderer, options->precision, &job, &wish, &trial, error);
+    status = hd_trial(renderer, &job, &wish, &trial, error);
     candidates->frame_seconds = trial.frame_seconds;
     hd_renderer_close(renderer);
     return status;
@@ -299,8 +299,7 @@ static HdStatus measure_one(HdCandidates *candidates, int index, HdError *error)
     HdTrial trial;
     HdStatus status = hd_team_device_open(member, wish->options, wish->job, true, error);
     if (status == HD_OK)
-        status =
-            hd_trial(member->renderer, wish->options->precision, wish->job, &how, &trial, error);
+        status = hd_trial(member->renderer, wish->job, &how, &trial, error);
     member->seconds = status == HD_OK ? trial.seconds : (double)INFINITY;
     int slower = index;
     if (is_faster(candidates, index)) {

@@ -208,6 +208,7 @@ static HdStatus open_wanted(HdDeviceTeam *team, const HdDeviceWish *wish, HdErro
 
 HdStatus hd_open_devices(HdDeviceTeam *team, const HdDeviceWish *wish, HdError *error) {
     memset(team, 0, sizeof *team);
+    team->precision = wish->options->precision;
     HdStatus status = open_wanted(team, wish, error);
     if (status != HD_OK)
         hd_close_devices(team);

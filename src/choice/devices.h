@@ -8,8 +8,9 @@
 typedef struct HdDeviceTeam {
     HdTeamDevice list[HD_MOST_TRACERS]; /* open */
     int count;
-    char note[4096]; /* worth telling unasked; empty: nothing is */
-    char why[8192];  /* why these devices, and why others were passed over */
+    HdPrecision precision; /* that was asked for */
+    char note[4096];       /* worth telling unasked; empty: nothing is */
+    char why[8192];        /* why these devices, and why others were passed over */
 } HdDeviceTeam;
 
 /* Opens a device that can do what the wish's options ask: the best candidate (candidates.h), or,

@@ -9,8 +9,10 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "device/kernel_source.h"
+#include "render/frame.h"
 #include "system/cache_folder.h"
 #include "system/machine.h"
+#include "verify/trust.h"
 
 void hd_launch_describe(const HdRenderOptions *options, char *text, int capacity) {
     const struct {
@@ -36,16 +38,10 @@ void hd_launch_describe(const HdRenderOptions *options, char *text, int capacity
 
 HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error) {
-    HdSceneTables tables;
     HdStatus status = hd_renderer_open(renderer, device, options, error);
     if (status != HD_OK)
         return status;
-    status = hd_compile_scene(&tables, job->scene, options->precision, hd_renderer_lanes(*renderer),
-                              error);
-    if (status == HD_OK) {
-        status = hd_renderer_upload(*renderer, &tables, error);
-        hd_scene_tables_free(&tables);
-    }
+    status = hd_put_scene(*renderer, job->scene, NULL, error);
     if (status != HD_OK) {
         hd_renderer_close(*renderer);
         *renderer = NULL;
@@ -57,14 +53,15 @@ static int scaled(int side, double factor) {
     return (int)fmax(1.0, (double)side * factor + 0.5);
 }
 
-static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int times, HdTrial *trial,
-                       HdError *error) {
+static HdStatus render(HdRenderer *renderer, const HdScene *scene, const HdCamera *camera,
+                       int times, HdTrial *trial, HdError *error) {
+    const HdFrameMaker maker = {.renderer = renderer, .scene = scene};
     HdFrame frame;
-    HdStatus status = hd_frame_create(&frame, tables->width, tables->height, error);
+    HdStatus status = hd_frame_create(&frame, scene->width, scene->height, error);
     trial->seconds = trial->trace_seconds = (double)INFINITY;
     for (int i = 0; status == HD_OK && i < times; i++) {
         double start = hd_monotonic_seconds();
-        status = hd_renderer_render(renderer, tables, &frame, error);
+        status = hd_frame_render(&maker, camera, &frame, error);
         trial->seconds = fmin(trial->seconds, hd_monotonic_seconds() - start);
         trial->trace_seconds = fmin(trial->trace_seconds, frame.trace_seconds);
     }
@@ -72,23 +69,18 @@ static HdStatus render(HdRenderer *renderer, const HdFrameTables *tables, int ti
     return status;
 }
 
-static HdStatus render_share(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                             double share, int times, HdTrial *trial, HdError *error) {
+static HdStatus render_share(HdRenderer *renderer, const HdJob *job, double share, int times,
+                             HdTrial *trial, HdError *error) {
     HdScene small = *job->scene; /* what it owns stays with the other */
     HdCamera camera;
-    HdFrameTables tables;
-    trial->width = small.width = scaled(job->scene->width, sqrt(share));
-    trial->height = small.height = scaled(job->scene->height, sqrt(share));
-    trial->share = share;
+    small.width = scaled(job->scene->width, sqrt(share));
+    small.height = scaled(job->scene->height, sqrt(share));
+    *trial = (HdTrial){.width = small.width, .height = small.height, .share = share};
     HdStatus status = hd_camera_at(&camera, &small, job->first_frame, error);
     if (status == HD_OK)
-        status = hd_compile_frame(&tables, &small, &camera, precision, error);
-    if (status != HD_OK)
-        return status;
-    status = render(renderer, &tables, times, trial, error);
+        status = render(renderer, &small, &camera, times, trial, error);
     trial->frame_seconds = trial->seconds * ((double)job->scene->width * job->scene->height) /
                            ((double)small.width * small.height);
-    hd_frame_tables_free(&tables);
     return status;
 }
 
@@ -97,13 +89,13 @@ static double count_samples(const HdScene *scene) {
 }
 
 /* Few samples come first, for thousands of lights make each one slow. */
-HdStatus hd_trial(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                  const HdTrialWish *wish, HdTrial *trial, HdError *error) {
+HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialWish *wish, HdTrial *trial,
+                  HdError *error) {
     const double first_samples = 4096.0;
     double share =
         wish->share > 0.0 ? wish->share : fmin(1.0, first_samples / count_samples(job->scene));
     for (;;) {
-        HdStatus status = render_share(renderer, precision, job, share, wish->times, trial, error);
+        HdStatus status = render_share(renderer, job, share, wish->times, trial, error);
         if (status != HD_OK || wish->share > 0.0 || share >= 1.0 ||
             trial->seconds > wish->believed ||
             trial->frame_seconds * job->frame_count <= wish->enough)

@@ -53,8 +53,8 @@ HdStatus hd_trial_open(HdRenderer **renderer, const HdDevice *device,
                        const HdRenderOptions *options, const HdJob *job, HdError *error);
 
 /* Renders about that share of the job's first frame. The job's scene is on the renderer. */
-HdStatus hd_trial(HdRenderer *renderer, HdPrecision precision, const HdJob *job,
-                  const HdTrialWish *wish, HdTrial *trial, HdError *error);
+HdStatus hd_trial(HdRenderer *renderer, const HdJob *job, const HdTrialWish *wish, HdTrial *trial,
+                  HdError *error);
 
 /* The wish of who wants to know how long a frame takes, as soon as it can be known, some hundredths
    of a second; no matter how long where the job takes less than `enough` seconds. */

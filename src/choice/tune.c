@@ -25,8 +25,7 @@ static HdStatus find_share(Tuner *tuner, HdRenderer *renderer, HdError *error) {
     const int least_times = 2, most_times = 40;
     const HdTrialWish wish = {.believed = picture_seconds / 4.0, .times = 2};
     HdTrial trial;
-    HdStatus status =
-        hd_trial(renderer, tuner->options->precision, tuner->job, &wish, &trial, error);
+    HdStatus status = hd_trial(renderer, tuner->job, &wish, &trial, error);
     if (status != HD_OK)
         return status;
     tuner->how.share = trial.share;
@@ -43,7 +42,7 @@ static HdStatus measure(Tuner *tuner, const HdRenderOptions *options, HdTrial *t
     if (tuner->how.share <= 0.0)
         status = find_share(tuner, renderer, error);
     if (status == HD_OK)
-        status = hd_trial(renderer, options->precision, tuner->job, &tuner->how, trial, error);
+        status = hd_trial(renderer, tuner->job, &tuner->how, trial, error);
     hd_renderer_close(renderer);
     return status;
 }

@@ -7,11 +7,9 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "image/difference.h"
-#include "image/format_exr.h"
-#include "image/heat_map.h"
-#include "image/row_reader.h"
+#include "image/picture.h"
 #include "input/json/json_device_text.h"
 #include "system/interrupt.h"
 #include "system/path.h"

@@ -15,7 +15,6 @@
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "system/warnings.h"
 
 enum { BAR_WIDTH = 24, SECONDS_BETWEEN_LINES = 5, MAX_HOURS = 99999, USUAL_COLUMNS = 80 };
 
@@ -224,23 +223,23 @@ static void tell_rate(const HdConsole *console) {
 /* ---- the begin ---- */
 
 /* A bar on a terminal that can redraw a line. Elsewhere plain lines where they are wanted. */
-static HdProgressForm choose_form(const HdOptions *options, bool wants_lines) {
+static HdProgressForm choose_form(const HdTelling *telling) {
     const char *terminal = getenv("TERM");
     bool can_redraw = terminal != NULL && strcmp(terminal, "dumb") != 0;
-    if (options->tells_frames)
+    if (telling->tells_frames)
         return HD_PROGRESS_FRAMES;
-    if (options->quiet)
+    if (telling->quiet)
         return HD_PROGRESS_NONE;
     if (can_redraw && isatty(STDERR_FILENO))
         return HD_PROGRESS_BAR;
-    return wants_lines ? HD_PROGRESS_LINES : HD_PROGRESS_NONE;
+    return telling->wants_lines ? HD_PROGRESS_LINES : HD_PROGRESS_NONE;
 }
 
-void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_lines) {
+void hd_console_open(HdConsole *console, const HdTelling *telling) {
     *console = (HdConsole){
-        .verbose = options->verbose,
-        .quiet = options->quiet,
-        .form = choose_form(options, wants_lines),
+        .verbose = telling->verbose,
+        .quiet = telling->quiet,
+        .form = choose_form(telling),
         .mutex = PTHREAD_MUTEX_INITIALIZER,
         .over = PTHREAD_COND_INITIALIZER,
     };

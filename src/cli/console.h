@@ -8,10 +8,8 @@
 
 #include "base/watch.h"
 #include "choice/devices.h"
-#include "cli/options.h"
 #include "output/frame_store.h"
-
-enum { HD_RENDERER_LINE = 512 };
+#include "run/plan.h"
 
 typedef enum HdProgressForm {
     HD_PROGRESS_NONE,
@@ -47,9 +45,8 @@ typedef struct HdConsole {
     double missing;       /* steps of 255 at most, of the worst frame so far */
 } HdConsole;
 
-/* `wants_lines`: progress in plain lines where standard error is no terminal. There is nothing to
-   close. */
-void hd_console_open(HdConsole *console, const HdOptions *options, bool wants_lines);
+/* There is nothing to close. */
+void hd_console_open(HdConsole *console, const HdTelling *telling);
 
 /* Before anything is done, and what films lack of the style. `name` is the scene's, for people. */
 void hd_console_tell_run(const HdConsole *console, const char *name, const HdScene *scene,

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
 #include "output/fingerprint.h"
 

@@ -7,35 +7,28 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/error.h"
-#include "cli/command_table.h"
-#include "device/renderer.h"
-#include "scene/scene.h"
+#include "cli/commands.h"
+#include "run/plan.h"
 
-enum { HD_MAX_CHANGES = 64 };
-
-typedef struct HdOptionSize {
-    int width, height;
-} HdOptionSize;
-
-typedef struct HdOptionCrop {
-    int width, height, left, top;
-} HdOptionCrop;
-
-/* What the command line said. Where an option is not given, its member is 0, false or NULL, or what
-   its row says (`unset`). */
-typedef struct HdOptions {
+/* What the command line said: the parts of the plan, each for its reader, and what belongs to a
+   single command. Where an option is not given, its member is 0, false or NULL, or what its row
+   says
+   (`unset`). */
+struct HdOptions {
     HdCommand command;
-    HdHelpTopic help_topic; /* of HD_COMMAND_HELP */
-    char **operands;        /* what is no option, in order; at the front of main's arguments */
+    const char *topic; /* of HD_COMMAND_HELP: a command or a topic; NULL: the program */
+    char **operands;   /* what is no option, in order; at the front of main's arguments */
     int operand_count;
-    HdRenderOptions render; /* the device's lanes, a thread for each core, float, strict */
+    HdScenePlan scene;
+    HdDevicePlan devices;
+    HdStorePlan store;
+    HdTelling telling;
 #define ROW(...)
 #define OPTION(member, ...) member;
 #include "cli/option_table.h"
 #undef ROW
 #undef OPTION
-} HdOptions;
+};
 
 /* What is behind an option, and the member that it sets. */
 typedef enum HdOptionType {
@@ -47,8 +40,8 @@ typedef enum HdOptionType {
     HD_OPTION_NUMERAL, /* one of `choices`, which are whole numbers; int */
     HD_OPTION_WORD,    /* one of `choices`; const char *: the word, NULL: the first of them */
     HD_OPTION_SET,     /* some of `choices`, with commas; unsigned: the bit 1 << i for number i */
-    HD_OPTION_SIZE,    /* WxH; HdOptionSize */
-    HD_OPTION_CROP,    /* WxH+X+Y; HdOptionCrop */
+    HD_OPTION_SIZE,    /* WxH; HdPlannedSize */
+    HD_OPTION_CROP,    /* WxH+X+Y; HdPlannedCrop */
     HD_OPTION_TEXT,    /* const char * */
     HD_OPTION_TEXTS,  /* a text each time, `high` times at most; const char *[], and their number */
     HD_OPTION_CHANGES /* the same, PATH=VALUE each */
@@ -91,6 +84,11 @@ extern const HdOptionSpec hd_option_specs[];
 
 /* The option of the command that follows after `spec` (NULL: the first one), or NULL. */
 const HdOptionSpec *hd_option_next(const HdOptionSpec *spec, HdCommand command);
+
+/* The option that an argument names as "--name", "--name=value", "-n" or "-nvalue", or NULL;
+   `*value` is what came with it, or NULL. One of the command comes before one of the same name that
+   belongs to another. */
+const HdOptionSpec *hd_option_find(const char *argument, HdCommand command, const char **value);
 
 /* "-o, --output OUT" */
 void hd_option_heading(const HdOptionSpec *spec, char *text, int capacity);

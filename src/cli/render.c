@@ -1,30 +1,197 @@
 /* SPDX-License-Identifier: MIT */
+/* The commands that render a scene: 'hedron render' and the classic mode. */
+#define _POSIX_C_SOURCE 200809L
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "cli/commands.h"
-#include "cli/load_scene.h"
-#include "cli/rendering.h"
+#include "base/text.h"
+#include "cli/console.h"
+#include "cli/options.h"
+#include "cli/statistics.h"
+#include "input/builtin.h"
+#include "output/fingerprint.h"
+#include "run/load_scene.h"
+#include "run/sequence.h"
+#include "system/interrupt.h"
 
-/* The outputs of the command line, else the scene's, else a name that suits the number of frames.
- */
-static HdStatus settle_outputs(HdOutputPlan *plan, const HdOptions *options,
-                               const HdOutputSettings *settings, int frame_count, HdError *error) {
+/* Called after each frame is stored. Must return HD_OK to go on. */
+typedef HdStatus Stored(const HdStoredFrame *stored, HdError *error);
+
+typedef struct Run {
+    const HdSceneFile *file;
+    const HdFrameList *frames;
+    HdOutputPlan *outputs;
+    Stored *stored; /* NULL: not wanted */
+    HdResume resume;
+    HdConsole console;
+    HdStatistics statistics; /* stream NULL: not wanted */
+    HdDeviceTeam team;
+    HdWatch watch;
+    char lines[HD_MOST_TRACERS][HD_RENDERER_LINE]; /* of each renderer that got the scene */
+} Run;
+
+/* ---- while frames are rendered ---- */
+
+static void scene_uploaded(void *context, int number, const HdSceneTables *tables) {
+    Run *run = context;
+    const HdRenderer *renderer = run->team.list[number].renderer;
+    hd_renderer_describe(renderer, run->lines[number], HD_RENDERER_LINE);
+    hd_console_tell_upload(&run->console, renderer, run->lines[number], tables);
+}
+
+static void device_dropped(void *context, int number, const HdError *error) {
+    Run *run = context;
+    hd_console_tell_loss(&run->console, &run->team.list[number].device, error->message);
+}
+
+static HdStatus add_statistics(Run *run, const HdStoredFrame *stored, HdError *error) {
+    HdRunFacts facts = {.scene = &run->file->scene};
+    if (!stored->was_finished) {
+        facts.device = &run->team.list[stored->tracer].device;
+        facts.renderer = run->lines[stored->tracer];
+    }
+    return hd_statistics_add(&run->statistics, &facts, stored, error);
+}
+
+static HdStatus frame_stored(void *context, const HdStoredFrame *stored, HdError *error) {
+    Run *run = context;
+    HdStatus status = HD_OK;
+    hd_console_hold(&run->console); /* both may go to the same terminal */
+    if (run->stored != NULL)
+        status = run->stored(stored, error);
+    if (status == HD_OK && run->statistics.stream != NULL)
+        status = add_statistics(run, stored, error);
+    hd_console_release(&run->console);
+    if (status == HD_OK)
+        hd_console_tell_frame(&run->console, stored);
+    return status;
+}
+
+/* ---- from the devices to the last frame ---- */
+
+static HdStatus open_devices(Run *run, const HdDevicePlan *plan, HdError *error) {
+    HdScene plain = run->file->scene; /* what it owns stays with the other */
+    HdRenderOptions render = plan->render;
+    const HdFrameList *missing = &run->resume.missing;
+    const HdJob job = {
+        .scene = &plain, .first_frame = missing->frames[0], .frame_count = missing->count};
+    const HdDeviceWish wish = {.backend = plan->backend,
+                               .device = plan->device,
+                               .kind = plan->kind,
+                               .options = &render,
+                               .job = &job};
+    render.has_deep_trees = hd_scene_has_deep_trees(&plain);
+    render.first_hits = run->outputs->wish.layers != 0;
+    hd_scene_drop_survey(&plain);
+    HdStatus status = hd_open_devices(&run->team, &wish, error);
+    hd_console_clear(&run->console);
+    if (status == HD_INTERRUPTED)
+        return hd_fail(error, status, "interrupted after %d of %d frames",
+                       run->resume.first_missing, run->frames->count);
+    if (status == HD_OK)
+        hd_console_tell_devices(&run->console, &run->team);
+    return status;
+}
+
+static HdStatus render_sequence(Run *run, const HdSequence *sequence, HdError *error) {
+    if (run->team.count > 0 && run->team.list[0].device.backend->functions->kernels != NULL)
+        hd_console_prepare(&run->console, "building kernels");
+    hd_console_announce_interrupt(&run->console);
+    hd_console_watch(&run->console, &run->watch);
+    HdStatus status = hd_sequence_render(sequence, error);
+    hd_console_end(&run->console, sequence->scene, &run->team, run->lines, status);
+    return status;
+}
+
+/* A device that cannot be used leaves the statistics of an earlier run alone. */
+static HdStatus render_missing(Run *run, const HdDevicePlan *devices, HdError *error) {
+    const HdSequence sequence = {
+        .scene = &run->file->scene,
+        .resume = &run->resume,
+        .outputs = run->outputs,
+        .team = &run->team,
+        .uploaded = scene_uploaded,
+        .dropped = device_dropped,
+        .stored = frame_stored,
+        .context = run,
+        .watch = &run->watch,
+    };
+    HdStatus status = run->resume.missing.count > 0 ? open_devices(run, devices, error) : HD_OK;
+    if (status == HD_OK)
+        status = hd_statistics_open(&run->statistics, error);
+    if (status == HD_OK)
+        status = render_sequence(run, &sequence, error);
+    status = hd_statistics_close(&run->statistics, run->outputs->durability, status, error);
+    hd_close_devices(&run->team);
+    return status;
+}
+
+/* ---- what is to be rendered ---- */
+
+/* The outputs of the plan, else the scene's, else a name that suits the number of frames. */
+static HdStatus settle_outputs(HdOutputPlan *outputs, const HdStorePlan *plan,
+                               const HdSceneFile *file, int frame_count, HdError *error) {
+    const HdOutputSettings *settings = &file->output;
     const char *name = settings->path[0] != '\0' ? settings->path
                        : frame_count == 1        ? "hedron.png"
                                                  : "hedron.mp4";
-    const bool is_given = options->output_count > 0;
-    return hd_outputs_settle(plan, is_given ? options->outputs : &name,
-                             is_given ? options->output_count : 1, &settings->style, frame_count,
-                             error);
+    HdStatus status =
+        hd_outputs_settle(outputs, plan->count > 0 ? plan->names : &name,
+                          plan->count > 0 ? plan->count : 1, &settings->style, frame_count, error);
+    if (status != HD_OK)
+        return status;
+    outputs->options = plan->given;
+    outputs->durability = plan->no_sync ? HD_FLEETING : HD_DURABLE;
+    return hd_outputs_add_layers(outputs, plan->layers, hd_scene_is_surveyed(&file->scene), error);
 }
 
+/* What fast arithmetic makes is not the same everywhere, and promises no bytes. */
+static void set_fingerprint(const Run *run, const HdRenderOptions *render, bool resumes) {
+    HdOutputPlan *outputs = run->outputs;
+    if (render->math == HD_MATH_STRICT && (outputs->bears_fingerprints || outputs->film_count > 0))
+        hd_outputs_set_fingerprint(
+            outputs, hd_run_fingerprint(run->file, render->precision, &outputs->style.picture),
+            resumes);
+}
+
+static HdStatus render_run(Run *run, const HdOptions *options, HdError *error) {
+    set_fingerprint(run, &options->devices.render, !options->store.again);
+    HdStatus status = hd_resume_find(&run->resume, run->outputs, run->frames, error);
+    if (status == HD_OK) {
+        hd_console_start(&run->console, &run->resume);
+        status = render_missing(run, &options->devices, error);
+    }
+    hd_resume_free(&run->resume);
+    return status;
+}
+
+/* Names of folders are nobody else's matter, and differ between machines: pictures tell the last
+   part of the scene's name. */
+static HdStatus render_frames(Run *run, const HdOptions *options, HdError *error) {
+    const char *name = hd_scene_name(options->scene.path), *slash = strrchr(name, '/');
+    char told[HD_MAX_PATH];
+    HdStatus status =
+        settle_outputs(run->outputs, &options->store, run->file, run->frames->count, error);
+    if (status == HD_OK)
+        status =
+            hd_statistics_settle(&run->statistics, options->store.statistics, options->scene.path,
+                                 run->outputs, run->frames->frames[0], error);
+    if (status != HD_OK)
+        return status;
+    hd_console_open(&run->console, &options->telling);
+    hd_console_tell_run(&run->console, name, &run->file->scene, run->outputs, run->frames->count);
+    hd_escape(slash != NULL ? slash + 1 : name, told, sizeof told);
+    run->outputs->scene = told;
+    return render_run(run, options, error);
+}
+
+/* ---- the commands ---- */
+
 /* Where standard output has the statistics, it has nothing else. */
-static HdStatus print_names(const HdOptions *options, const HdOutputPlan *plan,
-                            const HdFrameList *frames, HdError *error) {
+static HdStatus print_names(const HdOutputPlan *plan, const HdFrameList *frames, HdError *error) {
     char file[HD_MAX_PATH];
-    if (options->statistics != NULL && strcmp(options->statistics, "-") == 0)
-        return HD_OK;
     for (int i = 0; i < plan->count; i++) {
         HdStatus status = HD_OK;
         if (frames->count == 1)
@@ -36,43 +203,67 @@ static HdStatus print_names(const HdOptions *options, const HdOutputPlan *plan,
     return HD_OK;
 }
 
-static HdStatus render_frames(const HdOptions *options, const HdSceneFile *file,
-                              const HdFrameList *frames, HdError *error) {
-    HdOutputPlan outputs;
-    HdRendering rendering = {
-        .name = hd_scene_name(options),
-        .file = file,
-        .frames = frames,
-        .outputs = &outputs,
-        .device_kind = HD_WANT_ANY,
-        .resumes = !options->again,
-        .tells_progress = true,
-    };
-    HdStatus status = settle_outputs(&outputs, options, &file->output, frames->count, error);
-    if (status == HD_OK)
-        status = hd_outputs_add_layers(&outputs, options->layers,
-                                       hd_scene_is_surveyed(&file->scene), error);
-    if (status == HD_OK)
-        status = hd_render(&rendering, options, error);
-    return status == HD_OK ? print_names(options, &outputs, frames, error) : status;
+/* From the camera to the pixels in memory. */
+static HdStatus print_frame_line(const HdStoredFrame *stored, HdError *error) {
+    const HdFrameTimes *times = &stored->times;
+    double seconds = times->prepare.seconds + times->trace.seconds + times->copy.seconds;
+    if (!hd_wait_to_write(STDOUT_FILENO) ||
+        printf("%d\t%.3f\t%" PRIu64 "\n", stored->number, seconds * 1e3,
+               hd_frame_rays(stored->frame)) < 0 ||
+        fflush(stdout) != 0)
+        return hd_interrupt_signal() != 0
+                   ? hd_fail(error, HD_INTERRUPTED, "interrupted while writing to standard output")
+                   : hd_fail(error, HD_FAILED, "cannot write to standard output");
+    return HD_OK;
 }
 
-static HdStatus render_file(const HdOptions *options, const HdSceneFile *file, HdError *error) {
+/* Without `stored` the names of the outputs are printed at the end. */
+static HdStatus render_file(const HdSceneFile *file, const HdOptions *options, Stored *stored,
+                            HdError *error) {
     HdFrameList frames;
+    HdOutputPlan outputs;
+    Run run = {.file = file, .frames = &frames, .outputs = &outputs, .stored = stored};
     HdStatus status = hd_frame_list_parse(&frames, options->frames, file->scene.frame_count, error);
     if (status != HD_OK)
         return status;
-    status = render_frames(options, file, &frames, error);
+    status = render_frames(&run, options, error);
+    if (status == HD_OK && stored == NULL && !run.statistics.is_standard_output)
+        status = print_names(&outputs, &frames, error);
     hd_frame_list_free(&frames);
     return status;
 }
 
 HdStatus hd_command_render(const HdOptions *options, HdError *error) {
     HdSceneFile file;
-    HdStatus status = hd_read_scene(&file, options, error);
+    HdProblems notes = {.count = 0};
+    HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
+    if (!options->telling.quiet)
+        hd_problems_print(&notes, stderr, "hedron", ": ");
     if (status != HD_OK)
         return status;
-    status = render_file(options, &file, error);
+    status = render_file(&file, options, NULL, error);
+    hd_scene_file_free(&file);
+    return status;
+}
+
+static HdStatus render_classic(HdSceneFile *file, const HdOptions *options, HdError *error) {
+    HdStatus status = hd_scene_file_load_texture(file, error);
+    if (status == HD_OK)
+        status = hd_scene_apply_geometry(&file->scene, &options->scene, error);
+    return status == HD_OK ? render_file(file, options, print_frame_line, error) : status;
+}
+
+HdStatus hd_command_classic(const HdOptions *options, HdError *error) {
+    HdSceneFile file;
+    HdStatus status = options->prints_default
+                          ? hd_default_input(&file, error)
+                          : hd_read_classic(&file, NULL, options->variant, error);
+    if (status != HD_OK)
+        return status;
+    status = hd_scene_apply_numbers(&file.scene, &options->scene, error);
+    if (status == HD_OK)
+        status = options->prints_default ? hd_classic_print(stdout, &file, error)
+                                         : render_classic(&file, options, error);
     hd_scene_file_free(&file);
     return status;
 }

@@ -6,10 +6,10 @@
 #include <time.h>
 
 #include "base/text.h"
-#include "verify/certificate.h"
 #include "choice/candidates.h"
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
+#include "verify/certificate.h"
 
 enum { TIME_SIZE = 32, HASH_SIZE = 17 };
 
@@ -135,7 +135,8 @@ HdStatus hd_command_selftest(const HdOptions *options, HdError *error) {
     static HdDevice devices[HD_BACKEND_COUNT * HD_MAX_DEVICES];
     Tally tally = {0};
     int count;
-    HdStatus status = hd_devices_named(options->backend, options->device, devices, &count, error);
+    HdStatus status =
+        hd_devices_named(options->devices.backend, options->devices.device, devices, &count, error);
     if (status != HD_OK)
         return status;
     json_t *list = options->json ? json_array() : NULL;

@@ -3,10 +3,10 @@
 #include <stdio.h>
 
 #include "choice/tune.h"
-#include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/load_scene.h"
+#include "cli/options.h"
 #include "input/json/json_device_text.h"
+#include "run/load_scene.h"
 #include "scene/frame_list.h"
 
 typedef struct Run {
@@ -27,7 +27,7 @@ static double ratio(const HdTuning *tuning, int index) {
 
 static void print_heading(const Run *run) {
     const HdDevice *device = run->device;
-    printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options), device->backend->name,
+    printf("%s on %s %d, %s (%s)\n", hd_scene_name(run->options->scene.path), device->backend->name,
            device->index, device->name, device->driver);
     printf("pictures of %d x %d pixels, %d x %d samples\n\n", run->tuning.width, run->tuning.height,
            run->scene->samples_per_side, run->scene->samples_per_side);
@@ -91,12 +91,12 @@ static HdStatus print_json(const Run *run, HdError *error) {
     const HdTuning *tuning = &run->tuning;
     json_t *root = json_pack(
         "{s:o, s:s, s:i, s:o, s:o, s:i, s:i, s:i, s:o, s:i, s:b, s:o}", "scene",
-        hd_json_device_text(hd_scene_name(run->options)), "backend", device->backend->name, "index",
-        device->index, "name", hd_json_device_text(device->name), "driver",
-        hd_json_device_text(device->driver), "width", tuning->width, "height", tuning->height,
-        "samples", run->scene->samples_per_side, "candidates", describe_candidates(tuning), "best",
-        tuning->best, "remembered", run->obstacle == NULL, "reason",
-        run->obstacle != NULL ? hd_json_device_text(run->obstacle) : json_null());
+        hd_json_device_text(hd_scene_name(run->options->scene.path)), "backend",
+        device->backend->name, "index", device->index, "name", hd_json_device_text(device->name),
+        "driver", hd_json_device_text(device->driver), "width", tuning->width, "height",
+        tuning->height, "samples", run->scene->samples_per_side, "candidates",
+        describe_candidates(tuning), "best", tuning->best, "remembered", run->obstacle == NULL,
+        "reason", run->obstacle != NULL ? hd_json_device_text(run->obstacle) : json_null());
     return hd_json_print(root, "the candidates", error);
 }
 
@@ -113,14 +113,14 @@ static HdStatus remember(Run *run, HdError *error) {
 /* On the device that 'hedron render' would take. */
 static HdStatus measure(Run *run, const HdJob *job, HdError *error) {
     const HdDeviceWish wish = {
-        .backend = run->options->backend,
-        .device = run->options->device,
+        .backend = run->options->devices.backend,
+        .device = run->options->devices.device,
         .is_for_one = true,
         .options = &run->render,
         .job = job,
     };
     HdConsole console;
-    hd_console_open(&console, run->options, false);
+    hd_console_open(&console, &run->options->telling);
     hd_console_prepare(&console, "measuring");
     HdStatus status = hd_open_devices(&run->team, &wish, error);
     hd_close_devices(&run->team);
@@ -151,11 +151,13 @@ HdStatus hd_command_tune(const HdOptions *options, HdError *error) {
     static Run run;
     HdSceneFile file;
     HdFrameList frames;
-    HdStatus status = hd_read_scene(&file, options, error);
+    HdProblems notes = {.count = 0};
+    HdStatus status = hd_load_scene(&file, &options->scene, &notes, error);
+    hd_problems_print(&notes, stderr, "hedron", ": ");
     if (status != HD_OK)
         return status;
     run = (Run){.options = options, .scene = &file.scene, .device = &run.team.list[0].device};
-    run.render = options->render;
+    run.render = options->devices.render;
     run.render.has_deep_trees = hd_scene_has_deep_trees(&file.scene);
     hd_scene_drop_survey(&file.scene);
     status = hd_frame_list_parse(&frames, options->frames, file.scene.frame_count, error);

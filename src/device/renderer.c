@@ -13,7 +13,7 @@
 #include "device/probe.h"
 #include "device/self_test.h"
 #include "kernels/host/shared.h"
-#include "system/warnings.h"
+#include "system/machine.h"
 
 struct HdRenderer {
     const HdBackend *backend;
@@ -355,6 +355,10 @@ HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, H
 
 const HdDevice *hd_renderer_device(const HdRenderer *renderer) {
     return &renderer->device;
+}
+
+const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer) {
+    return &renderer->options;
 }
 
 int hd_renderer_lanes(const HdRenderer *renderer) {

@@ -19,7 +19,7 @@ HdStatus hd_renderer_open(HdRenderer **renderer, const HdDevice *device,
 
 /* Kernels that were compiled anew for the scene must first pass the self-test (self_test.h), with
    strict arithmetic. Where those of the megakernel fail it, the wavefront takes over, and a note
-   tells (warnings.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
+   tells (machine.h); HD_UNAVAILABLE where it fails too. Kernels that pass are kept on disk. */
 HdStatus hd_renderer_upload(HdRenderer *renderer, const HdSceneTables *tables, HdError *error);
 
 /* Begins a frame, so that the device works on it while the caller does other things; at most
@@ -54,12 +54,14 @@ void hd_renderer_drop(HdRenderer *renderer);
 HdStatus hd_renderer_render(HdRenderer *renderer, const HdFrameTables *tables, HdFrame *frame,
                             HdError *error);
 
-/* Lives as long as the renderer. */
+/* Both live as long as the renderer. The pipeline is the one that was chosen. */
 const HdDevice *hd_renderer_device(const HdRenderer *renderer);
+const HdRenderOptions *hd_renderer_options(const HdRenderer *renderer);
 
 /* How many lanes the renderer's kernels have: what scenes are compiled for. */
 int hd_renderer_lanes(const HdRenderer *renderer);
 
+enum { HD_RENDERER_LINE = 512 }; /* room for the line below */
 void hd_renderer_describe(const HdRenderer *renderer, char *text, int capacity);
 
 /* Where the kernels came from and what became of them, for people; "" where nobody compiles. */

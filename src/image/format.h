@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a format is that frames are stored in. Each is defined in a file format_NAME.c, those of
-   films in one. */
+/* What a format of pictures, films or textures is; each is defined in a file format_NAME.c, those
+   of films in one. picture.h has their table. */
 #ifndef HD_IMAGE_FORMAT_H
 #define HD_IMAGE_FORMAT_H
 
@@ -11,7 +11,6 @@
 
 #include "base/error.h"
 #include "image/frame.h"
-#include "image/texture.h"
 
 /* How a picture stores values: PNG in 8 or 16 bits; OpenEXR in half, with 32 bits in float, and PFM
    in float, both linear; all else in 8 bits. */
@@ -32,9 +31,38 @@ typedef struct HdPictureLabel {
     const char *scene;   /* its name; this and the options are UTF-8 without control characters */
     const char *options; /* of the command line, those that decide pixels; "": none */
     int frame;
-    bool is_marked;
-    uint64_t fingerprint; /* of a mark (mark.h), where it gets one */
+    bool has_fingerprint;
+    uint64_t fingerprint; /* of the frame (output/fingerprint.h): by it, it is known as finished */
 } HdPictureLabel;
+
+enum { HD_MAX_TEXTURE_PIXELS = 1 << 28 };
+
+/* Linear values, 16 bits a channel, row by row from the top: r, g, b, r, g, b, ... */
+typedef struct HdTexture {
+    int width, height;
+    uint16_t *texels; /* owned; width * height * 3 */
+} HdTexture;
+
+/* Checks the size against HD_MAX_TEXTURE_SIDE and the limit above and allocates the texels, which
+   are not cleared. `name` is for messages. */
+HdStatus hd_texture_create(HdTexture *texture, uint32_t width, uint32_t height, const char *name,
+                           HdError *error);
+
+/* Frees what the texture owns and clears it; it may be clear already. */
+void hd_texture_clear(HdTexture *texture);
+
+enum { HD_MOST_FURTHER = 64 }; /* what is beyond is passed over */
+
+/* Of a picture that is read row by row. */
+typedef struct HdPictureFacts {
+    const struct HdFormat *format; /* PNG, OpenEXR or PFM */
+    int width, height;
+    int bits;                 /* of a channel: 8 or 16, in OpenEXR 16 or 32, in PFM 32 */
+    HdCurve curve;            /* of PNG: sRGB where a chunk says so, else linear, as it is written;
+                                 of the others: linear */
+    int further;              /* channels of OpenEXR beside R, G and B */
+    const char *const *names; /* theirs, by the alphabet */
+} HdPictureFacts;
 
 /* Functions are NULL where the format has no such thing; `path` and `name` are for messages. */
 typedef struct HdFormat HdFormat;
@@ -56,8 +84,8 @@ struct HdFormat {
     int most_encoded_bits; /* styles of more bits need the frame's radiance; those of fewer can be
                               written of one that is encoded, on the style's curve */
 
-    /* Of pictures that bear marks, by which frames are known as finished: reads one of 8 bits and
-       the frame's size back into `rgba`, and says so (is_encoded). */
+    /* Of pictures that bear fingerprints, by which frames are known as finished: reads one of 8
+       bits and the frame's size back into `rgba`, and says so (is_encoded). */
     HdStatus (*load)(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error);
 
@@ -65,6 +93,20 @@ struct HdFormat {
        hold memory that the caller clears. */
     HdStatus (*decode)(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error);
+
+    /* Of what is told apart by its first bytes, of which there are 8 at least in a whole file. */
+    bool (*begins)(const unsigned char *bytes, size_t size);
+
+    /* Of pictures that are read row by row: reads the head of a file, which remains the caller's
+       and lives as long as the rows, as the path does; HD_BAD_INPUT where it is of a wrong kind. */
+    HdStatus (*open_rows)(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
+                          HdError *error);
+    /* The next row from the top, r, g, b: radiance, or where a picture is on a curve its values,
+       0..65535. */
+    HdStatus (*next_row)(void *rows, float *rgb, HdError *error);
+    const float *(*further_channel)(const void *rows, int channel); /* of this row */
+    void (*close_rows)(void *rows);
+    bool is_on_curve;
 };
 
 #endif

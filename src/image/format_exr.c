@@ -2,8 +2,6 @@
 /* OpenEXR by the library's C interface: radiance and alpha in half or float, layers in float. */
 #define _POSIX_C_SOURCE 200809L
 
-#include "image/format_exr.h"
-
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +12,7 @@
 #include "base/limits.h"
 #include "image/format.h"
 
-bool hd_image_is_exr(const unsigned char *bytes, size_t size) {
+static bool begins(const unsigned char *bytes, size_t size) {
     return size >= 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0;
 }
 
@@ -277,7 +275,9 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
 
 /* Reading */
 
-struct HdExrRows {
+/* A file that is being read: a single part of lines, whose channels R, G and B are half or float,
+   and those further channels that are so too. */
+typedef struct ExrRows {
     File file;
     int top, width, height, next;       /* of the data window, `next` counts from its top */
     int lines;                          /* of a chunk */
@@ -286,7 +286,7 @@ struct HdExrRows {
     float *values;                      /* owned; of a chunk */
     exr_decode_pipeline_t pipeline;
     bool has_pipeline;
-};
+} ExrRows;
 
 static int64_t file_size(exr_const_context_t context, void *data) {
     const File *file = data;
@@ -317,7 +317,7 @@ static int64_t read_at(exr_const_context_t context, void *data, void *bytes, uin
 
 /* The library has the code of short memory for data, too, that it cannot unpack; the words differ.
  */
-static HdStatus fail_reading(const HdExrRows *rows, exr_result_t code, HdError *error) {
+static HdStatus fail_reading(const ExrRows *rows, exr_result_t code, HdError *error) {
     const char *message = message_of(&rows->file, code);
     const bool is_memory_short =
         strcmp(message, exr_get_default_error_message(EXR_ERR_OUT_OF_MEMORY)) == 0;
@@ -326,7 +326,7 @@ static HdStatus fail_reading(const HdExrRows *rows, exr_result_t code, HdError *
 }
 
 /* Where the channel's values are in a pixel's; negative: it is not taken. */
-static int place_of(const HdExrRows *rows, const char *name) {
+static int place_of(const ExrRows *rows, const char *name) {
     for (int i = 0; i < CHANNELS; i++)
         if (strcmp(channels[i].name, name) == 0)
             return i;
@@ -337,7 +337,7 @@ static int place_of(const HdExrRows *rows, const char *name) {
 }
 
 /* Takes what there is for each pixel as numbers with a point; false where R, G or B is not. */
-static bool find_channels(HdExrRows *rows, const exr_attr_chlist_t *list, int *bits) {
+static bool find_channels(ExrRows *rows, const exr_attr_chlist_t *list, int *bits) {
     int found = 0;
     *bits = 16;
     rows->channels = CHANNELS;
@@ -357,7 +357,7 @@ static bool find_channels(HdExrRows *rows, const exr_attr_chlist_t *list, int *b
     return found == CHANNELS;
 }
 
-static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
+static HdStatus check_head(ExrRows *rows, HdPictureFacts *facts, HdError *error) {
     const exr_const_context_t context = rows->file.context;
     const char *path = rows->file.path;
     const exr_attr_chlist_t *list = NULL;
@@ -403,7 +403,7 @@ static HdStatus check_head(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     return HD_OK;
 }
 
-static HdStatus open_file(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
+static HdStatus open_file(ExrRows *rows, HdPictureFacts *facts, HdError *error) {
     exr_context_initializer_t settings = settings_of(&rows->file);
     settings.read_fn = read_at;
     settings.size_fn = file_size;
@@ -418,27 +418,37 @@ static HdStatus open_file(HdExrRows *rows, HdExrFacts *facts, HdError *error) {
     return rows->values != NULL ? HD_OK : fail_reading(rows, EXR_ERR_OUT_OF_MEMORY, error);
 }
 
-HdStatus hd_exr_open(HdExrRows **out, FILE *file, const char *path, HdExrFacts *facts,
-                     HdError *error) {
-    HdExrRows *rows = calloc(1, sizeof *rows);
+static void close_rows(void *state) {
+    ExrRows *rows = state;
+    if (rows->has_pipeline)
+        exr_decoding_destroy(rows->file.context, &rows->pipeline);
+    exr_finish(&rows->file.context);
+    free(rows->values);
+    free(rows);
+}
+
+static HdStatus open_rows(void **out, FILE *file, const char *path, HdPictureFacts *facts,
+                          HdError *error) {
+    ExrRows *rows = calloc(1, sizeof *rows);
     if (rows == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
     rows->file = (File){.stream = file, .path = path};
+    *facts = (HdPictureFacts){.curve = HD_CURVE_LINEAR};
     const HdStatus status = open_file(rows, facts, error);
     if (status == HD_OK)
         *out = rows;
     else
-        hd_exr_close(rows);
+        close_rows(rows);
     return status;
 }
 
 /* A plane for each channel: of four halves beside each other, as floats, the library of version 3.1
    makes nonsense where they are wanted in another order than the file's. */
-static size_t plane_size(const HdExrRows *rows) {
+static size_t plane_size(const ExrRows *rows) {
     return (size_t)rows->width * (size_t)rows->lines;
 }
 
-static void set_target(HdExrRows *rows) {
+static void set_target(ExrRows *rows) {
     for (int i = 0; i < rows->pipeline.channel_count; i++) {
         exr_coding_channel_info_t *channel = &rows->pipeline.channels[i];
         const int place = place_of(rows, channel->channel_name);
@@ -452,7 +462,7 @@ static void set_target(HdExrRows *rows) {
     }
 }
 
-static exr_result_t read_chunk(HdExrRows *rows) {
+static exr_result_t read_chunk(ExrRows *rows) {
     const exr_const_context_t context = rows->file.context;
     exr_chunk_info_t chunk;
     exr_result_t result = exr_read_scanline_chunk_info(context, 0, rows->top + rows->next, &chunk);
@@ -470,28 +480,41 @@ static exr_result_t read_chunk(HdExrRows *rows) {
     return result == EXR_ERR_SUCCESS ? exr_decoding_run(context, 0, &rows->pipeline) : result;
 }
 
-HdStatus hd_exr_next_row(HdExrRows *rows, HdError *error) {
-    const exr_result_t result = rows->next % rows->lines == 0 ? read_chunk(rows) : EXR_ERR_SUCCESS;
-    if (result != EXR_ERR_SUCCESS)
-        return fail_reading(rows, result, error);
-    rows->next++;
-    return HD_OK;
-}
-
-const float *hd_exr_channel(const HdExrRows *rows, int channel) {
+/* The last row's values of a channel. */
+static const float *row_of(const ExrRows *rows, int channel) {
     const int line = (rows->next - 1) % rows->lines;
     return rows->values + plane_size(rows) * (size_t)channel + (size_t)rows->width * (size_t)line;
 }
 
-void hd_exr_close(HdExrRows *rows) {
-    if (rows == NULL)
-        return;
-    if (rows->has_pipeline)
-        exr_decoding_destroy(rows->file.context, &rows->pipeline);
-    exr_finish(&rows->file.context);
-    free(rows->values);
-    free(rows);
+static HdStatus next_row(void *state, float *rgb, HdError *error) {
+    ExrRows *rows = state;
+    const exr_result_t result = rows->next % rows->lines == 0 ? read_chunk(rows) : EXR_ERR_SUCCESS;
+    if (result != EXR_ERR_SUCCESS)
+        return fail_reading(rows, result, error);
+    rows->next++;
+    for (int channel = 0; channel < CHANNELS; channel++) {
+        const float *values = row_of(rows, channel);
+        for (int x = 0; x < rows->width; x++)
+            rgb[CHANNELS * x + channel] = values[x];
+    }
+    return HD_OK;
 }
+
+static const float *further_channel(const void *rows, int channel) {
+    return row_of(rows, CHANNELS + channel);
+}
+
+const HdFormat hd_format_exr = {
+    .name = "OpenEXR",
+    .write = write_frame,
+    .has_layers = true,
+    .most_encoded_bits = 0,
+    .begins = begins,
+    .open_rows = open_rows,
+    .next_row = next_row,
+    .further_channel = further_channel,
+    .close_rows = close_rows,
+};
 
 #else
 
@@ -510,30 +533,20 @@ static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
     return fail_missing(path, error);
 }
 
-HdStatus hd_exr_open(HdExrRows **rows, FILE *file, const char *path, HdExrFacts *facts,
-                     HdError *error) {
+static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
+                          HdError *error) {
     (void)rows;
     (void)file;
     (void)facts;
     return fail_missing(path, error);
 }
 
-HdStatus hd_exr_next_row(HdExrRows *rows, HdError *error) {
-    (void)rows;
-    return fail_missing("the picture", error);
-}
-
-const float *hd_exr_channel(const HdExrRows *rows, int channel) {
-    (void)rows;
-    (void)channel;
-    return NULL;
-}
-
-void hd_exr_close(HdExrRows *rows) {
-    (void)rows;
-}
+const HdFormat hd_format_exr = {
+    .name = "OpenEXR",
+    .write = write_frame,
+    .has_layers = true,
+    .begins = begins,
+    .open_rows = open_rows,
+};
 
 #endif
-
-const HdFormat hd_format_exr = {
-    .name = "OpenEXR", .write = write_frame, .has_layers = true, .most_encoded_bits = 0};

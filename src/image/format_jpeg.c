@@ -4,11 +4,12 @@
 
 #include <setjmp.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <jerror.h> /* after its types */
 #include <jpeglib.h>
 
-#include "image/formats.h"
+#include "image/format.h"
 
 /* Encoders make a dozen; each goes over the whole picture, however few bytes it has. */
 enum { MAX_SCANS = 64 };
@@ -124,4 +125,8 @@ static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t si
     return status;
 }
 
-const HdFormat hd_format_jpeg = {.name = "JPEG", .decode = decode};
+static bool begins(const unsigned char *bytes, size_t size) {
+    return size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0;
+}
+
+const HdFormat hd_format_jpeg = {.name = "JPEG", .decode = decode, .begins = begins};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+/* PFM in colour: three lines of text, then r g b in float, row by row from the bottom. */
 #define _POSIX_C_SOURCE 200809L
-
-#include "image/format_pfm.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -10,6 +9,19 @@
 
 #include "base/limits.h"
 #include "image/format.h"
+
+/* A file that is being read. */
+typedef struct PfmRows {
+    FILE *file;       /* the caller's */
+    const char *path; /* the caller's; for messages */
+    int width, height, next;
+    int64_t begin; /* of the values */
+    bool is_big_endian;
+} PfmRows;
+
+static bool begins(const unsigned char *bytes, size_t size) {
+    return size >= 2 && (memcmp(bytes, "PF", 2) == 0 || memcmp(bytes, "Pf", 2) == 0);
+}
 
 static HdStatus fail_head(const char *path, HdError *error) {
     return hd_fail(error, HD_BAD_INPUT,
@@ -20,7 +32,7 @@ static HdStatus fail_head(const char *path, HdError *error) {
 
 /* The scale's sign is the byte order; its size has no agreed meaning, so that 1 alone is taken. One
    byte of white space comes before the values. */
-static bool read_head(HdPfmRows *rows) {
+static bool read_head(PfmRows *rows) {
     char text[96], *at, *end;
     size_t count = fread(text, 1, sizeof text - 1, rows->file);
     text[count] = '\0';
@@ -41,7 +53,7 @@ static bool read_head(HdPfmRows *rows) {
     return true;
 }
 
-static HdStatus check_size(const HdPfmRows *rows, HdError *error) {
+static HdStatus check_size(const PfmRows *rows, HdError *error) {
     const int64_t expected = rows->begin + (int64_t)rows->width * rows->height * 12;
     if (fseeko(rows->file, 0, SEEK_END) != 0 || ftello(rows->file) != expected)
         return hd_fail(error, HD_BAD_INPUT,
@@ -51,9 +63,29 @@ static HdStatus check_size(const HdPfmRows *rows, HdError *error) {
     return HD_OK;
 }
 
-HdStatus hd_pfm_open(HdPfmRows *rows, FILE *file, const char *path, HdError *error) {
-    *rows = (HdPfmRows){.file = file, .path = path};
-    return read_head(rows) ? check_size(rows, error) : fail_head(path, error);
+static HdStatus read_begin(PfmRows *rows, HdError *error) {
+    const bool is_grey = getc(rows->file) == 'P' && getc(rows->file) == 'f';
+    rewind(rows->file);
+    if (is_grey)
+        return hd_fail(error, HD_BAD_INPUT, "%s is a PFM without colour, expected one with r, g, b",
+                       rows->path);
+    return read_head(rows) ? check_size(rows, error) : fail_head(rows->path, error);
+}
+
+static HdStatus open_rows(void **out, FILE *file, const char *path, HdPictureFacts *facts,
+                          HdError *error) {
+    PfmRows *rows = calloc(1, sizeof *rows);
+    if (rows == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
+    rows->file = file;
+    rows->path = path;
+    const HdStatus status = read_begin(rows, error);
+    *facts = (HdPictureFacts){.width = rows->width, .height = rows->height, .bits = 32};
+    if (status == HD_OK)
+        *out = rows;
+    else
+        free(rows);
+    return status;
 }
 
 static float get_float(const unsigned char bytes[4], bool is_big_endian) {
@@ -66,7 +98,8 @@ static float get_float(const unsigned char bytes[4], bool is_big_endian) {
 }
 
 /* The file has its rows from the bottom. Its bytes lie where they become values. */
-HdStatus hd_pfm_next_row(HdPfmRows *rows, float *values, HdError *error) {
+static HdStatus next_row(void *state, float *values, HdError *error) {
+    PfmRows *rows = state;
     const size_t count = (size_t)rows->width * 3;
     const unsigned char *bytes = (const unsigned char *)values;
     const int64_t place = rows->begin + (int64_t)(rows->height - 1 - rows->next) * rows->width * 12;
@@ -114,4 +147,12 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     return HD_OK;
 }
 
-const HdFormat hd_format_pfm = {.name = "PFM", .write = write, .most_encoded_bits = 0};
+const HdFormat hd_format_pfm = {
+    .name = "PFM",
+    .write = write,
+    .most_encoded_bits = 0,
+    .begins = begins,
+    .open_rows = open_rows,
+    .next_row = next_row,
+    .close_rows = free,
+};

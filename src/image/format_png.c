@@ -1,10 +1,342 @@
 /* SPDX-License-Identifier: MIT */
-/* Frames and textures as PNG. */
+/* Frames, textures and pictures to compare as PNG. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image/png.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/format.h"
-#include "image/png.h"
+#include <png.h>
+#include <zlib.h>
+
+#include "base/hash.h"
+#include "base/limits.h"
+
+/* Far above what a picture needs, far below what would hurt. */
+enum { MAX_CHUNK_BYTES = 8 * 1024 * 1024, MAX_KEPT_CHUNKS = 128 };
+
+/* Of a file besides twice what its pixels take: far more than texts and profiles have. */
+enum { MAX_BESIDES = 16 * 1024 * 1024 };
+
+enum { MESSAGE_SIZE = 256, SIGNATURE_SIZE = 8 };
+
+/* libpng reports an error by a jump. Everything that must outlive it lives here, not in local
+   variables. */
+typedef struct PngReader {
+    png_structp png;
+    png_infop info;
+    FILE *file;
+    size_t allowed;   /* to be read still */
+    const char *name; /* for messages */
+    HdPngFacts facts;
+    bool is_interlaced;
+    int passes; /* over the same rows */
+    int next;
+    char message[MESSAGE_SIZE];
+} PngReader;
+
+struct HdPngWriter {
+    png_structp png;
+    png_infop info;
+    FILE *stream;
+    const char *path;
+    uint64_t hash; /* of the bytes so far (hash.h) */
+    char message[MESSAGE_SIZE];
+};
+
+static void on_error(png_structp png, png_const_charp message) {
+    /* We write few texts: libpng says so of any that it has no memory for. */
+    const bool lacks_memory = strcmp(message, "too many text chunks") == 0;
+    snprintf(png_get_error_ptr(png), MESSAGE_SIZE, "%s", lacks_memory ? "out of memory" : message);
+    png_longjmp(png, 1);
+}
+
+/* libpng would print warnings. */
+static void on_warning(png_structp png, png_const_charp message) {
+    (void)png;
+    (void)message;
+}
+
+static bool begins(const unsigned char *bytes, size_t size) {
+    return size >= SIGNATURE_SIZE && png_sig_cmp(bytes, 0, SIGNATURE_SIZE) == 0;
+}
+
+/* Reading */
+
+static void read_bytes(png_structp png, png_bytep out, size_t count) {
+    PngReader *reader = png_get_io_ptr(png);
+    if (count > reader->allowed)
+        png_error(png, "the file has far more bytes than its pixels need");
+    reader->allowed -= count;
+    if (fread(out, 1, count, reader->file) != count)
+        png_error(png, "the file ends too early");
+}
+
+static void limit_reading(png_structp png) {
+    png_set_user_limits(png, HD_MAX_IMAGE_SIDE, HD_MAX_IMAGE_SIDE);
+    png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);
+    png_set_chunk_cache_max(png, MAX_KEPT_CHUNKS);
+    /* Texts, profiles and gamma have no use here: skipped, they cannot do harm either. */
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "sRGB", 1);
+}
+
+/* Every kind becomes RGB, with 16 bits where it has as many, otherwise with 8. */
+static void convert_to_rgb(png_structp png) {
+    png_set_expand(png);
+    png_set_strip_alpha(png);
+    png_set_gray_to_rgb(png);
+}
+
+static bool try_head(PngReader *reader) {
+    png_structp png = reader->png;
+    png_infop info = reader->info;
+    if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+    png_set_read_fn(png, reader, read_bytes);
+    limit_reading(png);
+    png_read_info(png, info);
+    reader->is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
+    reader->facts.is_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
+    convert_to_rgb(png);
+    reader->passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    reader->facts.width = (int)png_get_image_width(png, info);
+    reader->facts.height = (int)png_get_image_height(png, info);
+    reader->facts.bits = png_get_bit_depth(png, info);
+    if (png_get_rowbytes(png, info) * 8 !=
+        (size_t)reader->facts.width * 3 * (size_t)reader->facts.bits)
+        png_error(png, "unexpected size of a row");
+    reader->allowed += 2 * png_get_rowbytes(png, info) * (size_t)reader->facts.height;
+    return true;
+}
+
+static HdStatus fail_reading(const PngReader *reader, HdError *error) {
+    return hd_fail(error, strstr(reader->message, "memory") != NULL ? HD_FAILED : HD_BAD_INPUT,
+                   "cannot read %s as PNG: %s", reader->name, reader->message);
+}
+
+static void close_reader(PngReader *reader) {
+    if (reader == NULL)
+        return;
+    png_destroy_read_struct(&reader->png, &reader->info, NULL);
+    free(reader);
+}
+
+/* Reads the head of a file that stands at its begin, which lives on, as the name does. Chunks
+   without measure are refused, and all but those of pixels and sRGB are passed over. A file of more
+   than 16 MiB and twice what its pixels take is wrong, and not read on. What is wrong with the file
+   is HD_BAD_INPUT, here and below; HD_FAILED: memory is short. */
+static HdStatus open_reader(PngReader **out, FILE *file, const char *name, HdError *error) {
+    PngReader *reader = malloc(sizeof *reader);
+    if (reader == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+    *reader =
+        (PngReader){.file = file, .allowed = MAX_BESIDES, .name = name, .message = "out of memory"};
+    reader->png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, reader->message, on_error, on_warning);
+    if (reader->png != NULL)
+        reader->info = png_create_info_struct(reader->png);
+    if (reader->info != NULL && try_head(reader)) {
+        *out = reader;
+        return HD_OK;
+    }
+    const HdStatus status = fail_reading(reader, error);
+    close_reader(reader);
+    return status;
+}
+
+/* The last row is followed by the end of the file, which has to be there. */
+static bool try_rows(PngReader *reader, uint16_t *codes, int count) {
+    const size_t values = (size_t)reader->facts.width * 3;
+    if (setjmp(png_jmpbuf(reader->png)) != 0)
+        return false;
+    for (int pass = 0; pass < reader->passes; pass++)
+        for (int row = 0; row < count; row++)
+            png_read_row(reader->png, (png_bytep)(codes + values * (size_t)row), NULL);
+    reader->next += count;
+    if (reader->next == reader->facts.height)
+        png_read_end(reader->png, NULL);
+    return true;
+}
+
+/* The bytes lie in the row that they become: PNG's 16 bits are big endian, and 8 bits fill the
+   first half, so that the way goes from the end. */
+static void make_codes(uint16_t *row, size_t values, int bits) {
+    const unsigned char *bytes = (const unsigned char *)row;
+    for (size_t i = values; i-- > 0;)
+        row[i] = (uint16_t)(bits == 16 ? bytes[2 * i] << 8 | bytes[2 * i + 1] : bytes[i] * 257);
+}
+
+/* The next `count` rows from the top, which must be all of an interlaced picture: r, g, b of each
+   pixel, 0..65535 whatever the bits; without alpha. */
+static HdStatus read_rows(PngReader *reader, uint16_t *codes, int count, HdError *error) {
+    const size_t values = (size_t)reader->facts.width * 3;
+    if (!try_rows(reader, codes, count))
+        return fail_reading(reader, error);
+    for (int row = 0; row < count; row++)
+        make_codes(codes + values * (size_t)row, values, reader->facts.bits);
+    return HD_OK;
+}
+
+/* Writing */
+
+static void write_bytes(png_structp png, png_bytep bytes, size_t count) {
+    HdPngWriter *writer = png_get_io_ptr(png);
+    if (fwrite(bytes, 1, count, writer->stream) != count)
+        png_error(png, strerror(errno));
+    writer->hash = hd_hash_bytes(writer->hash, bytes, count);
+}
+
+static void flush_nothing(png_structp png) {
+    (void)png;
+}
+
+enum { MAX_TEXTS = 4, NUMBER_SIZE = 16 };
+
+/* Text in UTF-8 that is not compressed. libpng writes to none of it. */
+static png_text text_of(const char *keyword, const char *text) {
+    return (png_text){.compression = PNG_ITXT_COMPRESSION_NONE,
+                      .key = (char *)keyword,
+                      .text = (char *)text,
+                      .itxt_length = strlen(text)};
+}
+
+/* Returns how many there are. */
+static int make_texts(const HdPictureLabel *label, char number[NUMBER_SIZE],
+                      png_text texts[MAX_TEXTS]) {
+    if (label == NULL)
+        return 0;
+    snprintf(number, NUMBER_SIZE, "%d", label->frame);
+    texts[0] = text_of("Software", "hedron " HD_VERSION);
+    texts[1] = text_of("Scene", label->scene);
+    texts[2] = text_of("Frame", number);
+    texts[3] = text_of("Options", label->options);
+    return label->options[0] != '\0' ? MAX_TEXTS : MAX_TEXTS - 1;
+}
+
+/* Frames are many and short-lived. After the filter what repeats is mostly zeros, and looking for
+   nothing else is both faster and smaller than level 1. */
+static bool try_begin(HdPngWriter *writer, const HdPngFacts *facts, png_text *texts, int count) {
+    png_structp png = writer->png;
+    if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+    png_set_write_fn(png, writer, write_bytes, flush_nothing);
+    png_set_compression_strategy(png, Z_RLE);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_IHDR(png, writer->info, (png_uint_32)facts->width, (png_uint_32)facts->height,
+                 facts->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (facts->is_srgb)
+        png_set_sRGB(png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else
+        png_set_gAMA_fixed(png, writer->info, PNG_GAMMA_LINEAR);
+    png_set_text(png, writer->info, texts, count);
+    png_write_info(png, writer->info);
+    return true;
+}
+
+static bool try_row(HdPngWriter *writer, const unsigned char *row) {
+    if (setjmp(png_jmpbuf(writer->png)) != 0)
+        return false;
+    png_write_row(writer->png, row);
+    return true;
+}
+
+/* ---- the end ---- */
+
+enum { KEYWORD_SIZE = 7, TEXT_SIZE = 45, DATA_SIZE = KEYWORD_SIZE + TEXT_SIZE };
+_Static_assert(HD_PNG_END_SIZE == 12 + DATA_SIZE + 12, "a chunk, and IEND behind it");
+
+/* PNG is big endian. */
+static void put_number(unsigned char *place, uint32_t number) {
+    for (int i = 0; i < 4; i++)
+        place[i] = (unsigned char)(number >> (24 - 8 * i));
+}
+
+static void make_end(uint64_t fingerprint, uint64_t bytes_hash,
+                     unsigned char end[HD_PNG_END_SIZE]) {
+    static const unsigned char last[12] = "\0\0\0\0IEND\xae\x42\x60\x82";
+    char text[TEXT_SIZE + 1];
+    snprintf(text, sizeof text, "frame %016" PRIx64 " bytes %016" PRIx64, fingerprint, bytes_hash);
+    put_number(end, DATA_SIZE);
+    memcpy(end + 4, "tEXthedron", 4 + KEYWORD_SIZE);
+    memcpy(end + 8 + KEYWORD_SIZE, text, TEXT_SIZE);
+    put_number(end + 8 + DATA_SIZE, (uint32_t)crc32(crc32(0, NULL, 0), end + 4, 4 + DATA_SIZE));
+    memcpy(end + 12 + DATA_SIZE, last, sizeof last);
+}
+
+bool hd_png_is_whole(const unsigned char *bytes, size_t size, uint64_t fingerprint) {
+    unsigned char end[HD_PNG_END_SIZE];
+    if (size < HD_PNG_END_SIZE)
+        return false;
+    const size_t before = size - HD_PNG_END_SIZE;
+    make_end(fingerprint, hd_hash_bytes(HD_HASH_START, bytes, before), end);
+    return memcmp(bytes + before, end, sizeof end) == 0;
+}
+
+static bool try_end(HdPngWriter *writer, const HdPictureLabel *label) {
+    unsigned char end[HD_PNG_END_SIZE];
+    if (setjmp(png_jmpbuf(writer->png)) != 0)
+        return false;
+    if (label == NULL || !label->has_fingerprint) {
+        png_write_end(writer->png, NULL);
+        return true;
+    }
+    make_end(label->fingerprint, writer->hash, end);
+    if (fwrite(end, 1, sizeof end, writer->stream) != sizeof end)
+        png_error(writer->png, strerror(errno));
+    return true;
+}
+
+static HdStatus status_of(bool good, const HdPngWriter *writer, HdError *error) {
+    return good ? HD_OK
+                : hd_fail(error, HD_FAILED, "cannot write %s: %s", writer->path, writer->message);
+}
+
+HdStatus hd_png_begin(HdPngWriter **out, FILE *stream, const char *path, const HdPngFacts *facts,
+                      const HdPictureLabel *label, HdError *error) {
+    char number[NUMBER_SIZE];
+    png_text texts[MAX_TEXTS];
+    const int count = make_texts(label, number, texts);
+    HdPngWriter *writer = malloc(sizeof *writer);
+    if (writer == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to write %s", path);
+    *writer = (HdPngWriter){
+        .stream = stream, .path = path, .hash = HD_HASH_START, .message = "out of memory"};
+    writer->png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, writer->message, on_error, on_warning);
+    if (writer->png != NULL)
+        writer->info = png_create_info_struct(writer->png);
+    const HdStatus status =
+        status_of(writer->info != NULL && try_begin(writer, facts, texts, count), writer, error);
+    if (status == HD_OK)
+        *out = writer;
+    else
+        hd_png_free(writer);
+    return status;
+}
+
+HdStatus hd_png_write_row(HdPngWriter *writer, const unsigned char *row, HdError *error) {
+    return status_of(try_row(writer, row), writer, error);
+}
+
+HdStatus hd_png_end(HdPngWriter *writer, const HdPictureLabel *label, HdError *error) {
+    return status_of(try_end(writer, label), writer, error);
+}
+
+void hd_png_free(HdPngWriter *writer) {
+    if (writer == NULL)
+        return;
+    png_destroy_write_struct(&writer->png, &writer->info);
+    free(writer);
+}
+
+/* ---- textures and frames that are read back ---- */
 
 enum { SIZE_OFFSET = 16, SIZE_END = 24 };
 
@@ -34,19 +366,34 @@ static void take_off_curve(HdTexture *texture, HdCurve curve, int bits) {
         texture->texels[i] = decoded[texture->texels[i] >> 8];
 }
 
+static HdStatus open_bytes(PngReader **reader, const unsigned char *bytes, size_t size,
+                           const char *name, HdError *error) {
+    FILE *file = fmemopen((void *)bytes, size, "rb"); /* nothing writes to it */
+    if (file == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
+    const HdStatus status = open_reader(reader, file, name, error);
+    if (status != HD_OK)
+        fclose(file);
+    return status;
+}
+
+static void close_bytes(PngReader *reader) {
+    fclose(reader->file);
+    close_reader(reader);
+}
+
 static HdStatus decode(HdTexture *texture, const unsigned char *bytes, size_t size,
                        const char *name, HdCurve curve, HdError *error) {
-    const HdPngSource source = {.bytes = bytes, .size = size};
-    HdPngReader *reader = NULL;
-    HdPngFacts facts;
+    PngReader *reader;
     HdStatus status = create_texture(texture, bytes, size, name, error);
     if (status == HD_OK)
-        status = hd_png_open(&reader, &source, name, &facts, error);
+        status = open_bytes(&reader, bytes, size, name, error);
+    if (status != HD_OK)
+        return status;
+    status = read_rows(reader, texture->texels, texture->height, error);
     if (status == HD_OK)
-        status = hd_png_read_rows(reader, texture->texels, texture->height, error);
-    hd_png_close(reader);
-    if (status == HD_OK)
-        take_off_curve(texture, curve, facts.bits);
+        take_off_curve(texture, curve, reader->facts.bits);
+    close_bytes(reader);
     return status;
 }
 
@@ -59,14 +406,14 @@ static void fill_rgba(const uint16_t *codes, size_t pixels, uint8_t *rgba) {
     }
 }
 
-static HdStatus load_rows(HdFrame *frame, HdPngReader *reader, const char *name, HdError *error) {
+static HdStatus load_rows(HdFrame *frame, PngReader *reader, const char *name, HdError *error) {
     const size_t width = (size_t)frame->width;
     uint16_t *codes = malloc(width * 3 * sizeof *codes);
     if (codes == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", name);
     HdStatus status = HD_OK;
     for (int y = 0; y < frame->height && status == HD_OK; y++) {
-        status = hd_png_read_rows(reader, codes, 1, error);
+        status = read_rows(reader, codes, 1, error);
         if (status == HD_OK)
             fill_rgba(codes, width, frame->rgba + width * 4 * (size_t)y);
     }
@@ -76,19 +423,18 @@ static HdStatus load_rows(HdFrame *frame, HdPngReader *reader, const char *name,
 
 static HdStatus load(HdFrame *frame, const unsigned char *bytes, size_t size, const char *name,
                      HdError *error) {
-    const HdPngSource source = {.bytes = bytes, .size = size};
-    HdPngReader *reader;
-    HdPngFacts facts;
-    HdStatus status = hd_png_open(&reader, &source, name, &facts, error);
+    PngReader *reader;
+    HdStatus status = open_bytes(&reader, bytes, size, name, error);
     if (status != HD_OK)
         return status;
-    if (facts.width != frame->width || facts.height != frame->height || facts.bits != 8 ||
-        facts.is_interlaced)
+    const HdPngFacts *facts = &reader->facts;
+    if (facts->width != frame->width || facts->height != frame->height || facts->bits != 8 ||
+        reader->is_interlaced)
         status = hd_fail(error, HD_FAILED,
                          "cannot read %s as PNG: unexpected size or kind of picture", name);
     else
         status = load_rows(frame, reader, name, error);
-    hd_png_close(reader);
+    close_bytes(reader);
     frame->is_encoded |= status == HD_OK;
     return status;
 }
@@ -129,8 +475,9 @@ static HdStatus write_rows(HdPngWriter *writer, const HdFrame *frame, const HdPi
     return status;
 }
 
-static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
-                      const HdPictureLabel *label, FILE *stream, const char *path, HdError *error) {
+static HdStatus write_frame(const HdFrame *frame, const HdPictureStyle *style,
+                            const HdPictureLabel *label, FILE *stream, const char *path,
+                            HdError *error) {
     const HdPngFacts facts = {.width = frame->width,
                               .height = frame->height,
                               .bits = style->bits,
@@ -149,10 +496,55 @@ static HdStatus write(const HdFrame *frame, const HdPictureStyle *style,
     return status;
 }
 
+/* ---- row by row ---- */
+
+static HdStatus open_rows(void **rows, FILE *file, const char *path, HdPictureFacts *facts,
+                          HdError *error) {
+    PngReader *reader;
+    HdStatus status = open_reader(&reader, file, path, error);
+    if (status != HD_OK)
+        return status;
+    if (reader->is_interlaced) {
+        close_reader(reader);
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s is an interlaced PNG, expected one whose rows follow each other", path);
+    }
+    *rows = reader;
+    *facts = (HdPictureFacts){
+        .width = reader->facts.width,
+        .height = reader->facts.height,
+        .bits = reader->facts.bits,
+        .curve = reader->facts.is_srgb ? HD_CURVE_SRGB : HD_CURVE_LINEAR,
+    };
+    return HD_OK;
+}
+
+/* Codes lie at the begin of the row that they become, so that the way goes from the end. */
+static HdStatus next_row(void *rows, float *rgb, HdError *error) {
+    PngReader *reader = rows;
+    void *codes = rgb;
+    const HdStatus status = read_rows(reader, codes, 1, error);
+    for (size_t i = (size_t)reader->facts.width * 3; i-- > 0 && status == HD_OK;) {
+        uint16_t code;
+        memcpy(&code, (const char *)codes + i * sizeof code, sizeof code);
+        rgb[i] = code;
+    }
+    return status;
+}
+
+static void close_rows(void *rows) {
+    close_reader(rows);
+}
+
 const HdFormat hd_format_png = {
     .name = "PNG",
-    .write = write,
+    .write = write_frame,
     .most_encoded_bits = 8,
     .load = load,
     .decode = decode,
+    .begins = begins,
+    .open_rows = open_rows,
+    .next_row = next_row,
+    .close_rows = close_rows,
+    .is_on_curve = true,
 };

@@ -1,13 +1,53 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "image/picture.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "image/png.h"
-#include "system/file_bytes.h"
+#include "system/path.h"
 
-/* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
-static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
+/* ---- formats ---- */
+
+#define ROW(name) {"." #name, &hd_format_##name},
+
+static const struct {
+    const char *ending;
+    const HdFormat *format;
+} formats[] = {HD_FILM_FORMATS(ROW, ROW, ROW) HD_PICTURE_FORMATS(ROW, ROW, ROW)};
+
+const HdFormat *hd_format_of(const char *path) {
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++)
+        if (hd_path_has_ending(path, formats[i].ending))
+            return formats[i].format;
+    return NULL;
+}
+
+bool hd_format_is_film(const HdFormat *format) {
+    return format != NULL && format->film_arguments != NULL;
+}
+
+HdStatus hd_format_check_style(const char *path, const HdPictureStyle *style, HdError *error) {
+    const HdFormat *format = hd_format_of(path);
+    if (format != NULL && format->is_srgb_alone && style->curve != HD_CURVE_SRGB)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s cannot be linear, for a %s has no way to say so: expected output.curve "
+                       "\"srgb\", or another film",
+                       path, format->name);
+    if (format == &hd_format_png && style->bits > 16)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "%s cannot have %d bits a channel: expected output.bits 8 or 16, or another "
+                       "ending, such as .exr",
+                       path, style->bits);
+    return HD_OK;
+}
+
+/* ---- writing frames ---- */
 
 HdStatus hd_picture_prepare(HdAtomicFile *file, const HdFrame *frame, const HdFormat *format,
                             const HdPictureStyle *style, const HdPictureLabel *label,
@@ -35,12 +75,16 @@ HdStatus hd_picture_write(const HdFrame *frame, const HdPictureStyle *style, con
     return status == HD_OK ? hd_atomic_file_commit(&file, HD_DURABLE, error) : status;
 }
 
+/* ---- textures ---- */
+
+/* The largest texture as PNG with four 16-bit channels has 2 GiB before compression. */
+static const int64_t MAX_TEXTURE_FILE = INT64_C(4) << 30;
+
 /* What is neither PNG nor JPEG may be in the data format, which has no signature. */
 static const HdFormat *format_of_texture(const unsigned char *bytes, size_t size) {
-    if (hd_image_is_png(bytes, size))
+    if (hd_format_png.begins(bytes, size))
         return &hd_format_png;
-    const bool is_jpeg = size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
-    return is_jpeg ? &hd_format_jpeg : &hd_format_data;
+    return hd_format_jpeg.begins(bytes, size) ? &hd_format_jpeg : &hd_format_data;
 }
 
 HdStatus hd_texture_decode(HdTexture *texture, const unsigned char *bytes, size_t size,
@@ -62,4 +106,131 @@ HdStatus hd_texture_read(HdTexture *texture, const char *path, HdCurve curve, Hd
         status = hd_texture_decode(texture, bytes, size, path, curve, error);
     free(bytes);
     return status;
+}
+
+/* ---- pictures to compare ---- */
+
+enum { CODES = 65536 };
+
+struct HdPictureReader {
+    FILE *file;
+    const char *path; /* the caller's */
+    HdPictureFacts facts;
+    HdCurve curve;
+    void *rows;              /* owned; the format's */
+    float *row;              /* owned */
+    HdPictureValue *by_code; /* owned; CODES of them, of a picture on a curve */
+};
+
+/* Not blocking, lest a named pipe stops the program before it is refused. */
+static HdStatus open_file(HdPictureReader *reader, HdError *error) {
+    struct stat found;
+    int descriptor = open(reader->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor >= 0 && fstat(descriptor, &found) == 0 && !S_ISREG(found.st_mode)) {
+        close(descriptor);
+        return hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: it is not a regular file",
+                       reader->path);
+    }
+    if (descriptor >= 0)
+        reader->file = fdopen(descriptor, "rb");
+    if (reader->file != NULL)
+        return HD_OK;
+    int reason = errno;
+    if (descriptor >= 0)
+        close(descriptor);
+    return hd_fail(error, HD_BAD_INPUT, "cannot read the picture %s: %s", reader->path,
+                   strerror(reason));
+}
+
+static HdStatus open_format(HdPictureReader *reader, HdError *error) {
+    unsigned char head[8];
+    size_t count = fread(head, 1, sizeof head, reader->file);
+    rewind(reader->file);
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        const HdFormat *format = formats[i].format;
+        if (format->open_rows == NULL || !format->begins(head, count))
+            continue;
+        HdStatus status =
+            format->open_rows(&reader->rows, reader->file, reader->path, &reader->facts, error);
+        reader->facts.format = format;
+        return status;
+    }
+    return hd_fail(error, HD_BAD_INPUT, "%s is neither PNG, OpenEXR nor PFM, expected one of these",
+                   reader->path);
+}
+
+HdStatus hd_picture_reader_open(HdPictureReader **out, const char *path, HdError *error) {
+    HdPictureReader *reader = calloc(1, sizeof *reader);
+    if (reader == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", path);
+    reader->path = path;
+    HdStatus status = open_file(reader, error);
+    if (status == HD_OK)
+        status = open_format(reader, error);
+    if (status != HD_OK)
+        hd_picture_reader_close(reader);
+    else
+        *out = reader;
+    return status;
+}
+
+const HdPictureFacts *hd_picture_reader_facts(const HdPictureReader *reader) {
+    return &reader->facts;
+}
+
+/* With 8 bits only every 257th code is there. */
+static void fill_codes(HdPictureReader *reader) {
+    int step = reader->facts.bits == 8 ? 257 : 1;
+    for (int code = 0; code < CODES; code += step) {
+        reader->by_code[code] = (HdPictureValue){
+            .linear = hd_curve_to_linear(reader->curve, code / HD_DISPLAY_TOP),
+            .display = code,
+        };
+    }
+}
+
+HdStatus hd_picture_reader_start(HdPictureReader *reader, HdCurve curve, HdError *error) {
+    const bool is_on_curve = reader->facts.format->is_on_curve;
+    reader->curve = curve;
+    reader->row = malloc((size_t)reader->facts.width * 3 * sizeof *reader->row);
+    if (is_on_curve)
+        reader->by_code = malloc(CODES * sizeof *reader->by_code);
+    if (reader->row == NULL || (is_on_curve && reader->by_code == NULL))
+        return hd_fail(error, HD_FAILED, "out of memory: no room to read %s", reader->path);
+    if (is_on_curve)
+        fill_codes(reader);
+    return HD_OK;
+}
+
+static HdPictureValue value_of(const HdPictureReader *reader, float number) {
+    const double linear = (double)number;
+    if (reader->by_code != NULL)
+        return reader->by_code[(int)number];
+    return (HdPictureValue){
+        .linear = linear,
+        .display = HD_DISPLAY_TOP * hd_curve_to_display(reader->curve, linear),
+    };
+}
+
+HdStatus hd_picture_reader_next(HdPictureReader *reader, HdPictureValue *values, HdError *error) {
+    const HdStatus status = reader->facts.format->next_row(reader->rows, reader->row, error);
+    for (size_t i = 0; i < (size_t)reader->facts.width * 3 && status == HD_OK; i++)
+        values[i] = value_of(reader, reader->row[i]);
+    return status;
+}
+
+const float *hd_picture_reader_further(const HdPictureReader *reader, int channel) {
+    return reader->facts.format->further_channel(reader->rows, channel);
+}
+
+void hd_picture_reader_close(HdPictureReader *reader) {
+    if (reader == NULL)
+        return;
+    if (reader->rows != NULL)
+        reader->facts.format->close_rows(reader->rows);
+    if (reader->file != NULL)
+        fclose(reader->file);
+    free(reader->row);
+    free(reader->by_code);
+    free(reader);
 }

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/formats.h"
+#include "image/picture.h"
 #include "scene/camera.h"
 #include "scene/contact.h"
 

@@ -9,7 +9,7 @@
 #include <strings.h>
 
 #include "base/text.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "input/builtin.h"
 #include "input/changes.h"
 

@@ -1,57 +1,66 @@
 /* SPDX-License-Identifier: MIT */
 /* The program 'hedron': its commands. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
-#include "cli/commands.h"
+#include "cli/options.h"
 #include "main/program.h"
-#include "view/start_window.h"
-#include "view/terminal.h"
+#include "system/path.h"
 
-static char **original_arguments; /* for the program that opens windows */
+static char **original_arguments; /* as parsing them changes their order; owned, NULL ends them */
 
+/* Becomes hedron-view, with the same arguments; it is looked for beside this program, then in PATH.
+   Returns only where that fails. */
 static HdStatus view(const HdOptions *options, HdError *error) {
-    return options->terminal ? hd_view_in_terminal(options, error)
-                             : hd_start_window(original_arguments, error);
+    static const char program[] = "hedron-view";
+    char folder[HD_MAX_PATH], path[HD_MAX_PATH + sizeof program + 1];
+    (void)options;
+    if (original_arguments == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the arguments");
+    if (hd_path_of_program(folder)) {
+        snprintf(path, sizeof path, "%s/%s", folder, program);
+        execv(path, original_arguments);
+    }
+    execvp(program, original_arguments);
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "the view's program, %s, cannot be started (%s): it is the package hedron-view",
+                   program, strerror(errno));
+}
+
+static HdStatus print_version(const HdOptions *options, HdError *error) {
+    (void)options;
+    (void)error;
+    printf("hedron %s\n", HD_VERSION);
+    return HD_OK;
 }
 
 static HdStatus run(const HdOptions *options, HdError *error) {
-    switch (options->command) {
-    case HD_COMMAND_CLASSIC:
-        return hd_command_classic(options, error);
-    case HD_COMMAND_RENDER:
-        return hd_command_render(options, error);
-    case HD_COMMAND_CHECK:
-        return hd_command_check(options, error);
-    case HD_COMMAND_CONVERT:
-        return hd_command_convert(options, error);
-    case HD_COMMAND_DEVICES:
-        return hd_command_devices(options, error);
-    case HD_COMMAND_SELFTEST:
-        return hd_command_selftest(options, error);
-    case HD_COMMAND_TUNE:
-        return hd_command_tune(options, error);
-    case HD_COMMAND_COMPARE:
-        return hd_command_compare(options, error);
-    case HD_COMMAND_NEW:
-        return hd_command_new(options, error);
-    case HD_COMMAND_VIEW:
-        return view(options, error);
-    case HD_COMMAND_COMPLETE:
-        hd_command_complete(options);
-        return HD_OK;
-    case HD_COMMAND_HELP:
-        hd_command_help(&options->help_topic);
-        return HD_OK;
-    case HD_COMMAND_VERSION:
-        printf("hedron %s\n", HD_VERSION);
-        return HD_OK;
-    }
+    static const struct {
+        HdCommand command;
+        HdCommandFunction *run;
+    } commands[] = {
+        {HD_COMMAND_CLASSIC, hd_command_classic},   {HD_COMMAND_RENDER, hd_command_render},
+        {HD_COMMAND_CHECK, hd_command_check},       {HD_COMMAND_CONVERT, hd_command_convert},
+        {HD_COMMAND_DEVICES, hd_command_devices},   {HD_COMMAND_SELFTEST, hd_command_selftest},
+        {HD_COMMAND_TUNE, hd_command_tune},         {HD_COMMAND_COMPARE, hd_command_compare},
+        {HD_COMMAND_NEW, hd_command_new},           {HD_COMMAND_VIEW, view},
+        {HD_COMMAND_COMPLETE, hd_command_complete}, {HD_COMMAND_HELP, hd_command_help},
+        {HD_COMMAND_VERSION, print_version},
+    };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        if (commands[i].command == options->command)
+            return commands[i].run(options, error);
     return HD_OK;
 }
 
 int main(int count, char **arguments) {
-    original_arguments = hd_copy_arguments(arguments, count);
+    original_arguments = calloc((size_t)count + 1, sizeof *arguments);
+    if (original_arguments != NULL)
+        memcpy(original_arguments, arguments, (size_t)count * sizeof *arguments);
     const int code = hd_program_run(count, arguments, run);
     free(original_arguments);
     return code;

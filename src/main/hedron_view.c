@@ -1,13 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 /* The program 'hedron-view', which 'hedron view' starts with its own arguments: the view in a
-   window. It is a program of its own, so that nothing else needs SDL. */
+   window or a terminal. It is a program of its own, so that nothing else needs SDL and chafa. */
+#include <string.h>
+
 #include "main/program.h"
-#include "view/window.h"
+#include "view/view.h"
+
+#if !HD_HAS_SDL
+HdStatus hd_view_in_window(const HdViewPlan *plan, HdError *error) {
+    (void)plan;
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "hedron-view was built without SDL 2 (libsdl2-dev), so that it has no window; "
+                   "'hedron view --terminal' shows the scene in a terminal");
+}
+#endif
+
+#if !HD_HAS_CHAFA
+HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
+    (void)plan;
+    return hd_fail(error, HD_UNAVAILABLE,
+                   "hedron-view was built without chafa (libchafa-dev), so that it has no "
+                   "--terminal");
+}
+#endif
 
 static HdStatus run(const HdOptions *options, HdError *error) {
+    const HdViewPlan plan = {options->scene, options->devices};
     if (options->command != HD_COMMAND_VIEW)
         return hd_fail(error, HD_BAD_INPUT, "'hedron-view' is what 'hedron view' starts");
-    return hd_view_in_window(options, error);
+    if (plan.scene.path != NULL && strcmp(plan.scene.path, "-") == 0)
+        return hd_fail(error, HD_BAD_INPUT,
+                       "'hedron view' needs a scene's file, which it reads again when it changes, "
+                       "and not standard input");
+    return options->terminal ? hd_view_in_terminal(&plan, error) : hd_view_in_window(&plan, error);
 }
 
 int main(int count, char **arguments) {

@@ -109,3 +109,7 @@ uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
     add_integer(&hash, style->bits);
     return hash;
 }
+
+uint64_t hd_frame_fingerprint(uint64_t run, int number) {
+    return hd_hash_bytes(run, &number, sizeof number);
+}

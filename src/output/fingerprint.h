@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What decides the pixels of a run's frames, as one number: when it is the same, so are they. */
+/* The identity of a run and of its frames: what decides their pixels, as one number. When it is the
+   same, so are they. Finished pictures bear their frame's (image/png.h), segments of films are
+   named by the run's. */
 #ifndef HD_OUTPUT_FINGERPRINT_H
 #define HD_OUTPUT_FINGERPRINT_H
 
@@ -13,9 +15,12 @@
    of that style hold them: every field of the scene file (fields.h) but names of files and
    what becomes of the frames, what the files hold, what the command line changed, precision, curve
    and bits, and the text of this program. Which device renders it, and how, changes no strict
-   pixel. The frame's own number is left to hd_picture_fingerprint. */
+   pixel. */
 uint64_t hd_run_fingerprint(const HdSceneFile *file, HdPrecision precision,
                             const HdPictureStyle *style);
+
+/* Of frame `number` of a run whose fingerprint is `run`. */
+uint64_t hd_frame_fingerprint(uint64_t run, int number);
 
 /* SHA-256 of the text of the kernels and of what runs them on CPUs, as 64 digits: what differs in
    it may compute at another speed. */

@@ -7,8 +7,8 @@
 
 #include "base/growth.h"
 #include "render/survey.h"
-#include "system/chunks.h"
 #include "system/machine.h"
+#include "system/thread_pool.h"
 
 /* Steps of 255 by which pictures must differ, for each step of the error that is aimed at: of
    neighbours that have one sample; of the parts of a pixel's samples; of neighbours that have
@@ -99,7 +99,7 @@ static int count_threads(void) {
 }
 
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
-                              HdPrecision precision, HdCurve curve, HdError *error) {
+                              HdCurve curve, HdError *error) {
     HdRefinement *r = calloc(1, sizeof *r);
     if (r == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a refinement");
@@ -113,7 +113,7 @@ HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, H
     if (status == HD_OK)
         status = hd_thread_pool_create(&r->threads, count_threads(), error);
     r->surveyor = (HdSurveyor){.scene = scene,
-                               .precision = precision,
+                               .precision = hd_renderer_options(renderer)->precision,
                                .renderer = renderer,
                                .samples = &r->samples,
                                .budget = hd_error_budget(curve),

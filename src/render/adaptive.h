@@ -11,7 +11,7 @@ typedef struct HdRefinement HdRefinement;
 /* For a scene that was uploaded to the renderer and is surveyed (hd_scene_is_surveyed); both must
    live on. Errors of the picture are judged on `curve`. */
 HdStatus hd_refinement_create(HdRefinement **refinement, const HdScene *scene, HdRenderer *renderer,
-                              HdPrecision precision, HdCurve curve, HdError *error);
+                              HdCurve curve, HdError *error);
 
 /* Renders a frame, none being under way: fills radiance (3 floats a pixel), the layers that it has
    room for, counts, time and what is known of the error. `watch` may be NULL; what passes are worth

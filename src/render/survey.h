@@ -69,8 +69,9 @@ typedef struct HdSurveyor {
 /* Gives up what the surveyor owns itself. */
 void hd_surveyor_free(HdSurveyor *surveyor);
 
-/* How deep a scene with such a limit must be, so that what lies beyond is worth little of it. */
-int hd_survey_depth(const HdScene *scene);
+/* Has nothing but the limit of a scene (HdScene.max_error), if there is one, end its rays: no
+   cut-off, and a depth so large that what lies beyond is worth little of the limit. */
+void hd_survey_end_rays(HdScene *scene);
 
 /* Fills surveys[i] with the mean of the samples [first, first + samples) of request i. With a limit
    (HdScene.max_error) each bound is within it, unless depth or cut-off of the scene end rays

@@ -9,6 +9,7 @@
 #include "system/atomic_file.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "verify/trust.h"
 
 /* One for each count of lanes. */
 #define COUNTED(lanes) +1
@@ -52,8 +53,8 @@ static HdStatus find_tables(Run *run, int lanes, const HdSceneTables **found, Hd
             return HD_OK;
         }
     HdSceneTables *tables = &run->tables[run->table_count];
-    HdStatus status =
-        hd_compile_scene(tables, run->sequence->scene, run->sequence->precision, lanes, error);
+    HdStatus status = hd_compile_scene(tables, run->sequence->scene, run->sequence->team->precision,
+                                       lanes, error);
     run->table_count += status == HD_OK;
     *found = tables;
     return status;
@@ -73,7 +74,7 @@ static HdStatus upload(Run *run, int number, HdError *error) {
     HdStatus status = find_tables(run, hd_renderer_lanes(renderer), &tables, error);
     pthread_mutex_unlock(&run->mutex);
     if (status == HD_OK)
-        status = hd_renderer_upload(renderer, tables, error);
+        status = hd_put_tables(renderer, tables, error);
     pthread_mutex_lock(&run->mutex);
     if (status == HD_OK)
         sequence->uploaded(sequence->context, number, tables);
@@ -104,8 +105,7 @@ static HdStatus estimate_pace(Run *run, int number, HdError *error) {
     if (!run->turns.list[number].is_cpu || !has_gpu(&run->turns) ||
         hd_scene_is_surveyed(sequence->scene))
         return HD_OK;
-    HdStatus status =
-        hd_trial(renderer_of(run, number), sequence->precision, &job, &wish, &trial, error);
+    HdStatus status = hd_trial(renderer_of(run, number), &job, &wish, &trial, error);
     if (status != HD_OK)
         return status;
     hd_turns_estimate(&run->turns, number, trial.frame_seconds);
@@ -224,7 +224,6 @@ static HdStatus start_store(Run *run, HdError *error) {
         .height = sequence->scene->height,
         .tracers = sequence->team->count > 0 ? sequence->team->count : 1,
         .start = run->job.start,
-        .durability = sequence->durability,
         .stored = sequence->stored,
         .context = sequence->context,
     };
@@ -240,7 +239,6 @@ HdStatus hd_sequence_render(const HdSequence *sequence, HdError *error) {
         .sequence = sequence,
         .job = {.scene = sequence->scene,
                 .frames = sequence->resume->all,
-                .precision = sequence->precision,
                 .wish = sequence->outputs->wish,
                 .watch = sequence->watch,
                 .start = hd_monotonic_seconds()},

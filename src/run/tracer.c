@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "render/adaptive.h"
+#include "render/frame.h"
 #include "scene/camera.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
@@ -11,7 +11,7 @@
 /* A frame that the renderer works on. */
 typedef struct Flight {
     int place; /* in the list */
-    HdFrameTables tables;
+    HdFlight frame;
     HdSpan prepare;
     double begun; /* seconds since the start of the run */
 } Flight;
@@ -19,9 +19,8 @@ typedef struct Flight {
 typedef struct Tracer {
     const HdTracerJob *job;
     int number;
-    HdRenderer *renderer;
-    HdRefinement *refinement; /* NULL: the scene is not surveyed */
-    int begun, ended;         /* frames so far */
+    HdFrameMaker maker;
+    int begun, ended; /* frames so far */
     Flight flights[HD_FRAMES_IN_FLIGHT];
     double traced;   /* when the last frame's tracing was over */
     double finished; /* when the last frame was */
@@ -39,24 +38,6 @@ static int in_flight(const Tracer *tracer) {
     return tracer->begun - tracer->ended;
 }
 
-/* A surveyed frame is made of several, which are waited for one after the other. */
-static bool has_room(const Tracer *tracer) {
-    return in_flight(tracer) < (tracer->refinement != NULL ? 1 : HD_FRAMES_IN_FLIGHT);
-}
-
-static HdStatus submit(Tracer *tracer, Flight *flight, const HdCamera *camera, HdError *error) {
-    const HdTracerJob *job = tracer->job;
-    HdStatus status = hd_compile_frame(&flight->tables, job->scene, camera, job->precision, error);
-    if (status != HD_OK)
-        return status;
-    flight->tables.watched = (HdWatched){job->watch, HD_WATCH_FRAME};
-    flight->prepare.seconds = seconds_since_start(tracer) - flight->begun;
-    status = hd_renderer_submit(tracer->renderer, &flight->tables, &job->wish, error);
-    if (status != HD_OK)
-        hd_frame_tables_free(&flight->tables);
-    return status;
-}
-
 /* On failure the frame is not begun; the earlier ones are still under way. */
 static HdStatus begin(Tracer *tracer, int place, HdError *error) {
     const HdTracerJob *job = tracer->job;
@@ -64,15 +45,14 @@ static HdStatus begin(Tracer *tracer, int place, HdError *error) {
     double now = seconds_since_start(tracer);
     HdCamera camera;
     *flight = (Flight){.place = place, .prepare = {.began = now}, .begun = now};
-    HdStatus status = HD_OK;
-    if (tracer->refinement == NULL) {
-        status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
-        if (status == HD_OK)
-            status = submit(tracer, flight, &camera, error);
-    }
+    HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
     if (status == HD_OK)
-        tracer->begun++;
-    return status;
+        status = hd_frame_begin(&tracer->maker, &camera, &flight->frame, error);
+    if (status != HD_OK)
+        return status;
+    flight->prepare.seconds = flight->frame.prepared - job->start - now;
+    tracer->begun++;
+    return HD_OK;
 }
 
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was
@@ -92,46 +72,19 @@ static void note_times(Tracer *tracer, const Flight *flight, double waited_from,
     times->copy = (HdSpan){rest_from, now - rest_from};
 }
 
-static HdStatus collect(Tracer *tracer, Flight *flight, HdFrame *frame, HdFrameTimes *times,
-                        HdError *error) {
-    double waited_from = seconds_since_start(tracer);
-    HdStatus status = hd_renderer_collect(tracer->renderer, frame, error);
-    if (status == HD_OK && frame->first != NULL)
-        status = hd_renderer_first_hits(tracer->renderer, &flight->tables, frame, error);
-    hd_frame_fill_samples(frame, flight->tables.samples);
-    hd_frame_tables_free(&flight->tables);
-    if (status == HD_OK)
-        note_times(tracer, flight, waited_from, frame->trace_seconds, times);
-    return status;
-}
-
-static HdStatus refine(Tracer *tracer, const Flight *flight, HdFrame *frame, HdFrameTimes *times,
-                       HdError *error) {
-    const HdTracerJob *job = tracer->job;
-    double began = seconds_since_start(tracer);
-    HdCamera camera;
-    HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[flight->place], error);
-    double prepared = seconds_since_start(tracer);
-    if (status == HD_OK)
-        status = hd_refinement_render(tracer->refinement, &camera, job->watch, frame, error);
-    if (status == HD_OK) {
-        times->prepare = (HdSpan){began, prepared - began};
-        times->trace = (HdSpan){prepared, frame->trace_seconds};
-    }
-    return status;
-}
-
 /* Fills the oldest frame under way, which it stays. */
 static HdStatus fill_oldest(Tracer *tracer, HdError *error) {
     Flight *flight = flight_of(tracer, tracer->ended);
     HdFrameTimes *times;
     HdFrame *frame =
         hd_frame_store_frame(tracer->job->store, flight->place, tracer->number, &times);
-    HdStatus status = tracer->refinement != NULL ? refine(tracer, flight, frame, times, error)
-                                                 : collect(tracer, flight, frame, times, error);
-    if (status == HD_OK)
-        times->longest_launch = hd_renderer_take_longest_launch(tracer->renderer);
-    if (status == HD_OK && hd_interrupt_signal() != 0)
+    double waited_from = seconds_since_start(tracer);
+    HdStatus status = hd_frame_end(&tracer->maker, &flight->frame, frame, error);
+    if (status != HD_OK)
+        return status;
+    note_times(tracer, flight, waited_from, frame->trace_seconds, times);
+    times->longest_launch = hd_renderer_take_longest_launch(tracer->maker.renderer);
+    if (hd_interrupt_signal() != 0)
         return hd_fail(error, HD_INTERRUPTED, "interrupted between two frames");
     return status;
 }
@@ -146,10 +99,10 @@ static void give_oldest(Tracer *tracer) {
 }
 
 static void give_all_back(Tracer *tracer) {
-    hd_renderer_drop(tracer->renderer);
+    hd_renderer_drop(tracer->maker.renderer);
     for (; tracer->ended < tracer->begun; tracer->ended++) {
         Flight *flight = flight_of(tracer, tracer->ended);
-        hd_frame_tables_free(&flight->tables);
+        hd_flight_drop(&flight->frame);
         hd_turns_given_back(tracer->job->turns, tracer->number, hd_monotonic_seconds());
         hd_stages_give_back(tracer->job->stages, flight->place);
     }
@@ -157,7 +110,7 @@ static void give_all_back(Tracer *tracer) {
 
 /* Whether the store is told of what failed, for no device would do better. */
 static bool is_told(Tracer *tracer, int place, HdStatus status, const HdError *error) {
-    if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->renderer))
+    if (status == HD_INTERRUPTED || hd_renderer_has_failed(tracer->maker.renderer))
         return false;
     hd_stages_fail(tracer->job->stages, place, error);
     return true;
@@ -195,7 +148,7 @@ static int take_frame(Tracer *tracer) {
         .context = tracer,
         .ahead = tracer->job->turns->count == 1 ? HD_FRAMES_IN_FLIGHT : 0,
     };
-    if (!has_room(tracer))
+    if (in_flight(tracer) >= hd_frame_most_flights(&tracer->maker))
         return -1;
     return hd_stages_take(tracer->job->stages, &taker, in_flight(tracer) == 0);
 }
@@ -232,16 +185,15 @@ static HdStatus trace(Tracer *tracer, HdError *error) {
 
 HdStatus hd_trace_frames(const HdTracerJob *job, HdRenderer *renderer, int number,
                          bool *is_fault_of_device, HdError *error) {
-    Tracer tracer = {.job = job, .renderer = renderer, .number = number};
-    HdStatus status = HD_OK;
-    if (hd_scene_is_surveyed(job->scene))
-        status = hd_refinement_create(&tracer.refinement, job->scene, renderer, job->precision,
-                                      job->wish.curve, error);
+    const HdFrameMaker maker = {
+        .renderer = renderer, .scene = job->scene, .wish = job->wish, .watch = job->watch};
+    Tracer tracer = {.job = job, .maker = maker, .number = number};
+    HdStatus status = hd_frame_maker_open(&tracer.maker, error);
     *is_fault_of_device = status != HD_INTERRUPTED;
     if (status != HD_OK)
         return status;
     status = trace(&tracer, error);
     *is_fault_of_device = status != HD_INTERRUPTED && hd_renderer_has_failed(renderer);
-    hd_refinement_free(tracer.refinement);
+    hd_frame_maker_close(&tracer.maker);
     return status;
 }

@@ -13,7 +13,6 @@
 typedef struct HdTracerJob {
     const HdScene *scene;
     const HdFrameList *frames;
-    HdPrecision precision;
     HdFrameWish wish;
     HdWatch *watch; /* NULL: nobody looks */
     double start;   /* of the run, by hd_monotonic_seconds */

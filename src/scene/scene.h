@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/vector.h"
-#include "image/texture.h"
+#include "image/format.h"
 #include "mesh/material.h"
 #include "mesh/mesh.h"
 #include "scene/platonic.h"

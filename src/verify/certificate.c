@@ -7,13 +7,13 @@
 #include <time.h>
 
 #include "base/hash.h"
-#include "verify/first_difference.h"
-#include "verify/golden.h"
-#include "verify/random_test.h"
-#include "verify/render_scene.h"
 #include "device/kernel_source.h"
 #include "device/self_test_scenes.h"
 #include "system/machine.h"
+#include "verify/first_difference.h"
+#include "verify/golden.h"
+#include "verify/random_test.h"
+#include "verify/trust.h"
 
 const char *const hd_verdict_names[] = {"right", "wrong", "untested"};
 static const char *const precision_names[] = {"float", "double"};
@@ -187,8 +187,8 @@ static HdStatus render_golden_frame(GoldenTest *golden, const HdGoldenFrame *fra
     if (status != HD_OK)
         return status;
     if (!golden->quick || is_quick(&scene)) {
-        status = hd_render_scene(golden->renderer, &scene, &camera, golden->precision, golden->like,
-                                 0, &image, error);
+        status =
+            hd_put_and_render(golden->renderer, &scene, &camera, golden->like, 0, &image, error);
         if (status == HD_OK) {
             judge_golden_frame(golden, frame, hd_frame_hash(&image));
             hd_frame_free(&image);

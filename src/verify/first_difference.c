@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "verify/render_scene.h"
+#include "verify/trust.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
 enum { NOWHERE = -1, MOST_PARTS = 64 };
@@ -137,9 +137,8 @@ static HdStatus compare(Search *search, const Cuts *cuts, bool *differs, HdError
     HdStatus status = build(search, cuts, error);
     forget_frames(search);
     for (int side = 0; status == HD_OK && side < SIDES; side++)
-        status = hd_render_scene(search->renderers[side], &search->scene, &search->camera,
-                                 search->dispute->options->precision, search->dispute->like, 0,
-                                 &search->frames[side], error);
+        status = hd_put_and_render(search->renderers[side], &search->scene, &search->camera,
+                                   search->dispute->like, 0, &search->frames[side], error);
     *differs = status == HD_OK &&
                hd_frame_hash(&search->frames[DEVICE]) != hd_frame_hash(&search->frames[PLAIN_C]);
     return status;

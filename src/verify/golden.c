@@ -9,6 +9,14 @@
 /* Made by the build from tests/golden/frames.txt. */
 extern const unsigned char hd_golden_hashes[];
 
+const HdSceneTables hd_golden_needs = {.plane_count = 32,
+                                       .depth = 32,
+                                       .node_stack = 32,
+                                       .refracts = true,
+                                       .lit_from_behind = true,
+                                       .many_lights = true,
+                                       .small_tables = true};
+
 /* More than any of the frames takes. */
 enum { ROOM = 8 << 20 };
 

@@ -3,8 +3,11 @@
 #ifndef HD_VERIFY_GOLDEN_H
 #define HD_VERIFY_GOLDEN_H
 
-#include "verify/golden_scenes.h"
 #include "device/options.h"
+#include "verify/golden_scenes.h"
+
+/* What all golden frames need of the kernels, so that devices which compile them do so once. */
+extern const HdSceneTables hd_golden_needs;
 
 /* Of a frame in one precision. */
 typedef struct HdGoldenHashes {

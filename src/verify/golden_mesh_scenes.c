@@ -5,7 +5,7 @@
 
 #include "verify/mesh_builder.h"
 #include "verify/scene_builder.h"
-#include "scene/triangulate/scene.h"
+#include "scene/triangulate.h"
 
 /* All of these need the same of the kernels (few planes, a depth of at most 8, refraction), so that
    devices that compile them do so once. */

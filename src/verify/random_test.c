@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "verify/first_difference.h"
-#include "verify/render_scene.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
+#include "verify/first_difference.h"
+#include "verify/trust.h"
 
 enum { DEVICE, PLAIN_C, SIDES };
 enum { ALL = -1, MOST_WORKERS = 16 };
@@ -48,8 +48,8 @@ static const HdSceneTables *needs_of(const HdRandomTest *test, int kind) {
 static HdStatus render(const Run *run, HdRenderer *renderer, const HdScene *scene,
                        const HdCamera *camera, int kind, uint64_t *hash, HdError *error) {
     HdFrame frame;
-    HdStatus status = hd_render_scene(renderer, scene, camera, run->test->options.precision,
-                                      needs_of(run->test, kind), 0, &frame, error);
+    HdStatus status =
+        hd_put_and_render(renderer, scene, camera, needs_of(run->test, kind), 0, &frame, error);
     if (status != HD_OK)
         return status;
     *hash = hd_frame_hash(&frame);

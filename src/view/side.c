@@ -8,7 +8,8 @@
 
 #include "base/hash.h"
 #include "choice/candidates.h"
-#include "cli/load_scene.h"
+#include "run/load_scene.h"
+#include "system/path.h"
 
 static uint64_t add_file(uint64_t hash, const char *path) {
     struct stat facts;
@@ -33,15 +34,9 @@ static uint64_t hash_files(const char *path, const HdSceneFile *file) {
     return hash;
 }
 
-static const char *path_of(const HdViewSide *side) {
-    return side->options.operand_count > 0 ? side->options.operands[0] : NULL;
-}
-
 static HdStatus read_file(HdViewSide *side, HdSceneFile *file, HdError *error) {
-    side->files = hash_files(path_of(side), &side->file);
-    HdOptions quiet = side->options;
-    quiet.quiet = true;
-    HdStatus status = hd_read_scene(file, &quiet, error);
+    side->files = hash_files(side->plan.scene.path, &side->file);
+    HdStatus status = hd_load_scene(file, &side->plan.scene, NULL, error);
     snprintf(side->mistake, sizeof side->mistake, "%.4000s", status == HD_OK ? "" : error->message);
     return status;
 }
@@ -53,13 +48,13 @@ static void take_file(HdViewSide *side, const HdSceneFile *file) {
     side->file = *file;
     side->scene_change++;
     side->device_change += was_deep != hd_scene_has_deep_trees(&file->scene);
-    side->files = hash_files(path_of(side), &side->file);
+    side->files = hash_files(side->plan.scene.path, &side->file);
 }
 
-HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wake)(void *context),
+HdStatus hd_view_side_open(HdViewSide *side, const HdViewPlan *plan, void (*wake)(void *context),
                            void *context, HdError *error) {
     HdSceneFile file;
-    *side = (HdViewSide){.options = *options, .device_change = 1};
+    *side = (HdViewSide){.plan = *plan, .device_change = 1};
     HdStatus status = read_file(side, &file, error);
     if (status != HD_OK)
         return status;
@@ -70,7 +65,7 @@ HdStatus hd_view_side_open(HdViewSide *side, const HdOptions *options, void (*wa
     return status;
 }
 
-void hd_view_side_read(HdViewSide *side) {
+static void read_again(HdViewSide *side) {
     HdSceneFile file;
     HdError error;
     hd_view_worker_rest(side->worker);
@@ -79,23 +74,22 @@ void hd_view_side_read(HdViewSide *side) {
 }
 
 bool hd_view_side_follow_files(HdViewSide *side) {
-    if (hash_files(path_of(side), &side->file) == side->files)
+    if (hash_files(side->plan.scene.path, &side->file) == side->files)
         return false;
-    hd_view_side_read(side);
+    read_again(side);
     return true;
 }
 
 /* ---- settings ---- */
 
 static void next_backend(HdViewSide *side) {
-    HdOptions *options = &side->options;
+    HdDevicePlan *plan = &side->plan.devices;
     int next = 0;
-    while (options->backend != NULL && next < HD_BACKEND_COUNT &&
-           strcmp(hd_backends[next++]->name, options->backend) != 0)
+    while (plan->backend != NULL && next < HD_BACKEND_COUNT &&
+           strcmp(hd_backends[next++]->name, plan->backend) != 0)
         continue;
-    options->backend = next < HD_BACKEND_COUNT ? hd_backends[next]->name : NULL;
-    options->device = NULL;
-    side->device_change++;
+    plan->backend = next < HD_BACKEND_COUNT ? hd_backends[next]->name : NULL;
+    plan->device = NULL;
 }
 
 static void next_device(HdViewSide *side) {
@@ -115,46 +109,39 @@ static void next_device(HdViewSide *side) {
         was_here = strcmp(name, side->device) == 0;
     }
     memcpy(side->device, first, sizeof first);
-    side->options.backend = NULL;
-    side->options.device = side->device;
-    side->device_change++;
-}
-
-static void change_precision(HdViewSide *side) {
-    HdRenderOptions *render = &side->options.render;
-    render->precision =
-        render->precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
-    side->device_change++;
+    side->plan.devices.backend = NULL;
+    side->plan.devices.device = side->device;
 }
 
 static int within(int number, int least, int most) {
     return number < least ? least : number > most ? most : number;
 }
 
-bool hd_view_side_change(HdViewSide *side, HdViewAction action) {
+static void change_scene(HdViewSide *side, HdViewSetting setting, int by) {
     const HdScene *scene = &side->file.scene;
-    HdOptions *options = &side->options;
-    const int samples = scene->samples_per_side;
-    hd_view_worker_rest(side->worker); /* it reads the options */
-    if (action == HD_VIEW_BACKEND)
-        next_backend(side);
-    else if (action == HD_VIEW_DEVICE)
-        next_device(side);
-    else if (action == HD_VIEW_PRECISION)
-        change_precision(side);
-    else if (action == HD_VIEW_SHALLOWER || action == HD_VIEW_DEEPER)
-        options->depth =
-            within(scene->depth + (action == HD_VIEW_DEEPER ? 1 : -1), 0, HD_MAX_DEPTH);
-    else if (action == HD_VIEW_FEWER_SAMPLES || action == HD_VIEW_MORE_SAMPLES)
-        options->samples =
-            within(samples + (action == HD_VIEW_MORE_SAMPLES ? 1 : -1), 1, HD_MAX_SAMPLES_PER_SIDE);
-    else if (action == HD_VIEW_ADAPTIVE)
-        options->sampling =
-            scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
+    HdScenePlan *plan = &side->plan.scene;
+    if (setting == HD_VIEW_DEPTH)
+        plan->depth = within(scene->depth + by, 0, HD_MAX_DEPTH);
+    else if (setting == HD_VIEW_SAMPLES)
+        plan->samples = within(scene->samples_per_side + by, 1, HD_MAX_SAMPLES_PER_SIDE);
     else
-        return false;
-    hd_view_side_read(side);
-    return true;
+        plan->sampling =
+            scene->sampling == HD_SAMPLING_ADAPTIVE ? HD_SAMPLING_GRID : HD_SAMPLING_ADAPTIVE;
+}
+
+void hd_view_side_change(HdViewSide *side, HdViewSetting setting, int by) {
+    HdPrecision *precision = &side->plan.devices.render.precision;
+    hd_view_worker_rest(side->worker); /* it reads the plan */
+    if (setting == HD_VIEW_BACKEND)
+        next_backend(side);
+    else if (setting == HD_VIEW_DEVICE)
+        next_device(side);
+    else if (setting == HD_VIEW_PRECISION)
+        *precision = *precision == HD_PRECISION_FLOAT ? HD_PRECISION_DOUBLE : HD_PRECISION_FLOAT;
+    else
+        change_scene(side, setting, by);
+    side->device_change += setting <= HD_VIEW_PRECISION;
+    read_again(side);
 }
 
 void hd_view_side_close(HdViewSide *side) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "view/terminal.h"
+#include "view/view.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,10 +11,10 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <chafa.h>
+
 #include "system/interrupt.h"
 #include "system/machine.h"
-#include "view/glyphs.h"
-#include "view/scale.h"
 #include "view/viewer.h"
 
 enum {
@@ -22,26 +22,34 @@ enum {
     IDLE_WAIT_MS = 100,
     ANSWER_WAIT_MS = 1000,
     USUAL_CELL_WIDTH = 8, /* where the terminal does not tell */
+    SYMBOL_WIDTH = 2,     /* pixels that a symbol shows beside each other */
     MOST_SIXEL_WIDTH = 640
 };
 
-typedef enum Protocol { HALF_BLOCKS, KITTY, SIXEL } Protocol;
+/* Takes a picture by the kitty protocol off the screen. */
+static const char kitty_clear[] = "\033_Ga=d,q=2\033\\";
+
+/* A part of the screen, from column and row 1. */
+typedef struct Area {
+    int left, top, columns, rows;
+} Area;
 
 typedef struct Terminal {
     int file; /* the terminal */
     struct termios before;
     bool is_raw;
-    Protocol protocol;
+    ChafaTermInfo *info;     /* owned; its control sequences */
+    ChafaSymbolMap *symbols; /* owned */
+    ChafaPixelMode protocol; /* of pictures */
     int columns, rows, cell_width, cell_height;
+    Area area;    /* of the picture */
     int wakes[2]; /* a pipe, by which workers wake the loop */
     HdViewer *viewer;
     int version; /* of the picture that is shown */
     int line_count;
     char lines[HD_VIEW_LINES][HD_VIEW_LINE];
-    HdHalfBlocks blocks;
-    uint8_t *scaled; /* owned */
-    size_t scaled_room;
-    char *said; /* owned; for the end */
+    gchar **shown; /* owned; rows of a picture of symbols; NULL: none is on the screen */
+    char *said;    /* owned; for the end */
     size_t said_length;
 } Terminal;
 
@@ -101,7 +109,9 @@ static bool tells_sixel(const char *answer) {
     return false;
 }
 
-/* Every terminal answers the second question, so that nobody waits for an answer to the first. */
+/* By what the terminal answers, for a variable of the environment may be that of a terminal around
+   it. Every terminal answers the second question, so that nobody waits for an answer to the first.
+ */
 static HdStatus find_protocol(Terminal *t, HdError *error) {
     char answer[512] = "";
     int length = 0, got = 1;
@@ -114,10 +124,30 @@ static HdStatus find_protocol(Terminal *t, HdError *error) {
         if (told != NULL && strchr(told, 'c') != NULL)
             break;
     }
-    t->protocol = strstr(answer, "\033_Gi=31;OK") != NULL ? KITTY
-                  : tells_sixel(answer)                   ? SIXEL
-                                                          : HALF_BLOCKS;
+    t->protocol = strstr(answer, "\033_Gi=31;OK") != NULL ? CHAFA_PIXEL_MODE_KITTY
+                  : tells_sixel(answer)                   ? CHAFA_PIXEL_MODE_SIXELS
+                                                          : CHAFA_PIXEL_MODE_SYMBOLS;
     return status;
+}
+
+/* Colours are those of the environment, pictures have the sequences that any terminal has. A kitty
+   replaces its picture by one of the same number, leaves the cursor alone and does not answer. */
+static HdStatus find_sequences(Terminal *t, HdError *error) {
+    static const char kitty[] = "\033_Ga=T,f=%1,s=%2,v=%3,c=%4,r=%5,i=1,p=1,q=2,C=1,m=1\033\\";
+    ChafaTermDb *all = chafa_term_db_get_default();
+    gchar **environment = g_get_environ();
+    t->info = chafa_term_db_detect(all, environment);
+    g_strfreev(environment);
+    t->symbols = chafa_symbol_map_new();
+    chafa_symbol_map_add_by_tags(t->symbols, CHAFA_SYMBOL_TAG_BLOCK);
+    HdStatus status = find_protocol(t, error);
+    if (status != HD_OK || t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
+        return status;
+    ChafaTermInfo *any = chafa_term_db_get_fallback_info(all);
+    chafa_term_info_supplement(t->info, any);
+    chafa_term_info_unref(any);
+    chafa_term_info_set_seq(t->info, CHAFA_TERM_SEQ_BEGIN_KITTY_IMMEDIATE_IMAGE_V1, kitty, NULL);
+    return HD_OK;
 }
 
 /* ---- keys ---- */
@@ -157,85 +187,92 @@ static void take_keys(Terminal *t) {
 
 /* ---- drawing ---- */
 
-/* The largest area of the picture's shape above the lines. */
-static HdTextArea place_of_picture(const Terminal *t) {
-    int width, height;
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int most(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* The largest area of the picture's shape above the lines. Sixels are as large as they are on the
+   screen: so few columns that they are sent in time; and below the last row they would scroll. */
+static Area place_of_picture(const Terminal *t) {
+    int width, height, columns = t->columns, rows = most(t->rows - t->line_count, 1);
     hd_viewer_size(t->viewer, &width, &height);
-    const int rows = t->rows - t->line_count > 1 ? t->rows - t->line_count : 1;
+    if (t->protocol == CHAFA_PIXEL_MODE_SIXELS) {
+        columns = least(columns, most(MOST_SIXEL_WIDTH / t->cell_width, 1));
+        rows = least(rows, most(t->rows - 1, 1));
+    }
     const double shape = (double)width * t->cell_height / ((double)height * t->cell_width);
-    HdTextArea area = {.columns = t->columns, .rows = rows};
-    if (t->columns > rows * shape)
-        area.columns = (int)(rows * shape) > 0 ? (int)(rows * shape) : 1;
+    Area area = {.columns = columns, .rows = rows};
+    if (columns > rows * shape)
+        area.columns = most((int)(rows * shape), 1);
     else
-        area.rows = (int)(t->columns / shape) > 0 ? (int)(t->columns / shape) : 1;
+        area.rows = most((int)(columns / shape), 1);
     area.left = 1 + (t->columns - area.columns) / 2;
     area.top = 1 + (rows - area.rows) / 2;
     return area;
 }
 
-static HdStatus scale(Terminal *t, const HdViewImage *image, int width, int height,
-                      HdError *error) {
-    const size_t bytes = 4 * (size_t)width * (size_t)height;
-    if (bytes > t->scaled_room) {
-        uint8_t *scaled = realloc(t->scaled, bytes);
-        if (scaled == NULL)
-            return hd_fail(error, HD_FAILED, "out of memory: no room for the terminal's picture");
-        t->scaled = scaled;
-        t->scaled_room = bytes;
+/* A kitty scales the picture itself, so that it gets no more pixels than there are. */
+static ChafaCanvas *create_canvas(const Terminal *t, const HdViewImage *image) {
+    ChafaCanvasConfig *config = chafa_canvas_config_new();
+    const bool has_all = chafa_term_info_have_seq(t->info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_DIRECT);
+    const bool has_256 = chafa_term_info_have_seq(t->info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_256);
+    int width = t->cell_width, height = t->cell_height;
+    if (t->protocol == CHAFA_PIXEL_MODE_KITTY) {
+        width = least(width, most(image->width / t->area.columns, 1));
+        height = least(height, most(image->height / t->area.rows, 1));
     }
-    hd_scale_rgba(image->rgba, image->width, image->height, t->scaled, width, height, 4 * width);
-    return HD_OK;
+    chafa_canvas_config_set_pixel_mode(config, t->protocol);
+    chafa_canvas_config_set_canvas_mode(config, has_all || t->protocol != CHAFA_PIXEL_MODE_SYMBOLS
+                                                    ? CHAFA_CANVAS_MODE_TRUECOLOR
+                                                : has_256 ? CHAFA_CANVAS_MODE_INDEXED_240
+                                                          : CHAFA_CANVAS_MODE_INDEXED_16);
+    chafa_canvas_config_set_symbol_map(config, t->symbols);
+    chafa_canvas_config_set_geometry(config, t->area.columns, t->area.rows);
+    chafa_canvas_config_set_cell_geometry(config, width, height);
+    ChafaCanvas *canvas = chafa_canvas_new(config);
+    chafa_canvas_config_unref(config);
+    return canvas;
 }
 
-/* Sixels are sent at the size that they have on the screen, up to a width at which they are still
-   sent in time. */
-static HdStatus write_sixels(Terminal *t, const HdViewImage *image, const HdTextArea *area,
-                             FILE *out, HdError *error) {
-    int width = area->columns * t->cell_width, height = area->rows * t->cell_height;
-    if (width > MOST_SIXEL_WIDTH) {
-        height = height * MOST_SIXEL_WIDTH / width;
-        width = MOST_SIXEL_WIDTH;
-    }
-    HdStatus status = scale(t, image, width, height, error);
-    if (status == HD_OK)
-        hd_sixel_write(area, t->scaled, width, height, out);
-    return status;
+/* Sends the rows that are other than before. */
+static void write_symbols(Terminal *t, const char *text, FILE *out) {
+    gchar **rows = g_strsplit(text, "\n", t->area.rows);
+    for (int i = 0; rows[i] != NULL; i++)
+        if (t->shown == NULL || strcmp(rows[i], t->shown[i]) != 0)
+            fprintf(out, "\033[%d;%dH%s", t->area.top + i, t->area.left, rows[i]);
+    g_strfreev(t->shown);
+    t->shown = rows;
 }
 
-/* No more pixels are sent than the screen has. */
-static HdStatus write_kitty(Terminal *t, const HdViewImage *image, const HdTextArea *area,
-                            FILE *out, HdError *error) {
-    const int most = area->columns * t->cell_width;
-    const int width = image->width < most ? image->width : most;
-    const int height = (int)((double)image->height * width / image->width);
-    HdStatus status = scale(t, image, width, height > 0 ? height : 1, error);
-    if (status == HD_OK)
-        hd_kitty_write(area, t->scaled, width, height > 0 ? height : 1, out);
-    return status;
-}
-
-static HdStatus write_picture(Terminal *t, FILE *out, HdError *error) {
-    const HdTextArea area = place_of_picture(t);
+static void write_picture(Terminal *t, FILE *out) {
     int version = t->version;
     const HdViewImage *image = hd_viewer_picture(t->viewer, &version);
     if (version == t->version || image->width == 0)
-        return HD_OK;
+        return;
     t->version = version;
-    if (t->protocol == KITTY)
-        return write_kitty(t, image, &area, out, error);
-    if (t->protocol == SIXEL)
-        return write_sixels(t, image, &area, out, error);
-    HdStatus status = scale(t, image, area.columns, 2 * area.rows, error);
-    return status == HD_OK ? hd_half_blocks_write(&t->blocks, &area, t->scaled, out, error)
-                           : status;
+    ChafaCanvas *canvas = create_canvas(t, image);
+    chafa_canvas_draw_all_pixels(canvas, CHAFA_PIXEL_RGBA8_UNASSOCIATED, image->rgba, image->width,
+                                 image->height, 4 * image->width);
+    GString *text = chafa_canvas_print(canvas, t->info);
+    if (t->protocol == CHAFA_PIXEL_MODE_SYMBOLS)
+        write_symbols(t, text->str, out);
+    else
+        fprintf(out, "\033[%d;%dH%s", t->area.top, t->area.left, text->str);
+    g_string_free(text, TRUE);
+    chafa_canvas_unref(canvas);
 }
 
 /* What was on the screen is forgotten. */
 static void clear_screen(Terminal *t, FILE *out) {
     fputs("\033[0m\033[2J", out);
-    if (t->protocol == KITTY)
-        fputs(hd_kitty_clear, out);
-    hd_half_blocks_free(&t->blocks);
+    if (t->protocol == CHAFA_PIXEL_MODE_KITTY)
+        fputs(kitty_clear, out);
+    g_strfreev(t->shown);
+    t->shown = NULL;
     memset(t->lines, 0, sizeof t->lines);
     t->version = -1;
 }
@@ -253,11 +290,14 @@ static void write_lines(Terminal *t, char lines[HD_VIEW_LINES][HD_VIEW_LINE], FI
 
 static void fit_screen(Terminal *t, int line_count, FILE *out) {
     const int columns = t->columns, rows = t->rows, lines = t->line_count;
+    const Area before = t->area;
     measure(t);
-    t->line_count = line_count < t->rows ? line_count : t->rows;
-    const HdTextArea area = place_of_picture(t);
-    hd_viewer_limit(t->viewer, area.columns * (t->protocol == HALF_BLOCKS ? 1 : t->cell_width));
-    if (columns != t->columns || rows != t->rows || lines != t->line_count)
+    t->line_count = least(line_count, t->rows);
+    t->area = place_of_picture(t);
+    const bool is_text = t->protocol == CHAFA_PIXEL_MODE_SYMBOLS;
+    hd_viewer_limit(t->viewer, t->area.columns * (is_text ? SYMBOL_WIDTH : t->cell_width));
+    if (columns != t->columns || rows != t->rows || lines != t->line_count ||
+        memcmp(&before, &t->area, sizeof before) != 0)
         clear_screen(t, out);
 }
 
@@ -269,11 +309,10 @@ static HdStatus draw(Terminal *t, HdError *error) {
     if (out == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for the terminal's picture");
     fit_screen(t, hd_viewer_lines(t->viewer, lines), out);
-    HdStatus status = write_picture(t, out, error);
+    write_picture(t, out);
     write_lines(t, lines, out);
     fclose(out);
-    if (status == HD_OK)
-        status = send_bytes(t, text, size, error);
+    HdStatus status = send_bytes(t, text, size, error);
     free(text);
     return status;
 }
@@ -352,7 +391,7 @@ static HdStatus take_terminal(Terminal *t, HdError *error) {
                        strerror(errno));
     measure(t);
     HdStatus status = send_text(t, "\033[?1049h\033[?25l\033[2J", error);
-    return status == HD_OK ? find_protocol(t, error) : status;
+    return status == HD_OK ? find_sequences(t, error) : status;
 }
 
 /* Before anything is waited for, so that nobody is left with a terminal that does not echo. */
@@ -360,8 +399,8 @@ static void give_terminal_back(Terminal *t) {
     HdError ignored;
     if (!t->is_raw)
         return;
-    if (t->protocol == KITTY)
-        (void)send_text(t, hd_kitty_clear, &ignored);
+    if (t->protocol == CHAFA_PIXEL_MODE_KITTY)
+        (void)send_text(t, kitty_clear, &ignored);
     (void)send_text(t, "\033[0m\033[?25h\033[?1049l", &ignored);
     tcsetattr(t->file, TCSAFLUSH, &t->before);
 }
@@ -376,17 +415,20 @@ static void close_terminal(Terminal *t) {
         close(t->file);
     if (t->said != NULL)
         fputs(t->said, stdout);
-    hd_half_blocks_free(&t->blocks);
-    free(t->scaled);
+    if (t->info != NULL)
+        chafa_term_info_unref(t->info);
+    if (t->symbols != NULL)
+        chafa_symbol_map_unref(t->symbols);
+    g_strfreev(t->shown);
     free(t->said);
 }
 
-HdStatus hd_view_in_terminal(const HdOptions *options, HdError *error) {
+HdStatus hd_view_in_terminal(const HdViewPlan *plan, HdError *error) {
     Terminal t = {.file = -1, .wakes = {-1, -1}, .version = -1};
     const HdViewHost host = {wake, say, &t};
     HdStatus status = open_terminal(&t, error);
     if (status == HD_OK)
-        status = hd_viewer_open(&t.viewer, options, &host, error);
+        status = hd_viewer_open(&t.viewer, plan, &host, error);
     if (status == HD_OK)
         status = take_terminal(&t, error);
     if (status == HD_OK)

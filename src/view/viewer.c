@@ -3,14 +3,14 @@
 #include "view/viewer.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/trigonometry.h"
-#include "cli/load_scene.h"
-#include "view/viewer_state.h"
+#include "view/side.h"
 
 /* After the last touch the view counts as moving for so long, before it is made whole. */
 #define STILL_SECONDS 0.25
@@ -25,9 +25,36 @@
 
 enum { FIRST_GAIN = 16, MOST_GAIN = 128 };
 
-static void change_view(HdViewer *viewer, double now) {
+struct HdViewer {
+    HdViewHost host;
+    HdViewSide sides[2];
+    int side_count, active;
+    HdPose pose;
+    bool is_free; /* the view is `pose`, not the flight's */
+    int frame;
+    bool is_playing;
+    double played_from;  /* when frame 0 would have been */
+    int change;          /* number of what is to be seen */
+    int asked, settling; /* the changes for which moving and whole pictures were wished */
+    double now;          /* of the key, drag or tick that is dealt with */
+    double moved;        /* when it changed last */
+    double watched;
+    HdPace pace;
+    int most_width;         /* of moving pictures; 0: the scene's */
+    double last_picture;    /* when a moving one came */
+    double picture_seconds; /* between two, smoothed; 0: not known */
+    HdViewImage composed;
+    HdSplitFigures figures;
+    int version; /* of what is shown */
+    int gain;
+    bool saves; /* once the picture is whole */
+    bool hides_figures, shows_help, has_ended;
+    char note[512]; /* what the last key came to */
+};
+
+static void change_view(HdViewer *viewer) {
     viewer->change++;
-    viewer->moved = now;
+    viewer->moved = viewer->now;
 }
 
 static const HdSceneFile *file_of(const HdViewer *viewer) {
@@ -50,43 +77,28 @@ static void leave_flight(HdViewer *viewer) {
 static void orbit(HdViewer *viewer, double right, double up) {
     leave_flight(viewer);
     hd_pose_orbit(&viewer->pose, right, up);
+    change_view(viewer);
 }
 
 static void pan(HdViewer *viewer, double right, double up) {
     leave_flight(viewer);
     hd_pose_pan(&viewer->pose, right, up);
-}
-
-static void dolly(HdViewer *viewer, double factor) {
-    leave_flight(viewer);
-    hd_pose_dolly(&viewer->pose, factor);
+    change_view(viewer);
 }
 
 static void show_frame(HdViewer *viewer, int frame) {
     const int count = file_of(viewer)->scene.frame_count;
     viewer->frame = (frame % count + count) % count;
     viewer->is_free = false;
+    change_view(viewer);
 }
 
-static void step(HdViewer *viewer, int frames) {
-    viewer->is_playing = false;
-    show_frame(viewer, viewer->frame + frames);
-}
-
-static void play(HdViewer *viewer, double now) {
-    viewer->is_playing = !viewer->is_playing;
-    if (viewer->is_playing)
-        viewer->is_free = false;
-    viewer->played_from = now - (double)viewer->frame / frames_per_second(viewer);
-}
-
-static void fly_on(HdViewer *viewer, double now) {
-    const double passed = (now - viewer->played_from) * frames_per_second(viewer);
+static void fly_on(HdViewer *viewer) {
+    const double passed = (viewer->now - viewer->played_from) * frames_per_second(viewer);
     const int frame = (int)fmod(passed, file_of(viewer)->scene.frame_count);
     if (!viewer->is_playing || frame == viewer->frame)
         return;
     show_frame(viewer, frame);
-    change_view(viewer, now);
 }
 
 static HdStatus find_camera(const HdViewer *viewer, HdCamera *camera, HdError *error) {
@@ -129,7 +141,7 @@ static void wish_for(HdViewer *viewer, bool is_moving) {
     wish.detail = hd_pace_choose(&viewer->pace, &full);
     for (int i = 0; i < viewer->side_count; i++) {
         HdViewSide *side = &viewer->sides[i];
-        wish.options = &side->options;
+        wish.plan = &side->plan.devices;
         wish.file = &side->file;
         wish.device_change = side->device_change;
         wish.scene_change = side->scene_change;
@@ -142,20 +154,21 @@ bool hd_viewer_is_moving(const HdViewer *viewer, double now) {
 }
 
 /* A moving picture that is under way is waited for, so that pictures come; a whole one is not. */
-static void ask_workers(HdViewer *viewer, double now) {
+static void ask_workers(HdViewer *viewer) {
     const bool idle = all_idle(viewer);
     if (viewer->asked != viewer->change && (idle || viewer->settling != 0))
         wish_for(viewer, true);
-    else if (idle && viewer->settling != viewer->change && !hd_viewer_is_moving(viewer, now))
+    else if (idle && viewer->settling != viewer->change &&
+             !hd_viewer_is_moving(viewer, viewer->now))
         wish_for(viewer, false);
 }
 
 /* ---- what they made ---- */
 
-static void note_moving_picture(HdViewer *viewer, const HdViewImage *image, double now) {
-    const double seconds = now - viewer->last_picture;
+static void note_moving_picture(HdViewer *viewer, const HdViewImage *image) {
+    const double seconds = viewer->now - viewer->last_picture;
     hd_pace_note(&viewer->pace, &image->detail, image->seconds);
-    viewer->last_picture = now;
+    viewer->last_picture = viewer->now;
     if (seconds > 1.0)
         viewer->picture_seconds = 0.0;
     else if (viewer->picture_seconds > 0.0)
@@ -164,14 +177,14 @@ static void note_moving_picture(HdViewer *viewer, const HdViewImage *image, doub
         viewer->picture_seconds = seconds;
 }
 
-static void fetch_pictures(HdViewer *viewer, double now) {
+static void fetch_pictures(HdViewer *viewer) {
     for (int i = 0; i < viewer->side_count; i++) {
         HdViewSide *side = &viewer->sides[i];
         if (!hd_view_worker_image(side->worker, &side->image, &side->version))
             continue;
         viewer->version++;
         if (viewer->settling == 0 && i == 0)
-            note_moving_picture(viewer, &side->image, now);
+            note_moving_picture(viewer, &side->image);
     }
 }
 
@@ -182,8 +195,8 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
     *version = viewer->version;
     if (viewer->side_count == 1)
         return first;
-    if (is_new && hd_split_compose(&viewer->composed, first, &viewer->sides[1].image, viewer->gain,
-                                   &viewer->figures, &error) != HD_OK)
+    if (is_new && hd_view_image_split(&viewer->composed, first, &viewer->sides[1].image,
+                                      viewer->gain, &viewer->figures, &error) != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     return &viewer->composed;
 }
@@ -192,8 +205,8 @@ const HdViewImage *hd_viewer_picture(HdViewer *viewer, int *version) {
 
 /* The scene's name without its folder and ending. */
 static void base_name(const HdViewer *viewer, char name[128]) {
-    const HdOptions *options = &viewer->sides[0].options;
-    const char *path = options->operand_count > 0 ? options->operands[0] : "hedron";
+    const char *path = viewer->sides[0].plan.scene.path;
+    path = path != NULL ? path : "hedron";
     const char *slash = strrchr(path, '/');
     snprintf(name, 128, "%s", slash != NULL ? slash + 1 : path);
     char *dot = strrchr(name, '.');
@@ -230,12 +243,13 @@ static void save_when_whole(HdViewer *viewer) {
         save(viewer);
 }
 
-static void print_camera(HdViewer *viewer) {
+static void print_camera(HdViewer *viewer, int by) {
     char *text = NULL;
     size_t size = 0;
     const HdScene *scene = &file_of(viewer)->scene;
     const HdPose pose = viewer->is_free ? viewer->pose : hd_pose_of_flight(scene, viewer->frame);
     FILE *stream = open_memstream(&text, &size);
+    (void)by;
     if (stream == NULL)
         return;
     hd_pose_print(stream, &pose, scene->field_of_view_degrees);
@@ -245,140 +259,325 @@ static void print_camera(HdViewer *viewer) {
     free(text);
 }
 
-/* ---- keys and mouse ---- */
+/* ---- what keys do ---- */
 
-static void split(HdViewer *viewer, double now) {
+static void play(HdViewer *viewer, int by) {
+    (void)by;
+    viewer->is_playing = !viewer->is_playing;
+    if (viewer->is_playing)
+        viewer->is_free = false;
+    viewer->played_from = viewer->now - (double)viewer->frame / frames_per_second(viewer);
+    change_view(viewer);
+}
+
+/* 0: back from a view of one's own, where the flight goes on if it is one that plays. */
+static void step(HdViewer *viewer, int by) {
+    viewer->is_playing = viewer->is_playing && by == 0;
+    show_frame(viewer, viewer->frame + by);
+}
+
+static void orbit_sideways(HdViewer *viewer, int by) {
+    orbit(viewer, by * ORBIT_STEP, 0.0);
+}
+
+static void orbit_upwards(HdViewer *viewer, int by) {
+    orbit(viewer, 0.0, by * ORBIT_STEP);
+}
+
+static void pan_sideways(HdViewer *viewer, int by) {
+    pan(viewer, by * PAN_STEP, 0.0);
+}
+
+static void pan_upwards(HdViewer *viewer, int by) {
+    pan(viewer, 0.0, by * PAN_STEP);
+}
+
+static void dolly(HdViewer *viewer, int by) {
+    leave_flight(viewer);
+    hd_pose_dolly(&viewer->pose, by > 0 ? 1.0 / DOLLY_STEP : DOLLY_STEP);
+    change_view(viewer);
+}
+
+static void split(HdViewer *viewer, int by) {
     HdError error;
     HdStatus status = HD_OK;
+    const HdViewSide *first = &viewer->sides[0];
+    (void)by;
     if (viewer->side_count == 2)
         hd_view_side_close(&viewer->sides[1]);
     else
-        status = hd_view_side_open(&viewer->sides[1], &viewer->sides[0].options, viewer->host.wake,
+        status = hd_view_side_open(&viewer->sides[1], &first->plan, viewer->host.wake,
                                    viewer->host.context, &error);
     if (status != HD_OK)
         snprintf(viewer->note, sizeof viewer->note, "%.500s", error.message);
     viewer->side_count = status == HD_OK && viewer->side_count == 1 ? 2 : 1;
     viewer->active = viewer->side_count - 1;
-    change_view(viewer, now);
+    change_view(viewer);
 }
 
-static void change_gain(HdViewer *viewer, bool is_more) {
-    const int gain = is_more ? 2 * viewer->gain : viewer->gain / 2;
+static void other_side(HdViewer *viewer, int by) {
+    viewer->active = (viewer->active + by) % viewer->side_count;
+}
+
+static void change_gain(HdViewer *viewer, int by) {
+    const int gain = by > 0 ? 2 * viewer->gain : viewer->gain / 2;
     viewer->gain = gain < 1 ? 1 : gain > MOST_GAIN ? MOST_GAIN : gain;
     viewer->version++;
 }
 
+static void keep_picture(HdViewer *viewer, int by) {
+    (void)by;
+    viewer->saves = true;
+}
+
+static void hide_figures(HdViewer *viewer, int by) {
+    (void)by;
+    viewer->hides_figures = !viewer->hides_figures;
+}
+
+static void show_help(HdViewer *viewer, int by) {
+    (void)by;
+    viewer->shows_help = !viewer->shows_help;
+}
+
+static void end(HdViewer *viewer, int by) {
+    (void)by;
+    viewer->has_ended = true;
+}
+
+/* What a key does, so much of it. */
+static const struct {
+    int key;
+    void (*act)(HdViewer *viewer, int by);
+    int by;
+} keys[] = {
+    {' ', play, 1},
+    {'0', step, 0},
+    {',', step, -1},
+    {'.', step, 1},
+    {HD_KEY_LEFT, orbit_sideways, -1},
+    {HD_KEY_RIGHT, orbit_sideways, 1},
+    {HD_KEY_UP, orbit_upwards, 1},
+    {HD_KEY_DOWN, orbit_upwards, -1},
+    {'a', pan_sideways, -1},
+    {'d', pan_sideways, 1},
+    {'w', pan_upwards, 1},
+    {'s', pan_upwards, -1},
+    {'+', dolly, 1},
+    {'=', dolly, 1},
+    {'-', dolly, -1},
+    {'2', split, 1},
+    {'\t', other_side, 1},
+    {'g', change_gain, -1},
+    {'G', change_gain, 1},
+    {'p', keep_picture, 1},
+    {'c', print_camera, 1},
+    {'o', hide_figures, 1},
+    {'h', show_help, 1},
+    {'?', show_help, 1},
+    {'q', end, 1},
+    {27, end, 1},
+    {3, end, 1}, /* Ctrl-C in a terminal that sends it as a character */
+};
+
+/* Which setting of the active side a key changes. */
+static const struct {
+    int key;
+    HdViewSetting setting;
+    int by;
+} setting_keys[] = {
+    {'b', HD_VIEW_BACKEND, 1}, {'v', HD_VIEW_DEVICE, 1},   {'f', HD_VIEW_PRECISION, 1},
+    {'[', HD_VIEW_DEPTH, -1},  {']', HD_VIEW_DEPTH, 1},    {'n', HD_VIEW_SAMPLES, -1},
+    {'m', HD_VIEW_SAMPLES, 1}, {'x', HD_VIEW_SAMPLING, 1},
+};
+
+/* What keys do, for people; each line below 64 characters. */
+static const char *const key_lines[] = {
+    "space    play the flight, or stop it",
+    ", .      a frame back, a frame on",
+    "0        back from a view of your own to the flight",
+    "arrows   turn about the target (drag with the left button)",
+    "w a s d  move (drag with the right button)",
+    "+ -      nearer, farther (the wheel)",
+    "b v      next backend, next device",
+    "f        float or double",
+    "[ ]      less or more depth",
+    "n m      fewer or more samples",
+    "x        adaptive sampling, or the grid",
+    "2        split: two settings and their difference",
+    "tab      the other side of the split, for the keys above",
+    "g G      less or more of the difference",
+    "p        save the picture, once it is finished",
+    "c        print the camera as JSON",
+    "o h q    figures, this help, quit",
+};
+
 /* A flight that was read anew may be shorter. */
-static void settings_changed(HdViewer *viewer, double now) {
+static void settings_changed(HdViewer *viewer) {
     viewer->frame %= file_of(viewer)->scene.frame_count;
-    change_view(viewer, now);
-}
-
-/* False where the action is none that moves the eye. */
-static bool move_eye(HdViewer *viewer, HdViewAction action, double now) {
-    switch (action) {
-    case HD_VIEW_PLAY:
-        play(viewer, now);
-        return true;
-    case HD_VIEW_TO_FLIGHT:
-        show_frame(viewer, viewer->frame);
-        return true;
-    case HD_VIEW_EARLIER:
-    case HD_VIEW_LATER:
-        step(viewer, action == HD_VIEW_LATER ? 1 : -1);
-        return true;
-    case HD_VIEW_ORBIT_LEFT:
-    case HD_VIEW_ORBIT_RIGHT:
-        orbit(viewer, action == HD_VIEW_ORBIT_RIGHT ? ORBIT_STEP : -ORBIT_STEP, 0.0);
-        return true;
-    case HD_VIEW_ORBIT_UP:
-    case HD_VIEW_ORBIT_DOWN:
-        orbit(viewer, 0.0, action == HD_VIEW_ORBIT_UP ? ORBIT_STEP : -ORBIT_STEP);
-        return true;
-    case HD_VIEW_PAN_LEFT:
-    case HD_VIEW_PAN_RIGHT:
-        pan(viewer, action == HD_VIEW_PAN_RIGHT ? PAN_STEP : -PAN_STEP, 0.0);
-        return true;
-    case HD_VIEW_PAN_UP:
-    case HD_VIEW_PAN_DOWN:
-        pan(viewer, 0.0, action == HD_VIEW_PAN_UP ? PAN_STEP : -PAN_STEP);
-        return true;
-    case HD_VIEW_NEARER:
-    case HD_VIEW_FARTHER:
-        dolly(viewer, action == HD_VIEW_FARTHER ? DOLLY_STEP : 1.0 / DOLLY_STEP);
-        return true;
-    default:
-        return false;
-    }
-}
-
-/* False where the action is none of these. */
-static bool change_shown(HdViewer *viewer, HdViewAction action, double now) {
-    switch (action) {
-    case HD_VIEW_SPLIT:
-        split(viewer, now);
-        return true;
-    case HD_VIEW_OTHER_SIDE:
-        viewer->active = (viewer->active + 1) % viewer->side_count;
-        return true;
-    case HD_VIEW_LESS_GAIN:
-    case HD_VIEW_MORE_GAIN:
-        change_gain(viewer, action == HD_VIEW_MORE_GAIN);
-        return true;
-    case HD_VIEW_OVERLAY:
-        viewer->hides_figures = !viewer->hides_figures;
-        return true;
-    case HD_VIEW_HELP:
-        viewer->shows_help = !viewer->shows_help;
-        return true;
-    case HD_VIEW_QUIT:
-        viewer->has_ended = true;
-        return true;
-    default:
-        return false;
-    }
+    change_view(viewer);
 }
 
 void hd_viewer_key(HdViewer *viewer, int key, double now) {
-    const HdViewAction action = hd_view_action_of(key);
-    if (action == HD_VIEW_NOTHING)
-        return;
-    viewer->note[0] = '\0';
-    if (move_eye(viewer, action, now))
-        change_view(viewer, now);
-    else if (action == HD_VIEW_SAVE)
-        viewer->saves = true;
-    else if (action == HD_VIEW_PRINT)
-        print_camera(viewer);
-    else if (!change_shown(viewer, action, now) &&
-             hd_view_side_change(&viewer->sides[viewer->active], action))
-        settings_changed(viewer, now);
+    viewer->now = now;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        if (keys[i].key != key)
+            continue;
+        viewer->note[0] = '\0';
+        keys[i].act(viewer, keys[i].by);
+    }
+    for (size_t i = 0; i < sizeof setting_keys / sizeof setting_keys[0]; i++) {
+        if (setting_keys[i].key != key)
+            continue;
+        viewer->note[0] = '\0';
+        hd_view_side_change(&viewer->sides[viewer->active], setting_keys[i].setting,
+                            setting_keys[i].by);
+        settings_changed(viewer);
+    }
 }
 
 void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now) {
+    viewer->now = now;
     if (moves)
         pan(viewer, -right, down);
     else
         orbit(viewer, -HD_PI * right, HD_PI * down);
-    change_view(viewer, now);
+}
+
+/* ---- what is told ---- */
+
+typedef struct Lines {
+    char (*text)[HD_VIEW_LINE];
+    int count;
+} Lines;
+
+/* Cuts what is too long for a line where there is a space, and goes on below. */
+static void add_text(Lines *lines, const char *text) {
+    while (*text != '\0' && lines->count < HD_VIEW_LINES) {
+        size_t length = strcspn(text, "\n");
+        if (length > HD_VIEW_LINE - 2) {
+            length = HD_VIEW_LINE - 2;
+            while (length > HD_VIEW_LINE / 2 && text[length] != ' ')
+                length--;
+        }
+        snprintf(lines->text[lines->count++], HD_VIEW_LINE, "%.*s", (int)length, text);
+        text += length;
+        text += *text == ' ' || *text == '\n';
+    }
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+add(Lines *lines, const char *format, ...) {
+    char text[4600];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    add_text(lines, text);
+}
+
+static void add_settings(Lines *lines, const HdViewer *viewer, int number) {
+    const HdViewSide *side = &viewer->sides[number];
+    const HdScene *scene = &side->file.scene;
+    const bool is_split = viewer->side_count > 1;
+    char device[512], problem[4096], prefix[24] = "";
+    hd_view_worker_describe(side->worker, device, sizeof device, problem, sizeof problem);
+    if (is_split)
+        snprintf(prefix, sizeof prefix, "%s%s: ", number == 0 ? "left" : "right",
+                 viewer->active == number ? " *" : "");
+    add(lines, "%s%s", prefix, device);
+    add(lines, "%s%s, depth %d, %s, %d x %d samples", prefix,
+        side->plan.devices.render.precision == HD_PRECISION_DOUBLE ? "double" : "float",
+        scene->depth, scene->sampling == HD_SAMPLING_ADAPTIVE ? "adaptive" : "grid",
+        scene->samples_per_side, scene->samples_per_side);
+    if (problem[0] != '\0')
+        add(lines, "! %s", problem);
+    if (side->mistake[0] != '\0' && number == 0)
+        add(lines, "! %s", side->mistake);
+}
+
+static void add_whole(Lines *lines, const HdViewImage *image) {
+    char bound[64] = "";
+    if (image->has_bound)
+        snprintf(bound, sizeof bound, ", error bound %.2g of 255", image->largest_bound);
+    add(lines, "finished: %d x %d, %.0f ms, %.1f Mrays/s%s", image->width, image->height,
+        1e3 * image->seconds, 1e-6 * (double)image->rays / image->seconds, bound);
+}
+
+static void add_speed(Lines *lines, const HdViewer *viewer, const HdViewImage *image) {
+    if (image->width == 0)
+        add(lines, "waiting for the first picture");
+    else if (image->is_settled)
+        add_whole(lines, image);
+    else if (viewer->settling != 0)
+        add(lines, "refining: %d x %d samples, %.0f %%", image->detail.samples,
+            image->detail.samples, 100.0 * image->share);
+    else
+        add(lines, "moving: %d x %d, %d x %d, depth %d, %.1f ms, %.1f frames/s, %.1f Mrays/s",
+            image->width, image->height, image->detail.samples, image->detail.samples,
+            image->detail.depth, 1e3 * image->seconds,
+            viewer->picture_seconds > 0.0 ? 1.0 / viewer->picture_seconds : 0.0,
+            1e-6 * (double)image->rays / image->seconds);
+}
+
+static void add_difference(Lines *lines, const HdViewer *viewer) {
+    const HdSplitFigures *figures = &viewer->figures;
+    if (figures->is_unlike)
+        add(lines, "difference: the pictures have different sizes");
+    else
+        add(lines, "difference x %d below: largest %d of 255, %.2f %% of the pixels", viewer->gain,
+            figures->largest, 100.0 * figures->share);
+}
+
+static void add_place(Lines *lines, const HdViewer *viewer) {
+    const int count = viewer->sides[0].file.scene.frame_count;
+    if (viewer->is_free)
+        add(lines, "a view of your own; h: help");
+    else
+        add(lines, "frame %d of %d%s; h: help", viewer->frame, count,
+            viewer->is_playing ? ", playing" : "");
+}
+
+int hd_viewer_lines(HdViewer *viewer, char text[HD_VIEW_LINES][HD_VIEW_LINE]) {
+    Lines lines = {.text = text};
+    for (int i = 0; i < viewer->side_count && !viewer->hides_figures; i++) {
+        add_settings(&lines, viewer, i);
+        add_speed(&lines, viewer, &viewer->sides[i].image);
+    }
+    if (!viewer->hides_figures && viewer->side_count > 1)
+        add_difference(&lines, viewer);
+    if (!viewer->hides_figures)
+        add_place(&lines, viewer);
+    if (viewer->saves)
+        add(&lines, "once the picture is finished, it goes to a file");
+    if (viewer->hides_figures && viewer->sides[0].mistake[0] != '\0')
+        add(&lines, "! %s", viewer->sides[0].mistake);
+    add(&lines, "%s", viewer->note);
+    for (size_t i = 0; viewer->shows_help && i < sizeof key_lines / sizeof key_lines[0]; i++)
+        add(&lines, "%s", key_lines[i]);
+    return lines.count;
 }
 
 /* ---- from open to close ---- */
 
-static void watch_files(HdViewer *viewer, double now) {
-    if (now - viewer->watched < WATCH_SECONDS)
+static void watch_files(HdViewer *viewer) {
+    if (viewer->now - viewer->watched < WATCH_SECONDS)
         return;
-    viewer->watched = now;
+    viewer->watched = viewer->now;
     for (int i = 0; i < viewer->side_count; i++)
         if (hd_view_side_follow_files(&viewer->sides[i]))
-            settings_changed(viewer, now);
+            settings_changed(viewer);
 }
 
 void hd_viewer_tick(HdViewer *viewer, double now) {
-    fetch_pictures(viewer, now);
-    watch_files(viewer, now);
-    fly_on(viewer, now);
-    ask_workers(viewer, now);
+    viewer->now = now;
+    fetch_pictures(viewer);
+    watch_files(viewer);
+    fly_on(viewer);
+    ask_workers(viewer);
     save_when_whole(viewer);
 }
 
@@ -399,12 +598,8 @@ void hd_viewer_limit(HdViewer *viewer, int width) {
     viewer->most_width = width;
 }
 
-HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
                         HdError *error) {
-    if (options->operand_count > 0 && strcmp(options->operands[0], "-") == 0)
-        return hd_fail(error, HD_BAD_INPUT,
-                       "'hedron view' needs a scene's file, which it reads again when it changes, "
-                       "and not standard input");
     HdViewer *v = calloc(1, sizeof *v);
     if (v == NULL)
         return hd_fail(error, HD_FAILED, "out of memory: no room for a view");
@@ -412,13 +607,12 @@ HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdVie
     v->gain = FIRST_GAIN;
     v->change = 1;
     v->side_count = 1;
-    HdStatus status = hd_view_side_open(&v->sides[0], options, host->wake, host->context, error);
-    if (status != HD_OK) {
+    HdStatus status = hd_view_side_open(&v->sides[0], plan, host->wake, host->context, error);
+    if (status == HD_OK)
+        *viewer = v;
+    else
         free(v);
-        return status;
-    }
-    *viewer = v;
-    return HD_OK;
+    return status;
 }
 
 void hd_viewer_close(HdViewer *viewer) {

@@ -5,21 +5,29 @@
 #ifndef HD_VIEW_VIEWER_H
 #define HD_VIEW_VIEWER_H
 
-#include "cli/options.h"
-#include "view/host.h"
-#include "view/keys.h"
-#include "view/worker.h"
+#include "view/image.h"
+#include "view/view.h"
 
 enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 
+/* Keys that are no characters. */
+enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_LEFT, HD_KEY_RIGHT };
+
+/* What the viewer asks of who shows it. */
+typedef struct HdViewHost {
+    void (*wake)(void *context);                   /* on any thread: there is something new */
+    void (*say)(void *context, const char *lines); /* for standard output */
+    void *context;
+} HdViewHost;
+
 typedef struct HdViewer HdViewer;
 
-/* Reads the scene, and starts to render its first frame. The options are copied; what they point to
-   must live on. */
-HdStatus hd_viewer_open(HdViewer **viewer, const HdOptions *options, const HdViewHost *host,
+/* Reads the scene, and starts to render its first frame. */
+HdStatus hd_viewer_open(HdViewer **viewer, const HdViewPlan *plan, const HdViewHost *host,
                         HdError *error);
 
-/* A key (keys.h) was pressed, or repeats. `now` is that of hd_monotonic_seconds, here and below. */
+/* A key, a character or one of the above, was pressed, or repeats. `now` is that of
+   hd_monotonic_seconds, here and below. */
 void hd_viewer_key(HdViewer *viewer, int key, double now);
 
 /* The mouse was dragged by such shares of the picture's width, to turn or to move the view. */

@@ -8,13 +8,12 @@
 #include <string.h>
 
 #include "choice/devices.h"
-#include "cli/console.h"
 #include "image/picture.h"
-#include "render/adaptive.h"
+#include "render/frame.h"
 #include "system/interrupt.h"
 #include "system/machine.h"
 #include "system/thread_pool.h"
-#include "view/scale.h"
+#include "verify/trust.h"
 
 /* Seconds of a part, after which an earlier wish is given up. */
 #define PART_SECONDS 0.025
@@ -61,54 +60,18 @@ static void tell(HdViewWorker *worker, const char *device) {
     worker->wake(worker->context);
 }
 
-HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error) {
-    const int bytes = 4 * width * height;
-    if (bytes > image->room) {
-        uint8_t *rgba = realloc(image->rgba, (size_t)bytes);
-        if (rgba == NULL)
-            return hd_fail(error, HD_FAILED, "out of memory: no room for a picture to show");
-        image->rgba = rgba;
-        image->room = bytes;
-    }
-    image->width = width;
-    image->height = height;
-    return HD_OK;
-}
-
-void hd_view_image_free(HdViewImage *image) {
-    free(image->rgba);
-    *image = (HdViewImage){.width = 0};
-}
-
-/* All but the pixels, which the image keeps. */
-static void take_facts(HdViewImage *image, const HdViewImage *facts) {
-    uint8_t *rgba = image->rgba;
-    const int room = image->room;
-    *image = *facts;
-    image->rgba = rgba;
-    image->room = room;
-}
-
 /* Rows of radiance become rows of the picture, which keeps its others. */
 static HdStatus show_rows(HdViewWorker *worker, const HdFrame *frame, int top, int height,
                           const HdViewImage *facts, HdError *error) {
     pthread_mutex_lock(&worker->mutex);
     const HdCurve curve = worker->wish.file->output.style.picture.curve;
     HdStatus status = HD_OK;
-    if (worker->image.width != facts->width || worker->image.height != facts->height) {
-        HdViewImage before = worker->image;
-        worker->image.rgba = NULL;
-        worker->image.room = 0;
-        status = hd_view_image_resize(&worker->image, facts->width, facts->height, error);
-        if (status == HD_OK)
-            hd_scale_rgba(before.rgba, before.width, before.height, worker->image.rgba,
-                          facts->width, facts->height, 4 * facts->width);
-        free(before.rgba);
-    }
+    if (worker->image.width != facts->width || worker->image.height != facts->height)
+        status = hd_view_image_stretch(&worker->image, facts->width, facts->height, error);
     if (status == HD_OK) {
         hd_curve_encode_rgba(curve, frame->rgb, (size_t)frame->width * (size_t)height,
                              worker->image.rgba + 4 * (size_t)facts->width * (size_t)top);
-        take_facts(&worker->image, facts);
+        hd_view_image_describe(&worker->image, facts);
         worker->version++;
     }
     pthread_mutex_unlock(&worker->mutex);
@@ -120,11 +83,11 @@ static HdStatus show_rows(HdViewWorker *worker, const HdFrame *frame, int top, i
 
 static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdError *error) {
     HdScene plain = wish->file->scene; /* what it owns stays with the other */
-    HdRenderOptions render = wish->options->render;
+    HdRenderOptions render = wish->plan->render;
     const HdJob job = {.scene = &plain, .frame_count = plain.frame_count};
     const HdDeviceWish device = {
-        .backend = wish->options->backend,
-        .device = wish->options->device,
+        .backend = wish->plan->backend,
+        .device = wish->plan->device,
         .kind = HD_WANT_ANY,
         .is_for_one = true,
         .options = &render,
@@ -146,17 +109,11 @@ static HdStatus open_device(HdViewWorker *worker, const HdViewWish *wish, HdErro
 static HdStatus upload(HdViewWorker *worker, const HdScene *scene, const HdViewWish *wish,
                        HdError *error) {
     HdRenderer *renderer = worker->team.list[0].renderer;
-    HdSceneTables tables;
     char line[HD_RENDERER_LINE], device[HD_RENDERER_LINE + 64];
     worker->scene_change = 0;
     if (hd_renderer_device(renderer)->backend->functions->kernels != NULL)
         tell(worker, "building kernels ...");
-    HdStatus status = hd_compile_scene(&tables, scene, wish->options->render.precision,
-                                       hd_renderer_lanes(renderer), error);
-    if (status != HD_OK)
-        return status;
-    status = hd_renderer_upload(renderer, &tables, error);
-    hd_scene_tables_free(&tables);
+    HdStatus status = hd_put_scene(renderer, scene, NULL, error);
     if (status != HD_OK)
         return status;
     worker->scene_change = wish->scene_change;
@@ -190,16 +147,9 @@ static HdStatus fit_frame(HdFrame *frame, int width, int height, HdError *error)
 
 static HdStatus render_scene(HdViewWorker *worker, const HdScene *scene, const HdViewWish *wish,
                              HdFrame *frame, HdError *error) {
-    HdFrameTables tables;
+    const HdFrameMaker maker = {.renderer = worker->team.list[0].renderer, .scene = scene};
     HdStatus status = fit_frame(frame, scene->width, scene->height, error);
-    if (status == HD_OK)
-        status =
-            hd_compile_frame(&tables, scene, &wish->camera, wish->options->render.precision, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_renderer_render(worker->team.list[0].renderer, &tables, frame, error);
-    hd_frame_tables_free(&tables);
-    return status;
+    return status == HD_OK ? hd_frame_render(&maker, &wish->camera, frame, error) : status;
 }
 
 /* The scene as quick pictures have it. */
@@ -271,17 +221,14 @@ static HdStatus render_rows(HdViewWorker *worker, const HdScene *whole, const Hd
 static HdStatus render_surveyed(HdViewWorker *worker, const HdViewWish *wish, HdViewImage *facts,
                                 HdError *error) {
     const HdScene *scene = &wish->file->scene;
-    HdRefinement *refinement = NULL;
     const double start = hd_monotonic_seconds();
     HdStatus status = make_ready(worker, scene, wish, error);
+    const HdFrameMaker maker = {.renderer = worker->team.list[0].renderer,
+                                .scene = scene,
+                                .wish.curve = wish->file->output.style.picture.curve,
+                                .watch = &worker->watch};
     if (status == HD_OK)
-        status = hd_refinement_create(&refinement, scene, worker->team.list[0].renderer,
-                                      wish->options->render.precision,
-                                      wish->file->output.style.picture.curve, error);
-    if (status != HD_OK)
-        return status;
-    status = hd_refinement_render(refinement, &wish->camera, &worker->watch, &worker->frame, error);
-    hd_refinement_free(refinement);
+        status = hd_frame_render(&maker, &wish->camera, &worker->frame, error);
     facts->seconds = hd_monotonic_seconds() - start;
     facts->rays = hd_frame_rays(&worker->frame);
     facts->share = 1.0;
@@ -424,7 +371,7 @@ bool hd_view_worker_image(HdViewWorker *worker, HdViewImage *image, int *version
         hd_view_image_resize(image, source->width, source->height, &ignored) == HD_OK;
     if (is_newer) {
         memcpy(image->rgba, source->rgba, 4 * (size_t)source->width * (size_t)source->height);
-        take_facts(image, source);
+        hd_view_image_describe(image, source);
         *version = worker->version;
     }
     pthread_mutex_unlock(&worker->mutex);

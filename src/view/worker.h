@@ -4,33 +4,19 @@
 #ifndef HD_VIEW_WORKER_H
 #define HD_VIEW_WORKER_H
 
-#include "cli/options.h"
-#include "input/scene_file.h"
+#include "run/plan.h"
 #include "scene/camera.h"
-#include "view/pace.h"
+#include "view/image.h"
 
 /* What is to be seen. */
 typedef struct HdViewWish {
-    const HdOptions *options; /* for the device; this and the file live until the worker rests */
+    const HdDevicePlan *plan; /* this and the file live until the worker rests */
     const HdSceneFile *file;
-    int device_change, scene_change; /* another number: options or scene are other than before */
+    int device_change, scene_change; /* another number: plan or scene are other than before */
     HdCamera camera;
     bool is_moving;  /* one picture of `detail`; otherwise the scene's own, which settles */
     HdDetail detail; /* with one sample at least */
 } HdViewWish;
-
-/* A picture and what is known of it. */
-typedef struct HdViewImage {
-    uint8_t *rgba; /* owned; as the scene's curve has it */
-    int width, height, room;
-    HdDetail detail; /* of its latest part */
-    bool is_settled; /* it has the bytes that 'hedron render' makes */
-    double share;    /* of the work on it, 0..1 */
-    double seconds;  /* of its latest step: a moving picture, or all of a settled one */
-    uint64_t rays;   /* of that */
-    bool has_bound;  /* of a settled picture: what was left out, in steps of 255 */
-    double largest_bound;
-} HdViewImage;
 
 typedef struct HdViewWorker HdViewWorker;
 
@@ -41,7 +27,7 @@ HdStatus hd_view_worker_start(HdViewWorker **worker, void (*wake)(void *context)
 /* Replaces the wish; a picture that is under way for an earlier one is given up. */
 void hd_view_worker_show(HdViewWorker *worker, const HdViewWish *wish);
 
-/* Drops the wish, and waits until nothing is read of its options and scene any more. */
+/* Drops the wish, and waits until nothing is read of its plan and scene any more. */
 void hd_view_worker_rest(HdViewWorker *worker);
 
 /* The wish is fulfilled, or cannot be. */
@@ -60,10 +46,5 @@ HdStatus hd_view_worker_save(HdViewWorker *worker, const char *path, HdError *er
 
 /* Waits for its thread. NULL is allowed. */
 void hd_view_worker_end(HdViewWorker *worker);
-
-/* Room for so many pixels, whose content is left open. */
-HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error);
-
-void hd_view_image_free(HdViewImage *image);
 
 #endif

@@ -79,7 +79,7 @@ expect_stderr_contains 'plain C has strict arithmetic alone, so --math fast chan
 rm ./*.*
 
 # ---- a picture says what it is, and not where or when it was made
-texts() { # FILE: those of a PNG but for its mark, a line each
+texts() { # FILE: those of a PNG but for its fingerprint, a line each
     python3 - "$1" <<'PYTHON'
 import struct, sys
 data = open(sys.argv[1], "rb").read()

@@ -4,8 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "verify/render_scene.h"
 #include "input/check.h"
+#include "verify/golden.h"
+#include "verify/trust.h"
 
 _Noreturn void fail(const char *what, const HdError *error) {
     fflush(stdout);
@@ -27,10 +28,9 @@ HdFrame render_scene(const Target *target, const HdScene *scene, const HdCamera 
     HdError error;
     HdFrame frame;
     if (hd_scene_validate(scene, &error) != HD_OK ||
-        hd_render_scene(target->renderer, scene, camera, target->precision,
-                        target->one_build ? &hd_golden_needs : NULL,
-                        target->first_hits ? HD_LAYER_BIT(HD_LAYER_DEPTH) : 0, &frame,
-                        &error) != HD_OK)
+        hd_put_and_render(
+            target->renderer, scene, camera, target->one_build ? &hd_golden_needs : NULL,
+            target->first_hits ? HD_LAYER_BIT(HD_LAYER_DEPTH) : 0, &frame, &error) != HD_OK)
         fail(name, &error);
     return frame;
 }

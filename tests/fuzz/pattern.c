@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "image/formats.h"
+#include "image/picture.h"
 #include "system/path.h"
 
 static void check_name(const char *name, const char *pattern) {

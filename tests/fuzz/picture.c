@@ -4,8 +4,7 @@
 
 #include "fuzz.h"
 #include "image/difference.h"
-#include "image/png.h"
-#include "image/row_reader.h"
+#include "image/picture.h"
 
 /* Reading more takes the campaign's time. */
 enum { MOST_PIXELS = 1 << 20 };
@@ -33,7 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static HdError error;
     HdPictureReader *reader;
     unsigned char *bytes = (unsigned char *)fuzz_text(data, size);
-    if (hd_image_is_png(bytes, size))
+    if (hd_format_png.begins(bytes, size))
         fuzz_mend_png(bytes, size);
     HdStatus status = hd_picture_reader_open(&reader, fuzz_file("picture", bytes, size), &error);
     fuzz_expect_input_status(status, &error);

@@ -3,7 +3,7 @@
 
 #include "device/renderer.h"
 #include "scene/camera.h"
-#include "tables/tables.h"
+#include "verify/trust.h"
 
 /* More takes the campaign's time. */
 enum { MOST_SOLIDS = 8, MOST_LIGHTS = 2000, WIDTH = 8, HEIGHT = 6, MOST_DEPTH = 3 };
@@ -27,26 +27,13 @@ static HdRenderer *open_renderer(HdPrecision precision) {
 static void render(const HdScene *scene, const HdCamera *camera, HdPrecision precision) {
     static HdRenderer *renderers[2]; /* by precision; they live as long as the process */
     static HdError error;
-    HdSceneTables tables;
-    HdFrameTables view;
     HdFrame frame;
     HdRenderer **renderer = &renderers[precision == HD_PRECISION_DOUBLE];
     if (*renderer == NULL)
         *renderer = open_renderer(precision);
-    HdStatus status =
-        hd_compile_scene(&tables, scene, precision, hd_renderer_lanes(*renderer), &error);
-    fuzz_expect(status == HD_OK, error.message);
-    status = hd_compile_frame(&view, scene, camera, precision, &error);
-    fuzz_expect(status == HD_OK, error.message);
-    status = hd_frame_create(&frame, scene->width, scene->height, &error);
-    if (status == HD_OK)
-        status = hd_renderer_upload(*renderer, &tables, &error);
-    if (status == HD_OK)
-        status = hd_renderer_render(*renderer, &view, &frame, &error);
+    const HdStatus status = hd_put_and_render(*renderer, scene, camera, NULL, 0, &frame, &error);
     fuzz_expect(status == HD_OK, error.message);
     hd_frame_free(&frame);
-    hd_frame_tables_free(&view);
-    hd_scene_tables_free(&tables);
 }
 
 /* A small picture of it. */

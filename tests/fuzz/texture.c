@@ -6,7 +6,6 @@
 
 #include "fuzz.h"
 #include "image/picture.h"
-#include "image/png.h"
 
 /* Allocating more takes the campaign's time. */
 enum { MOST_PIXELS = 1 << 20 };
@@ -33,7 +32,7 @@ static uint64_t pixels_of_jpeg(const unsigned char *bytes, size_t size) {
 }
 
 static bool is_small(unsigned char *bytes, size_t size) {
-    return (hd_image_is_png(bytes, size) ? fuzz_mend_png(bytes, size)
+    return (hd_format_png.begins(bytes, size) ? fuzz_mend_png(bytes, size)
                                          : pixels_of_jpeg(bytes, size)) <= MOST_PIXELS;
 }
 

@@ -15,9 +15,11 @@
 
 #include "../conformance/render_scene.h"
 #include "../options.h"
-#include "verify/render_scene.h"
 #include "hunt.h"
 #include "input/check.h"
+#include "render/frame.h"
+#include "verify/golden.h"
+#include "verify/trust.h"
 
 enum { PIPELINES = 2, MAX_RENDERERS = LANE_COUNTS * PIPELINES };
 
@@ -65,22 +67,20 @@ static void print_catch(const char *name, const Catch *caught) {
     fflush(stdout);
 }
 
-static void upload(HdRenderer *renderer, const Hunt *hunt, HdPrecision precision) {
+static void upload(HdRenderer *renderer, const Hunt *hunt) {
     HdError error;
     if (hd_scene_validate(&hunt->scene, &error) != HD_OK ||
-        hd_upload_scene(renderer, &hunt->scene, precision, &hd_golden_needs, &error) != HD_OK)
+        hd_put_scene(renderer, &hunt->scene, &hd_golden_needs, &error) != HD_OK)
         fail(hunt->placement->name, &error);
 }
 
-static void hunt_frame(HdRenderer *renderer, Hunt *hunt, HdPrecision precision, double step,
-                       HdFrame *frame, Catch *caught) {
+static void hunt_frame(HdRenderer *renderer, Hunt *hunt, double step, HdFrame *frame,
+                       Catch *caught) {
     HdError error;
-    HdFrameTables view;
+    const HdFrameMaker maker = {.renderer = renderer, .scene = &hunt->scene};
     HdCamera camera = hunt_camera(hunt, step);
-    if (hd_compile_frame(&view, &hunt->scene, &camera, precision, &error) != HD_OK ||
-        hd_renderer_render(renderer, &view, frame, &error) != HD_OK)
+    if (hd_frame_render(&maker, &camera, frame, &error) != HD_OK)
         fail(hunt->placement->name, &error);
-    hd_frame_tables_free(&view);
     hunt_judge(hunt, frame->rgb, caught);
 }
 
@@ -91,11 +91,11 @@ static void hunt_with(HdRenderer *renderer, Hunt *hunt, const Party *party, Catc
     Catch mine = {0};
     double step = party->precision == HD_PRECISION_FLOAT ? 0x1p-24 : 0x1p-53;
     hunt_move_light(hunt, step);
-    upload(renderer, hunt, party->precision);
+    upload(renderer, hunt);
     if (hd_frame_create(&frame, party->side, party->side, &error) != HD_OK)
         fail(hunt->placement->name, &error);
     for (int i = 0; i == 0 || (double)mine.rays < party->share; i++)
-        hunt_frame(renderer, hunt, party->precision, i == 0 ? 0.0 : step, &frame, &mine);
+        hunt_frame(renderer, hunt, i == 0 ? 0.0 : step, &frame, &mine);
     hd_frame_free(&frame);
     add_catch(caught, &mine);
 }

@@ -6,7 +6,6 @@
 #include <fcntl.h>
 
 #include "image/picture.h"
-#include "image/row_reader.h"
 #include "test_folder.h"
 
 static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t room) {

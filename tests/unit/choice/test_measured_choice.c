@@ -178,7 +178,7 @@ TEST(the_estimate_scales_with_the_picture) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const HdTrialWish wish = hd_trial_estimates(cases[i].enough);
         clock_step = cases[i].step;
-        assert_int_equal(hd_trial(renderer, options.precision, &job, &wish, &trial, &error), HD_OK);
+        assert_int_equal(hd_trial(renderer, &job, &wish, &trial, &error), HD_OK);
         expect_near(trial.frame_seconds, cases[i].expected, 1e-6);
     }
     hd_renderer_close(renderer);
@@ -435,7 +435,7 @@ static double fall(const HdRenderOptions *asked) {
 
 static HdStatus measure(HdRenderer *renderer, double share, int times, HdTrial *trial) {
     const HdTrialWish wish = {.share = share, .times = times};
-    return hd_trial(renderer, options.precision, &job, &wish, trial, &error);
+    return hd_trial(renderer, &job, &wish, trial, &error);
 }
 
 TEST(the_least_of_several_counts) {

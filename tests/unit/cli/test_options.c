@@ -2,7 +2,7 @@
 /* What each option takes, which command takes which option, and where the values go. */
 #include <stdio.h>
 
-#include "cli/option_values.h"
+#include "cli/options.h"
 #include "device/renderer.h"
 #include "unit_test.h"
 
@@ -207,10 +207,10 @@ TEST(nothing_is_the_classic_mode) {
     expect_parsed("hedron");
     assert_int_equal(options.command, HD_COMMAND_CLASSIC);
     assert_int_equal(options.variant, 4);
-    assert_int_equal(options.size.width, 0);
-    assert_true(options.cutoff == -1.0);
+    assert_int_equal(options.scene.size.width, 0);
+    assert_true(options.scene.cutoff == -1.0);
     assert_int_equal(options.operand_count, 0);
-    assert_false(options.quiet || options.verbose);
+    assert_false(options.telling.quiet || options.telling.verbose);
 }
 
 TEST(comparisons_take_two_pictures) {
@@ -236,13 +236,13 @@ TEST(operands_and_options_mix) {
     expect_parsed("hedron render --size 3x4 scene.json -o a.png --depth=5 --depth=2 -ob.gif");
     assert_int_equal(options.operand_count, 1);
     assert_string_equal(options.operands[0], "scene.json");
-    assert_int_equal(options.output_count, 2);
-    assert_string_equal(options.outputs[0], "a.png");
-    assert_string_equal(options.outputs[1], "b.gif");
-    assert_int_equal(options.size.height, 4);
-    assert_int_equal(options.depth, 2);
+    assert_int_equal(options.store.count, 2);
+    assert_string_equal(options.store.names[0], "a.png");
+    assert_string_equal(options.store.names[1], "b.gif");
+    assert_int_equal(options.scene.size.height, 4);
+    assert_int_equal(options.scene.depth, 2);
     expect_parsed("hedron render --set a=b=c --set d= --quiet --quiet");
-    assert_string_equal(options.changes[0], "a=b=c");
+    assert_string_equal(options.scene.changes[0], "a=b=c");
     expect_parsed("hedron -V");
     assert_int_equal(options.command, HD_COMMAND_VERSION);
     for (int i = 0; i < 9; i++) {
@@ -266,29 +266,24 @@ static const char *repeated(const char *option, int count) {
 
 TEST(repetitions_have_a_limit) {
     expect_parsed(repeated("--output=a.png", 8));
-    assert_int_equal(options.output_count, 8);
+    assert_int_equal(options.store.count, 8);
     check_refused(repeated("--output=a.png", 9), NULL, "at most 8");
     expect_parsed(repeated("--set=a.b=1", 64));
-    assert_int_equal(options.change_count, 64);
-    assert_string_equal(options.changes[63], "a.b=1");
+    assert_int_equal(options.scene.change_count, 64);
+    assert_string_equal(options.scene.changes[63], "a.b=1");
     check_refused(repeated("--set=a.b=1", 65), NULL, "at most 64");
 }
 
 TEST(help_has_topics) {
-    static const struct {
-        const char *line;
-        HdCommand command;
-        int form;
-    } lines[] = {{"hedron help man", HD_COMMAND_CLASSIC, HD_HELP_MAN},
-                 {"hedron help completion", HD_COMMAND_CLASSIC, HD_HELP_BASH},
-                 {"hedron check -h", HD_COMMAND_CHECK, HD_HELP_TEXT},
-                 {"hedron check --help --nonsense", HD_COMMAND_CHECK, HD_HELP_TEXT},
-                 {"hedron help --help", HD_COMMAND_HELP, HD_HELP_TEXT}};
+    static const char *const lines[][2] = {{"hedron help man", "man"},
+                                           {"hedron help completion", "completion"},
+                                           {"hedron check -h", "check"},
+                                           {"hedron check --help --nonsense", "check"},
+                                           {"hedron help --help", "help"}};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        expect_parsed(lines[i].line);
+        expect_parsed(lines[i][0]);
         assert_int_equal(options.command, HD_COMMAND_HELP);
-        assert_int_equal(options.help_topic.command, lines[i].command);
-        assert_int_equal(options.help_topic.form, lines[i].form);
+        assert_string_equal(options.topic, lines[i][1]);
     }
     for (int i = 0; i < HD_COMMAND_SPEC_COUNT; i++) {
         const HdCommandSpec *spec = &hd_command_specs[i];
@@ -296,8 +291,8 @@ TEST(help_has_topics) {
         assert_ptr_equal(hd_command_spec(spec->command), spec);
         snprintf(line, sizeof line, "hedron help %s", spec->name != NULL ? spec->name : "");
         expect_parsed(line);
-        assert_int_equal(options.help_topic.form, HD_HELP_TEXT);
-        assert_int_equal(options.help_topic.command, spec->command);
+        assert_ptr_equal(options.topic != NULL ? hd_command_named(options.topic) : NULL,
+                         spec->name != NULL ? spec : NULL);
     }
 }
 
@@ -307,31 +302,32 @@ TEST(values_reach_their_members) {
                   "--max-error 2 --crop 1x2+3+4 --size 6X7 --geometry triangles "
                   "--divisions 8 --accel bvh --frames 0-9 --device c:0 --stats - "
                   "--again --frame-lines --verbose");
-    const HdOptionCrop *crop = &options.crop;
-    assert_true(options.samples == 3 && options.depth == 5 && options.divisions == 8);
-    assert_true(options.cutoff == 0.25 && options.max_error == 2.0);
-    assert_int_equal(options.sampling, HD_SAMPLING_ADAPTIVE);
+    const HdPlannedCrop *crop = &options.scene.crop;
+    assert_true(options.scene.samples == 3 && options.scene.depth == 5 &&
+                options.scene.divisions == 8);
+    assert_true(options.scene.cutoff == 0.25 && options.scene.max_error == 2.0);
+    assert_int_equal(options.scene.sampling, HD_SAMPLING_ADAPTIVE);
     assert_true(crop->width == 1 && crop->height == 2 && crop->left == 3 && crop->top == 4);
-    assert_true(options.size.width == 6 && options.size.height == 7);
-    assert_int_equal(options.geometry, HD_GEOMETRY_TRIANGLES);
-    assert_int_equal(options.accel, HD_ACCEL_BVH);
+    assert_true(options.scene.size.width == 6 && options.scene.size.height == 7);
+    assert_int_equal(options.scene.geometry, HD_GEOMETRY_TRIANGLES);
+    assert_int_equal(options.scene.accel, HD_ACCEL_BVH);
     assert_string_equal(options.frames, "0-9");
-    assert_string_equal(options.device, "c:0");
-    assert_string_equal(options.statistics, "-");
-    assert_true(options.again && options.tells_frames && options.verbose);
+    assert_string_equal(options.devices.device, "c:0");
+    assert_string_equal(options.store.statistics, "-");
+    assert_true(options.store.again && options.telling.tells_frames && options.telling.verbose);
     expect_parsed("hedron render --lanes 16 --threads 2 --block 64 --grid 3 --math fast "
                   "--precision double --pipeline wavefront-uncompacted --backend opencl");
-    const HdRenderOptions *render = &options.render;
+    const HdRenderOptions *render = &options.devices.render;
     assert_true(render->lanes == 16 && render->threads == 2);
     assert_true(render->block == 64 && render->grid == 3);
     assert_int_equal(render->math, HD_MATH_FAST);
     assert_int_equal(render->precision, HD_PRECISION_DOUBLE);
     assert_int_equal(render->pipeline, HD_PIPELINE_WAVEFRONT_UNCOMPACTED);
-    assert_string_equal(options.backend, "opencl");
+    assert_string_equal(options.devices.backend, "opencl");
     expect_parsed("hedron render --layers depth,object");
-    assert_true(options.layers != 0);
+    assert_true(options.store.layers != 0);
     expect_parsed("hedron --default --backend auto --variant 7");
     assert_true(options.prints_default && !options.cpu && !options.gpu);
-    assert_null(options.backend);
+    assert_null(options.devices.backend);
     assert_int_equal(options.variant, 7);
 }

@@ -55,7 +55,7 @@ static void expect_line(const char *name, const char *told, const char *longest_
     assert_int_equal(line[strlen(line) - 1], '\n');
     assert_int_equal(fgetc(file), EOF);
     fclose(file);
-    assert_int_equal(hd_statistics_close(&statistics, true, &error), HD_OK);
+    assert_int_equal(hd_statistics_close(&statistics, HD_DURABLE, HD_OK, &error), HD_OK);
     snprintf(expected, sizeof expected,
              "{\"frame\": 11, \"backend\": \"c\", \"index\": 3, \"device\": \"%s\",\n"
              "\"renderer\": \"4 lanes\", \"width\": 640, \"height\": 480, \"samples\": 3, "
@@ -96,5 +96,5 @@ TEST(files_that_take_nothing_are_told) {
     assert_int_equal(open_statistics(&statistics, "/dev/full", &error), HD_OK);
     assert_int_equal(hd_statistics_add(&statistics, &facts, &stored, &error), HD_FAILED);
     expect_contains(error.message, "/dev/full");
-    hd_statistics_close(&statistics, true, &error);
+    hd_statistics_close(&statistics, HD_DURABLE, HD_OK, &error);
 }

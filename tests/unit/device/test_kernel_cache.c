@@ -2,13 +2,13 @@
 #define _XOPEN_SOURCE 700
 #include "device/kernel_cache.h"
 
-#include "verify/render_scene.h"
 #include "device/self_test_scenes.h"
 #include "device/verdict.h"
 #include "fake_backend.h"
 #include "system/cache_folder.h"
-#include "system/warnings.h"
+#include "system/machine.h"
 #include "test_folder.h"
+#include "verify/trust.h"
 
 static HdError error;
 static HdRenderOptions options;
@@ -44,8 +44,7 @@ static HdStatus render_frame(void) {
     assert_int_equal(hd_self_test_scene(&scene, kind, false, false, &error), HD_OK);
     assert_int_equal(hd_camera_at(&camera, &scene, 0, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
-    HdStatus status =
-        hd_render_scene(renderer, &scene, &camera, options.precision, NULL, 0, &frame, &error);
+    HdStatus status = hd_put_and_render(renderer, &scene, &camera, NULL, 0, &frame, &error);
     snprintf(note, sizeof note, "%s", hd_renderer_kernels_note(renderer));
     if (status == HD_OK) {
         hash = hd_frame_hash(&frame);
@@ -175,8 +174,7 @@ TEST(wrong_kernels_render_nothing) {
     assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_FLOOR, false, false, &error), HD_OK);
     assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(hd_upload_scene(renderer, &scene, options.precision, NULL, &error),
-                         HD_UNAVAILABLE);
+        assert_int_equal(hd_put_scene(renderer, &scene, NULL, &error), HD_UNAVAILABLE);
         assert_int_equal(hd_renderer_render(renderer, &view, &frame, &error), HD_BAD_INPUT);
     }
     assert_int_equal(fake.compiled, 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "image/formats.h"
+#include "image/picture.h"
 #include "unit_test.h"
 
 TEST(the_ending_tells_the_format) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
-#include "image/heat_map.h"
+#include "image/difference.h"
 #include "image/picture.h"
 #include "test_folder.h"
 

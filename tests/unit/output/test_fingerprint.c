@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Whatever decides a pixel changes the fingerprint, and nothing else does. That all fields of a
    scene file are written, by which they are hashed, is what input/scene_file_print tests. */
-#include "image/mark.h"
 #include "output/fingerprint.h"
 #include "scene_text.h"
 

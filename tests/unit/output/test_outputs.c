@@ -67,7 +67,7 @@ TEST(a_plan_says_what_frames_must_hold) {
     static const struct {
         const char *first, *second;
         int bits, films;
-        bool radiance, can_resume, can_mark;
+        bool radiance, can_resume, bears;
     } cases[] = {{"a_%d.png", "b.MKV", 8, 1, false, true, true},
                  {"a_%d.png", NULL, 16, 0, true, true, true},
                  {"a_%d.png", "b_%d.pfm", 8, 0, true, false, true},
@@ -78,13 +78,13 @@ TEST(a_plan_says_what_frames_must_hold) {
         assert_int_equal(plan.film_count, cases[i].films);
         assert_int_equal(plan.wish.radiance, cases[i].radiance);
         assert_int_equal(plan.can_resume, cases[i].can_resume);
-        assert_int_equal(plan.can_mark, cases[i].can_mark);
-        assert_false(plan.is_marked || plan.keeps_films);
-        hd_outputs_mark(&plan, 5, false);
+        assert_int_equal(plan.bears_fingerprints, cases[i].bears);
+        assert_false(plan.has_fingerprint || plan.keeps_films);
+        hd_outputs_set_fingerprint(&plan, 5, false);
         assert_false(plan.resumes);
-        hd_outputs_mark(&plan, 5, true);
+        hd_outputs_set_fingerprint(&plan, 5, true);
         assert_true(plan.keeps_films && plan.fingerprint == 5);
-        assert_int_equal(plan.is_marked, cases[i].can_mark);
+        assert_int_equal(plan.has_fingerprint, cases[i].bears);
         assert_int_equal(plan.resumes, cases[i].can_resume);
     }
 }

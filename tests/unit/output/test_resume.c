@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "image/mark.h"
 #include "image/picture.h"
+#include "output/fingerprint.h"
 #include "output/resume.h"
 #include "system/atomic_file.h"
 #include "test_folder.h"
@@ -24,7 +24,7 @@ static HdOutputPlan plan_of(const char *first, const char *second, int bits) {
     assert_int_equal(hd_outputs_settle(&plan, names, second != NULL ? 2 : 1, &style,
                                        strchr(first, '%') != NULL ? FRAMES : 1, &error),
                      HD_OK);
-    hd_outputs_mark(&plan, 12345, true);
+    hd_outputs_set_fingerprint(&plan, 12345, true);
     return plan;
 }
 
@@ -42,8 +42,8 @@ static void write_frame(const HdOutputPlan *plan, int index, int number) {
         .scene = "",
         .options = "",
         .frame = number,
-        .is_marked = true,
-        .fingerprint = hd_picture_fingerprint(plan->fingerprint, number),
+        .has_fingerprint = true,
+        .fingerprint = hd_frame_fingerprint(plan->fingerprint, number),
     };
     char path[HD_MAX_PATH];
     HdAtomicFile file;
@@ -77,7 +77,7 @@ static void expect_finished(const HdOutputPlan *plan, int expected) {
     hd_resume_free(&resume);
 }
 
-TEST(whole_pictures_with_the_right_mark_are_finished) {
+TEST(whole_pictures_with_the_right_fingerprint_are_finished) {
     HdOutputPlan plan = plan_of("a/%d.png", NULL, 8);
     expect_finished(&plan, 0);
     write_frame(&plan, 0, numbers[3]);
@@ -112,7 +112,7 @@ TEST(what_must_be_rendered_anyway_is_not) {
         const HdOutputPlan other = plan_of(cases[i].first, cases[i].second, cases[i].bits);
         expect_finished(&other, cases[i].finished);
     }
-    hd_outputs_mark(&plan, plan.fingerprint, false);
+    hd_outputs_set_fingerprint(&plan, plan.fingerprint, false);
     expect_finished(&plan, 0);
 }
 
@@ -122,7 +122,7 @@ TEST(a_frame_is_read_back_as_it_was_encoded) {
     HdOutputPlan plan = write_frames("f/%d.png");
     const HdOutputStyle style = plan.style;
     assert_int_equal(hd_outputs_settle(&plan, names, 3, &style, FRAMES, &error), HD_OK);
-    hd_outputs_mark(&plan, 12345, true);
+    hd_outputs_set_fingerprint(&plan, 12345, true);
     expect_finished(&plan, FRAMES);
     HdFrame made = make_frame(7), read = make_frame(0);
     assert_int_equal(hd_frame_add_rgba(&made, &error), HD_OK);

@@ -3,10 +3,9 @@
 #define HD_DOUBLE 0
 #include "verify/first_difference.h"
 
-#include "verify/golden.h"
-#include "verify/render_scene.h"
 #include "kernels/host/shared.h"
 #include "unit_test.h"
+#include "verify/golden.h"
 
 static HdError error;
 static void (*tamper)(const HdSceneTables *tables);

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* One frame of one scene, on a renderer that has the scene (verify/trust.h): each sample of the
+   grid, or as many as the pixels of a surveyed scene need. */
+#ifndef HD_RENDER_FRAME_H
+#define HD_RENDER_FRAME_H
+
+#include "device/renderer.h"
+#include "render/adaptive.h"
+
+/* What frames are made of, and how they are wanted. */
+typedef struct HdFrameMaker {
+    HdRenderer *renderer;
+    const HdScene *scene; /* what the renderer has; size, crop, samples and less depth may differ */
+    HdFrameWish wish; /* surveyed frames come as radiance, whose errors are judged on its curve */
+    HdWatch *watch;   /* NULL: nobody looks */
+    HdRefinement *refinement; /* the maker's own: of a surveyed scene */
+} HdFrameMaker;
+
+/* A frame under way. The struct stays where it is until the frame has ended or was dropped. */
+typedef struct HdFlight {
+    HdCamera camera;
+    HdFrameTables tables;
+    double prepared; /* when the tables were there, by hd_monotonic_seconds */
+} HdFlight;
+
+/* Makes what surveyed scenes need; all else of the maker is filled in. */
+HdStatus hd_frame_maker_open(HdFrameMaker *maker, HdError *error);
+
+/* A maker that was not opened may be closed. */
+void hd_frame_maker_close(HdFrameMaker *maker);
+
+/* The frames under way at a time: HD_FRAMES_IN_FLIGHT, or 1 where the scene is surveyed, whose
+   frames are made of several that are waited for one after the other. */
+int hd_frame_most_flights(const HdFrameMaker *maker);
+
+/* Begins a frame. On failure there is nothing to drop, and the earlier ones are still under way. */
+HdStatus hd_frame_begin(const HdFrameMaker *maker, const HdCamera *camera, HdFlight *flight,
+                        HdError *error);
+
+/* Waits for the oldest frame under way, which is so no longer; `frame` has room for what is wished
+   for (hd_renderer_collect), and gets the layers that it has room for. */
+HdStatus hd_frame_end(const HdFrameMaker *maker, HdFlight *flight, HdFrame *frame, HdError *error);
+
+/* Of a frame that the renderer was told to forget (hd_renderer_drop). */
+void hd_flight_drop(HdFlight *flight);
+
+/* A frame's radiance, none being under way, with a maker that need not be open. */
+HdStatus hd_frame_render(const HdFrameMaker *maker, const HdCamera *camera, HdFrame *frame,
+                         HdError *error);
+
+#endif

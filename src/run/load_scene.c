@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+#include "run/load_scene.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "input/builtin.h"
+#include "input/check.h"
+#include "input/load.h"
+#include "render/survey.h"
+#include "scene/contact.h"
+#include "scene/triangulate.h"
+#include "system/interrupt.h"
+
+/* Far above any classic input, and small enough to read into memory without a thought. */
+enum { MAX_INPUT_BYTES = 1 << 20 };
+
+/* Of the discs of edge lights, where they become polygons. */
+enum { DISC_SIDES = 16 };
+
+static const char standard_input[] = "standard input";
+
+/* Whatever there is, up to `most` bytes, and an interrupt; the text is the caller's to free. */
+static HdStatus read_stream(FILE *stream, const char *name, size_t most, char **text, size_t *size,
+                            HdError *error) {
+    *text = malloc(most + 1);
+    if (*text == NULL)
+        return hd_fail(error, HD_FAILED, "out of memory: no room for the scene");
+    *size = fread(*text, 1, most + 1, stream);
+    if (hd_interrupt_signal() != 0)
+        return hd_fail(error, HD_INTERRUPTED, "interrupted while reading %s", name);
+    if (ferror(stream))
+        return hd_fail(error, stream == stdin ? HD_FAILED : HD_BAD_INPUT, "cannot read %s: %s",
+                       name, strerror(errno));
+    if (*size > most)
+        return hd_fail(error, HD_BAD_INPUT, "%s is longer than %zu bytes", name, most);
+    return HD_OK;
+}
+
+HdStatus hd_read_classic(HdSceneFile *file, const char *path, int variant, HdError *error) {
+    const char *name = path != NULL ? path : standard_input;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = path != NULL ? fopen(path, "rb") : stdin;
+    HdStatus status =
+        stream != NULL ? read_stream(stream, name, MAX_INPUT_BYTES, &text, &size, error)
+                       : hd_fail(error, HD_BAD_INPUT, "cannot open %s: %s", name, strerror(errno));
+    if (status == HD_OK)
+        status = hd_classic_parse(file, text, size, name, variant, error);
+    if (stream != NULL && stream != stdin)
+        fclose(stream);
+    free(text);
+    return status;
+}
+
+const char *hd_scene_name(const char *path) {
+    return path == NULL ? "the built-in scene" : strcmp(path, "-") == 0 ? standard_input : path;
+}
+
+HdStatus hd_read_scene(HdSceneFile *file, const char *path, const HdSceneSource *source,
+                       HdError *error) {
+    HdSceneSource named = *source;
+    char *read = NULL;
+    size_t size = 0;
+    HdStatus status = HD_OK;
+    if (path != NULL && strcmp(path, "-") != 0)
+        return hd_scene_file_read(file, path, source, error);
+    named.name = hd_scene_name(path);
+    const char *text = hd_default_scene_text(&size);
+    if (path != NULL) {
+        status = read_stream(stdin, standard_input, HD_MAX_SCENE_BYTES, &read, &size, error);
+        text = read;
+    }
+    if (status == HD_OK)
+        status = hd_scene_file_parse(file, text, size, &named, error);
+    free(read);
+    return status;
+}
+
+static void set_numbers(HdScene *scene, const HdScenePlan *plan) {
+    if (plan->size.width > 0) {
+        scene->width = plan->size.width;
+        scene->height = plan->size.height;
+    }
+    if (plan->samples > 0)
+        scene->samples_per_side = plan->samples;
+    if (plan->max_error > 0.0)
+        scene->max_error = plan->max_error;
+}
+
+/* Rays end by the limit of a scene that has one, and by what was given. */
+static void set_ends(HdScene *scene, const HdScenePlan *plan) {
+    hd_survey_end_rays(scene);
+    if (plan->depth >= 0)
+        scene->depth = plan->depth;
+    if (plan->cutoff >= 0.0)
+        scene->cutoff = plan->cutoff;
+}
+
+static HdStatus crop(HdScene *scene, const HdPlannedCrop *part, HdError *error) {
+    if (part->width == 0)
+        return HD_OK;
+    if (part->left + part->width > scene->width || part->top + part->height > scene->height)
+        return hd_fail(error, HD_BAD_INPUT, "the picture has %d x %d pixels, which end before that",
+                       scene->width, scene->height);
+    scene->crop = (HdCrop){scene->width, scene->height, part->left, part->top};
+    scene->width = part->width;
+    scene->height = part->height;
+    return HD_OK;
+}
+
+HdStatus hd_scene_apply_numbers(HdScene *scene, const HdScenePlan *plan, HdError *error) {
+    set_numbers(scene, plan);
+    HdStatus status = plan->given[0] != '\0' ? hd_scene_validate(scene, error) : HD_OK;
+    if (status == HD_OK)
+        status = crop(scene, &plan->crop, error);
+    if (status != HD_OK) {
+        hd_error_prefix(error, plan->given);
+        return status;
+    }
+    if (plan->sampling >= 0)
+        scene->sampling = (HdSampling)plan->sampling;
+    set_ends(scene, plan);
+    return HD_OK;
+}
+
+HdStatus hd_scene_apply_geometry(HdScene *scene, const HdScenePlan *plan, HdError *error) {
+    scene->accel = plan->accel;
+    if (plan->geometry == HD_GEOMETRY_SOLIDS && plan->divisions > 0)
+        return hd_fail(error, HD_BAD_INPUT, "--divisions needs --geometry triangles");
+    hd_scene_part_contacts(scene);
+    if (plan->geometry == HD_GEOMETRY_SOLIDS)
+        return HD_OK;
+    return hd_scene_triangulate(scene, DISC_SIDES, plan->divisions > 0 ? plan->divisions : 1,
+                                error);
+}
+
+HdStatus hd_load_scene(HdSceneFile *file, const HdScenePlan *plan, HdProblems *notes,
+                       HdError *error) {
+    const HdSceneSource source = {.folder = "",
+                                  .changes = plan->changes,
+                                  .change_count = plan->change_count,
+                                  .loads_files = true,
+                                  .file_notes = notes};
+    HdStatus status = hd_read_scene(file, plan->path, &source, error);
+    if (status != HD_OK) {
+        if (notes != NULL)
+            *notes = (HdProblems){.count = 0};
+        return status;
+    }
+    status = hd_scene_apply_numbers(&file->scene, plan, error);
+    if (status == HD_OK)
+        status = hd_scene_apply_geometry(&file->scene, plan, error);
+    if (status != HD_OK)
+        hd_scene_file_free(file);
+    return status;
+}

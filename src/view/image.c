@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+#include "view/image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+HdStatus hd_view_image_resize(HdViewImage *image, int width, int height, HdError *error) {
+    const int bytes = 4 * width * height;
+    if (bytes > image->room) {
+        uint8_t *rgba = realloc(image->rgba, (size_t)bytes);
+        if (rgba == NULL)
+            return hd_fail(error, HD_FAILED, "out of memory: no room for a picture to show");
+        image->rgba = rgba;
+        image->room = bytes;
+    }
+    image->width = width;
+    image->height = height;
+    return HD_OK;
+}
+
+void hd_view_image_describe(HdViewImage *image, const HdViewImage *facts) {
+    const HdViewImage own = *image;
+    *image = *facts;
+    image->rgba = own.rgba;
+    image->room = own.room;
+}
+
+void hd_view_image_free(HdViewImage *image) {
+    free(image->rgba);
+    *image = (HdViewImage){.width = 0};
+}
+
+/* A part of another picture, whose rows begin `stride` pixels apart, gets the nearest pixels. */
+static void copy_fitted(const HdViewImage *source, uint8_t *target, int width, int height,
+                        int stride) {
+    for (int y = 0; y < height; y++, target += 4 * (size_t)stride) {
+        const size_t row = (size_t)((int64_t)y * source->height / height);
+        const uint8_t *pixels = source->rgba + 4 * row * (size_t)source->width;
+        for (int x = 0; x < width; x++)
+            memcpy(target + 4 * (size_t)x, pixels + 4 * ((int64_t)x * source->width / width), 4);
+    }
+}
+
+HdStatus hd_view_image_stretch(HdViewImage *image, int width, int height, HdError *error) {
+    HdViewImage stretched = *image;
+    stretched.rgba = NULL;
+    stretched.room = 0;
+    HdStatus status = hd_view_image_resize(&stretched, width, height, error);
+    if (status != HD_OK)
+        return status;
+    if (image->width > 0)
+        copy_fitted(image, stretched.rgba, width, height, width);
+    else
+        memset(stretched.rgba, 0, 4 * (size_t)width * (size_t)height);
+    free(image->rgba);
+    *image = stretched;
+    return HD_OK;
+}
+
+static int scaled_difference(const uint8_t *a, const uint8_t *b, int gain, uint8_t *out) {
+    int largest = 0;
+    for (int c = 0; c < 3; c++) {
+        const int apart = a[c] > b[c] ? a[c] - b[c] : b[c] - a[c];
+        largest = apart > largest ? apart : largest;
+        out[c] = (uint8_t)(apart * gain < 255 ? apart * gain : 255);
+    }
+    out[3] = 255;
+    return largest;
+}
+
+static void fill_difference(HdViewImage *out, int gain, HdSplitFigures *figures) {
+    const int width = out->width / 2, height = out->height / 2;
+    const size_t row = 4 * (size_t)out->width, across = 4 * (size_t)width;
+    int64_t differing = 0;
+    for (int y = 0; y < height; y++) {
+        const uint8_t *pixels = out->rgba + row * (size_t)y;
+        uint8_t *below = out->rgba + row * (size_t)(y + height);
+        for (size_t x = 0; x < across; x += 4) {
+            const int apart = scaled_difference(pixels + x, pixels + across + x, gain, below + x);
+            figures->largest = apart > figures->largest ? apart : figures->largest;
+            differing += apart > 0;
+        }
+    }
+    figures->share = (double)differing / ((double)width * height);
+}
+
+HdStatus hd_view_image_split(HdViewImage *out, const HdViewImage *first, const HdViewImage *second,
+                             int gain, HdSplitFigures *figures, HdError *error) {
+    const int width = first->width, height = first->height;
+    *figures = (HdSplitFigures){.is_unlike = second->width != width || second->height != height};
+    HdStatus status = hd_view_image_resize(out, 2 * width, 2 * height, error);
+    if (status != HD_OK || width == 0)
+        return status;
+    memset(out->rgba, 0, 16 * (size_t)width * (size_t)height);
+    copy_fitted(first, out->rgba, width, height, 2 * width);
+    if (second->width > 0)
+        copy_fitted(second, out->rgba + 4 * (size_t)width, width, height, 2 * width);
+    fill_difference(out, gain, figures);
+    return HD_OK;
+}
