@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "render/backends.h"
 #include "render/frame.h"
 #include "system/machine.h"
 #include "verify/trust.h"

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/load_scene.h"
 #include "input/fields.h"
+#include "render/backends.h"
 
 /* A command line up to the word that is being typed. */
 typedef struct Line {

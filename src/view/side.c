@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "choice/candidates.h"
 #include "cli/load_scene.h"
+#include "render/backends.h"
 
 static uint64_t add_file(uint64_t hash, const char *path) {
     struct stat facts;
