@@ -4,6 +4,7 @@
 #define HD_CHOICE_CANDIDATES_H
 
 #include "choice/measure.h"
+#include "render/backends.h"
 
 typedef enum HdDeviceKind {
     HD_WANT_ANY,   /* a GPU or plain C, whichever is faster */

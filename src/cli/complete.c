@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "input/fields.h"
+#include "render/backends.h"
 
 /* A command line up to the word that is being typed. */
 typedef struct Line {

@@ -4,17 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "device/arithmetic.h"
 #include "device/launch_size.h"
-#include "device/verdict.h"
 
 static void recall(HdDevice *device) {
-    char difference[512];
+    HdArithmetic known = {.difference = ""};
     device->is_measured =
         device->backend->needs_no_driver ||
-        hd_verdict_get(device->name, device->driver, difference, sizeof difference);
-    if (device->is_measured && !device->backend->needs_no_driver && difference[0] != '\0')
+        hd_arithmetic_recall(device->name, device->driver, HD_PRECISION_FLOAT, &known);
+    if (known.difference[0] != '\0')
         snprintf(device->not_strict, sizeof device->not_strict, "it computes wrongly: %s",
-                 difference);
+                 known.difference);
 }
 
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,

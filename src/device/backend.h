@@ -38,7 +38,7 @@ typedef struct HdDevice {
     bool has_timeout;     /* its driver may end long kernels, as where it draws a display; or does
                              not tell, and a display may be there */
     char unusable[1024];  /* why nothing can run there, say no compiler for it; empty: it can */
-    bool is_measured;     /* its arithmetic is known, being plain C's or remembered (verdict.h) */
+    bool is_measured; /* its arithmetic is known, being plain C's or remembered (arithmetic.h) */
     char not_strict[640]; /* then why it cannot do strict arithmetic; empty: it can */
 } HdDevice;
 
@@ -116,21 +116,7 @@ struct HdBackend {
     HdStatus (*enumerate)(HdDevice *devices, int capacity, int *count, HdError *error);
 };
 
-/* X(name): all backends, the best first; the last one is always there. */
-#define HD_BACKENDS(X) X(cuda) X(opencl) X(c)
-
-#define HD_BACKEND_DECLARED(name) extern const HdBackend hd_backend_##name;
-#define HD_BACKEND_COUNTED(name)  +1
-#define HD_BACKEND_ADDRESS(name)  &hd_backend_##name,
-enum { HD_BACKEND_COUNT = 0 HD_BACKENDS(HD_BACKEND_COUNTED), HD_MAX_DEVICES = 64 };
-HD_BACKENDS(HD_BACKEND_DECLARED)
-extern const HdBackend *const hd_backends[HD_BACKEND_COUNT];
-
-/* NULL where no backend has that name. */
-const HdBackend *hd_backend_find(const char *name);
-
-/* The one that needs no driver. */
-const HdBackend *hd_backend_always_there(void);
+enum { HD_MAX_DEVICES = 64 }; /* of a backend */
 
 /* The backend's devices, with the backend and what is remembered of them filled in. */
 HdStatus hd_backend_enumerate(const HdBackend *backend, HdDevice *devices, int capacity, int *count,

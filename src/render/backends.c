@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The registry: the one place that names every backend. */
-#include <string.h>
+#include "render/backends.h"
 
-#include "device/backend.h"
+#include <string.h>
 
 const HdBackend *const hd_backends[HD_BACKEND_COUNT] = {HD_BACKENDS(HD_BACKEND_ADDRESS)};
 

@@ -47,12 +47,13 @@ static HdStatus begin(Tracer *tracer, int place, HdError *error) {
     *flight = (Flight){.place = place, .prepare = {.began = now}, .begun = now};
     HdStatus status = hd_camera_at(&camera, job->scene, job->frames->frames[place], error);
     if (status == HD_OK)
-        status = hd_frame_begin(&tracer->maker, &camera, &flight->frame, error);
-    if (status != HD_OK)
-        return status;
-    flight->prepare.seconds = flight->frame.prepared - job->start - now;
-    tracer->begun++;
-    return HD_OK;
+        status = hd_frame_prepare(&tracer->maker, &camera, &flight->frame, error);
+    flight->prepare.seconds = seconds_since_start(tracer) - now;
+    if (status == HD_OK)
+        status = hd_frame_begin(&tracer->maker, &flight->frame, error);
+    if (status == HD_OK)
+        tracer->begun++;
+    return status;
 }
 
 /* Frames are traced one after the other. One that was waited for as long as its tracing took was

@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "choice/candidates.h"
+#include "render/backends.h"
 #include "run/load_scene.h"
 #include "system/path.h"
 

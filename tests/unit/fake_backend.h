@@ -8,9 +8,10 @@
 #include <stdlib.h>
 
 #include "device/kernel_cache.h"
-#include "device/probe_operands.h"
 #include "device/renderer.h"
+#include "render/backends.h"
 #include "unit_test.h"
+#include "verify/probe_operands.h"
 
 typedef enum FakePoint { FAKE_OPEN, FAKE_UPLOAD, FAKE_SUBMIT, FAKE_COLLECT } FakePoint;
 

@@ -80,8 +80,9 @@ typedef struct HdCudaPtx {
     size_t size; /* with the NUL */
 } HdCudaPtx;
 
-/* Made by cmake/embed_ptx.c: the kernels of the probe (probe.h) and others, with strict arithmetic
-   and all that a scene may need up to the bounds below; none where there was no NVRTC. */
+/* Made by cmake/embed_ptx.c: the kernels of the probe (verify/probe.h) and others, with strict
+   arithmetic and all that a scene may need up to the bounds below; none where there was no NVRTC.
+ */
 extern const HdCudaPtx hd_cuda_ptx[];
 extern const int hd_cuda_ptx_count;
 

@@ -144,7 +144,7 @@ static HdStatus read_memory(void *state, const HdGpuMemory *memory, void *to, si
 
 /* ---- kernels ---- */
 
-/* Not every driver knows it; how one divides is measured (device/probe.h). */
+/* Not every driver knows it; how one divides is measured (verify/probe.h). */
 static const char rounding[] = " -cl-fp32-correctly-rounded-divide-sqrt";
 
 static void write_options(void *state, const HdKernelShape *shape, char *text, size_t capacity) {

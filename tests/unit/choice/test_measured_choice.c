@@ -5,8 +5,9 @@
 #define _XOPEN_SOURCE 700
 #include "choice/candidates.h"
 #include "choice/tune.h"
-#include "device/self_test_scenes.h"
 #include "fake_backend.h"
+#include "render/backends.h"
+#include "small_scene.h"
 #include "test_folder.h"
 #include "wrapped.h"
 
@@ -44,7 +45,7 @@ static int begin(void **state) {
     frame_seconds[1] = 0.0;
     setenv("HEDRON_CACHE", "cache", 1);
     options = (HdRenderOptions){.threads = 1, .math = HD_MATH_FAST};
-    assert_int_equal(hd_self_test_scene(&scene, HD_SELF_TEST_SOLID, false, false, &error), HD_OK);
+    assert_int_equal(small_scene(&scene, "hexahedron", &error), HD_OK);
     scene.width = scene.height = 4;
     scene.samples_per_side = 1;
     job = (HdJob){.scene = &scene, .frame_count = 100};

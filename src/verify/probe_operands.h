@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The operands of the arithmetic probe, and what plain C makes of them: the hard cases of each
    primitive by construction. Built for float and for double. */
-#ifndef HD_DEVICE_PROBE_OPERANDS_H
-#define HD_DEVICE_PROBE_OPERANDS_H
+#ifndef HD_VERIFY_PROBE_OPERANDS_H
+#define HD_VERIFY_PROBE_OPERANDS_H
 
 #include "device/probe_batch.h"
 

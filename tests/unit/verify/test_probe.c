@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
 /* What the arithmetic probe makes of devices that compute rightly and of others. */
-#include "device/probe.h"
+#include "verify/probe.h"
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "device/kernel_cache.h"
-#include "device/probe_operands.h"
 #include "unit_test.h"
+#include "verify/probe_operands.h"
 
 typedef enum Fault {
     NONE,
@@ -76,14 +78,32 @@ static HdStatus fake_probe(void *renderer, const HdProbeBatch *batch, HdProbeRes
     return HD_OK;
 }
 
-static const HdRendererFunctions functions = {.kernels = fake_kernels, .probe = fake_probe};
+static HdStatus fake_open(const HdDevice *device, const HdRenderOptions *options, void **renderer,
+                          HdError *failure) {
+    (void)device, (void)options, (void)failure;
+    *renderer = NULL;
+    return HD_OK;
+}
+
+static void fake_close(void *renderer) {
+    (void)renderer;
+}
+
+static const HdRendererFunctions functions = {
+    .open = fake_open, .kernels = fake_kernels, .probe = fake_probe, .close = fake_close};
 static const HdBackend backend = {.name = "fake", .functions = &functions};
 
 static HdProbeReport probe(Fault of, HdPrecision precision) {
+    const HdDevice device = {.backend = &backend, .name = "Fake", .has_double = true};
+    const HdRenderOptions options = {.precision = precision};
+    HdRenderer *renderer;
     HdProbeReport report;
     fault = of;
+    setenv("HEDRON_CACHE", "off", 1);
+    assert_int_equal(hd_renderer_open(&renderer, &device, &options, &error), HD_OK);
     kernels.shape = (HdKernelShape){.precision = precision, .lanes = 1, .group_size = 64};
-    assert_int_equal(hd_probe(&backend, NULL, HD_PROBE_QUICK, &report, &error), HD_OK);
+    assert_int_equal(hd_probe(renderer, HD_PROBE_QUICK, &report, &error), HD_OK);
+    hd_renderer_close(renderer);
     assert_int_equal(report.tuples, HD_PROBE_QUICK);
     assert_int_equal(report.rounds_by_fma, kernels.shape.rounds_by_fma);
     return report;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "device/probe.h"
+#include "verify/probe.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -8,10 +8,9 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "device/arithmetic.h"
 #include "device/kernel_cache.h"
-#include "device/probe_operands.h"
-#include "device/verdict.h"
-#include "system/cache_folder.h"
+#include "verify/probe_operands.h"
 
 #define WORDS(name, words) words,
 static const char *const number_words[] = {HD_PROBE_NUMBERS(WORDS)};
@@ -189,10 +188,10 @@ static void compare_batch(Probe *probe) {
 }
 
 /* Devices whose threads do not work in groups add nothing. */
-static void compare_sums(Probe *probe, bool has_groups) {
+static void compare_sums(Probe *probe) {
     char text[sizeof probe->report->difference];
     const HdProbeResults *found = &probe->found, *expected = &probe->expected;
-    for (int i = 0; has_groups && i < HD_PROBE_SUMS; i++)
+    for (int i = 0; i < HD_PROBE_SUMS; i++)
         if (found->sums[i] != expected->sums[i] || found->counters[i] != expected->counters[i]) {
             probe->only_rounding_differs = false;
             snprintf(text, sizeof text,
@@ -206,19 +205,15 @@ static void compare_sums(Probe *probe, bool has_groups) {
 
 /* ---- probing ---- */
 
-static HdStatus run(const HdBackend *backend, void *renderer, Probe *probe, int tuples,
-                    HdError *error) {
+static HdStatus run(HdRenderer *renderer, Probe *probe, int tuples, HdError *error) {
     bool is_double = probe->precision == HD_PRECISION_DOUBLE;
     HdStatus status = HD_OK;
     for (int start = 0; status == HD_OK && start < tuples; start += probe->batch.count) {
-        if (is_double) {
-            hd_probe_operands_double(&probe->batch, (uint64_t)start);
-            hd_probe_expect_double(&probe->batch, &probe->expected);
-        } else {
-            hd_probe_operands_float(&probe->batch, (uint64_t)start);
-            hd_probe_expect_float(&probe->batch, &probe->expected);
-        }
-        status = backend->functions->probe(renderer, &probe->batch, &probe->found, error);
+        (is_double ? hd_probe_operands_double : hd_probe_operands_float)(&probe->batch,
+                                                                         (uint64_t)start);
+        (is_double ? hd_probe_expect_double : hd_probe_expect_float)(&probe->batch,
+                                                                     &probe->expected);
+        status = hd_renderer_compute(renderer, &probe->batch, &probe->found, error);
         if (status == HD_OK)
             compare_batch(probe);
         probe->report->tuples += probe->batch.count;
@@ -226,92 +221,74 @@ static HdStatus run(const HdBackend *backend, void *renderer, Probe *probe, int 
     return status;
 }
 
-static HdStatus probe_once(const HdBackend *backend, void *renderer, int tuples,
-                           HdProbeReport *report, bool *only_rounding_differs, HdError *error) {
+static HdStatus probe_once(HdRenderer *renderer, int tuples, HdProbeReport *report,
+                           bool *only_rounding_differs, HdError *error) {
     Probe probe;
-    const HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
+    const HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
     HdStatus status = begin(&probe, shape->precision, tuples, report, error);
     if (status != HD_OK)
         return status;
-    status = run(backend, renderer, &probe, tuples, error);
-    if (status == HD_OK)
-        compare_sums(&probe, shape->group_size > 0);
+    status = run(renderer, &probe, tuples, error);
+    if (status == HD_OK && shape->group_size > 0)
+        compare_sums(&probe);
     *only_rounding_differs = probe.only_rounding_differs;
     free_probe(&probe);
     return status;
 }
 
 /* What is still wrong then is told as it was without. */
-static void try_by_fma(const HdBackend *backend, void *renderer, int tuples,
-                       HdProbeReport *report) {
-    HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
+static void try_by_fma(HdRenderer *renderer, int tuples, HdProbeReport *report) {
+    HdKernelShape *shape = &hd_renderer_kernels(renderer)->shape;
     HdProbeReport healed;
     HdError ignored;
     bool only_rounding_differs;
     shape->rounds_by_fma = true;
-    HdStatus status =
-        probe_once(backend, renderer, tuples, &healed, &only_rounding_differs, &ignored);
+    HdStatus status = probe_once(renderer, tuples, &healed, &only_rounding_differs, &ignored);
     shape->rounds_by_fma = status == HD_OK && healed.difference[0] == '\0';
     if (shape->rounds_by_fma)
         *report = healed;
 }
 
-HdStatus hd_probe(const HdBackend *backend, void *renderer, int tuples, HdProbeReport *report,
-                  HdError *error) {
-    HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
+HdStatus hd_probe(HdRenderer *renderer, int tuples, HdProbeReport *report, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    const HdDevice *device = hd_renderer_device(renderer);
     bool only_rounding_differs = false;
-    HdStatus status = probe_once(backend, renderer, tuples, report, &only_rounding_differs, error);
-    bool is_wrong = status == HD_OK && report->difference[0] != '\0';
-    if (is_wrong && only_rounding_differs && !shape->rounds_by_fma)
-        try_by_fma(backend, renderer, tuples, report);
-    report->rounds_by_fma = shape->rounds_by_fma;
-    return status;
-}
-
-/* ---- what is remembered ---- */
-
-static const char kind[] = "probe", right[] = "right", by_fma[] = "right with division by fma",
-                  wrong[] = "wrong: ";
-
-static HdStatus fail(const HdDevice *device, const char *difference, HdError *error) {
-    return hd_fail(error, HD_UNAVAILABLE,
-                   "%s (%s) computes wrongly: %s; another version of its driver or compiler may do "
-                   "better, and --math fast does without",
-                   device->name, device->driver, difference);
-}
-
-void hd_probe_remember(const HdBackend *backend, void *renderer, const HdDevice *device,
-                       const HdProbeReport *report) {
-    char key[HD_KERNEL_KEY_LENGTH], text[sizeof wrong + sizeof report->difference];
-    HdError ignored;
-    HdKernelShape *shape = &backend->functions->kernels(renderer)->shape;
-    shape->rounds_by_fma = false; /* the key is that of a device which is not known */
-    backend->functions->probe_key(renderer, key, sizeof key);
-    shape->rounds_by_fma = report->rounds_by_fma;
-    snprintf(text, sizeof text, "%s", report->rounds_by_fma ? by_fma : right);
-    if (report->difference[0] != '\0')
-        snprintf(text, sizeof text, "%s%s", wrong, report->difference);
-    hd_cache_put_text(kind, key, text, &ignored);
-    if (shape->precision == HD_PRECISION_FLOAT)
-        hd_verdict_put(device->name, device->driver, report->difference);
-}
-
-HdStatus hd_probe_settle(const HdBackend *backend, void *renderer, const HdDevice *device,
-                         HdError *error) {
-    HdKernelCache *kernels = backend->functions->kernels(renderer);
-    char key[HD_KERNEL_KEY_LENGTH], text[sizeof wrong + 512];
-    HdProbeReport report;
-    backend->functions->probe_key(renderer, key, sizeof key);
-    if (hd_cache_get_text(kind, key, text, sizeof text, error) == HD_OK) {
-        kernels->shape.rounds_by_fma = strcmp(text, by_fma) == 0;
-        if (strncmp(text, wrong, strlen(wrong)) == 0)
-            return fail(device, text + strlen(wrong), error);
-        if (kernels->shape.rounds_by_fma || strcmp(text, right) == 0)
-            return HD_OK;
-    }
-    HdStatus status = hd_probe(backend, renderer, HD_PROBE_QUICK, &report, error);
+    HdStatus status = probe_once(renderer, tuples, report, &only_rounding_differs, error);
+    kernels->is_settled = false;
     if (status != HD_OK)
         return status;
-    hd_probe_remember(backend, renderer, device, &report);
-    return report.difference[0] == '\0' ? HD_OK : fail(device, report.difference, error);
+    if (report->difference[0] != '\0' && only_rounding_differs && !kernels->shape.rounds_by_fma)
+        try_by_fma(renderer, tuples, report);
+    report->rounds_by_fma = kernels->shape.rounds_by_fma;
+    kernels->is_settled = report->difference[0] == '\0';
+    HdArithmetic found = {.rounds_by_fma = report->rounds_by_fma};
+    snprintf(found.difference, sizeof found.difference, "%s", report->difference);
+    hd_arithmetic_remember(device->name, device->driver, kernels->shape.precision, &found);
+    return HD_OK;
+}
+
+HdStatus hd_probe_settle(HdRenderer *renderer, HdError *error) {
+    HdKernelCache *kernels = hd_renderer_kernels(renderer);
+    const HdDevice *device = hd_renderer_device(renderer);
+    HdArithmetic known;
+    HdProbeReport report;
+    if (kernels == NULL || kernels->is_settled || kernels->shape.math != HD_MATH_STRICT)
+        return HD_OK;
+    if (!hd_arithmetic_recall(device->name, device->driver, kernels->shape.precision, &known)) {
+        HdStatus status = hd_probe(renderer, HD_PROBE_QUICK, &report, error);
+        if (status != HD_OK)
+            return status;
+        known.rounds_by_fma = report.rounds_by_fma;
+        snprintf(known.difference, sizeof known.difference, "%s", report.difference);
+    }
+    kernels->shape.rounds_by_fma = known.rounds_by_fma;
+    kernels->is_settled = known.difference[0] == '\0';
+    if (kernels->is_settled)
+        return HD_OK;
+    hd_fail(
+        error, HD_UNAVAILABLE,
+        "%s (%s) computes wrongly: %s; another version of its driver or compiler may do better, "
+        "and --math fast does without",
+        device->name, device->driver, known.difference);
+    return hd_renderer_fail(renderer, HD_UNAVAILABLE, error);
 }

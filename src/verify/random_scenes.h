@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Random scenes rendered by a device and by plain C, whose bytes must be equal. */
-#ifndef HD_VERIFY_RANDOM_TEST_H
-#define HD_VERIFY_RANDOM_TEST_H
+/* Small scenes made by lot, of everything that kernels do and no golden frame holds, rendered by a
+   device and by plain C, whose bytes must be equal. */
+#ifndef HD_VERIFY_RANDOM_SCENES_H
+#define HD_VERIFY_RANDOM_SCENES_H
 
-#include "verify/random_scene.h"
 #include "device/renderer.h"
 
 typedef struct HdRandomTest {
@@ -11,7 +11,7 @@ typedef struct HdRandomTest {
     HdRenderOptions options; /* of the device's renderers */
     uint64_t seed;           /* of the first scene; the others' follow */
     int scenes;
-    int kind;     /* the only kind of scene, of hd_random_kinds; -1: all */
+    int kind;     /* the only kind of scene, by number; -1: all */
     bool general; /* one build of the kernels does everything, but for surveys */
     int threads;  /* each with a renderer of the device and one of plain C; 0: one for each core,
                     16 at most */
