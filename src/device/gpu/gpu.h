@@ -119,34 +119,6 @@ typedef struct HdGpuFlights {
     HdLaunchSize size; /* of the tracing kernel's launches */
 } HdGpuFlights;
 
-void hd_gpu_flights_close(HdGpuFlights *flights, const HdGpu *gpu); /* none is under way */
-
-/* The next flight, with room for the frame of so many items, for kernels to be queued with its
-   marks. */
-HdStatus hd_gpu_flight_begin(HdGpuFlights *flights, const HdGpu *gpu, const HdFrameTables *tables,
-                             int items, bool encodes, HdGpuFlight **flight, HdError *error);
-
-/* A launch of the tracing kernel, with so much work. */
-HdStatus hd_gpu_flight_launch(HdGpuFlight *flight, const HdGpu *gpu, const HdGpuLaunch *launch,
-                              double work, HdError *error);
-
-/* Learns from the last of these launches, which is over, what the size of the next ones should be.
-   Where the device does not tell how long it took, the host's clock does, as far as it can:
-   `waited` is when the host, by hd_monotonic_seconds, began to wait for it. */
-HdStatus hd_gpu_flight_time_launch(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                                   double waited, HdError *error);
-
-/* The items before number `end` are done. */
-void hd_gpu_flight_tell(HdGpuFlight *flight, int end);
-
-/* Queues the copies, all kernels being queued: the flight is under way. */
-HdStatus hd_gpu_flight_send(HdGpuFlights *flights, HdGpuFlight *flight, const HdGpu *gpu,
-                            HdError *error);
-
-/* Waits for the oldest flight, which ends in any case, and fills the frame. */
-HdStatus hd_gpu_flight_collect(HdGpuFlights *flights, const HdGpu *gpu, HdFrame *frame,
-                               HdError *error);
-
 /* ---- the renderer ---- */
 
 typedef struct HdGpuRenderer {
@@ -166,6 +138,33 @@ typedef struct HdGpuRenderer {
     HdGpuWaveQueue queue;
     HdGpuFlights flights;
 } HdGpuRenderer;
+
+/* None is under way. */
+void hd_gpu_flights_close(HdGpuRenderer *renderer);
+
+/* The next flight, with room for the frame of so many items, for kernels to be queued with its
+   marks. */
+HdStatus hd_gpu_flight_begin(HdGpuRenderer *renderer, const HdFrameTables *tables, int items,
+                             bool encodes, HdGpuFlight **flight, HdError *error);
+
+/* A launch of the tracing kernel, with so much work. */
+HdStatus hd_gpu_flight_launch(const HdGpuRenderer *renderer, HdGpuFlight *flight,
+                              const HdGpuLaunch *launch, double work, HdError *error);
+
+/* Learns from the last of these launches, which is over, what the size of the next ones should be.
+   Where the device does not tell how long it took, the host's clock does, as far as it can:
+   `waited` is when the host, by hd_monotonic_seconds, began to wait for it. */
+HdStatus hd_gpu_flight_time_launch(HdGpuRenderer *renderer, HdGpuFlight *flight, double waited,
+                                   HdError *error);
+
+/* The items before number `end` are done. */
+void hd_gpu_flight_tell(HdGpuFlight *flight, int end);
+
+/* Queues the copies, all kernels being queued: the flight is under way. */
+HdStatus hd_gpu_flight_send(HdGpuRenderer *renderer, HdGpuFlight *flight, HdError *error);
+
+/* Waits for the oldest flight, which ends in any case, and fills the frame. */
+HdStatus hd_gpu_flight_collect(HdGpuRenderer *renderer, HdFrame *frame, HdError *error);
 
 /* Queues all that the frame needs, up to its copies. */
 HdStatus hd_gpu_launch_frame(HdGpuRenderer *renderer, HdGpuFlight *flight, HdCurve curve,

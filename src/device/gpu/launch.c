@@ -67,7 +67,7 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int d
     double waited = hd_monotonic_seconds();
     HdStatus status = gpu->driver->wait_for_launch(gpu->handle, flight->untimed, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_time_launch(&renderer->flights, flight, gpu, waited, error);
+        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
     if (status != HD_OK)
         return status;
     hd_gpu_flight_tell(flight, done);
@@ -103,8 +103,8 @@ static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
             hd_launch_size_items(&renderer->flights.size, flight->items - done, work, per_group);
         launch.groups = group_count(renderer, own.item_count, per_group);
         if (status == HD_OK)
-            status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch,
-                                          (double)own.item_count * work, error);
+            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)own.item_count * work,
+                                          error);
     }
     return status;
 }
@@ -146,8 +146,7 @@ static HdStatus launch_workers(HdGpuRenderer *renderer, HdGpuFlight *flight, HdE
         own.end_item = done + count;
         launch.groups = worker_count(renderer, count);
         if (status == HD_OK)
-            status =
-                hd_gpu_flight_launch(flight, &renderer->gpu, &launch, (double)count * work, error);
+            status = hd_gpu_flight_launch(renderer, flight, &launch, (double)count * work, error);
     }
     return status;
 }
@@ -172,13 +171,12 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
     launch.groups = step->is_first ? most_groups : hd_lesser(launch.groups, most_groups);
-    HdStatus status = hd_gpu_flight_launch(flight, &renderer->gpu, &launch, step->count, error);
+    HdStatus status = hd_gpu_flight_launch(renderer, flight, &launch, step->count, error);
     double waited = hd_monotonic_seconds();
     if (status == HD_OK)
         status = hd_gpu_wave_queue_read(&renderer->queue, &renderer->gpu, taken, error);
     if (status == HD_OK)
-        status =
-            hd_gpu_flight_time_launch(&renderer->flights, flight, &renderer->gpu, waited, error);
+        status = hd_gpu_flight_time_launch(renderer, flight, waited, error);
     return status;
 }
 

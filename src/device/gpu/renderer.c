@@ -91,7 +91,7 @@ static void release_all(HdGpuRenderer *renderer) {
     gpu->driver->forget(gpu->handle, &renderer->first_hits_found);
     hd_gpu_release(gpu, &renderer->thresholds);
     hd_gpu_wave_queue_release(&renderer->queue, gpu);
-    hd_gpu_flights_close(&renderer->flights, gpu);
+    hd_gpu_flights_close(renderer);
     gpu->driver->unload(gpu->handle);
 }
 
@@ -179,7 +179,6 @@ static HdStatus gpu_upload(void *state, const HdSceneTables *tables, HdError *er
 static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFrameWish *wish,
                            HdError *error) {
     HdGpuRenderer *renderer = state;
-    const HdGpu *gpu = &renderer->gpu;
     HdGpuFlight *flight;
     bool encodes = renderer->has_groups && !wish->radiance;
     int items = hd_kernel_item_count(tables->width, tables->height,
@@ -187,13 +186,13 @@ static HdStatus gpu_submit(void *state, const HdFrameTables *tables, const HdFra
     HdStatus status = enter(renderer, error);
     if (status != HD_OK)
         return status;
-    status = hd_gpu_flight_begin(&renderer->flights, gpu, tables, items, encodes, &flight, error);
+    status = hd_gpu_flight_begin(renderer, tables, items, encodes, &flight, error);
     if (status == HD_OK)
         status = hd_gpu_launch_frame(renderer, flight, wish->curve, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_send(&renderer->flights, flight, gpu, error);
+        status = hd_gpu_flight_send(renderer, flight, error);
     if (status != HD_OK) /* the next frame takes the flight's memory */
-        gpu->driver->drain(gpu->handle);
+        renderer->gpu.driver->drain(renderer->gpu.handle);
     return status;
 }
 
@@ -204,7 +203,7 @@ static HdStatus gpu_collect(void *state, const HdFrameTables *tables, HdFrame *f
     (void)tables;
     HdStatus status = enter(renderer, error);
     if (status == HD_OK)
-        status = hd_gpu_flight_collect(&renderer->flights, &renderer->gpu, frame, error);
+        status = hd_gpu_flight_collect(renderer, frame, error);
     if (!renderer->has_groups)
         frame->longest_launch = -1.0;
     return status;
