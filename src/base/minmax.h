@@ -5,15 +5,15 @@
 
 #include <stddef.h>
 
-static inline int hd_lesser(int a, int b) {
+static inline int hd_min(int a, int b) {
     return a < b ? a : b;
 }
 
-static inline int hd_greater(int a, int b) {
+static inline int hd_max(int a, int b) {
     return a > b ? a : b;
 }
 
-static inline size_t hd_lesser_size(size_t a, size_t b) {
+static inline size_t hd_min_size(size_t a, size_t b) {
     return a < b ? a : b;
 }
 

@@ -147,9 +147,9 @@ int hd_edit_distance(const char *a, const char *b) {
                 continue;
             }
             int replaced = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            table[i][j] = hd_lesser(replaced, hd_lesser(table[i - 1][j], table[i][j - 1]) + 1);
+            table[i][j] = hd_min(replaced, hd_min(table[i - 1][j], table[i][j - 1]) + 1);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                table[i][j] = hd_lesser(table[i][j], table[i - 2][j - 2] + 1);
+                table[i][j] = hd_min(table[i][j], table[i - 2][j - 2] + 1);
         }
     }
     return table[a_length][b_length];

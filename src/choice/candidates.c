@@ -345,7 +345,7 @@ static int find_plain_c(const HdCandidates *candidates) {
 
 static HdStatus choose(HdCandidates *candidates, HdError *error) {
     candidates->best = -1;
-    candidates->compared = hd_lesser(candidates->compared, MAX_COMPARED);
+    candidates->compared = hd_min(candidates->compared, MAX_COMPARED);
     if (candidates->compared < 2)
         return HD_OK;
     if (recall(candidates)) {
@@ -366,7 +366,7 @@ static HdStatus choose(HdCandidates *candidates, HdError *error) {
    scene must prove themselves first; those compiled ahead get it when it is rendered. */
 static HdStatus open_next(HdCandidates *candidates, HdError *error) {
     const HdDeviceWish *wish = &candidates->wish;
-    const int first = hd_greater(candidates->best, 0);
+    const int first = hd_max(candidates->best, 0);
     const int tries = candidates->is_free ? candidates->count : 1;
     HdStatus status = HD_UNAVAILABLE;
     for (int i = 0; status == HD_UNAVAILABLE && i < tries; i++) {

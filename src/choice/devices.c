@@ -143,7 +143,7 @@ static HdRenderOptions options_of(const HdDeviceTeam *team, const HdDevice *devi
     for (int i = 0; i < team->count; i++)
         gpus += !team->list[i].device.is_cpu;
     if (device->backend->uses_host_threads && own.threads == 0 && gpus > 0)
-        own.threads = hd_greater(hd_processor_count() - gpus, 1);
+        own.threads = hd_max(hd_processor_count() - gpus, 1);
     return own;
 }
 

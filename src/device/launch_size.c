@@ -28,7 +28,7 @@ static int within(double work, int least, int most) {
 }
 
 HdLaunchSize hd_launch_size_start(int compute_units, double longest) {
-    int units = hd_lesser(compute_units, MOST_UNITS);
+    int units = hd_min(compute_units, MOST_UNITS);
     int start = within((double)units * THREADS_PER_UNIT, LEAST_START, HD_MOST_LAUNCH_WORK);
     return (HdLaunchSize){
         .limit = start,
@@ -61,8 +61,8 @@ int hd_launch_size_items(const HdLaunchSize *size, int left, int work, int grain
     int parts = (left - 1) / fitting + 1;
     int even = ((left - 1) / parts + grain) / grain * grain;
     if (even > fitting)
-        even = hd_greater(fitting / grain, 1) * grain;
-    return hd_lesser(even, left);
+        even = hd_max(fitting / grain, 1) * grain;
+    return hd_min(even, left);
 }
 
 /* Of two launches, the time that does not grow with the work. Sizes that fall little by little are
@@ -88,7 +88,7 @@ static double longest_allowed(const HdLaunchSize *size) {
 
 static void note_too_long(HdLaunchSize *size, int fitting) {
     size->too_long = true;
-    size->ceiling = size->limit = hd_lesser(fitting, size->limit);
+    size->ceiling = size->limit = hd_min(fitting, size->limit);
 }
 
 void hd_launch_size_note(HdLaunchSize *size, double work, double seconds) {

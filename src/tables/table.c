@@ -46,9 +46,9 @@ static void free_tables(HdTable *table, int count) {
 }
 
 void hd_scene_tables_raise(HdSceneTables *tables, const HdSceneTables *like) {
-    tables->plane_count = hd_greater(tables->plane_count, like->plane_count);
-    tables->depth = hd_greater(tables->depth, like->depth);
-    tables->node_stack = hd_greater(tables->node_stack, like->node_stack);
+    tables->plane_count = hd_max(tables->plane_count, like->plane_count);
+    tables->depth = hd_max(tables->depth, like->depth);
+    tables->node_stack = hd_max(tables->node_stack, like->node_stack);
     tables->refracts = tables->refracts || like->refracts;
     tables->lit_from_behind = tables->lit_from_behind || like->lit_from_behind;
     tables->many_lights = tables->many_lights || like->many_lights;

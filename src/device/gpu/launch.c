@@ -44,7 +44,7 @@ static HdGpuLaunch tracing_of(const HdGpuRenderer *renderer, HdKernel kernel) {
 static int group_count(const HdGpuRenderer *renderer, int items, int items_per_group) {
     int groups = (items + items_per_group - 1) / items_per_group;
     bool is_limited = renderer->has_groups && renderer->options.grid > 0;
-    return is_limited ? hd_lesser(groups, renderer->options.grid) : groups;
+    return is_limited ? hd_min(groups, renderer->options.grid) : groups;
 }
 
 static HdStatus queue_launch(const HdGpuRenderer *renderer, const HdGpuLaunch *launch,
@@ -78,7 +78,7 @@ static HdStatus wait_between(HdGpuRenderer *renderer, HdGpuFlight *flight, int d
    their number up to the group's size and 64, so that all of them have as many. */
 static int sample_parts(int samples, int group_size) {
     enum { MOST_PARTS = 64 };
-    int parts = hd_lesser(group_size, MOST_PARTS);
+    int parts = hd_min(group_size, MOST_PARTS);
     while (samples % parts != 0)
         parts--;
     return parts;
@@ -112,9 +112,8 @@ static HdStatus launch_mega(HdGpuRenderer *renderer, HdGpuFlight *flight, HdErro
 /* Of the wavefront, with a queue each; on CPUs so many strive to be even. */
 static int worker_count(const HdGpuRenderer *renderer, int items) {
     enum { WORKERS_PER_UNIT = 8 };
-    return renderer->has_groups
-               ? 1
-               : hd_lesser(renderer->device.compute_units * WORKERS_PER_UNIT, items);
+    return renderer->has_groups ? 1
+                                : hd_min(renderer->device.compute_units * WORKERS_PER_UNIT, items);
 }
 
 static Queue queue_of(const HdGpuRenderer *renderer) {
@@ -170,7 +169,7 @@ static HdStatus trace_step(HdGpuRenderer *renderer, HdGpuFlight *flight, const H
     add_queue(&launch, &queue);
     add_trace_take(&launch, &own);
     launch.groups = (step->count + group_size - 1) / group_size;
-    launch.groups = step->is_first ? most_groups : hd_lesser(launch.groups, most_groups);
+    launch.groups = step->is_first ? most_groups : hd_min(launch.groups, most_groups);
     HdStatus status = hd_gpu_flight_launch(renderer, flight, &launch, step->count, error);
     double waited = hd_monotonic_seconds();
     if (status == HD_OK)
@@ -372,7 +371,7 @@ static HdStatus launch_first_hits(HdGpuRenderer *renderer, const HdFrameTables *
     int work = renderer->program.cache.shape.pixels_per_item * (tables->samples + 1);
     HdStatus status = HD_OK;
     add_first_hits(&launch, &own);
-    launch.group_size = hd_lesser(launch.group_size, MOST_THREADS);
+    launch.group_size = hd_min(launch.group_size, MOST_THREADS);
     for (int done = 0; status == HD_OK && done < items; done += own.item_count) {
         status = done > 0 ? wait_for_first_hits(renderer, tables, error) : HD_OK;
         own.first_item = done;

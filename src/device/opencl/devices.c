@@ -281,7 +281,7 @@ static HdStatus list_devices(Entry *entries, int capacity, int *count, HdError *
 
 HdStatus hd_opencl_enumerate(HdDevice *devices, int capacity, int *count, HdError *error) {
     Entry entries[HD_MAX_DEVICES];
-    HdStatus status = list_devices(entries, hd_lesser(capacity, HD_MAX_DEVICES), count, error);
+    HdStatus status = list_devices(entries, hd_min(capacity, HD_MAX_DEVICES), count, error);
     for (int i = 0; i < *count; i++)
         describe_device(&devices[i], entries[i], i);
     return status;
