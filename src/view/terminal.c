@@ -152,21 +152,6 @@ static HdStatus find_sequences(Terminal *t, HdError *error) {
 
 /* ---- keys ---- */
 
-static int arrow(char letter) {
-    switch (letter) {
-    case 'A':
-        return HD_KEY_UP;
-    case 'B':
-        return HD_KEY_DOWN;
-    case 'C':
-        return HD_KEY_RIGHT;
-    case 'D':
-        return HD_KEY_LEFT;
-    default:
-        return 0;
-    }
-}
-
 /* An escape sequence counts as a whole; what is no arrow does nothing. */
 static void take_keys(Terminal *t) {
     char bytes[256];
@@ -179,7 +164,7 @@ static void take_keys(Terminal *t) {
             while (i + 1 < count && (bytes[i + 1] < '@' || bytes[i + 1] > '~'))
                 i++;
             i += i + 1 < count;
-            key = arrow(bytes[i]);
+            key = bytes[i] >= 'A' && bytes[i] <= 'D' ? HD_KEY_UP + bytes[i] - 'A' : 0;
         }
         hd_viewer_key(t->viewer, key, now);
     }

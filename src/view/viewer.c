@@ -74,15 +74,10 @@ static void leave_flight(HdViewer *viewer) {
     viewer->is_playing = false;
 }
 
-static void orbit(HdViewer *viewer, double right, double up) {
+static void move_eye(HdViewer *viewer, void (*move)(HdPose *pose, double right, double up),
+                     double right, double up) {
     leave_flight(viewer);
-    hd_pose_orbit(&viewer->pose, right, up);
-    change_view(viewer);
-}
-
-static void pan(HdViewer *viewer, double right, double up) {
-    leave_flight(viewer);
-    hd_pose_pan(&viewer->pose, right, up);
+    move(&viewer->pose, right, up);
     change_view(viewer);
 }
 
@@ -276,22 +271,6 @@ static void step(HdViewer *viewer, int by) {
     show_frame(viewer, viewer->frame + by);
 }
 
-static void orbit_sideways(HdViewer *viewer, int by) {
-    orbit(viewer, by * ORBIT_STEP, 0.0);
-}
-
-static void orbit_upwards(HdViewer *viewer, int by) {
-    orbit(viewer, 0.0, by * ORBIT_STEP);
-}
-
-static void pan_sideways(HdViewer *viewer, int by) {
-    pan(viewer, by * PAN_STEP, 0.0);
-}
-
-static void pan_upwards(HdViewer *viewer, int by) {
-    pan(viewer, 0.0, by * PAN_STEP);
-}
-
 static void dolly(HdViewer *viewer, int by) {
     leave_flight(viewer);
     hd_pose_dolly(&viewer->pose, by > 0 ? 1.0 / DOLLY_STEP : DOLLY_STEP);
@@ -316,7 +295,8 @@ static void split(HdViewer *viewer, int by) {
 }
 
 static void other_side(HdViewer *viewer, int by) {
-    viewer->active = (viewer->active + by) % viewer->side_count;
+    (void)by;
+    viewer->active = (viewer->active + 1) % viewer->side_count;
 }
 
 static void change_gain(HdViewer *viewer, int by) {
@@ -345,50 +325,51 @@ static void end(HdViewer *viewer, int by) {
     viewer->has_ended = true;
 }
 
-/* What a key does, so much of it. */
-static const struct {
+/* What a key does: something of the above, a step of the eye, or else a change of a setting of the
+   active side. */
+static const struct Key {
     int key;
     void (*act)(HdViewer *viewer, int by);
-    int by;
-} keys[] = {
-    {' ', play, 1},
-    {'0', step, 0},
-    {',', step, -1},
-    {'.', step, 1},
-    {HD_KEY_LEFT, orbit_sideways, -1},
-    {HD_KEY_RIGHT, orbit_sideways, 1},
-    {HD_KEY_UP, orbit_upwards, 1},
-    {HD_KEY_DOWN, orbit_upwards, -1},
-    {'a', pan_sideways, -1},
-    {'d', pan_sideways, 1},
-    {'w', pan_upwards, 1},
-    {'s', pan_upwards, -1},
-    {'+', dolly, 1},
-    {'=', dolly, 1},
-    {'-', dolly, -1},
-    {'2', split, 1},
-    {'\t', other_side, 1},
-    {'g', change_gain, -1},
-    {'G', change_gain, 1},
-    {'p', keep_picture, 1},
-    {'c', print_camera, 1},
-    {'o', hide_figures, 1},
-    {'h', show_help, 1},
-    {'?', show_help, 1},
-    {'q', end, 1},
-    {27, end, 1},
-    {3, end, 1}, /* Ctrl-C in a terminal that sends it as a character */
-};
-
-/* Which setting of the active side a key changes. */
-static const struct {
-    int key;
+    void (*move)(HdPose *pose, double right, double up);
+    double right, up;
     HdViewSetting setting;
     int by;
-} setting_keys[] = {
-    {'b', HD_VIEW_BACKEND, 1}, {'v', HD_VIEW_DEVICE, 1},   {'f', HD_VIEW_PRECISION, 1},
-    {'[', HD_VIEW_DEPTH, -1},  {']', HD_VIEW_DEPTH, 1},    {'n', HD_VIEW_SAMPLES, -1},
-    {'m', HD_VIEW_SAMPLES, 1}, {'x', HD_VIEW_SAMPLING, 1},
+} keys[] = {
+    {.key = ' ', .act = play},
+    {.key = '0', .act = step, .by = 0},
+    {.key = ',', .act = step, .by = -1},
+    {.key = '.', .act = step, .by = 1},
+    {.key = HD_KEY_LEFT, .move = hd_pose_orbit, .right = -ORBIT_STEP},
+    {.key = HD_KEY_RIGHT, .move = hd_pose_orbit, .right = ORBIT_STEP},
+    {.key = HD_KEY_UP, .move = hd_pose_orbit, .up = ORBIT_STEP},
+    {.key = HD_KEY_DOWN, .move = hd_pose_orbit, .up = -ORBIT_STEP},
+    {.key = 'a', .move = hd_pose_pan, .right = -PAN_STEP},
+    {.key = 'd', .move = hd_pose_pan, .right = PAN_STEP},
+    {.key = 'w', .move = hd_pose_pan, .up = PAN_STEP},
+    {.key = 's', .move = hd_pose_pan, .up = -PAN_STEP},
+    {.key = '+', .act = dolly, .by = 1},
+    {.key = '=', .act = dolly, .by = 1},
+    {.key = '-', .act = dolly, .by = -1},
+    {.key = 'b', .setting = HD_VIEW_BACKEND, .by = 1},
+    {.key = 'v', .setting = HD_VIEW_DEVICE, .by = 1},
+    {.key = 'f', .setting = HD_VIEW_PRECISION, .by = 1},
+    {.key = '[', .setting = HD_VIEW_DEPTH, .by = -1},
+    {.key = ']', .setting = HD_VIEW_DEPTH, .by = 1},
+    {.key = 'n', .setting = HD_VIEW_SAMPLES, .by = -1},
+    {.key = 'm', .setting = HD_VIEW_SAMPLES, .by = 1},
+    {.key = 'x', .setting = HD_VIEW_SAMPLING, .by = 1},
+    {.key = '2', .act = split},
+    {.key = '\t', .act = other_side},
+    {.key = 'g', .act = change_gain, .by = -1},
+    {.key = 'G', .act = change_gain, .by = 1},
+    {.key = 'p', .act = keep_picture},
+    {.key = 'c', .act = print_camera},
+    {.key = 'o', .act = hide_figures},
+    {.key = 'h', .act = show_help},
+    {.key = '?', .act = show_help},
+    {.key = 'q', .act = end},
+    {.key = 27, .act = end},
+    {.key = 3, .act = end}, /* Ctrl-C in a terminal that sends it as a character */
 };
 
 /* What keys do, for people; each line below 64 characters. */
@@ -418,20 +399,20 @@ static void settings_changed(HdViewer *viewer) {
     change_view(viewer);
 }
 
-void hd_viewer_key(HdViewer *viewer, int key, double now) {
+void hd_viewer_key(HdViewer *viewer, int code, double now) {
+    const struct Key *key = keys, *end_of_keys = keys + sizeof keys / sizeof keys[0];
+    while (key < end_of_keys && key->key != code)
+        key++;
+    if (key == end_of_keys)
+        return;
     viewer->now = now;
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
-        if (keys[i].key != key)
-            continue;
-        viewer->note[0] = '\0';
-        keys[i].act(viewer, keys[i].by);
-    }
-    for (size_t i = 0; i < sizeof setting_keys / sizeof setting_keys[0]; i++) {
-        if (setting_keys[i].key != key)
-            continue;
-        viewer->note[0] = '\0';
-        hd_view_side_change(&viewer->sides[viewer->active], setting_keys[i].setting,
-                            setting_keys[i].by);
+    viewer->note[0] = '\0';
+    if (key->act != NULL) {
+        key->act(viewer, key->by);
+    } else if (key->move != NULL) {
+        move_eye(viewer, key->move, key->right, key->up);
+    } else {
+        hd_view_side_change(&viewer->sides[viewer->active], key->setting, key->by);
         settings_changed(viewer);
     }
 }
@@ -439,9 +420,9 @@ void hd_viewer_key(HdViewer *viewer, int key, double now) {
 void hd_viewer_drag(HdViewer *viewer, bool moves, double right, double down, double now) {
     viewer->now = now;
     if (moves)
-        pan(viewer, -right, down);
+        move_eye(viewer, hd_pose_pan, -right, down);
     else
-        orbit(viewer, -HD_PI * right, HD_PI * down);
+        move_eye(viewer, hd_pose_orbit, -HD_PI * right, HD_PI * down);
 }
 
 /* ---- what is told ---- */

@@ -10,8 +10,8 @@
 
 enum { HD_VIEW_LINE = 80, HD_VIEW_LINES = 40 };
 
-/* Keys that are no characters. */
-enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_LEFT, HD_KEY_RIGHT };
+/* Keys that are no characters, in the order of terminals. */
+enum { HD_KEY_UP = 256, HD_KEY_DOWN, HD_KEY_RIGHT, HD_KEY_LEFT };
 
 /* What the viewer asks of who shows it. */
 typedef struct HdViewHost {
